@@ -1,5 +1,5 @@
-//! The Rust blocks of the book as doc tests. `tests/all/book.rs` checks that no chapter is missing
-//! here.
+//! The Rust blocks of the book, compiled as doc tests. `tests/all/book.rs` checks that no chapter
+//! is missing here.
 
 #[doc = include_str!("../docs/book/introduction.md")]
 mod introduction {}
@@ -13,6 +13,8 @@ mod coming_from {}
 mod by_hand {}
 #[doc = include_str!("../docs/book/equations.md")]
 mod equations {}
+#[doc = include_str!("../docs/book/symbols.md")]
+mod symbols {}
 #[doc = include_str!("../docs/book/rank.md")]
 mod rank {}
 #[doc = include_str!("../docs/book/uniqueness.md")]

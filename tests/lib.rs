@@ -17,7 +17,7 @@ mod pages {
 #[cfg(doctest)]
 mod book;
 
-/// The largest absolute value.
+/// Returns the largest absolute value.
 pub fn largest(x: impl IntoIterator<Item = f64>) -> f64 {
     x.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()))
 }

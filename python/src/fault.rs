@@ -9,11 +9,11 @@ use pfaff::refusal::{Refusal, json};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 
-/// Why a call has no result.
+/// The reason why a call has no result.
 pub(crate) enum Fault {
-    /// The library refuses, or has stopped.
+    /// The library has rejected the input, or its computation has stopped.
     Refused(Box<Refusal>),
-    /// An exception of Python: Ctrl-C, or one of a callback.
+    /// A Python exception: Ctrl-C, or an exception of a callback.
     Raised(PyErr),
 }
 
@@ -29,20 +29,20 @@ impl From<PyErr> for Fault {
     }
 }
 
-/// An error about something that has no text.
+/// Converts an error about an object that has no text.
 impl From<StudyError> for Fault {
     fn from(error: StudyError) -> Self {
         Refusal::of(("", ""), error).into()
     }
 }
 
-/// Wrong input of the caller.
+/// Builds the error for invalid input of the caller.
 pub(crate) fn wrong(message: String) -> Fault {
     Refusal::input(message).into()
 }
 
 impl Fault {
-    /// The exception.
+    /// Returns the exception.
     pub(crate) fn raised(self, py: Python<'_>) -> PyErr {
         match self {
             Self::Refused(refusal) => exception(py, &refusal),
@@ -51,8 +51,8 @@ impl Fault {
     }
 }
 
-/// Does short work, or work that asks Python on its way, on this thread and without the
-/// interpreter, so that other threads of Python run. A panic becomes an exception.
+/// Does short work, or work that calls Python repeatedly, on this thread and without the
+/// interpreter, so that other Python threads run. A panic becomes an exception.
 pub(crate) fn guarded<T: Send>(
     py: Python<'_>,
     work: impl FnOnce() -> Result<T, Fault> + Send,
@@ -63,7 +63,7 @@ pub(crate) fn guarded<T: Send>(
     }
 }
 
-/// The exception of a refusal.
+/// Builds the exception for an error of the library.
 pub(crate) fn exception(py: Python<'_>, refusal: &Refusal) -> PyErr {
     let class = match refusal {
         Refusal::Scene { .. } => "SceneError",
@@ -75,7 +75,7 @@ pub(crate) fn exception(py: Python<'_>, refusal: &Refusal) -> PyErr {
     made(py, class, &words, &with_keywords(&document))
 }
 
-/// A text in which options of the command, as `--at-time 2`, are keywords of Python, as
+/// Replaces options of the command in a text, such as `--at-time 2`, by Python keywords, such as
 /// `at_time=2`.
 fn with_keywords(text: &str) -> String {
     let mut words = text.split("--");
@@ -99,7 +99,7 @@ fn with_keywords(text: &str) -> String {
     out
 }
 
-/// The exception of a panic.
+/// Builds the exception for a panic.
 pub(crate) fn raised_by(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
     let message = panic.downcast_ref::<String>().map(String::as_str);
     let message = message.or_else(|| panic.downcast_ref::<&str>().copied());
@@ -128,7 +128,7 @@ pub(crate) fn panics(py: Python<'_>) -> PyResult<()> {
     guarded(py, || panic!("as the test wants"))
 }
 
-/// The code of wrong input.
+/// Returns the code of invalid input.
 #[pyfunction]
 pub(crate) fn input_code() -> String {
     let code = Refusal::input(String::new()).code();

@@ -1,4 +1,4 @@
-//! Functions of Python as laws of drives and as forces on bodies, for one run.
+//! Python functions as laws of drives and as forces on bodies, for one run.
 
 use std::sync::Arc;
 
@@ -25,8 +25,8 @@ impl Functions {
         self.drives.is_empty() && self.forces.is_empty()
     }
 
-    /// Puts them into a description. They are called until one has raised an exception, which
-    /// `hearing` keeps.
+    /// Adds the functions to a description. They are called until one has raised an exception,
+    /// which `hearing` stores.
     pub(crate) fn put_into(
         self,
         description: &mut AnyDescription,
@@ -68,9 +68,9 @@ impl Functions {
     }
 }
 
-/// A function on its way through a run.
+/// A function that a run calls.
 struct Call {
-    /// "the function of drive `motor`"
+    /// Description for messages, such as "the function of drive `motor`".
     subject: String,
     function: Py<PyAny>,
     hearing: Arc<Hearing>,
@@ -85,7 +85,8 @@ impl Call {
         }
     }
 
-    /// What the function gives for its arguments, read by `read`. An exception of it ends the run.
+    /// Calls the function with its arguments, and converts the result by `read`. An exception in
+    /// the function ends the run.
     fn value<A, T>(
         &self,
         time: f64,
@@ -104,7 +105,7 @@ impl Call {
                 Ok(found) => return read(&found),
                 Err(raised) => raised,
             };
-            // Notes are of Python 3.11 and later.
+            // Python 3.11 and later support notes.
             let note = format!("in {} at t = {} s", self.subject, rounded(time));
             let _ = raised.value(py).call_method1("add_note", (note,));
             let words = raised.to_string();
@@ -114,7 +115,7 @@ impl Call {
     }
 }
 
-/// One number: a float, or what NumPy makes of one.
+/// Reads one number: a float, or a value that NumPy converts to one.
 fn number(found: &Bound<'_, PyAny>) -> Result<f64, CallError> {
     if let Ok(found) = found.cast_exact::<PyFloat>() {
         return Ok(found.value());
@@ -129,7 +130,7 @@ fn number(found: &Bound<'_, PyAny>) -> Result<f64, CallError> {
     }
 }
 
-/// The force, and the torque, of an array.
+/// Reads the force and the torque from an array.
 fn wrench(space: SpaceKind, found: &Bound<'_, PyAny>) -> Result<Wrench, CallError> {
     let (n, needed) = match space {
         SpaceKind::Space3 => (6, "6 numbers: a force and a torque"),
@@ -155,7 +156,7 @@ fn wrench(space: SpaceKind, found: &Bound<'_, PyAny>) -> Result<Wrench, CallErro
     })
 }
 
-/// What came back in place of what is needed.
+/// Describes a returned value that differs from the required one.
 fn other(found: &Bound<'_, PyAny>, needed: &str) -> CallError {
     let shape = found.getattr("shape").and_then(|shape| shape.str());
     let what = match (found.is_none(), shape, found.get_type().name()) {
@@ -167,8 +168,8 @@ fn other(found: &Bound<'_, PyAny>, needed: &str) -> CallError {
     format!("it returned {what}, need {needed}").into()
 }
 
-/// The time, then place, turn, velocity, angle and angular velocity of a body: vectors of the
-/// plane in the plane.
+/// Returns the time, then position, rotation, velocity, angle and angular velocity of a body; in
+/// the plane these are vectors of the plane.
 fn state<'py>(py: Python<'py>, space: SpaceKind, at: &BodyState) -> PyResult<Arguments> {
     let n = space.n_translations();
     let vector = |x: &[f64; 3]| PyArray1::from_slice(py, &x[..n]).into_any().unbind();

@@ -1,4 +1,7 @@
-//! What long work hears of Python on its way: Ctrl-C, and callbacks that raise or ask it to end.
+//! Connects long work with Python: Ctrl-C, and callbacks that raise exceptions or request the end.
+//!
+//! Python delivers Ctrl-C only to the calling thread. A separate thread therefore does the work,
+//! while the calling thread checks for signals.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -14,19 +17,21 @@ use pyo3::prelude::*;
 
 use crate::fault::{Fault, guarded, raised_by};
 
-/// Time (ms) between two looks for signals.
+/// Time (ms) between two checks for signals.
 const BETWEEN: u64 = 20;
 
-/// Time that work has to end by itself after Ctrl-C: what asks often needs less, and has closed its
-/// files then. What does not ask is left to itself: its thread ends with it, or with the process.
+/// Time within which work has to end itself after Ctrl-C. Work that calls the check often needs
+/// less time, and has then closed its files. Other work is abandoned: its thread ends with the
+/// work, or with the process.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Stack (bytes) of a thread for work: that of a main thread of Linux. Only what is used is taken.
+/// Stack size (bytes) of a thread for work, equal to that of the main thread on Linux. Only the
+/// used part takes memory.
 const STACK: usize = 8 << 20;
 
-/// Does work on a thread of its own, without the interpreter, so that other threads of Python run.
-/// This thread, on which alone Python hears signals, listens until the work is done. An exception
-/// of Python goes before the result. A panic becomes an exception.
+/// Does work on a separate thread, without the interpreter, so that other Python threads run. The
+/// calling thread, on which alone Python receives signals, checks for signals until the work is
+/// done. A Python exception takes precedence over the result. A panic becomes an exception.
 pub(crate) fn heard<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<Hearing>) -> Result<T, Fault> + Send + 'static,
@@ -37,7 +42,7 @@ pub(crate) fn heard<T: Send + 'static>(
     let own = Arc::clone(&hearing);
     let job = move || {
         let outcome = catch_unwind(AssertUnwindSafe(|| on_own_threads(|| work(&own))));
-        // After Ctrl-C no thread may wait for it.
+        // After Ctrl-C the calling thread may no longer wait for the result.
         let _ = done.send(outcome);
     };
     let listening = Arc::clone(&hearing);
@@ -72,8 +77,8 @@ pub(crate) fn heard<T: Send + 'static>(
     }
 }
 
-/// Does work that calls functions of Python, on the thread that calls, and that asks `ends` often.
-/// An exception of Python goes before the result.
+/// Does work that calls Python functions on the calling thread, and that calls `ends` often. A
+/// Python exception takes precedence over the result.
 pub(crate) fn heard_here<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(&Arc<Hearing>) -> Result<T, Fault> + Send,
@@ -85,12 +90,13 @@ pub(crate) fn heard_here<T: Send>(
     })
 }
 
-/// Hears signals and exceptions during one run.
+/// Receives signals and exceptions during one run.
 pub(crate) struct Hearing {
-    /// The thread that has been called: others cannot hear, and must not take its turn.
+    /// The calling thread: other threads cannot receive signals, and must not reset the time of the
+    /// next check.
     caller: ThreadId,
     begun: Instant,
-    /// When to look for signals again (ms).
+    /// Time of the next check for signals (ms).
     next: AtomicU64,
     ends: AtomicBool,
     raised: Mutex<Option<PyErr>>,
@@ -117,19 +123,19 @@ impl Hearing {
             return false;
         }
         self.next.store(now + BETWEEN, Ordering::Relaxed);
-        // Python hears signals on its main thread only; elsewhere this does nothing.
+        // Python receives signals only on its main thread; on other threads this has no effect.
         if let Err(raised) = Python::attach(|py| py.check_signals()) {
             self.end(Some(raised));
         }
         self.has_ended()
     }
 
-    /// Whether the run has to end, as far as that was heard on another thread.
+    /// Whether the run has to end according to a check on any thread.
     pub(crate) fn has_ended(&self) -> bool {
         self.ends.load(Ordering::Relaxed)
     }
 
-    /// Calls back; an exception ends the run, and `True` as well.
+    /// Calls a callback; an exception ends the run, and so does a return value of `True`.
     pub(crate) fn call(&self, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) {
         let asked = Python::attach(|py| call(py)?.bind(py).is_truthy());
         match asked {
@@ -145,7 +151,7 @@ impl Hearing {
         raised.is_some()
     }
 
-    /// Ends the run; the first exception is kept.
+    /// Ends the run and stores the first exception.
     pub(crate) fn end(&self, raised: Option<PyErr>) {
         let mut first = self.raised.lock().unwrap_or_else(PoisonError::into_inner);
         if first.is_none() {
@@ -154,7 +160,7 @@ impl Hearing {
         self.ends.store(true, Ordering::Relaxed);
     }
 
-    /// The exception that ended the run.
+    /// Returns the exception that ended the run.
     pub(crate) fn raised(&self) -> Option<PyErr> {
         let mut raised = self.raised.lock().unwrap_or_else(PoisonError::into_inner);
         raised.take()

@@ -1,14 +1,14 @@
-//! The private module `pfaff._pfaff` of the Python package `pfaff`: a binding, without mechanics
-//! and without words of its own. Answers are documents of the library as JSON, and arrays; the
-//! Python layer above gives them names.
+//! The private module `pfaff._pfaff` of the Python package `pfaff`: a binding that contains no
+//! mechanics and no texts. Answers are documents of the library as JSON, and arrays; the Python
+//! layer above gives them names.
 //!
 //! | module | content |
 //! | --- | --- |
 //! | `fault` | errors and panics become exceptions |
 //! | `hearing` | Ctrl-C and callbacks during a run |
-//! | `functions` | functions of Python as laws of drives and as forces on bodies |
-//! | `scene` | a text of a scene, and what is computed of it |
-//! | `options` | words and numbers from Python as options of the library |
+//! | `functions` | Python functions as laws of drives and as forces on bodies |
+//! | `scene` | the text of a scene, and the results that are computed from it |
+//! | `options` | conversion of texts and numbers from Python to options of the library |
 //! | `run` | the rows of a run as arrays |
 //! | `sweep` | many runs in shards, and their columns |
 

@@ -1,4 +1,4 @@
-//! Words and numbers from Python as options of the library.
+//! Converts texts and numbers from Python to options of the library.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -18,7 +18,7 @@ use crate::fault::{Fault, wrong};
 #[derive(FromPyObject, Clone, Default)]
 #[pyo3(from_item_all)]
 pub(crate) struct RunKeywords {
-    /// Those that replace options of the scene, as JSON.
+    /// Options that replace those of the scene, as JSON.
     run: String,
     pub(crate) common: Common,
     pub(crate) output_step: Option<f64>,
@@ -49,7 +49,7 @@ impl RunKeywords {
         }
     }
 
-    /// Names of wanted reactions that do not exist are refused.
+    /// Rejects names of requested reactions that do not exist.
     pub(crate) fn check_names(&self, start: &ConfigurationAnalysis<'_>) -> Result<(), Fault> {
         for name in self.reactions.iter().flatten() {
             start.reaction(name)?;
@@ -86,7 +86,7 @@ impl Common {
     }
 }
 
-/// A size: bytes, or a text such as `4GB`.
+/// A size: a number of bytes, or a text such as `4GB`.
 #[derive(FromPyObject, Clone)]
 pub(crate) enum Size {
     #[pyo3(transparent)]
@@ -95,7 +95,7 @@ pub(crate) enum Size {
     Words(String),
 }
 
-/// What may be taken of the memory: this size, or what the machine has left.
+/// Returns the memory limit: this size, or the available memory of the machine.
 pub(crate) fn budget(limit: Option<&Size>) -> Result<Budget, Fault> {
     let limit = match limit {
         None => None,
@@ -115,7 +115,7 @@ pub(crate) fn threads(threads: usize) -> Result<NonZeroUsize, Fault> {
     NonZeroUsize::new(threads).ok_or_else(|| wrong("threads is 0, need a number > 0".to_owned()))
 }
 
-/// The error for a name that is none of the known ones.
+/// Builds the error for an unknown name.
 pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Fault {
     let near = nearest(name, known.iter().copied());
     let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
@@ -125,7 +125,7 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Fault {
     ))
 }
 
-/// Rows from 0, from those of the caller, which are counted from 1.
+/// Converts rows of the caller, which are counted from 1, to rows counted from 0.
 pub(crate) fn rows_from_zero(rows: Option<&[usize]>) -> Result<Option<Vec<usize>>, Fault> {
     let Some(rows) = rows else { return Ok(None) };
     let from_zero: Option<Vec<usize>> = rows.iter().map(|row| row.checked_sub(1)).collect();

@@ -1,4 +1,4 @@
-//! The rows of a run as arrays, made once.
+//! The rows of a run as arrays, created once.
 
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -9,10 +9,10 @@ use pyo3::prelude::*;
 
 use crate::fault::exception;
 
-/// Kind, owner and number of a column.
+/// Kind of a column, its owner and its number.
 pub(crate) type Column = (String, String, String);
 
-/// Rows as they come.
+/// Rows that are recorded during the run.
 #[derive(Default)]
 pub(crate) struct Recorded {
     pub(crate) t: Vec<f64>,
@@ -20,20 +20,20 @@ pub(crate) struct Recorded {
     pub(crate) v: Vec<f64>,
     pub(crate) trajectory: Vec<f64>,
     pub(crate) reactions: Vec<f64>,
-    /// The same numbers by each choice, with its name.
+    /// The same values for each choice, with its name.
     pub(crate) chosen: Vec<(String, Vec<f64>)>,
     pub(crate) columns: Vec<Column>,
     pub(crate) reaction_columns: Vec<Column>,
-    /// Their names in `reactions.csv`.
+    /// Names of the columns in `reactions.csv`.
     pub(crate) reaction_names: Vec<String>,
     pub(crate) document: String,
-    /// Why it stopped before its end.
+    /// Reason why the run stopped before its end.
     pub(crate) stopped: Option<Refusal>,
 }
 
 impl Recorded {
-    /// Gives the numbers of choices where the model determines none, and otherwise those of the
-    /// run; numbers of the run that it does not determine are NaN unless `are_told`.
+    /// Completes the values of the choices: determined components have the values of the run.
+    /// Values of the run that are not determined become NaN unless `are_told`.
     pub(crate) fn tell_determined(
         &mut self,
         columns: &[ReactionColumn],
@@ -68,7 +68,7 @@ pub(crate) struct Run {
     trajectory: Py<PyArray2<f64>>,
     #[pyo3(get)]
     reactions: Py<PyArray2<f64>>,
-    /// Names and numbers of choices.
+    /// Names and values of choices.
     chosen: Vec<(String, Py<PyArray2<f64>>)>,
     #[pyo3(get)]
     columns: Vec<Column>,
@@ -106,21 +106,21 @@ impl Run {
 
 #[pymethods]
 impl Run {
-    /// The columns of `reactions` by each choice, with its name.
+    /// The columns of `reactions` for each choice, with its name.
     fn chosen(&self, py: Python<'_>) -> Vec<(String, Py<PyArray2<f64>>)> {
         let each = self.chosen.iter();
         each.map(|(name, numbers)| (name.clone(), numbers.clone_ref(py)))
             .collect()
     }
 
-    /// The exception that says why the run stopped before its end, if it did so by itself.
+    /// The exception with the reason why the run stopped before its end, if an error stopped it.
     fn stopped(&self, py: Python<'_>) -> Option<Py<PyAny>> {
         let refusal = self.stopped.as_ref()?;
         Some(exception(py, refusal).into_value(py).into_any())
     }
 }
 
-/// An array of n rows that takes the numbers as they are.
+/// Returns an array of n rows that takes ownership of the numbers.
 pub(crate) fn by_rows(py: Python<'_>, mut numbers: Vec<f64>, n: usize) -> Py<PyArray2<f64>> {
     let columns = numbers.len().checked_div(n).unwrap_or(0);
     numbers.truncate(n * columns);

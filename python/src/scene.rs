@@ -1,4 +1,4 @@
-//! The text of a scene, and everything that is computed of it.
+//! The text of a scene, and all results that are computed from it.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -37,7 +37,7 @@ use crate::run::{Column, Recorded, Run, by_rows};
 
 pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
 
-/// The text of a scene. It does not change; what was read from it is kept.
+/// The text of a scene. The text does not change; results that were computed from it are stored.
 #[pyclass(frozen, module = "pfaff._pfaff")]
 pub(crate) struct Scene(pub(crate) Arc<Source>);
 
@@ -48,7 +48,7 @@ impl Scene {
     }
 }
 
-/// A text with its name in messages, and its start as it was asked about last.
+/// A text with its name in messages, and the start for the last request.
 pub(crate) struct Source {
     pub(crate) name: String,
     pub(crate) text: String,
@@ -56,7 +56,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// An error with its places in the text.
+    /// Adds positions in the text to an error.
     pub(crate) fn fault(&self, error: StudyError) -> Fault {
         Refusal::of((&self.name, &self.text), error).into()
     }
@@ -69,8 +69,8 @@ impl Source {
         Ok(budget.assembled((&self.name, &self.text), &REGISTRY, tolerance)?)
     }
 
-    /// The start with this tolerance of the data, within this memory. What is known of it stays
-    /// known.
+    /// Returns the start with this tolerance of the data, within this memory limit. Results for it
+    /// that are already stored remain available.
     fn start(&self, tolerance: Tolerance, budget: Budget) -> Arc<Start<'static>> {
         let mut last = self.start.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(start) = last.as_ref()
@@ -88,7 +88,7 @@ impl Source {
         start
     }
 
-    /// The scene with its start, read and assembled once.
+    /// Returns the scene with its start, read and assembled once.
     fn judged(
         &self,
         (tolerance, budget): (Tolerance, Budget),
@@ -105,7 +105,7 @@ impl Source {
         })
     }
 
-    /// The scene with functions of Python in it, for one run.
+    /// Returns the scene with Python functions in it, for one run.
     fn with_functions(
         &self,
         functions: Functions,
@@ -121,7 +121,7 @@ impl Source {
         assembled.prepare(overrides).map_err(|e| self.fault(e))
     }
 
-    /// Choices as texts of the command.
+    /// Reads choices in the syntax of the command.
     fn choices(&self, texts: &[String], study: &Study) -> Result<Vec<Choice>, Fault> {
         let rows = study.prepared.mechanism.layout().rows();
         let (name, text) = (self.name.clone(), self.text.clone());
@@ -218,7 +218,7 @@ impl Source {
             columns,
             ..
         } = match ended {
-            // The exception of Python tells more.
+            // The Python exception contains more information.
             Err(StudyError::Interrupted) => return Ok(rows),
             other => other.map_err(|e| self.fault(e))?,
         };
@@ -233,7 +233,7 @@ impl Source {
     }
 }
 
-/// A run that is asked for.
+/// The request for a run.
 struct RunAsked {
     options: RunKeywords,
     numbers_of_choice: bool,
@@ -243,9 +243,9 @@ struct RunAsked {
     on_row: Option<Py<PyAny>>,
 }
 
-/// Room for the rows of a run, which is refused before it is taken.
+/// Memory for the rows of a run; a request for too much memory is rejected before the allocation.
 struct Room {
-    /// Number of rows without those of events.
+    /// Number of rows without the rows of events.
     expected: f64,
     budget: Budget,
     /// Memory (bytes) of the run without its rows.
@@ -254,7 +254,7 @@ struct Room {
 }
 
 impl Room {
-    /// Makes room for all rows after the first one, and later for one more.
+    /// Reserves memory for all rows after the first one, and later for one row at a time.
     fn make(&mut self, rows: &mut Recorded) {
         let count = rows.t.len();
         let fixed = [
@@ -275,7 +275,7 @@ impl Room {
                 return;
             }
             for table in &mut tables {
-                // Without it the table grows step by step.
+                // If the reservation fails, the table grows step by step.
                 let _ = table.try_reserve_exact(table.len().saturating_mul(self.expected as usize));
             }
         }
@@ -298,10 +298,10 @@ fn column(column: &ReportColumn) -> Column {
     ((*kind).to_owned(), owner.clone(), (*number).to_owned())
 }
 
-/// Kind, subject and line of what an import leaves out.
+/// Kind, subject and line of an element that an import omits.
 type Omission = (String, String, usize);
 
-/// C, M (its diagonal), Γ, Q, b and Φ.
+/// The matrices C, M (its diagonal), Γ, Q, b and Φ.
 type Matrices = (
     Py<PyArray2<f64>>,
     Py<PyArray1<f64>>,
@@ -335,7 +335,7 @@ impl Scene {
         Ok(Self::of(name, text))
     }
 
-    /// The scene of a template.
+    /// Returns the scene of a template.
     #[staticmethod]
     fn of_template(name: &str) -> PyResult<Self> {
         let known = Template::ALL.iter().find(|known| known.name() == name);
@@ -347,8 +347,8 @@ impl Scene {
         Ok(Self::of(file, text))
     }
 
-    /// Makes a scene of a model of a robot. Returns it, and what it says of itself: remarks, and
-    /// what is left out as pairs of kind and subject.
+    /// Converts a robot model to a scene. Returns the scene, its remarks, and the omitted elements
+    /// as pairs of kind and subject.
     #[staticmethod]
     #[pyo3(signature = (format, path, text, base, fixed, snap, keyframe, pose, loops))]
     #[allow(clippy::too_many_arguments)]
@@ -407,7 +407,7 @@ impl Scene {
         made.map(|((name, text), remarks, omissions)| (Self::of(name, text), remarks, omissions))
     }
 
-    /// The same scene with other numbers or expressions.
+    /// Returns the same scene with other numbers or expressions.
     fn with_settings(
         &self,
         py: Python<'_>,
@@ -419,7 +419,7 @@ impl Scene {
             let of_keys: Vec<&str> = keys.iter().map(String::as_str).collect();
             let template = match Keys::new(&own.text, &of_keys) {
                 Ok(template) => template,
-                // Its reader says what is wrong.
+                // The reader of scenes reports the error.
                 Err(KeyError::NotToml) => return Ok(own.text.clone()),
                 Err(e) => return Err(Refusal::input(e.to_string()).coded(e.code()).into()),
             };
@@ -432,8 +432,8 @@ impl Scene {
         Ok(Self::of(self.0.name.clone(), text))
     }
 
-    /// The name that the scene gives itself, the names of its bodies, and of its joints and drives
-    /// in the order of the rows.
+    /// Returns the name that the scene states, the names of its bodies, and of its joints and
+    /// drives in the order of the rows.
     fn names(&self, py: Python<'_>) -> PyResult<(String, Vec<String>, Vec<String>)> {
         let own = Arc::clone(&self.0);
         heard(py, move |_| {
@@ -446,8 +446,8 @@ impl Scene {
         })
     }
 
-    /// The assembled start as a page or a picture, by the end of a name; with the characters that
-    /// no font of a PNG has.
+    /// Returns the assembled start as a page or a picture, selected by the extension of a file
+    /// name, and the characters of a PNG that no font contains.
     fn view(
         &self,
         py: Python<'_>,
@@ -472,8 +472,8 @@ impl Scene {
         })
     }
 
-    /// Coordinates and velocities at a time of the motion; the velocities are empty if none are
-    /// known.
+    /// Returns coordinates and velocities at a time of the motion; the velocities are empty if they
+    /// are unknown.
     fn state(
         &self,
         py: Python<'_>,
@@ -496,10 +496,10 @@ impl Scene {
         })
     }
 
-    /// Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
-    /// the run are those of the rows that the run keeps, otherwise NaN; `choices` have arrays of
-    /// their own. `drives` are functions of time, measure and rate in place of laws, `forces`
-    /// functions of the states of bodies, each with its name.
+    /// Runs the scene. With `numbers_of_choice`, numbers that are not determined on their stretch
+    /// of the run have the values for the independent rows of the run; otherwise they are NaN.
+    /// `choices` have separate arrays. `drives` are functions of time, joint coordinate and rate
+    /// that replace laws; `forces` are functions of the states of bodies. Each has its name.
     #[pyo3(signature = (options, numbers_of_choice, choices, on_event, on_row, drives, forces))]
     #[allow(clippy::too_many_arguments)]
     fn simulate(
@@ -525,7 +525,7 @@ impl Scene {
         let recorded = if !asked.functions.is_empty() {
             heard_here(py, |hearing| own.recorded(asked, hearing))?
         } else if asked.on_event.is_some() || asked.on_row.is_some() {
-            // Ctrl-C is heard while it is assembled, too.
+            // Ctrl-C also works during the assembly.
             let (own, options) = (Arc::clone(&own), asked.options.clone());
             heard(py, move |_| {
                 let within = (options.common.tolerance(), options.common.budget()?);
@@ -539,7 +539,8 @@ impl Scene {
     }
 
     /// Runs the scene and writes the files of the command into a directory; returns the summary.
-    /// With `until` the run ends at the row of this time (s), as one that was asked to end there.
+    /// With `until` the run ends at the row of this time (s), like a run that was requested to end
+    /// there.
     #[pyo3(signature = (directory, options, choices, until, drives, forces))]
     #[allow(clippy::too_many_arguments)]
     fn simulate_into(
@@ -588,8 +589,8 @@ impl Scene {
         }
     }
 
-    /// C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; those of the start if
-    /// they are `None`.
+    /// Returns C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; `None` selects
+    /// those of the start.
     #[pyo3(signature = (q, v, t, max_memory))]
     fn matrices(
         &self,
@@ -609,7 +610,7 @@ impl Scene {
             };
             let (_, mechanism) = judged.parts();
             let layout = mechanism.layout();
-            // C and M, both dense.
+            // C and M are both dense.
             let rows = layout.rows();
             let bytes = (rows.saturating_add(layout.n_v)).saturating_mul(layout.n_v);
             let bytes = bytes.saturating_mul(size_of::<f64>());
@@ -647,8 +648,8 @@ impl Scene {
         Ok((c, mass, gamma, force, b, phi))
     }
 
-    /// Asks a question by its name about this scene and perhaps others, with its options as a JSON
-    /// object; returns the document, and the files if they are asked for.
+    /// Answers a question, given by its name, about this scene and further scenes, with its options
+    /// as a JSON object; returns the document, and the files if they are requested.
     fn ask(
         &self,
         py: Python<'_>,
@@ -691,13 +692,13 @@ impl Scene {
     }
 }
 
-/// The machine, which is asked once.
+/// Name of the machine, determined once.
 static MACHINE: LazyLock<String> = LazyLock::new(machine);
 
-/// What is named as the command on pages.
+/// Text that pages show instead of a command.
 const FROM_PYTHON: &str = "called from Python";
 
-/// A file by its name.
+/// A file with its name.
 type NamedFile = (String, Vec<u8>);
 
 /// The files of an answer in memory.
@@ -712,7 +713,7 @@ impl Place for Files {
 }
 
 impl Files {
-    /// Writes them into a directory, all or none.
+    /// Writes all files into a directory, or no file if one fails.
     fn write(&self, path: &Path, output: Option<Output>) -> Result<(), Refusal> {
         let Some(Output { family, .. }) = output else {
             return Ok(());
@@ -730,7 +731,8 @@ impl Files {
     }
 }
 
-/// Numbers of the caller in the number that is needed, or those of the start.
+/// Checks that the caller gives the required number of values; without values it returns those of
+/// the start.
 fn numbers(
     name: &str,
     given: Option<Vec<f64>>,
@@ -753,14 +755,14 @@ fn numbers(
     }
 }
 
-/// Names of the templates, each with what it is.
+/// Returns names of the templates, each with its description.
 #[pyfunction]
 pub(crate) fn templates() -> Vec<(&'static str, String)> {
     let all = Template::ALL.iter();
     all.map(|known| (known.name(), known.summary())).collect()
 }
 
-/// What the code of an error means, and what to do.
+/// Returns the meaning of the code of an error, and the possible remedies.
 #[pyfunction]
 pub(crate) fn explain(py: Python<'_>, code: &str) -> PyResult<String> {
     let entry = pfaff::explain::entry(code);
@@ -768,7 +770,7 @@ pub(crate) fn explain(py: Python<'_>, code: &str) -> PyResult<String> {
     Ok(pfaff::explain::words(entry))
 }
 
-/// The known name that is most similar to a name, if one is.
+/// Returns the known name that is most similar to a name, if there is one.
 #[pyfunction]
 pub(crate) fn nearest(name: &str, known: Vec<String>) -> Option<String> {
     pfaff::scene::nearest(name, known.iter().map(String::as_str)).map(str::to_owned)

@@ -1,4 +1,4 @@
-//! Many runs of one scene, made in shards and read as columns.
+//! Many runs of one scene, performed in shards and read as columns.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -18,13 +18,13 @@ use crate::fault::{Fault, guarded, wrong};
 use crate::hearing::{Hearing, heard};
 use crate::scene::REGISTRY;
 
-/// Time between two looks for signals and for a wish to stop.
+/// Time between two checks for signals and for a request to stop.
 const LOOK: Duration = Duration::from_millis(20);
 
 /// Time between two reports of progress.
 const REPORT: Duration = Duration::from_millis(100);
 
-/// A scene and what is varied in it.
+/// A scene with its varied numbers.
 #[pyclass(frozen, module = "pfaff._pfaff")]
 pub(crate) struct Sweep(Arc<Described>);
 
@@ -41,7 +41,7 @@ impl From<SweepError> for Fault {
     }
 }
 
-/// An error, with its places in the text if it is about the scene.
+/// Adds positions in the text to an error, if it is about the scene.
 fn refused(source: (&str, &str), error: SweepError) -> Fault {
     let error = match error {
         SweepError::Study(error) => return Refusal::of(source, error).into(),
@@ -78,7 +78,7 @@ impl Sweep {
         self.0.of.runs()
     }
 
-    /// Makes a run without writing anything, and returns how long that took (s).
+    /// Performs a run without writing any file, and returns its time (s).
     fn seconds(&self, py: Python<'_>, run: u64) -> PyResult<f64> {
         let own = Arc::clone(&self.0);
         heard(py, move |_| {
@@ -91,16 +91,17 @@ impl Sweep {
         })
     }
 
-    /// The number of shards in which a directory is being filled, if it tells.
+    /// Returns the number of shards of a directory, if its files determine it.
     fn shards(&self, py: Python<'_>, directory: PathBuf) -> PyResult<Option<u64>> {
         guarded(py, || {
-            // Nothing was begun, or what was begun is judged when runs are made.
+            // Either no run has begun, or the state of begun runs is checked when runs are
+            // performed.
             let known = Shards::find(&directory).and_then(|shards| shards.sealed());
             Ok(Shard::number(self.0.of.runs(), &known.unwrap_or_default()))
         })
     }
 
-    /// Which of n shards are not finished.
+    /// Returns the shards, of n, that are not finished.
     fn unfinished(&self, py: Python<'_>, directory: PathBuf, n: u64) -> PyResult<Vec<u64>> {
         guarded(py, || {
             let all = self.0.of.runs();
@@ -118,11 +119,11 @@ impl Sweep {
         })
     }
 
-    /// Makes the runs of a shard that are not finished. Returns its summary, the number of runs
-    /// that were made, and whether the tables of all runs were written.
+    /// Performs the unfinished runs of a shard. Returns the summary of the shard, the number of
+    /// runs that were performed, and whether the tables of all runs were written.
     ///
-    /// `on_runs` gets the number of finished runs and of failed ones among them, from time to time;
-    /// the shard ends where it or `stop` returns `True`.
+    /// `on_runs` receives the number of finished runs and of failed runs among them, from time to
+    /// time; the shard ends if `on_runs` or `stop` returns `True`.
     #[pyo3(signature = (directory, k, n, threads, on_runs, stop))]
     #[allow(clippy::too_many_arguments)]
     fn make(
@@ -164,11 +165,11 @@ impl Sweep {
                 let directory = &directory;
                 let work = move || {
                     let outcome = self.0.of.run_into(directory, &settings, interrupted, note);
-                    // Somebody waits for it.
+                    // The calling thread waits for this message.
                     let _ = done.send(());
                     outcome.map_err(|e| refused((&self.0.name, &self.0.text), e))
                 };
-                // Signals are heard on this thread alone, which may be the main one.
+                // Python receives signals only on this thread, which may be the main thread.
                 let worker = scope.spawn(work);
                 while is_done.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                     if worker.is_finished() {
@@ -192,14 +193,14 @@ impl Sweep {
     }
 }
 
-/// Forgets the rows of runs that have ended their process, so that they are made again. Returns
-/// their number.
+/// Deletes the rows of runs that ended their process, so that these runs are repeated. Returns the
+/// number of these runs.
 #[pyfunction]
 pub(crate) fn forget_crashed(py: Python<'_>, directory: PathBuf) -> PyResult<u64> {
     heard(py, move |_| Ok(pfaff::sweep::forget_crashed(&directory)?))
 }
 
-/// Writes the tables of what is in some directories. Returns the summary.
+/// Writes the tables of the results in some directories. Returns the summary of the tables.
 #[pyfunction]
 pub(crate) fn merge(py: Python<'_>, directories: Vec<PathBuf>, into: PathBuf) -> PyResult<String> {
     heard(py, move |_| {
@@ -211,8 +212,8 @@ pub(crate) fn merge(py: Python<'_>, directories: Vec<PathBuf>, into: PathBuf) ->
 /// Names and values of columns.
 type Columns = Vec<(String, Py<PyAny>)>;
 
-/// The summary of what is in a directory, and its columns: counts as whole numbers, or with NaN if
-/// some are unknown, numbers, and lists of texts.
+/// Returns the summary of the results in a directory, and its columns: counts as integers, or with
+/// NaN if some are unknown, numbers, and lists of texts.
 #[pyfunction]
 pub(crate) fn sweep_columns(py: Python<'_>, directory: PathBuf) -> PyResult<(String, Columns)> {
     let (document, records) = heard(py, move |_| {

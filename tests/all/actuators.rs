@@ -1,4 +1,4 @@
-//! Cylinders, laws, dampers, teeth and tyres: motions and forces against closed forms.
+//! Compares motions and forces of cylinders, laws, dampers, gear teeth and tyres with closed forms.
 
 use std::ops::ControlFlow;
 
@@ -46,14 +46,14 @@ fn options(t_end: f64) -> MotionOptions {
     }
 }
 
-/// Distance of two numbers, relative to the size of such numbers.
+/// Compares two numbers, relative to the size of such numbers.
 fn close(found: f64, expected: f64, size: f64, what: &str) {
     let off = (found - expected).abs() / size;
     assert!(off < 1e-8, "{what}: {found}, expected {expected}");
 }
 
-/// A boom on a pin at O, raised by a cylinder from A = (1, 0) to B, 2 m from O on the boom; its
-/// mass centre is 3 m from O. The cosine rule: ℓ² = a² + b² − 2ab·cos θ.
+/// A boom on a pin at O is raised by a cylinder from A = (1, 0) to B. The point B is on the boom, 2
+/// m from O; the mass centre is 3 m from O. The cosine rule gives ℓ² = a² + b² − 2ab·cos θ.
 const BOOM: &str = r#"
 scene = { name = "boom", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "boom", mass = 40.0, inertia = 5.0, position = [0.0, 3.0], angle = 0.0 }]
@@ -76,7 +76,7 @@ fn a_boom_follows_its_cylinder_and_the_cylinder_carries_it() {
     let start = 5.0_f64.sqrt();
     for row in rows {
         let t = row.t;
-        // A drive follows f(t) − f(0).
+        // A drive prescribes f(t) − f(0).
         let [l, l_t, l_tt] = [start + 0.1 * t - 0.02 * t * t, 0.1 - 0.04 * t, -0.04];
         let cos = (a * a + b * b - l * l) / (2.0 * a * b);
         let (theta, ab_sin) = (cos.acos(), a * b * (1.0 - cos * cos).sqrt());
@@ -84,7 +84,7 @@ fn a_boom_follows_its_cylinder_and_the_cylinder_carries_it() {
         let alpha = (l_t * l_t + l * l_tt - a * b * cos * omega * omega) / ab_sin;
         close(row.q[2], theta - std::f64::consts::FRAC_PI_2, 1.0, "angle");
         close(row.v[2], omega, 1.0, "angular velocity");
-        // The push times its lever l_t/omega = ab·sin θ/l carries weight and inertia; tension is
+        // The push times its lever l_t/omega = ab·sin θ/l balances weight and inertia; tension is
         // positive.
         let push = (inertia * alpha + mass * 9.81 * arm * cos) * l / ab_sin;
         let drive = row.reactions[1].component.expect("a drive has one");
@@ -110,7 +110,8 @@ fn without_its_drive_the_cylinder_is_free() {
     assert_eq!((without.ranks.rank, without.mobility), (2, 1));
 }
 
-/// A cylinder that cannot become as short as asked for is named with its drive.
+/// The error for a cylinder that cannot become as short as prescribed names the cylinder with its
+/// drive.
 #[test]
 fn a_cylinder_that_cannot_get_shorter_is_named() {
     let text = BOOM.replace("[0.3, 0.1, -0.02]", "[0.0, -1.0]");
@@ -121,7 +122,7 @@ fn a_cylinder_that_cannot_get_shorter_is_named() {
     assert!(error.contains("pump") || error.contains("1.23"), "{error}");
 }
 
-/// A motor with the torque a − b·rate on a wheel: ω = (a/b)·(1 − exp(−b·t/J)).
+/// A motor with the torque a − b·rate acts on a wheel: ω = (a/b)·(1 − exp(−b·t/J)).
 const MOTOR: &str = r#"
 scene = { name = "motor", space = "plane" }
 body = [{ name = "wheel", mass = 1.0, inertia = 0.4 }]
@@ -155,7 +156,8 @@ fn a_motor_runs_up_exponentially() {
     }
 }
 
-/// A law of a length with the numbers of a spring-damper is that spring-damper; in millimetres too.
+/// A law of a length with the numbers of a spring-damper equals that spring-damper, also in
+/// millimetres.
 #[test]
 fn a_law_of_a_length_is_a_spring_damper() {
     let head = r#"
@@ -195,7 +197,7 @@ drive = [{{ name = \"law\", joint = \"strut\", type = \"length\", force = \"{law
 
 #[test]
 fn a_law_without_a_value_stops_by_name() {
-    // ω = t/0.4, so the angle is 0.5 at t = √0.4.
+    // The wheel has ω = t/0.4, so the angle is 0.5 at t = √0.4.
     let text = MOTOR.replace("20 - 0.5*rate", "1 + 0*log((0.5 - measure)/(1 rad))");
     let study = study(&text);
     let mut last = 0.0;
@@ -242,7 +244,7 @@ fn units_of_laws_are_checked() {
     }
 }
 
-/// A rod between bearings, a viscous slider: v = v₀·exp(−c·t/m).
+/// A rod slides between bearings with viscous friction: v = v₀·exp(−c·t/m).
 #[test]
 fn a_damped_slider_slows_exponentially() {
     let text = r#"
@@ -258,9 +260,9 @@ force = [{ name = "oil", type = "damper", bodies = ["ground", "slider"], at = [[
     assert!(summary.energy_balance < 1e-8, "{}", summary.energy_balance);
 }
 
-/// A train of two wheels on fixed axes, driven by a torque on the first: the motion is that of
-/// `gear`, and the teeth carry F = J₂·α₂/(r₂·cos α) along the line of action, which the bearings
-/// take.
+/// A train of two wheels on fixed axes is driven by a torque on the first wheel. The motion is that
+/// of `gear`. The teeth carry F = J₂·α₂/(r₂·cos α) along the line of action, which loads the
+/// bearings.
 #[test]
 fn teeth_load_the_bearings() {
     let train = |joint: &str| {
@@ -285,16 +287,16 @@ force = [{{ name = "motor", type = "torque", body = "a", torque = 7.0 }}]
     let mesh = train(
         r#"type = "mesh", points = { a = [0, 0], b = [0, 0] }, pressure_angle = 0.6435011087932844"#,
     );
-    // J = J₁ + J₂·ratio².
+    // The reduced inertia is J = J₁ + J₂·ratio².
     let alpha = 7.0 / (0.5 + 3.0 * 0.25);
-    // r₂ = 2 and cos α = 0.8: F·r₂·cos α = J₂·|α₂|.
+    // With r₂ = 2 and cos α = 0.8, F·r₂·cos α = J₂·|α₂|.
     let along = 3.0 * 0.5 * alpha / (2.0 * 0.8);
     for (row, gear) in mesh.iter().zip(&gear) {
         close(row.v[2], alpha * row.t, 10.0, "angular velocity");
         for (found, expected) in row.q.iter().zip(&gear.q) {
             close(*found, *expected, 10.0, "coordinate");
         }
-        // n = 0.8·(0, 1) + 0.6·(1, 0): the teeth push the first wheel back and away.
+        // With n = 0.8·(0, 1) + 0.6·(1, 0), the teeth push the first wheel back and away.
         let [fx, fy, _] = row.reactions[2].force;
         close(fx, -0.6 * along, 10.0, "radial force");
         close(fy, -0.8 * along, 10.0, "circumferential force");
@@ -304,20 +306,20 @@ force = [{{ name = "motor", type = "torque", body = "a", torque = 7.0 }}]
             10.0,
             "torque about the centre",
         );
-        // On the ground, the first body of its bearing, acts what the teeth push.
+        // The force of the teeth acts on the ground, the first body of the bearing.
         close(row.reactions[0].force[0], -0.6 * along, 10.0, "bearing");
         close(row.reactions[0].force[1], -0.8 * along, 10.0, "bearing");
         close(gear.reactions[0].force[0], 0.0, 10.0, "bearing of a gear");
     }
 }
 
-/// The single-track vehicle in a steady turn at the speed V with the steering angle δ:
-/// yaw rate = V·δ/(L + K·V²), K = m/L·(b/C_f − a/C_r) (Pacejka, 2012, chapter 1; Rajamani, Vehicle
+/// A single-track vehicle in a steady turn at the speed V with the steering angle δ has the yaw
+/// rate V·δ/(L + K·V²), K = m/L·(b/C_f − a/C_r) (Pacejka, 2012, chapter 1; Rajamani, Vehicle
 /// Dynamics and Control, 2012, chapter 3).
 #[test]
 fn a_single_track_vehicle_turns_as_the_textbook_says() {
     let (mass, a, b, front, rear, speed) = (1500.0, 1.2, 1.6, 6e4, 8e4, 20.0);
-    // Errors of the linear theory are δ² of the yaw rate.
+    // The errors of the linear theory are δ² times the yaw rate.
     let delta: f64 = 1e-4;
     let text = format!(
         r#"

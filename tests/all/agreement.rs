@@ -1,8 +1,8 @@
-//! When redundant rows agree. Guides that are parallel on paper are parallel to the rounding of
-//! their data: what they miss by is no contradiction, at any place, turn and speed. What differs by
-//! more than data are known to is one, however small.
+//! Consistency of redundant rows. Guides that are parallel on paper are parallel to the rounding of
+//! their data: their constraint violation is not a contradiction, for any position, orientation and
+//! speed. A difference above the accuracy of the data is a contradiction, however small it is.
 //!
-//! The numbers are those of Newton's second law for one body on one straight guide.
+//! The reference values follow from Newton's second law for one body on one straight guide.
 
 use std::ops::ControlFlow;
 
@@ -26,7 +26,7 @@ fn unit(n: &mut Numbers) -> Vector {
     v.map(|x| x / length)
 }
 
-/// A body on two guides along one direction, at places up to a distance from the origin.
+/// A body on two guides along one direction, at positions up to a given distance from the origin.
 struct Guided {
     text: String,
     along: Vector,
@@ -39,7 +39,7 @@ const T_END: f64 = 0.1;
 
 impl Guided {
     fn new(kinds: [&str; 2], far: f64, speed: f64, n: &mut Numbers) -> Self {
-        // Along an axis the motion is in no row, but for rounding.
+        // Along a coordinate axis the motion is in no row, except for rounding.
         let along = match n.below(4) {
             0 => unit(n),
             k => [1, 2, 3].map(|axis| f64::from(u8::from(axis == k))),
@@ -76,7 +76,7 @@ impl Guided {
         study.unwrap_or_else(|e| panic!("{e}\n{}", self.text))
     }
 
-    /// The motion goes on along the guide, and the guides hold what gravity does across it.
+    /// The body moves along the guide, and the guides balance gravity across it.
     fn check(&self) {
         let study = self.study();
         assert_eq!(study.cannot_begin(), None, "{}", self.text);
@@ -100,7 +100,7 @@ impl Guided {
             Ok(ControlFlow::Continue(()))
         });
         run.unwrap_or_else(|failure| panic!("{}\n{}", failure.error, self.text));
-        // A part of 1e-8 of the way is the tolerance of the run.
+        // The tolerance of the run is 1e-8 of the distance.
         for k in 0..3 {
             let moved = last[k] - start[k];
             let way = reached.abs().max(start[k].abs());
@@ -117,7 +117,8 @@ impl Guided {
     }
 }
 
-/// Two sleeves, two rails and mixed ones: from three to seven rows are redundant to rounding only.
+/// The guides are two sleeves, two rails or one of each: three to seven rows are redundant only to
+/// rounding.
 #[test]
 fn guides_that_are_parallel_to_rounding_do_not_contradict_each_other() {
     let mut n = Numbers::new(5);
@@ -136,9 +137,9 @@ fn guides_that_are_parallel_to_rounding_do_not_contradict_each_other() {
     }
 }
 
-/// A rod across a plane: the rod and the plane hold the body along the normal, two numbers for one.
-/// `F_rod − F_table = −m·g_y` on the body; the acceleration of no row is known better than to the
-/// rounding of the 9.81 m/s² along the plane.
+/// A rod across a plane: the rod and the plane both constrain the body along the normal, so two
+/// reactions act for one freedom. On the body, `F_rod − F_table = −m·g_y`. The acceleration of each
+/// row is accurate only to the rounding of the 9.81 m/s² along the plane.
 #[test]
 fn a_rod_across_a_plane_has_reactions() {
     let text = r#"
@@ -210,8 +211,9 @@ fn refused(motions: [Function; 2], wheel: f64) -> Option<Contradiction> {
     }
 }
 
-/// What differs by more than rounding is found, also with a wheel that turns fast: velocities are
-/// computed together, so each is known to the rounding of 1e4 rad/s, some 1e-9 rad/s in these rows.
+/// A difference above rounding is detected, also if a wheel rotates fast. Velocities are computed
+/// together, so each is accurate to the rounding of 1e4 rad/s, which is about 1e-9 rad/s in these
+/// rows.
 #[test]
 fn what_differs_by_more_than_rounding_is_a_contradiction() {
     let law = |coefficients: &[f64]| Function::polynomial(coefficients).expect("finite");
@@ -224,13 +226,14 @@ fn what_differs_by_more_than_rounding_is_a_contradiction() {
         let [rates, accelerations] = [[0.0, 1.0 + by, 0.0], [0.0, 1.0, by]];
         for other in [rates, accelerations] {
             let found = refused([law(&[0.0, 1.0]), law(&other)], wheel);
-            let what = format!("{other:?} beside {wheel} rad/s: {found:?}");
+            let what = format!("{other:?} with {wheel} rad/s: {found:?}");
             assert_eq!(found.is_some(), is_found, "{what}");
         }
     }
 }
 
-/// The same in equations alone: a row along x that leans by a rounding, while y accelerates.
+/// The same test in equations alone: a row along x is inclined by one rounding error, while y
+/// accelerates.
 #[test]
 fn a_leaning_row_agrees_to_the_rounding_of_what_it_leans_to() {
     let rows = |lean: f64| {
@@ -244,7 +247,7 @@ fn a_leaning_row_agrees_to_the_rounding_of_what_it_leans_to() {
         }
     };
     for (lean, agrees) in [(0.0, true), (1e-17, true), (1e-13, true), (1e-7, false)] {
-        // One row is kept, whatever the matrix says.
+        // One row is independent for any matrix.
         let c = linalg::Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0]]);
         let decision = rank::decide(&c, rank::Accuracy::Rounding).expect("finite");
         let found = rows(lean).multipliers(&decision);

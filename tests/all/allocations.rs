@@ -14,7 +14,7 @@ fn evaluations_and_projections_allocate_nothing() {
     let (mut q, mut v) = (p.q.clone(), p.v.clone());
     let mut a = vec![0.0; v.len()];
     let mut lambda = ChosenValues::new(vec![0.0; 22], vec![0; 2]);
-    // Slightly off the constraints, so that the projection is not trivial.
+    // The state is slightly off the constraints, so that the projection is not trivial.
     let push = |q: &mut [f64], v: &mut [f64]| {
         q[4] += 1e-6;
         v[7] += 1e-6;

@@ -1,5 +1,6 @@
-//! Verdicts along a motion: by stretches of time, and the instants with other verdicts. Parallel
-//! cranks in closed form: every crank has the angle θ(t), the coupler translates; θ = 0 is flat.
+//! Verdicts along a motion: by stretches of time, and the instants with different verdicts.
+//! Parallel cranks have a closed form: every crank has the angle θ(t), the coupler translates; θ =
+//! 0 is the singular configuration.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
@@ -54,7 +55,7 @@ fn motor(pair: [BodyRef; 2], motion: Function) -> Drive {
     }
 }
 
-/// θ = θ₀ + f(t) − f(0) for the first crank.
+/// The first crank is driven by θ = θ₀ + f(t) − f(0).
 fn driven(pivots: &[f64], start: f64, motion: Function) -> Mechanism {
     let mut d = cranks(pivots, LENGTH, start);
     d.drives
@@ -64,8 +65,8 @@ fn driven(pivots: &[f64], start: f64, motion: Function) -> Mechanism {
     p.expect("starts").mechanism
 }
 
-/// The only passage of a motion at which the rank drops: time, redundancy there, how the motion
-/// continues, and the text.
+/// Returns the only singular configuration of a motion at which the rank drops: time, redundancy
+/// there, how the motion continues, and the text.
 fn one_drop(along: &MotionAnalysis) -> (f64, usize, Continuation, String) {
     let [passage] = along.passages.as_slice() else {
         panic!("one passage: {:?}", along.passages);
@@ -80,7 +81,7 @@ fn one_drop(along: &MotionAnalysis) -> (f64, usize, Continuation, String) {
     (passage.time, redundancy, continuation, passage.text.clone())
 }
 
-/// Small numbers without a pattern, of size one.
+/// Small pseudo-random numbers, of size one.
 fn noise(t: f64, k: usize) -> f64 {
     let mut x = t.to_bits() ^ (k as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     for _ in 0..3 {
@@ -121,7 +122,7 @@ fn three_cranks_pass_their_flat_pose_on_one_way() {
             assert!(text.contains(part), "{text}");
         }
         let [from, to] = along.passages[0].nearly_singular;
-        // σ is about 0.4·θ.
+        // The singular value σ is about 0.4·θ.
         assert!(0.3e-3 < exact - from && exact - from < 10e-3, "{from}");
         assert!(((to - exact) / (exact - from) - 1.0).abs() < 1e-2, "{to}");
     }
@@ -156,7 +157,8 @@ fn two_cranks_bifurcate_also_where_a_sample_hits() {
             panic!("{continuation:?}");
         };
         assert_eq!(branches.len(), 1);
-        // (v2 − v1)·[(v2 + v1)/L − (v2 − v1)/d] = 0 with L = 0.5, d = 1: v2 = −3·v1.
+        // The second-order condition (v2 − v1)·[(v2 + v1)/L − (v2 − v1)/d] = 0 with L = 0.5, d = 1
+        // gives v2 = −3·v1.
         assert!(
             (branches[0][5] / branches[0][2] + 3.0).abs() < 1e-8,
             "{branches:?}"
@@ -176,7 +178,8 @@ fn two_cranks_bifurcate_also_where_a_sample_hits() {
     }
 }
 
-/// θ = (t − 0.4)² touches the flat pose and turns back: no quantity changes its sign.
+/// The motion θ = (t − 0.4)² touches the singular configuration and turns back: no quantity changes
+/// its sign.
 #[test]
 fn a_flat_pose_that_is_only_touched_is_found() {
     let law = |t: f64| (t - 0.4) * (t - 0.4);
@@ -190,8 +193,8 @@ fn a_flat_pose_that_is_only_touched_is_found() {
     }
 }
 
-/// The motion turns back before the flat pose: nearly singular, and at 1e-9 rad so nearly that the
-/// rank is undecided.
+/// The motion turns back before the singular configuration: it is nearly singular, and at 1e-9 rad
+/// so nearly that the rank is undecided.
 #[test]
 fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
     let nearest = |offset: f64| {
@@ -208,20 +211,21 @@ fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
         PassageKind::NearlySingular { sigma } => sigma,
         other => panic!("{other:?}"),
     };
-    // σ is proportional to θ.
+    // The singular value σ is proportional to θ.
     assert!((sigma(1e-4) / sigma(1e-5) - 10.0).abs() < 1e-3);
     assert!(matches!(nearest(1e-9), PassageKind::Undecided { .. }));
 }
 
-/// The special instants of a component of the verdicts along a motion, with their words.
+/// Returns the special instants of a component of the verdicts along a motion, with their verdicts.
 fn special(along: &MotionAnalysis, reaction: usize, component: &str) -> Vec<(f64, &'static str)> {
     let track = along.verdicts.reactions[reaction].component(component);
     let special = track.expect("a component").special().iter();
     special.map(|s| (s.time, s.verdict.word())).collect()
 }
 
-/// In three full turns the cranks are flat six times, and upright six times: when upright, all
-/// forces along them are vertical. In both poses a component is unique that is not on the way.
+/// In three full revolutions the cranks are in the horizontal singular configuration six times, and
+/// upright six times. In the upright positions all forces along them are vertical. In both
+/// positions a component is unique that is not unique between them.
 #[test]
 fn every_flat_pose_and_every_upright_one_of_several_turns() {
     let motion = |t: f64| parallel(&THREE, 0.3 + t, 1.0);
@@ -256,13 +260,14 @@ fn every_flat_pose_and_every_upright_one_of_several_turns() {
             }
         }
     }
-    // Samples more than a quarter turn apart miss upright poses, but no change of the rank.
+    // Samples more than a quarter turn apart do not show upright positions, but they show every
+    // change of the rank.
     let along = along_motion(&free(&THREE), motion, &times(0.0, 19.0, 11)).expect("judged");
     assert_eq!(along.passages.len(), 6);
 }
 
-/// θ = π/2 + t⁶: for some samples the cranks are upright to rounding, and for more it is not
-/// decided whether they are. The start is the instant.
+/// With θ = π/2 + t⁶ the cranks are upright to rounding for some samples, and for further samples
+/// this is undecided. The special instant is the start.
 #[test]
 fn cranks_that_leave_their_upright_pose_slowly_are_upright_once() {
     let motion = |t: f64| parallel(&THREE, FRAC_PI_2 + t.powi(6), 6.0 * t.powi(5));
@@ -273,8 +278,8 @@ fn cranks_that_leave_their_upright_pose_slowly_are_upright_once() {
     }
 }
 
-/// θ = 3·(t − 0.41…)·(t − 0.97) is 1.2 and 0.05 at the two samples and passes zero twice between
-/// them.
+/// The motion θ = 3·(t − 0.41…)·(t − 0.97) is 1.2 and 0.05 at the two samples and passes zero twice
+/// between them.
 #[test]
 fn a_motion_that_turns_back_between_two_samples_passes_twice() {
     let flat = [0.412_345_678_9, 0.97];
@@ -288,12 +293,12 @@ fn a_motion_that_turns_back_between_two_samples_passes_twice() {
     for (time, exact) in times.iter().zip(flat) {
         assert!((time - exact).abs() < 1e-10, "{time}");
     }
-    // Seven digits of a time that was searched for.
+    // The text has seven digits of a time that a search has found.
     let text = &along.passages[0].text;
     assert!(text.starts_with("at t = 0.4123457 s "), "{text}");
 }
 
-/// Freedoms that have nothing to do with the cranks do not change how these go on.
+/// Freedoms that are independent of the cranks do not change how the cranks continue.
 #[test]
 fn a_pendulum_beside_the_cranks() {
     for (pivots, drive) in [
@@ -317,7 +322,8 @@ fn a_pendulum_beside_the_cranks() {
         let (turn, initial) = (drive.unwrap_or(2.0), -FRAC_PI_2);
         let motion = |t: f64| {
             let mut state = parallel(pivots, t - 0.5, 1.0);
-            // From the hinge to the centre of mass at the described angle −π/2 + 2t.
+            // The vector points from the hinge to the centre of mass at the described angle −π/2 +
+            // 2t.
             let (sin, cos) = (initial + turn * t).sin_cos();
             state
                 .q
@@ -350,7 +356,8 @@ fn a_pendulum_beside_the_cranks() {
     }
 }
 
-/// A drive that rests in the flat pose: singular on an interval, which ends at its break time.
+/// A drive rests in the singular configuration: the motion is singular on an interval, which ends
+/// at the break time of the drive.
 #[test]
 fn a_rest_in_a_singular_pose_is_a_stretch() {
     const UNTIL: f64 = 1.012_345_678_912;
@@ -366,15 +373,15 @@ fn a_rest_in_a_singular_pose_is_a_stretch() {
         panic!("{:?}", along.stretches);
     };
     assert_eq!((rest.from, rest.to, rest.redundancy), (0.0, UNTIL, 2));
-    // Ten digits of a time that the law gives.
+    // The text has ten digits of a time that the law prescribes.
     let says = "from t = 0 s to t = 1.012345679 s ";
     assert!(rest.text.starts_with(says), "{}", rest.text);
     assert!(along.passages.is_empty(), "{:?}", along.passages);
 }
 
-/// The robot: rank 20 throughout. While it drives straight along the x-axis, the x-rows of B and C
-/// are unique; when an edge becomes parallel to the global y-axis, the y-row of its joint is unique
-/// for an instant.
+/// The robot has rank 20 throughout. While it moves straight along the x-axis, the x-rows of B and
+/// C are unique. When an edge becomes parallel to the global y-axis, the y-row of its joint is
+/// unique for an instant.
 #[test]
 fn the_robot_has_one_verdict_and_one_stretch_with_another() {
     let mechanism = Mechanism::build(&robot(steering())).expect("builds");
@@ -394,7 +401,8 @@ fn the_robot_has_one_verdict_and_one_stretch_with_another() {
         .map(|r| layout.groups[r.id.0].name.as_str())
         .collect();
     assert_eq!(open, ["B", "C", "W1", "W2", "W3", "W4"]);
-    // Straight up to 1 s: until then the forces that are not unique lie along y.
+    // The robot moves straight up to 1 s: up to that time the forces that are not unique are
+    // parallel to y.
     for name in &open {
         let k = layout.groups.iter().position(|g| g.name == *name);
         let k = k.expect("a joint");
@@ -405,11 +413,12 @@ fn the_robot_has_one_verdict_and_one_stretch_with_another() {
         assert_eq!(track("Fx").determined(), [[0.0, 1.0]], "{name}");
         assert_eq!(*track("Fx").at(1.0), Verdict::NotUnique, "{name}");
         assert_eq!(track("Fy").determined(), [[0.0; 2]; 0], "{name}");
-        // The end of the straight part is still straight.
+        // At the end of the straight part the robot still moves straight.
         assert_eq!(special(&along, k, "Fx")[0], (1.0, "unique"), "{name}");
     }
-    // Twice within a tenth of a second the edge of the rear wheels points along y, and row 6 (y of
-    // C) is in no dependency: the margins of neighbouring samples have one minimum for both.
+    // Twice within a tenth of a second the edge of the rear wheels is parallel to y, and row 6 (y
+    // of C) is in no dependency. The margins of neighbouring samples have one common minimum for
+    // both instants.
     let c = layout.groups.iter().position(|g| g.name == "C");
     let found = special(&along, c.expect("a joint"), "Fy");
     for expected in [6.485457, 6.566298] {
@@ -448,7 +457,7 @@ fn recorded(p: &PreparedMechanism, options: &MotionOptions) -> (impl Fn(f64) -> 
     (motion, verdicts)
 }
 
-/// The motions of all examples, up to 2 s.
+/// The test uses the motions of all examples, up to 2 s.
 #[test]
 fn along_the_motion_of_an_example_the_verdicts_are_those_of_its_run() {
     let names = super::examples::files(".toml");
@@ -469,16 +478,16 @@ fn along_the_motion_of_an_example_the_verdicts_are_those_of_its_run() {
         let along = along_motion(mechanism, motion, &times(0.0, t_end, 100));
         let along = along.unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_agree(&along, &verdicts, mechanism.layout());
-        // The same from the motion that the library runs itself.
+        // The motion that the library runs itself gives the same result.
         let own = study.verdicts_along_motion(Some(t_end), |_| {});
         let own = own.unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_agree(&own.along, &verdicts, mechanism.layout());
     }
 }
 
-/// The verdicts along a motion are those that a run read from its factors: of each component on the
-/// same stretches, with what is special at the start. Later rows of a run are less accurate: near a
-/// special instant they may be taken for one.
+/// The verdicts along a motion equal the verdicts that a run computes from its factors: the same
+/// verdict for each component on each stretch, with the special verdicts at the start. Later rows
+/// of a run are less accurate: near a special instant they may count as special.
 fn assert_agree(along: &MotionAnalysis, run: &Stretches, layout: &Layout) {
     assert_eq!(along.verdicts.reactions.len(), run.reactions.len());
     for (found, expected) in along.verdicts.reactions.iter().zip(&run.reactions) {

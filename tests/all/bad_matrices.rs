@@ -1,4 +1,4 @@
-//! Wrong input that a user may give: named errors or correct answers, never a panic.
+//! Invalid input by a user gives errors with names or correct results, and never a panic.
 
 use exact::Exact;
 use linalg::Matrix;
@@ -10,7 +10,7 @@ use crate::plain::Plain;
 
 const SEED: u64 = 5;
 
-/// Both ways to compute verdicts: for data with an uncertainty, and for exact data.
+/// Computes the verdicts in both ways: for data with an uncertainty, and for exact data.
 fn both(c: &Matrix) -> [Result<(), RankError>; 2] {
     [
         Solvability::of(c, rank::Accuracy::Rounding).map(|_| ()),
@@ -44,8 +44,8 @@ fn residuals_that_are_none_are_named() {
     }
 }
 
-/// Rows of zeros carry no force: their multipliers are not unique, but their reaction is. In a
-/// matrix without columns all rows are like that.
+/// Rows of zeros carry no force: their multipliers are not unique, but their reaction is unique. In
+/// a matrix without columns all rows are rows of zeros.
 #[test]
 fn empty_rows_and_columns() {
     for (m, n) in [(0, 0), (0, 4), (4, 0), (1, 1), (3, 2), (2, 5)] {
@@ -57,14 +57,14 @@ fn empty_rows_and_columns() {
         }
         assert_eq!(s.combination(&vec![0.0; m]).verdict, Verdict::Unique);
     }
-    // One nonzero row among empty ones, one nonzero column among empty ones.
+    // The matrix has one nonzero row and one nonzero column among empty ones.
     let s = Plain::of_rows(&[vec![0.0; 3], vec![0.0, 5.0, 0.0], vec![0.0; 3]]);
     assert_eq!(s.decision().rank, 1);
     let found = [0, 1, 2].map(|i| s.row(i).verdict.is_unique());
     assert_eq!(found, [false, true, false]);
 }
 
-/// A hundred rows with two columns: any three are dependent.
+/// The matrix has a hundred rows with two columns: any three rows are dependent.
 #[test]
 fn many_more_rows_than_columns() {
     let rows: Vec<Vec<f64>> = (0..100).map(|i| vec![1.0, f64::from(i)]).collect();
@@ -78,8 +78,8 @@ fn many_more_rows_than_columns() {
     assert_eq!(s.combination(&[1.0; 100]).verdict, Verdict::Unique);
 }
 
-/// A group without rows has no reaction that could be free; groups may overlap, each is judged
-/// separately; a repeated row counts once.
+/// A group without rows has no reaction that could be free; groups may overlap, and each is
+/// analysed separately; a repeated row counts once.
 #[test]
 fn empty_and_overlapping_groups() {
     let rows = [[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|r| r.to_vec());
@@ -141,7 +141,7 @@ fn questions_that_cannot_be_answered_are_named() {
     }
 }
 
-/// Arbitrary bits: an error, or the rank of exact arithmetic.
+/// Arbitrary bits give either an error, or the rank of exact arithmetic.
 #[test]
 fn arbitrary_bits() {
     let mut numbers = Numbers::new(SEED);

@@ -1,11 +1,11 @@
-//! The benchmark bicycle as a scene, in any state: J. P. Meijaard, J. M. Papadopoulos, A. Ruina,
-//! A. L. Schwab, Linearized dynamics equations for the balance and steer of a bicycle, Proc. R.
-//! Soc. A 463 (2007) 1955–1982, table 1. z is down there, and up here; x is forwards.
+//! The benchmark bicycle as a scene, in any state: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A.
+//! L. Schwab, Linearized dynamics equations for the balance and steer of a bicycle, Proc. R. Soc. A
+//! 463 (2007) 1955–1982, table 1. The z-axis points down there, and up here; x points forwards.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-/// Wheelbase, trail, tilt of the steering axis.
+/// Wheelbase, trail, and tilt of the steering axis.
 pub(crate) const WHEELBASE: f64 = 1.02;
 const TRAIL: f64 = 0.08;
 const TILT: f64 = PI / 10.0;
@@ -46,16 +46,16 @@ pub(crate) const PARTS: [Part; 4] = [
 pub(crate) struct Part {
     name: &'static str,
     mass: f64,
-    /// Its mass centre where the bicycle stands upright, the rear contact in the origin.
+    /// Mass centre of the body for the upright bicycle, with the rear contact at the origin.
     pub(crate) centre: [f64; 3],
-    /// Jxx, Jyy, Jzz and Jxz.
+    /// Moments Jxx, Jyy, Jzz and Jxz.
     inertia: [f64; 4],
 }
 
-/// Where a part is and how it moves, in ground axes.
+/// Pose and velocities of a part, in ground axes.
 pub(crate) struct State {
     pub(crate) centre: [f64; 3],
-    /// Body → ground.
+    /// Rotation from the body to the ground.
     pub(crate) orientation: [[f64; 3]; 3],
     pub(crate) velocity: [f64; 3],
     pub(crate) angular_velocity: [f64; 3],
@@ -66,7 +66,7 @@ pub(crate) fn steering_axis() -> [f64; 3] {
     [-TILT.sin(), 0.0, TILT.cos()]
 }
 
-/// Where the steering axis meets the ground.
+/// Returns the intersection of the steering axis with the ground.
 pub(crate) fn steering_point() -> [f64; 3] {
     [WHEELBASE + TRAIL, 0.0, 0.0]
 }
@@ -124,7 +124,7 @@ pub(crate) fn scene(states: &[State; 4]) -> String {
     text
 }
 
-/// The bicycle going straight on at this speed.
+/// Returns the bicycle in straight motion at this speed.
 pub(crate) fn upright(speed: f64) -> String {
     let [rear, front] = RADII.map(|radius| speed / radius);
     let spins = [rear, 0.0, 0.0, front];

@@ -1,5 +1,5 @@
-//! The consistency of the book: contents, links, figures, doc tests. The output in its examples is
-//! compared by the contract tests of the command.
+//! Checks the consistency of the book: contents, links, figures, doc tests. The contract tests of
+//! the command compare the output in its examples.
 
 #[path = "../examples/book_figures/figures.rs"]
 mod figures;
@@ -22,7 +22,7 @@ fn book() -> PathBuf {
     root().join("docs/book")
 }
 
-/// Names of the files in a folder of the book with this ending.
+/// Returns the names of the files in a folder of the book with this ending.
 fn files(folder: &str, end: &str) -> BTreeSet<String> {
     let entries = fs::read_dir(book().join(folder)).expect("a folder");
     entries
@@ -36,7 +36,7 @@ fn read(name: &str) -> String {
     fs::read_to_string(book().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// Lines outside of code blocks, without inline code.
+/// Returns the lines outside of code blocks, without inline code.
 fn prose(text: &str) -> Vec<String> {
     let mut inside = false;
     let mut lines = Vec::new();
@@ -51,7 +51,7 @@ fn prose(text: &str) -> Vec<String> {
     lines
 }
 
-/// Targets of links and figures.
+/// Returns the targets of links and figures.
 fn links(text: &str) -> Vec<String> {
     let lines = prose(text);
     let pieces = lines.iter().flat_map(|line| line.split("](").skip(1));
@@ -61,7 +61,7 @@ fn links(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// The anchor of a heading: letters, digits, `-` and `_`, blanks as `-`.
+/// Returns the anchor of a heading: letters, digits, `-` and `_`, blanks as `-`.
 fn anchor(heading: &str) -> String {
     let text = heading.trim_start_matches('#').trim().to_lowercase();
     text.chars()
@@ -140,8 +140,8 @@ fn every_chapter_has_one_title_and_headings_of_their_own() {
     }
 }
 
-/// Figures that the program does not draw: a drawing made by hand, and pages in a browser, whose
-/// letters differ from machine to machine.
+/// Figures that the program does not draw: a manual drawing, and pages in a browser, whose fonts
+/// differ between machines.
 const MADE_OTHERWISE: [&str; 3] = [
     "tipper-drawing.svg",
     "tipper-report.png",
@@ -169,7 +169,7 @@ fn figures_are_those_of_their_command_and_all_are_shown() {
     }
 }
 
-/// Types of one space with their keys, rows and measures.
+/// Checks the types of one space with their keys, rows and joint coordinates.
 fn in_space_of<S: BodySpace>(definitions: &Definitions<S>, has: &impl Fn(&str)) {
     let constraints = definitions.constraint_specs();
     for spec in constraints.chain(definitions.force_specs()) {
@@ -179,8 +179,8 @@ fn in_space_of<S: BodySpace>(definitions: &Definitions<S>, has: &impl Fn(&str)) 
             has("`bearings`");
         }
         for parameter in spec.parameters {
-            // The place has other keys, and what follows from another parameter or from bearings
-            // has none.
+            // The reference point has other keys, and a parameter that follows from another
+            // parameter or from bearings has no key.
             let is_key = match parameter.shape {
                 Shape::Point { .. } | Shape::Axes { like: Some(_), .. } => false,
                 Shape::Axes { like: None, .. } => !spec.bearings,

@@ -1,4 +1,4 @@
-//! Verdicts of a run whose redundancy is larger than the number of vectors from which they are
+//! Verdicts of a run whose degree of redundancy exceeds the number of vectors from which they are
 //! read.
 
 use std::fmt::Write as _;
@@ -10,7 +10,8 @@ use model::{Registry, System};
 use pfaff::{RunOptions, Study};
 use solvability::{CARRIED_VECTORS, Stretches};
 
-/// A beam of 1 kg/m on so many parallel cranks of 1 m, inclined by 0.6, and a pendulum on it.
+/// A beam of 1 kg/m is supported by this number of parallel cranks of 1 m, inclined by 0.6, and
+/// carries a pendulum.
 fn cranks(count: usize) -> String {
     let (sine, cosine) = 0.6_f64.sin_cos();
     let mut text = "[scene]\nname = \"cranks\"\nspace = \"plane\"\ngravity = [0, -10]\n".to_owned();
@@ -49,9 +50,9 @@ fn cranks(count: usize) -> String {
     text
 }
 
-/// Forces along the cranks whose sum and moment on the beam vanish load nothing else: all pins of
+/// Forces along the cranks whose sum and moment on the beam vanish load no other joint. All pins of
 /// cranks are not unique in both components while the cranks are inclined, and the pin of the
-/// pendulum is.
+/// pendulum is unique.
 #[test]
 fn many_dependencies_are_read_from_few_combinations() {
     let count = 2 * CARRIED_VECTORS;
@@ -86,9 +87,9 @@ fn many_dependencies_are_read_from_few_combinations() {
     }
 }
 
-/// A sweep reads verdicts at the ends of each stretch alone, and has the verdicts of a run that
-/// reads them at all steps and rows: in scenes that turn, that pass singular configurations, and
-/// whose drives have breaks.
+/// A sweep reads verdicts only at the ends of each stretch, and obtains the verdicts of a run that
+/// reads them at all steps and rows. The scenes turn, pass singular configurations, or have drives
+/// with breaks.
 #[test]
 fn verdicts_on_stretches_do_not_depend_on_instants() {
     let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");

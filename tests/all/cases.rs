@@ -1,24 +1,25 @@
-//! Every case of the suite with the best method, compared with its reference: the accuracy that is
-//! reached, and that of the reference.
+//! Runs every case of the suite with the best method and compares it with its reference: the
+//! reached accuracy, and the accuracy of the reference.
 
 use dynamics::{Method, Stabilisation};
 use lab::work_precision::of_case;
 use pfaff::StudyError;
 use pfaff::work_precision::{Curve, Errors};
 
-/// Tolerance of the runs; beyond singular configurations a tighter one has no effect.
+/// Tolerance of the runs; after singular configurations a tighter tolerance has no effect.
 const TIGHT: f64 = 1e-14;
 const TIGHT_PAST_SINGULAR: f64 = 1e-13;
 
 /// Case, tolerance, and the errors at the limit of double precision: of position, velocity,
 /// acceleration and reactions, scaled as [`Errors::scaled`]; infinite if the reference has no such
-/// values. Twice the errors that were measured when this was written.
+/// values. The bounds are twice the errors that were measured at the time of writing.
 const REACHED: [(&str, f64, [f64; 4]); 14] = [
-    // The reference is only accurate to 1e-11 and 1e-9.
+    // The reference is accurate only to 1e-11 and 1e-9.
     ("robot-trolley", TIGHT, [1e-12, 1e-12, 1e-12, 1e-12]),
     ("three-cranks", TIGHT, [1e-14, 3e-14, 5e-14, UNKNOWN]),
-    // Thirty-one passages. Accelerations at the fraction σ of the reference pivots contain the
-    // rounding error eps/σ²: 1e-10 at instants down to σ = 1e-3, which occur by chance.
+    // The run passes thirty-one singular configurations. Accelerations at the fraction σ of the
+    // reference pivots contain the rounding error eps/σ²: 1e-10 at instants down to σ = 1e-3, which
+    // occur by chance.
     (
         "turning-cranks",
         TIGHT_PAST_SINGULAR,
@@ -31,20 +32,20 @@ const REACHED: [(&str, f64, [f64; 4]); 14] = [
     ),
     ("andrews", TIGHT, [2e-15, 1.2e-14, 5e-14, 2e-14]),
     ("a01-pendulum", TIGHT, [6e-14, 1.5e-13, 2.5e-13, 1.5e-13]),
-    // 1000 turns: the error of the phase grows, and affects all values.
+    // The pendulum makes 1000 revolutions: the error of the phase grows, and affects all values.
     ("a01-pendulum-2000s", TIGHT, [4e-10, 9e-10, 1.5e-9, 9e-10]),
     ("sundials-pendulum", TIGHT, [1.5e-13, 4e-13, 5e-13, 4e-13]),
     ("cash-pendulum", TIGHT, [3e-15, 3e-15, 3e-15, 4e-15]),
     ("sleigh", TIGHT, [2e-15, 6e-15, 8e-15, 8e-15]),
     ("knife-edge", TIGHT, [9e-15, 6e-15, 6e-15, 3e-15]),
     ("rolling-disk", TIGHT, [4e-15, 3e-14, 5e-14, 5e-14]),
-    // Accelerations lose the four digits of the stiffness.
+    // The accelerations lose the four digits of the stiffness.
     (
         "stiff-spring-pendulum",
         TIGHT,
         [2e-14, 6e-13, 1e-10, UNKNOWN],
     ),
-    // Radau IIA of order 5: tighter tolerances are below the noise of the force.
+    // Radau IIA has order 5: tighter tolerances are below the rounding noise of the force.
     ("stiff-cranks", 1e-10, [1e-10, 1.5e-7, UNKNOWN, UNKNOWN]),
 ];
 
@@ -85,8 +86,8 @@ fn every_case_is_reproduced_to_the_digits_of_double_precision() {
     assert!(misses.is_empty(), "\n{misses}");
 }
 
-/// Ten passages of horizontal positions where the rank drops by two: the run never changes to the
-/// other branch, for any tolerance.
+/// The run passes ten configurations with horizontal bars at which the rank drops by two: it never
+/// changes to the other branch, for any tolerance.
 #[test]
 fn the_four_bars_keep_their_branch_at_sixty_four_tolerances() {
     let subject = of_case(suite::find("n-four-bar").expect("exists")).expect("builds");

@@ -1,5 +1,5 @@
-//! Choices of the reactions that a model does not determine: closed forms, published numbers, and
-//! runs with other kept rows.
+//! Choices of the reactions that a model does not determine, compared with closed forms, published
+//! numbers, and runs with other independent rows.
 
 use std::ops::ControlFlow;
 
@@ -21,7 +21,7 @@ use tests::{largest, rod};
 
 const THREE_CRANKS: &str = include_str!("../reference/redundant_three_cranks.json");
 
-/// A mechanism at a state.
+/// A mechanism at a given state.
 struct State {
     mechanism: Mechanism,
     t: f64,
@@ -67,7 +67,7 @@ fn started(d: &Description, rows: &RowChoice) -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), rows).expect("starts")
 }
 
-/// The number, and whether it depends on the choice.
+/// Returns the number, and whether it depends on the choice.
 fn number(value: &Value) -> (f64, bool) {
     let chosen = value.of_choice().map(|(x, by)| {
         assert!(!by.to_string().is_empty());
@@ -91,7 +91,7 @@ fn assert_close(found: f64, expected: f64, tolerance: f64, what: &str) {
     );
 }
 
-/// A force on body 0.
+/// A force on body 0 at a point.
 fn load(force: [f64; 2], s: [f64; 2]) -> Force {
     Force {
         name: "load".into(),
@@ -118,15 +118,15 @@ fn bar(joints: Vec<Joint>, loads: Vec<Force>) -> Description {
     }
 }
 
-/// A support that fixes the height of a point of the bar.
+/// A support that constrains the height of a point of the bar.
 fn roller(name: &str, x: f64) -> Joint {
     let line = Line::new([x, 0.0], [x + 1.0, 0.0]).expect("two points");
     Joint::new(name, &[BodyRef::Body(0)], PointOnLine { s: [x, 0.0], line })
 }
 
-/// A bar of 1 m clamped at the left, pinned at the right, with a unit load at a quarter. With R on
-/// the right the other force is `1 − R` and the moment `1/4 − R`, so with lengths in units of u
-/// (per metre) the minimum norm has `R = (1 + u²/4)/(2 + u²)`.
+/// A bar of 1 m is clamped at the left and pinned at the right, with a unit load at a quarter of
+/// its length. With R on the right the other force is `1 − R` and the moment `1/4 − R`, so with
+/// lengths in units of u (per metre) the minimum norm has `R = (1 + u²/4)/(2 + u²)`.
 #[test]
 fn clamped_and_pinned_bar() {
     let pair = [BodyRef::Ground, BodyRef::Body(0)];
@@ -144,7 +144,7 @@ fn clamped_and_pinned_bar() {
             .expect("a norm");
         let (force, chosen) = component(&d, "pin", "Fy");
         assert!(chosen);
-        // The load acts on the ground downwards.
+        // The load acts downwards on the ground.
         -force
     };
     assert_close(
@@ -165,7 +165,8 @@ fn clamped_and_pinned_bar() {
         format!("{:.4}", right(NormWeights::NEWTON_MILLIMETRE)),
         "0.2500"
     );
-    // A pin with the compliance 1/k, a clamp with the rotational compliance c: R·(1/k + c) = c/4.
+    // With the compliance 1/k of the pin and the rotational compliance c of the clamp, R·(1/k + c)
+    // = c/4.
     let compliance = |joint, y, rotation| Compliance {
         reaction: ConstraintId(joint),
         along: [1e-9, y, 0.0],
@@ -181,7 +182,8 @@ fn clamped_and_pinned_bar() {
     );
 }
 
-/// A rigid beam on three springs at −1, 0, 1: `force·compliance` is linear along the beam.
+/// A rigid beam on three springs at −1, 0, 1: `force·compliance` is a linear function along the
+/// beam.
 #[test]
 fn beam_on_three_springs() {
     let supports = [("left", -1.0), ("middle", 0.0), ("right", 1.0)];
@@ -204,7 +206,7 @@ fn beam_on_three_springs() {
             assert_close(found, expected, 1e-13, "support");
         }
     };
-    // The ground pushes up.
+    // The ground pushes upwards.
     let arm = at * load_size / 2.0;
     let third = load_size / 3.0;
     expect(
@@ -216,7 +218,7 @@ fn beam_on_three_springs() {
         forces(&elastic([1e-6, 2e-6, 1e-6]).expect("determined")),
         [share - arm, 0.5 * share, share + arm],
     );
-    // Between rigid supports an elastic one carries no load.
+    // Between rigid supports an elastic support carries no load.
     expect(
         forces(&elastic([0.0, 1e-6, 0.0]).expect("determined")),
         [0.5 * load_size - arm, 0.0, 0.5 * load_size + arm],
@@ -241,7 +243,8 @@ fn beam_on_three_springs() {
     ));
 }
 
-/// Numbers of `reference/redundant_three_cranks.json` (computed there in closed form): 13 digits.
+/// The numbers are those of `reference/redundant_three_cranks.json` (computed there in closed
+/// form), with 13 digits.
 #[test]
 fn three_cranks_with_least_norm() {
     let case: Json = serde_json::from_str(THREE_CRANKS).expect("the case is JSON");
@@ -273,7 +276,8 @@ fn three_cranks_with_least_norm() {
                     .expect("exists");
                 number(&d.value(&configuration, &form).expect("fits"))
             };
-            // Reported on the first body; the reference gives the reaction on the second.
+            // The program reports the reaction on the first body; the reference gives the reaction
+            // on the second.
             let (force, chosen) = along(radial);
             assert!(chosen);
             assert_close(-force, norm[k], 1e-12, "radial");
@@ -290,7 +294,7 @@ fn three_cranks_with_least_norm() {
     }
 }
 
-/// The case of the reference: θ from the downward vertical is θ − π/2 from the x-axis.
+/// The case of the reference: its angle θ from the downward vertical is θ − π/2 from the x-axis.
 fn three_cranks(theta: f64, rate: f64) -> Description {
     let (length, half_span) = (0.5, 0.8);
     let mut d = cranks(
@@ -311,8 +315,8 @@ fn three_cranks(theta: f64, rate: f64) -> Description {
     d
 }
 
-/// The robot at t = 0, with a lateral force and a torque on the platform, so that there are nonzero
-/// reactions.
+/// The robot at t = 0, with a lateral force and a torque on the platform, so that the reactions are
+/// not zero.
 fn pushed_robot() -> Description {
     let mut d = robot(steering());
     d.forces.push(Force {
@@ -326,7 +330,7 @@ fn pushed_robot() -> Description {
     d
 }
 
-/// Reactions of a run with other kept rows, at its start or at t > 0.
+/// Returns the reactions of a run with other independent rows, at its start or at t > 0.
 fn run_without(d: &Description, rows: &[usize], t: f64) -> (State, Vec<Reaction>) {
     let rows = RowChoice::Drop(rows.to_vec());
     let p = started(d, &rows);
@@ -352,7 +356,7 @@ fn run_without(d: &Description, rows: &[usize], t: f64) -> (State, Vec<Reaction>
     (state, reactions)
 }
 
-/// Eliminations compared with runs that keep exactly these rows, and with the components that all
+/// Compares eliminations with runs that keep exactly these rows, and with the components that all
 /// choices have in common.
 #[test]
 fn eliminations_of_the_robot_are_runs_without_these_rows() {
@@ -384,8 +388,8 @@ fn eliminations_of_the_robot_are_runs_without_these_rows() {
                 assert_close(number(value).0, wrench[k], 1e-10 * size, &found.name);
             }
         }
-        // Unique components are those of any other choice; here from rows that the run did not
-        // keep.
+        // Unique components have the same value for any other choice; here the choice consists of
+        // rows that the run did not keep.
         let norm = state
             .distribute(&Choice::MinimumNorm(NormWeights::NEWTON_METRE))
             .expect("a norm");
@@ -432,7 +436,7 @@ fn inadmissible_eliminations_are_refused_by_name() {
         refused(&[1, 21]),
         "no solution has zero reactions in the rows 1 (`A`, x), 21 (`W4`, normal): that of 1 (`A`, x) is unique"
     );
-    // Rows that mix, but not with each other.
+    // These rows are in dependencies, but not in a common one.
     let text = refused(&[6, 18]);
     assert!(
         text.contains("6 (`C`, y)") && text.contains("dependent"),
@@ -443,8 +447,8 @@ fn inadmissible_eliminations_are_refused_by_name() {
     assert!(refused(&[21, 99]).contains("does not exist"));
 }
 
-/// Two drives of one velocity: an equal speed is shared, with different accelerations there are no
-/// reactions.
+/// Two drives prescribe one velocity: an equal velocity is shared, and with different accelerations
+/// there are no reactions.
 #[test]
 fn contradicting_drives_have_no_reactions() {
     let drive = |name: &str, rate: [f64; 2]| {
@@ -461,7 +465,7 @@ fn contradicting_drives_have_no_reactions() {
         let joints = vec![drive("first", rates[0]), drive("second", rates[1])];
         let mut d = bar(joints, vec![load([10.0, 0.0], [0.0, 0.0])]);
         d.bodies[0].velocity = Some([2.0, 0.0]);
-        // Without `prepare`, which refuses such drives itself.
+        // The test does not call `prepare`, which rejects such drives itself.
         let mechanism = Mechanism::build(&d).expect("builds");
         let (q, v) = mechanism.described_state();
         State {
@@ -474,7 +478,8 @@ fn contradicting_drives_have_no_reactions() {
     let d = with([[2.0, 1.0]; 2])
         .distribute(&Choice::MinimumNorm(NormWeights::NEWTON_METRE))
         .expect("they agree");
-    // 1 kg at 1 m/s² needs 1 N of 10 N; the drives carry 4.5 N each, on the bar −4.5 N.
+    // A mass of 1 kg at 1 m/s² needs 1 N of 10 N; the drives carry 4.5 N each, and −4.5 N on the
+    // bar.
     assert_close(component(&d, "first", "Fx").0, -4.5, 1e-15, "half");
     assert_close(component(&d, "second", "Fx").0, -4.5, 1e-15, "half");
     let error = with([[2.0, 1.0], [2.0, 1.1]])
@@ -483,17 +488,17 @@ fn contradicting_drives_have_no_reactions() {
     assert!(matches!(error, ChoiceError::Contradiction { by, .. } if (by - 0.1).abs() < 1e-12));
 }
 
-/// Numbers of a mechanism, and the wrenches whose least norm chooses them.
+/// Numbers of a mechanism, and the wrenches in the definition of the least norm.
 struct Numbers<'a> {
     configuration: &'a Configuration<'a>,
-    /// Each with its unit for a force of 1 N, and whether its verdict is unique.
+    /// Each number with its unit for a force of 1 N, and whether it is unique.
     forms: Vec<(LinearForm, f64, bool)>,
     /// The components of each joint, and whether they are torques.
     wrenches: Vec<(ConstraintId, bool, LinearForm)>,
 }
 
 impl<'a> Numbers<'a> {
-    /// Torques in the global frame only.
+    /// Torques are taken only in the global frame.
     fn of(mechanism: &Mechanism, configuration: &'a Configuration<'a>) -> Self {
         let (mut forms, mut wrenches) = (Vec::new(), Vec::new());
         let (layout, reactions) = (mechanism.layout(), configuration.reactions());
@@ -527,8 +532,8 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// In units in which a torque is so many times larger than a force, and the wrench of one joint
-    /// so many times larger than the others.
+    /// Computes the least norm with a torque unit multiplied by this factor, and with the wrench of
+    /// one joint multiplied by another factor.
     fn least(&self, lambda: &[f64], torque: f64, alone: Option<ConstraintId>) -> Vec<f64> {
         let weighted = |(id, is_torque, form): &(ConstraintId, bool, LinearForm)| {
             let unit = if *is_torque { torque } else { 1.0 };
@@ -544,19 +549,20 @@ impl<'a> Numbers<'a> {
     }
 }
 
-/// A least norm adds newtons to newton metres, so it depends on their units, and a number that the
-/// model determines does not: exactly what is not unique changes with the units, those of all or
-/// of one joint. Without a load every least norm is zero; so multipliers without any symmetry are
-/// begun from, too, which are those of some load.
+/// A least norm adds newtons to newton metres, so it depends on their units. Exactly the numbers
+/// that are not unique change with the units of all joints or of one joint. Without a load every
+/// least norm is zero. Therefore the test also starts from multipliers without any symmetry, which
+/// belong to some load.
 #[test]
 fn facts_do_not_depend_on_units() {
     let robot_turning = run_without(&pushed_robot(), &[20, 19], 1.5).0;
     let robot_straight = State::at_start(&robot(steering()));
     let cranks = State::at_start(&three_cranks(0.5, 1.5));
-    // The 14 reactions of the robot have 3 + 2 components, 7 of them two more along and across
-    // their edge. B and C are not unique in either frame, W1 to W4 across their edges, which
-    // affects both of their global components while they turn. Of the cranks' 6 bearings only those
-    // at the tips are reported in the frame of a crank, where the force across it is unique.
+    // The 14 reactions of the robot have 3 + 2 components; 7 of the reactions have two more, along
+    // and across their edge. B and C are not unique in either frame. W1 to W4 are not unique across
+    // their edges, which affects both of their global components while they turn. Of the 6 bearings
+    // of the cranks, only those at the tips are reported in the frame of a crank, in which the
+    // force across it is unique.
     for (name, state, facts, choices) in [
         ("turning", robot_turning, 60, 24),
         ("straight, without load", robot_straight, 68, 16),
@@ -581,7 +587,7 @@ fn facts_do_not_depend_on_units() {
         }
         let mut counts = [0, 0];
         for (change, (form, _, is_unique)) in changes.iter().zip(&numbers.forms) {
-            // Rounding of the largest number.
+            // The limit is the rounding of the largest number.
             assert_eq!(*change < 1e-9, *is_unique, "{name}: {change:e} {form:?}");
             counts[usize::from(!is_unique)] += 1;
         }

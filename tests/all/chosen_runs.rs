@@ -1,5 +1,5 @@
-//! Choices along a run: at every written row they are solutions of the same equations, and those
-//! that a decision of the rank at that configuration selects.
+//! Choices along a run: at every written row they are solutions of the same equations, and they
+//! equal the choices of a rank decision at that configuration.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -15,7 +15,7 @@ use solvability::{
 };
 use tests::largest;
 
-/// Beams of 1 kg on so many parallel cranks of 1 m each, inclined by 0.6, all on one body.
+/// Beams of 1 kg, each on this number of parallel cranks of 1 m, inclined by 0.6, all on one body.
 fn beams(beams: usize, cranks: usize, base: &str) -> String {
     let (sine, cosine) = 0.6_f64.sin_cos();
     let mut text = "[scene]\nname = \"beams\"\nspace = \"plane\"\ngravity = [1, -10]\n".to_owned();
@@ -71,8 +71,8 @@ fn study(text: &str) -> Study {
     read.unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Least norm, springs of different stiffness in all joints, and no reaction in other rows than
-/// those that the run drops.
+/// Returns the choices: least norm, springs of different stiffness in all joints, and no reaction
+/// in rows other than the redundant rows of the run.
 fn choices(study: &Study) -> Vec<Choice> {
     let start = study.analyse(0.0, None).expect("decided");
     let layout = study.prepared.mechanism.layout();
@@ -89,7 +89,7 @@ fn choices(study: &Study) -> Vec<Choice> {
     ]
 }
 
-/// Runs a scene and compares the choices at each row; returns the number of compared numbers.
+/// Runs a scene and compares the choices at each row; returns how many numbers were compared.
 fn compared(study: &Study, choices: &[Choice], t_end: f64) -> usize {
     let mechanism = &study.prepared.mechanism;
     let start = study.analyse(0.0, None).expect("decided");
@@ -141,11 +141,11 @@ fn compare(
     for (chosen, choice) in sample.chosen()?.into_iter().zip(choices) {
         assert!(chosen.refused.is_none(), "{:?} at {t} s", chosen.refused);
         let lambda = chosen.multipliers.as_chosen();
-        // The same forces on every body.
+        // The forces on every body are the same.
         let balance = c.transpose_times(lambda);
         let missed = largest(balance.iter().zip(&load).map(|(a, b)| a - b));
         assert!(missed < 1e-9 * size, "{missed} of {size} at {t} s");
-        // The same numbers as by a decision here.
+        // The numbers equal those of a rank decision at this configuration.
         let here = questions.distribute(&solution, choice);
         let here = here.unwrap_or_else(|e| panic!("{e} at {t} s"));
         for (row, value) in here.multipliers.iter().enumerate() {
@@ -157,7 +157,7 @@ fn compare(
         for &row in choice.eliminated() {
             assert_eq!(lambda[row], 0.0, "row {row}");
         }
-        // What is determined is the same; what is not differs from the run for some number.
+        // Determined numbers are the same; at least one other number differs from the run.
         let mut differs = 0.0_f64;
         let pairs = own.as_chosen().iter().zip(chosen.reactions.as_chosen());
         for ((own, other), verdict) in pairs.zip(&analysis.reactions) {
@@ -192,14 +192,14 @@ fn choices_of_more_dependencies_than_are_carried() {
     assert!(compared(&study, &choices(&study), 0.4) > 400);
 }
 
-/// Beams that stand on the ground do not feel each other: each is moved on its own.
+/// Beams on the ground are independent: each is simulated separately.
 #[test]
 fn choices_of_components() {
     let study = study(&beams(3, 3, "ground"));
     assert!(compared(&study, &choices(&study), 0.4) > 500);
 }
 
-/// On a sled they are one mechanism, whose parts are decided one by one.
+/// On a sled they form one mechanism, whose parts are analysed separately.
 #[test]
 fn choices_of_parts() {
     let study = study(&beams(22, 3, "sled"));

@@ -24,7 +24,7 @@ fn case(mechanism: Mechanism, t: f64, q: Vec<f64>) -> Case {
     mechanism.c(&mut s);
     let decision = decide(&mechanism, &s, &q).expect("C is finite");
     let c = mechanism.layout().dense(&s);
-    // Here metres and radians differ by less than a factor of two.
+    // In this mechanism metres and radians differ by less than a factor of two.
     let solvability = Solvability::from_decision(&c, decision);
     Case {
         mechanism,
@@ -40,7 +40,7 @@ fn described(d: &Description) -> Case {
     case(mechanism, 0.0, q)
 }
 
-/// The robot at rest with its slider displaced and both knuckles turned accordingly.
+/// The robot at rest with its slider displaced and both knuckles rotated accordingly.
 fn steered(displacement: f64) -> Case {
     let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
     let mut d = robot(ramp);
@@ -75,7 +75,7 @@ fn id(case: &Case, name: &str) -> model::ConstraintId {
     )
 }
 
-/// Rows (from 1) of the sets that make a reaction unique.
+/// Returns the rows (from 1) of the sets that make a reaction unique.
 fn sets(case: &Case, name: &str, allowed: &DeletableRows) -> Vec<Vec<usize>> {
     let found = make_unique(
         &case.mechanism,
@@ -206,10 +206,10 @@ fn the_robot_is_explained() {
     let e = explain(&c.mechanism, &c.s, &c.q, &c.solvability).expect("C is finite");
     assert_eq!(
         e.stresses[0].text,
-        "`W3` and `W4` both stop `platform` from slipping sideways along the same line; how the load is shared between them is not \
-         determined; `W3.N` = 1 N and `W4.N` = −1 N cancel, and `W3.N + W4.N` depends on other reactions that are not determined"
+        "`W3` and `W4` both prevent `platform` from slipping sideways along the same line; the model does not determine how they \
+         share the load: `W3.N` = 1 N and `W4.N` = −1 N cancel, and `W3.N + W4.N` depends on other reactions that are not determined"
     );
-    // As required for a picture: opposite unit forces on one line.
+    // A picture needs opposite unit forces on one line.
     let [a, b] = &e.stresses[0].directions[..] else {
         panic!("two edges")
     };
@@ -222,7 +222,8 @@ fn the_robot_is_explained() {
         (2, &names[..])
     );
     assert_eq!(e.reactions.iter().map(|r| r.id).collect::<Vec<_>>(), names);
-    // Every self-stress is in equilibrium on every body: forces and torques about the origin.
+    // Every self-stress is in equilibrium on every body, for forces and for torques about the
+    // origin.
     for stress in &e.stresses {
         for body in 0..c.mechanism.bodies().len() {
             let mut sum = [0.0_f64; 3];

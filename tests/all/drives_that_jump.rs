@@ -1,5 +1,5 @@
-//! Drives with kinks and jumps: a jump of the rate is an impulse with a known energy, a jump of the
-//! position is refused with an error. Rows at a break time show the values just before it.
+//! Drives with kinks and jumps: a jump of the rate is an impulse with a known energy, and a jump of
+//! the position is rejected with an error. Rows at a break time contain the values just before it.
 
 use std::ops::ControlFlow;
 
@@ -15,7 +15,7 @@ use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Start
 const MASS: f64 = 2.0;
 const INERTIA: f64 = 0.3;
 
-/// A wheel on a pin, driven by angle.
+/// A wheel on a pin with a driven angle.
 fn wheel(motion: Function) -> PreparedMechanism {
     let d = Description {
         name: "wheel".into(),
@@ -50,7 +50,7 @@ const METHODS: [Method; 3] = [Method::Dop853, Method::Dopri5, Method::Radau5];
 
 #[test]
 fn a_jump_of_the_rate_is_an_impulse_with_its_energy() {
-    // 2 rad/s until t = 1, then −1 rad/s: T falls from 0.6 J to 0.15 J.
+    // The rate is 2 rad/s up to t = 1, then −1 rad/s: T falls from 0.6 J to 0.15 J.
     let motion = Function::lines(&[0.0, 1.0, 3.0], &[0.0, 2.0, 0.0]).expect("two lines");
     for method in METHODS {
         let mut rows = Vec::new();
@@ -67,7 +67,7 @@ fn a_jump_of_the_rate_is_an_impulse_with_its_energy() {
         let expected = [
             (0.0, 0.0, 2.0),
             (0.5, 1.0, 2.0),
-            (1.0, 2.0, 2.0), // just before
+            (1.0, 2.0, 2.0), // values just before the break
             (1.5, 1.5, -1.0),
             (2.0, 1.0, -1.0),
         ];
@@ -91,8 +91,8 @@ fn a_jump_of_the_rate_is_an_impulse_with_its_energy() {
     }
 }
 
-/// A wheel with its centre off the pin, driven at 2 rad/s and from t = 1 at −1 rad/s, on one pin or
-/// on two at one place.
+/// A wheel with an eccentric centre is driven at 2 rad/s and from t = 1 at −1 rad/s, on one pin or
+/// on two coincident pins.
 fn eccentric(pins: usize) -> PreparedMechanism {
     let both = [BodyRef::Ground, BodyRef::Body(0)];
     let mut d = Description {
@@ -124,7 +124,7 @@ fn eccentric(pins: usize) -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
 }
 
-/// The impulse of the run: for each joint and drive its components.
+/// Returns the components of the impulse of the run for each joint and drive.
 fn impulses(prepared: &PreparedMechanism) -> Vec<Vec<(&'static str, Option<f64>, &'static str)>> {
     let options = MotionOptions::to(2.0);
     let summary = simulate(prepared, &options, |_| Ok(ControlFlow::Continue(())));
@@ -145,9 +145,9 @@ fn is_close(found: Option<f64>, expected: f64) -> bool {
     found.is_some_and(|found| (found - expected).abs() < 1e-9)
 }
 
-/// The rate jumps by −3 rad/s where the wheel has turned by 2 rad: the centre, 0.5 m off the pin,
-/// by −1.5 m/s across the arm, the moment of momentum about the pin by −3·(0.3 + 2·0.25) N·m·s. The
-/// ground has the opposite of both.
+/// The rate jumps by −3 rad/s after a rotation of 2 rad. The velocity of the centre, 0.5 m off the
+/// pin, jumps by −1.5 m/s across the arm. The angular momentum about the pin jumps by −3·(0.3 +
+/// 2·0.25) N·m·s. The impulses on the ground have the opposite sign.
 #[test]
 fn an_impulse_has_components_with_verdicts() {
     let (s, c) = 2f64.sin_cos();
@@ -168,7 +168,8 @@ fn an_impulse_has_components_with_verdicts() {
     );
 }
 
-/// Two pins at one place share the impulse in any way; the motor has its own.
+/// Two coincident pins share the impulse in an undetermined way; the impulse of the motor is
+/// unique.
 #[test]
 fn an_impulse_that_is_not_unique_has_no_number() {
     let found = impulses(&eccentric(2));
@@ -213,7 +214,7 @@ fn a_jump_of_the_position_is_refused_with_the_drive_and_the_time() {
     }
 }
 
-/// A slide that is at rest and moves at 1 m/s from t = 1 on.
+/// A slide is at rest and moves at 1 m/s from t = 1 on.
 #[test]
 fn a_start_at_once_takes_half_m_v_squared() {
     let motion = Function::lines(&[0.0, 1.0, 2.0], &[0.0, 0.0, 1.0]).expect("a kink");
@@ -254,7 +255,7 @@ fn a_start_at_once_takes_half_m_v_squared() {
     assert!((v - 1.0).abs() < 1e-12);
     let kinds: Vec<EventKind> = summary.events.iter().map(|e| e.kind).collect();
     assert_eq!(kinds, [EventKind::Impulse]);
-    // From rest to 1 m/s.
+    // The velocity jumps from zero to 1 m/s.
     assert!(
         summary.events[0].text.contains("1.000000e0 J"),
         "{:?}",
@@ -262,7 +263,7 @@ fn a_start_at_once_takes_half_m_v_squared() {
     );
 }
 
-/// Smooth steps from rest: rates of 1e-32 after the break times are not jumps.
+/// The drive has smooth steps from rest: rates of 1e-32 after the break times are not jumps.
 #[test]
 fn smooth_steps_are_no_jumps() {
     let steps = Function::steps(0.0, &[[1.0, 2.0, 0.5], [2.0, 2.5, 1.0]]).expect("two steps");

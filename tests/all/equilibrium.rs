@@ -1,5 +1,5 @@
-//! Places of rest against closed forms, bisection, and potentials that are minimised here without
-//! any stiffness; and starts that are written there.
+//! Compares equilibria with closed forms, with bisection, and with minima of potentials that the
+//! test computes without any stiffness; also tests the scenes that start there.
 
 use std::f64::consts::PI;
 
@@ -23,8 +23,8 @@ fn study(text: &str) -> Study {
     study.unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-/// The place of rest, and the start that is written there: it is read, stays at rest in a run if
-/// it is stable, and may be linearised.
+/// Returns the equilibrium, and the scene that starts there: the scene is read, stays at rest in a
+/// run if it is stable, and may be linearised.
 fn rest(text: &str) -> (Equilibrium, Study) {
     rest_of(text, false)
 }
@@ -48,7 +48,7 @@ fn rest_of(text: &str, stable: bool) -> (Equilibrium, Study) {
     if found.stability == RestStability::Stable {
         let rows = read.motion(&MotionOptions::to(1.0));
         let run = rows.unwrap_or_else(|e| panic!("{e}\n{written}"));
-        // Without a weight both energies are roundings.
+        // Without a weight both energies are rounding errors.
         let balance = run.summary.energy_balance;
         assert!(!text.contains("gravity") || balance < 1e-6, "{balance:e}");
         let last = &run.rows.last().expect("an end").bodies;
@@ -58,7 +58,7 @@ fn rest_of(text: &str, stable: bool) -> (Equilibrium, Study) {
                 .iter()
                 .filter(|(what, _)| what.starts_with(['v', 'w', 'o']))
             {
-                // The quaternion has a w of its own.
+                // The quaternion also has a component w.
                 assert!(what == "w" || x.abs() < 1e-9, "{name}.{what} = {x:e}");
             }
         }
@@ -74,7 +74,7 @@ fn refused(text: &str) -> EquilibriumError {
     }
 }
 
-/// The zero of a function between two places of different sign.
+/// Finds the zero of a function between two points with different signs.
 fn bisected(f: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> f64 {
     let sign = f(low).signum();
     assert!(sign != f(high).signum());
@@ -89,7 +89,7 @@ fn bisected(f: impl Fn(f64) -> f64, (mut low, mut high): (f64, f64)) -> f64 {
     0.5 * (low + high)
 }
 
-/// The least value of a function, one coordinate after the other with shrinking steps.
+/// Finds the minimum of a function, one coordinate after the other with decreasing steps.
 fn minimised<const N: usize>(f: impl Fn(&[f64; N]) -> f64, mut x: [f64; N]) -> [f64; N] {
     let mut step = 0.1;
     while step > 1e-12 {
@@ -119,7 +119,7 @@ fn pendulum(x: f64, y: f64, more: &str) -> String {
     )
 }
 
-/// A horizontal rod on a torsion spring that is free there: k·φ = m·g·l·cos φ.
+/// A horizontal rod on a torsion spring that is unstressed there: k·φ = m·g·l·cos φ.
 #[test]
 fn a_pendulum_on_a_torsion_spring_leans_as_bisection_says() {
     let spring = "force = [{ name = \"spring\", type = \"torsion-spring-damper\", \
@@ -131,7 +131,7 @@ fn a_pendulum_on_a_torsion_spring_leans_as_bisection_says() {
     assert!(found.residual < 1e-15);
 }
 
-/// At a quarter turn the weight is an extremum, so its torque does not change at first.
+/// At a quarter turn the torque of the weight is extreme, so it does not change at first order.
 #[test]
 fn a_horizontal_pendulum_falls() {
     let (found, there) = rest(&pendulum(0.5, 0.0, ""));
@@ -141,8 +141,8 @@ fn a_horizontal_pendulum_falls() {
     assert!((pin.get("Fy").unwrap() + 2.0 * G).abs() < 1e-13);
 }
 
-/// Upright to a thousandth it falls; exactly upright it rests and is not stable, until it is
-/// pushed. Of a chain of two, both links fall.
+/// A pendulum that is upright to a thousandth falls. An exactly upright pendulum is in unstable
+/// equilibrium until it is perturbed. In a chain of two links, both links fall.
 #[test]
 fn a_push_lets_an_upright_pendulum_fall() {
     let (found, _) = rest(&pendulum(1e-3, 1.0, ""));
@@ -173,11 +173,12 @@ joint = [{{ name = \"A\", type = \"revolute\", bodies = [\"ground\", \"a\"], at 
     );
 }
 
-/// Three links of one length between two supports on one level: the arch as described is a maximum
-/// of the potential, its reflection the minimum.
+/// Three links of one length between two supports at the same height: the described arch is a
+/// maximum of the potential, and its reflection is the minimum.
 #[test]
 fn a_chain_of_three_links_hangs_between_two_supports() {
-    // Links of length 1 from (0, 0) to (2, 0), the middle one level: cos a + 1 + cos a = 2.
+    // Links of length 1 lead from (0, 0) to (2, 0), with a horizontal middle link: cos a + 1 + cos
+    // a = 2.
     let (low, high) = (0.0, 0.8660254037844386);
     let text = format!(
         "scene = {{ name = \"chain\", space = \"plane\", gravity = [0.0, -{G}] }}
@@ -192,7 +193,7 @@ joint = [{{ name = \"A\", type = \"revolute\", bodies = [\"ground\", \"a\"], at 
         up_angle = PI / 3.0,
         down_angle = -PI / 3.0,
     );
-    // As described the chain is an arch, which is not stable.
+    // The described chain is an arch, which is unstable.
     let (arch, _) = rest(&text);
     assert_eq!(
         (arch.stability, arch.falling.len()),
@@ -208,14 +209,15 @@ joint = [{{ name = \"A\", type = \"revolute\", bodies = [\"ground\", \"a\"], at 
     }
 }
 
-/// Four unequal links: the potential of two free angles is minimised here without derivatives, the
-/// other two follow from the last support.
+/// Four unequal links: the test minimises the potential of two free angles without derivatives, and
+/// the other two angles follow from the last support.
 #[test]
 fn a_chain_of_four_unequal_links_hangs_as_its_least_potential_says() {
     let lengths = [0.7, 0.9, 0.6, 0.8];
     let masses = [1.0, 3.0, 0.5, 2.0];
     let end = [1.8, 0.3];
-    // Ends of the links for the first two angles; the last two links are a triangle that hangs.
+    // Computes the ends of the links for the first two angles; the last two links form a hanging
+    // triangle.
     let places = |[a, b]: &[f64; 2]| -> Option<[[f64; 2]; 5]> {
         let p1 = [lengths[0] * a.cos(), lengths[0] * a.sin()];
         let p2 = [p1[0] + lengths[1] * b.cos(), p1[1] + lengths[1] * b.sin()];
@@ -273,7 +275,7 @@ fn a_chain_of_four_unequal_links_hangs_as_its_least_potential_says() {
     for k in 0..4 {
         for axis in 0..2 {
             let exact = 0.5 * (least[k][axis] + least[k + 1][axis]);
-            // A minimum is known to the root of rounding.
+            // A minimum is accurate to the square root of the rounding error.
             assert!(
                 (found.q[3 * k + axis] - exact).abs() < 3e-7,
                 "b{k}: {:?}",
@@ -283,7 +285,8 @@ fn a_chain_of_four_unequal_links_hangs_as_its_least_potential_says() {
     }
 }
 
-/// A slider-crank whose slider is pulled by a spring: the least potential over the crank's angle.
+/// A spring pulls the slider of a slider-crank: the test minimises the potential over the angle of
+/// the crank.
 #[test]
 fn a_slider_crank_on_a_spring_rests_where_its_potential_is_least() {
     let (r, l, k): (f64, f64, f64) = (0.5, 1.2, 40.0);
@@ -308,7 +311,7 @@ force = [{{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \
     );
     let (found, _) = rest(&text);
     let slope = |a: f64| {
-        // dV/da: weights, then the spring.
+        // The derivative dV/da has the terms of the weights, then that of the spring.
         let dx = -r * a.sin() - r * r * a.sin() * a.cos() / (l * l - (r * a.sin()).powi(2)).sqrt();
         let tension = k * (3.0 - slider(a) - 1.6);
         (3.0 + 2.0) * G * 0.5 * r * a.cos() - tension * dx
@@ -319,7 +322,8 @@ force = [{{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \
     assert_eq!(found.stability, RestStability::Stable);
 }
 
-/// A mass between two springs that form a V: by symmetry one equation for its height.
+/// A mass hangs between two springs that form a V: by symmetry there is one equation for its
+/// height.
 #[test]
 fn a_ball_in_a_v_of_springs_sinks_as_bisection_says() {
     let text = format!(
@@ -338,13 +342,13 @@ force = [
     let exact = bisected(pull, (-2.0, 0.0));
     assert!((found.q[2] - exact).abs() < 1e-14, "{:?} {exact}", found.q);
     assert!(found.q[0].abs() < 1e-14 && found.q[1].abs() < 1e-14);
-    // The ball turns freely, and nothing turns it.
+    // The ball turns freely, and no torque acts on it.
     assert_eq!(found.stability, RestStability::Idle);
     assert_eq!(found.idle.len(), 3, "{:?}", found.idle);
     assert_eq!(&found.q[3..], &[1.0, 0.0, 0.0, 0.0]);
 }
 
-/// A double pendulum in space, tilted out of every plane, hangs straight down.
+/// A double pendulum in space is tilted out of every plane and hangs straight down at equilibrium.
 #[test]
 fn a_tilted_double_pendulum_in_space_hangs_straight_down() {
     let text = format!(
@@ -369,7 +373,7 @@ joint = [
             assert!((x - exact[axis]).abs() < 1e-13, "{:?}", found.q);
         }
     }
-    // Each body turns about the vertical freely.
+    // Each body turns freely about the vertical.
     assert_eq!(
         (found.stability, found.idle.len()),
         (RestStability::Idle, 2)
@@ -379,8 +383,8 @@ joint = [
     assert!((pin.get("Fz").unwrap() + 3.0 * G).abs() < 1e-12);
 }
 
-/// A plate on three springs: at rest the forces that the test computes from the pose balance the
-/// weight, and their moments vanish.
+/// A plate on three springs: at equilibrium the forces that the test computes from the pose balance
+/// the weight, and their moments vanish.
 #[test]
 fn a_plate_on_three_springs_is_in_balance() {
     let feet: [[f64; 2]; 3] = [[1.0, 0.0], [-0.6, 0.8], [-0.5, -0.9]];
@@ -389,7 +393,7 @@ fn a_plate_on_three_springs_is_in_balance() {
         "scene = {{ name = \"plate\", space = \"spatial\", gravity = [0.0, 0.0, -{G}] }}
 body = [{{ name = \"plate\", mass = 10.0, inertia = [1.0, 1.0, 2.0], position = [0.0, 0.0, 1.0] }}]\nforce = [\n"
     );
-    // Each foot stands on a spring to the ground below and on one to the side.
+    // Each foot has a vertical spring to the ground below and a lateral spring.
     for (k, ([x, y], c)) in feet.iter().zip(stiffness).enumerate() {
         for (name, [px, py, pz], free) in [
             ("down", [*x, *y, 0.0], 1.0),
@@ -425,11 +429,11 @@ body = [{{ name = \"plate\", mass = 10.0, inertia = [1.0, 1.0, 2.0], position = 
     assert!(found.q[2] < 0.97, "it sinks: {:?}", found.q);
 }
 
-/// A spatial four-bar R S S R with heavy cranks: the potential over the angle of the first crank;
-/// the other follows from the length of the coupler.
+/// A spatial four-bar R S S R has heavy cranks. The potential is a function of the angle of the
+/// first crank; the other angle follows from the length of the coupler.
 #[test]
 fn a_heavy_spatial_four_bar_rests_where_its_potential_is_least() {
-    // The first crank turns about x, the second about y.
+    // The first crank rotates about x, the second about y.
     let (a, b) = (0.4, 0.7);
     let first = |t: f64| [0.0, a * t.cos(), a * t.sin()];
     let second = |s: f64| [1.0 + b * s.cos(), 0.5, b * s.sin()];
@@ -462,7 +466,8 @@ joint = [
     );
     let (found, _) = rest(&text);
     assert_eq!(found.stability, RestStability::Stable);
-    // Angles of the cranks at the place that was found, and the slope of the potential there.
+    // The test computes the angles of the cranks at the equilibrium, and the slope of the potential
+    // there.
     let t = found.q[2].atan2(found.q[1]);
     let s = found.q[9].atan2(found.q[7] - 1.0);
     assert!((distance(first(t), second(s)) - length).abs() < 1e-14);
@@ -476,8 +481,8 @@ joint = [
     assert!((t - exact).abs() < 1e-9, "{t} {exact}");
 }
 
-/// Three parallel cranks of one length carry a coupler: one row is redundant, the coupler hangs as
-/// low as it can, and the reactions of its pins are not unique.
+/// Three parallel cranks of one length carry a coupler: one row is redundant, the coupler hangs in
+/// its lowest position, and the reactions of its pins are not unique.
 #[test]
 fn an_overconstrained_parallelogram_hangs() {
     let (x, y) = (0.8, 0.6);
@@ -518,8 +523,8 @@ body = [{{ name = \"beam\", mass = 4.0, inertia = 0.5, position = [{:?}, {y:?}] 
     );
 }
 
-/// A sledge on a knife edge is pulled sideways by a spring: along the edge forces balance, across
-/// it the edge carries the rest, and another way would lead elsewhere.
+/// A spring pulls a sledge on a knife edge sideways. Along the edge the forces balance, and across
+/// it the edge carries the remaining force. A different path would end at a different equilibrium.
 #[test]
 fn a_knife_edge_rests_where_its_way_has_led() {
     let text = "
@@ -555,10 +560,10 @@ body = [{ name = \"stone\", mass = 2.0, inertia = 1.0 }]\n",
     );
     assert_eq!(
         falls.to_string(),
-        "there is no rest: `stone` slides along (0, −1), pushed with 20 N by the weight, wherever it goes; \
-         add what resists it, or hold it"
+        "there is no equilibrium: `stone` slides along (0, −1), pushed with 20 N by the weight at every position; \
+         add a force that resists the motion, or lock it"
     );
-    // Beside a mass on a spring, which finds its place.
+    // The scene also contains a mass on a spring, which has an equilibrium.
     let motor = "
 scene = { name = \"axle\", space = \"plane\", gravity = [0.0, -10.0] }
 body = [{ name = \"wheel\", mass = 2.0, inertia = 1.0 }, { name = \"pan\", mass = 2.0, inertia = 1.0, position = [2.0, 1.0] }]
@@ -569,15 +574,15 @@ force = [{ name = \"motor\", type = \"torque\", body = \"wheel\", torque = 0.3 }
 ";
     let turns = refused(motor).to_string();
     let expected =
-        "there is no rest: `wheel` turns about `axle`, pushed with 0.3 N·m by `motor`, wherever";
+        "there is no equilibrium: `wheel` turns about `axle`, pushed with 0.3 N·m by `motor` at";
     assert!(turns.starts_with(expected), "{turns}");
-    // Without the motor the wheel stays where it is.
+    // Without the motor the wheel does not move.
     let (found, _) = rest(&motor.replace("torque = 0.3", "torque = 0.0"));
     assert_eq!(found.idle, ["`wheel` turns about `axle`"]);
     assert!((found.q[4] - 0.8).abs() < 1e-13);
 }
 
-/// A base and an arm on it, away from its axis of mass: nothing holds them, and the arm swings.
+/// A base carries an arm off its mass axis: nothing supports them, and the arm swings.
 #[test]
 fn what_falls_freely_is_named_with_its_weight() {
     let robot = |more: &str| {
@@ -593,7 +598,7 @@ joint = [{{ name = \"shoulder\", type = \"revolute\", bodies = [\"base\", \"arm\
         EquilibriumError::Pushed(pushed) => pushed,
         other => panic!("{other}"),
     };
-    // 8.4 kg.
+    // The total mass is 8.4 kg.
     let [pushed] = &fall("")[..] else { panic!() };
     assert_eq!(
         pushed.motion,
@@ -604,7 +609,7 @@ joint = [{{ name = \"shoulder\", type = \"revolute\", bodies = [\"base\", \"arm\
         (pushed.unit, &pushed.by[..]),
         ("N", &["the weight".to_owned()][..])
     );
-    // A thrust along z that is too weak, and one to the side.
+    // One thrust along z is too weak, and one acts sideways.
     let thrust = |force: &str| {
         format!(
             "force = [{{ name = \"thrust\", type = \"point-force\", body = \"base\", point = [0.0, 0.0, 0.0], force = {force} }}]"
@@ -618,16 +623,17 @@ joint = [{{ name = \"shoulder\", type = \"revolute\", bodies = [\"base\", \"arm\
         panic!()
     };
     assert!((pushed.force - 5.0).abs() < 1e-12, "{pushed:?}");
-    // A spring carries it, and a thrust that carries the weight turns nothing away: no fall.
+    // A spring carries the robot, and a thrust that carries the weight has no turning effect: there
+    // is no fall.
     let spring = "force = [{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"base\"], at = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]], stiffness = 1000.0, damping = 0.0 }]";
     let (found, _) = rest(&robot(spring));
     assert!((found.q[2] + 0.084).abs() < 1e-9, "{:?}", found.q);
-    // One that carries the weight leaves it where it is, and the arm hangs below.
+    // A thrust that carries the weight keeps the base at its position, and the arm hangs below.
     let (found, _) = rest(&robot(&thrust("[0.0, 0.0, 84.0]")));
     assert!(found.residual < 1e-9, "{found:?}");
 }
 
-/// A torque above m·g·l turns the pendulum for ever, one below does not.
+/// A torque above m·g·l rotates the pendulum forever; a smaller torque does not.
 #[test]
 fn a_motor_that_is_too_strong_finds_no_rest() {
     let motor = |torque: f64| {
@@ -675,7 +681,8 @@ fn a_drive_that_moves_at_the_start_is_refused_by_name() {
         matches!(&error, EquilibriumError::Prescribed { name, .. } if name == "motor"),
         "{error}"
     );
-    // The derivative of a sine at a quarter turn is a rounding; it accelerates at once.
+    // The derivative of a sine at a quarter turn is a rounding error; the wheel accelerates
+    // immediately.
     let text =
         driven("{ type = \"harmonic\", amplitude = 0.5, omega = 2.0, phase = 1.5707963267948966 }");
     let (found, there) = {
@@ -687,7 +694,7 @@ fn a_drive_that_moves_at_the_start_is_refused_by_name() {
         (RestStability::Immovable, 0)
     );
     assert_eq!(found.moving_on, ["motor"]);
-    // The motor would turn at −0.5·2² rad/s²; at rest it carries the weight alone: m·g·x.
+    // The motor would accelerate at −0.5·2² rad/s²; at rest it carries only the weight: m·g·x.
     let torque = |study: &Study| {
         let motion = study.motion(&MotionOptions::to(0.0)).expect("begins");
         motion.rows[0]
@@ -701,9 +708,9 @@ fn a_drive_that_moves_at_the_start_is_refused_by_name() {
     let inertia = (torque(&there) - torque(&there.held_at(0.0))).abs() / 2.0;
     let held = torque(&there.held_at(0.0));
     assert!((held.abs() - 2.0 * G * 0.3).abs() < 1e-12, "{held}");
-    // J + m·l², with l = 0.5 m.
+    // The moment of inertia is J + m·l², with l = 0.5 m.
     assert!((inertia - (0.1 + 2.0 * 0.25)).abs() < 1e-12, "{inertia}");
-    // Small motions about it are those of the place held: none.
+    // With locked drives there are no small motions about the equilibrium.
     let small = there
         .linearise(0.0, &LineariseOptions::default())
         .expect("at rest");
@@ -714,7 +721,7 @@ fn a_drive_that_moves_at_the_start_is_refused_by_name() {
     assert_eq!(there.prepared.q, study(&text).prepared.q);
 }
 
-/// Two springs of 1e9 N pull against each other, and a weight of 1 N between them.
+/// Two springs of 1e9 N pull against each other, with a weight of 1 N between them.
 #[test]
 fn forces_that_cancel_are_balanced_to_their_rounding() {
     let text = "
@@ -730,7 +737,7 @@ force = [
     assert!(found.residual < 1e-13, "{:e}", found.residual);
 }
 
-/// A spring of 2 mm on a bar of 10 m carries the weight of its end: 1 N/mm.
+/// A spring of 2 mm on a bar of 10 m carries the weight of the end of the bar: 1 N/mm.
 #[test]
 fn a_short_spring_on_a_long_bar_is_stiff_enough() {
     let text = format!(
@@ -739,10 +746,10 @@ body = [{{ name = \"bar\", mass = 0.1, inertia = 1.0, position = [5.0, 0.0] }}]
 joint = [{{ name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"bar\"], at = [0.0, 0.0] }}]
 force = [{{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"bar\"], at = [[10.0, 0.1], [10.0, 0.0]], stiffness = 1000.0, damping = 0.0 }}]\n"
     );
-    // Its linearisation takes longer steps and refuses the spring.
+    // Its linearisation takes longer steps and rejects the spring.
     let found = study(&text).equilibrium(&EquilibriumOptions::default());
     let (found, _) = found.unwrap_or_else(|e| panic!("{e}"));
-    // Its end is at 10·(cos φ, sin φ); moments about the pin.
+    // The end of the bar is at 10·(cos φ, sin φ); moments are taken about the pin.
     let moment = |phi: f64| {
         let [dx, dy] = [10.0 - 10.0 * phi.cos(), 0.1 - 10.0 * phi.sin()];
         let l = dx.hypot(dy);
@@ -754,7 +761,7 @@ force = [{{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \
     assert!(found.steps < 12, "{}", found.steps);
 }
 
-/// 1e-6 N/m beside 1e3 N/m.
+/// A spring of 1e-6 N/m acts in addition to one of 1e3 N/m.
 #[test]
 fn a_soft_spring_beside_a_stiff_one_still_counts() {
     let text = "
@@ -776,8 +783,8 @@ force = [{ name = \"both\", type = \"bushing\", bodies = [\"ground\", \"bead\"],
     );
 }
 
-/// A force that turns with its rod has no potential: with a torsion spring, φ = F·l/k, whatever is
-/// said of stability.
+/// A force that rotates with its rod has no potential: with a torsion spring, φ = F·l/k, for any
+/// result on stability.
 #[test]
 fn a_follower_force_is_not_judged() {
     let text = "
@@ -790,15 +797,15 @@ force = [{ name = \"sA\", type = \"torsion-spring-damper\", bodies = [\"ground\"
 ";
     let (found, _) = rest(text);
     assert_eq!(found.stability, RestStability::NoPotential);
-    // sB carries 1 N on 1 m; sA the moment of the same force about A.
+    // The spring sB carries 1 N on 1 m; sA carries the moment of the same force about A.
     let relative = found.q[5] - found.q[2];
     assert!((relative - 0.1).abs() < 1e-13, "{:?}", found.q);
     let about_a = 1.0 + relative.cos();
     assert!((10.0 * found.q[2] - about_a).abs() < 1e-12, "{:?}", found.q);
 }
 
-/// From a configuration in which all links are in line, where the rank is less, the search goes on
-/// with the rank of the place that it has reached.
+/// The search starts at a configuration with all links in line, which has a lower rank. It
+/// continues with the rank of the configuration that it reaches.
 #[test]
 fn a_search_from_a_singular_start_ends_at_a_regular_place() {
     let text = format!(
@@ -814,7 +821,7 @@ joint = [{{ name = \"A\", type = \"revolute\", bodies = [\"ground\", \"a\"], at 
     let flat = study(&text);
     assert_eq!(flat.prepared.decision.redundancy, 1);
     match flat.equilibrium(&EquilibriumOptions::default()) {
-        // A parallelogram of cranks of 1 m hangs, or folds: its coupler is level or crossed.
+        // A parallelogram of cranks of 1 m hangs, or folds: its coupler is horizontal or crossed.
         Ok((found, there)) => {
             assert!(found.residual < 1e-12);
             assert_eq!(there.prepared.decision.redundancy, 0);
@@ -823,8 +830,8 @@ joint = [{{ name = \"A\", type = \"revolute\", bodies = [\"ground\", \"a\"], at 
     }
 }
 
-/// What is written: joints stay where they are on their bodies, gears and springs keep their
-/// zeros, and comments stay.
+/// The written scene keeps joints at their points on the bodies, the zeros of gears and springs,
+/// and comments.
 #[test]
 fn what_is_written_starts_at_rest_and_stays_there() {
     let text = "
@@ -879,7 +886,7 @@ bodies = [\"ground\", \"pinion\"]
 stiffness = \"3 N*m\"
 damping = \"0.1 N*m*s\"
 ";
-    // m·g·(r/4)·cos φ = −2·k·2·φ for the drum.
+    // For the drum, m·g·(r/4)·cos φ = −2·k·2·φ.
     let (found, read) = rest(text);
     let exact = bisected(
         |phi: f64| 5.0 * G * 0.025 * phi.cos() + 12.0 * phi,
@@ -897,7 +904,7 @@ damping = \"0.1 N*m*s\"
         assert!(written.contains(kept), "{kept}\n{written}");
     }
     assert_eq!(found.stability, RestStability::Stable);
-    // From there nothing has to be moved, and what is written again is the same.
+    // From that start no correction is needed, and a second written scene is the same.
     let (again, _) = read
         .equilibrium(&EquilibriumOptions::default())
         .expect("rests");
@@ -906,7 +913,7 @@ damping = \"0.1 N*m*s\"
     assert_eq!(layout.rows(), 5);
 }
 
-/// In space a fixed joint and a spring keep what they were described with.
+/// In space a fixed joint and a spring keep their described values.
 #[test]
 fn a_start_elsewhere_in_space_keeps_places_and_zeros() {
     let text = format!(
@@ -922,8 +929,8 @@ joint = [
 force = [{{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"arm\"], at = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], stiffness = 300.0, damping = 1.0 }}]\n"
     );
     let (found, read) = rest(&text);
-    // Centres of mass are at x = 0.5 and 1, and the spring is free at its length √2 as described:
-    // k·(l − √2)/l = (2·0.5 + 1)·g with l² = 2 + 2·sin φ.
+    // Centres of mass are at x = 0.5 and 1, and the spring is unstressed at its described length
+    // √2. The balance is k·(l − √2)/l = (2·0.5 + 1)·g with l² = 2 + 2·sin φ.
     let l = 2f64.sqrt() / (1.0 - 2.0 * G / 300.0);
     let exact = (0.5 * l * l - 1.0).asin();
     let phi = (-found.q[2]).atan2(found.q[0]);
@@ -953,7 +960,8 @@ fn starts_elsewhere_are_checked() {
             &RunOptions::default(),
         )
     };
-    // What is left out is as described; what misses a little is corrected, what misses much is not.
+    // Omitted values are those of the description; a small violation is corrected, a large one is
+    // not.
     let quarter = "{ position = [0.0, 1.0], angle = 1.5707963267948966 }";
     let q = bar(quarter).unwrap_or_else(|e| panic!("{e}")).prepared.q;
     assert!((q[1] - 1.0).abs() < 1e-15 && q[2] == 0.5 * PI, "{q:?}");

@@ -1,12 +1,12 @@
-//! Tests of the exact reference: matrices with results derived by hand, and every verdict by two
-//! derivations.
+//! Tests the exact reference with matrices whose results were derived by hand, and every verdict by
+//! two derivations.
 
 use exact::Exact;
 use tests::numbers::Numbers;
 
 #[test]
 fn by_hand() {
-    // Rows 0 to 2: two forces along x and their sum; rows 3 and 4 are independent of all others;
+    // Rows 0 to 2 are two forces along x and their sum; rows 3 and 4 are independent of all others;
     // row 5 is empty.
     let exact = Exact::of(&[
         [1.0, 0.0, 0.0],
@@ -26,8 +26,8 @@ fn by_hand() {
     assert!(!exact.combination_is_unique(&[4.0, 1.0, 5.0, 7.0, 0.0, 1.0]));
 }
 
-/// The `f64` nearest to 0.1 and 0.2 do not sum to the one nearest to 0.3; twice that of 0.1 is
-/// exactly that of 0.2.
+/// The `f64` nearest to 0.1 and 0.2 do not sum to the one nearest to 0.3; twice the value for 0.1
+/// is exactly the value for 0.2.
 #[test]
 fn data_as_read() {
     let thirds = Exact::of(&[[0.1, 1.0, 0.0], [0.2, 1.0, 1.0], [0.3, 2.0, 1.0]]);
@@ -36,9 +36,9 @@ fn data_as_read() {
     assert_eq!(half.rank(), 2);
 }
 
-/// The reaction of X is unique if and only if `rank C = rank C_X + rank C_rest`; a row is unique if
-/// and only if the rank decreases without it; `ℓᵀ·λ` is unique if and only if ℓ as an additional
-/// column does not change the rank.
+/// The reaction of X is unique if and only if `rank C = rank C_X + rank C_rest`. A row is unique if
+/// and only if the rank decreases without it. The value of `ℓᵀ·λ` is unique if and only if ℓ as an
+/// additional column does not change the rank.
 #[test]
 fn two_derivations_agree() {
     let mut numbers = Numbers::new(7);

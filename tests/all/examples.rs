@@ -1,5 +1,5 @@
-//! The gallery in `examples/`: each scene, its page, and the table of all. The expected values were
-//! derived by hand.
+//! Checks the gallery in `examples/`: each scene, its page, and the table of all scenes. The
+//! expected values were derived by hand.
 
 mod answers;
 mod fixed;
@@ -22,7 +22,7 @@ use pfaff::{RunOptions, Study};
 const TIGHT: f64 = 1e-12;
 
 /// Largest difference of a run with [`TIGHT`] from a closed form, relative to the largest number
-/// involved: the error of the run, not rounding.
+/// involved; it is the error of the run and not of rounding.
 const CLOSE: f64 = 1e-9;
 
 fn root() -> &'static Path {
@@ -31,7 +31,8 @@ fn root() -> &'static Path {
         .expect("tests/ lies in the root")
 }
 
-/// The path of the scene of an example. That of the published robot is in its own crate.
+/// Returns the path of the scene of an example. The scene of the published robot is in its own
+/// crate.
 pub(super) fn scene(name: &str) -> PathBuf {
     match name {
         "robot-trolley" => root().join("crates/robot-trolley/robot-trolley.toml"),
@@ -47,7 +48,7 @@ fn page(name: &str) -> String {
     read(&root().join(format!("examples/{name}.md")))
 }
 
-/// A text without its line ends.
+/// Returns a text without its line ends.
 fn in_one_line(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     words.join(" ")
@@ -58,7 +59,7 @@ fn study(name: &str, text: &str) -> Study {
         .unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// Names of the files in `examples/` with this ending.
+/// Returns the names of the files in `examples/` with this ending.
 pub(super) fn files(ending: &str) -> BTreeSet<String> {
     let entries = fs::read_dir(root().join("examples")).expect("examples/ exists");
     entries
@@ -70,7 +71,7 @@ pub(super) fn files(ending: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// Rows of output of a scene, with names.
+/// Output rows of a scene, with names.
 struct Run {
     bodies: Vec<String>,
     joints: Vec<String>,
@@ -132,32 +133,32 @@ impl Run {
         3 * at.unwrap_or_else(|| panic!("no body `{body}`"))
     }
 
-    /// x, y and angle.
+    /// Returns x, y and angle.
     fn pose(&self, row: &Row, body: &str) -> [f64; 3] {
         let k = self.start(body);
         [row.q[k], row.q[k + 1], row.q[k + 2]]
     }
 
-    /// Rates of x, y and angle.
+    /// Returns the rates of x, y and angle.
     fn rate(&self, row: &Row, body: &str) -> [f64; 3] {
         let k = self.start(body);
         [row.v[k], row.v[k + 1], row.v[k + 2]]
     }
 
-    /// The position of a point of a body; `s` is given in its frame.
+    /// Returns the position of a point of a body; `s` is given in its frame.
     fn point(&self, row: &Row, body: &str, s: [f64; 2]) -> [f64; 2] {
         let [x, y, angle] = self.pose(row, body);
         let (sin, cos) = angle.sin_cos();
         [x + cos * s[0] - sin * s[1], y + sin * s[0] + cos * s[1]]
     }
 
-    /// Fx, Fy and T on the first body.
+    /// Returns Fx, Fy and T on the first body.
     fn reaction(&self, row: &Row, joint: &str) -> [f64; 3] {
         let r = &row.reactions[self.joint(joint)];
         [r.force[0], r.force[1], r.torque[2]]
     }
 
-    /// The named component: N of a knife edge, or the component of a drive.
+    /// Returns the named component: N of a knife edge, or the component of a drive.
     fn component(&self, row: &Row, joint: &str) -> f64 {
         let component = row.reactions[self.joint(joint)].component;
         component.unwrap_or_else(|| panic!("`{joint}` has no named component"))
@@ -188,7 +189,7 @@ fn says(name: &str, number: f64, decimals: usize) {
     );
 }
 
-/// Both files of this mechanism must be equal.
+/// The two files of this mechanism must be equal.
 #[test]
 fn andrews_is_the_file_of_the_suite() {
     let suite = read(&root().join("crates/suite/scenes/andrews.toml"));

@@ -1,4 +1,4 @@
-//! Redundant drives that agree, and ones that contradict each other: in velocities, in
+//! Redundant drives that are consistent, and drives that contradict each other: in velocities, in
 //! accelerations, and at a later time.
 
 use std::f64::consts::FRAC_PI_2;
@@ -27,13 +27,13 @@ fn refused(motions: [Function; 2]) -> Option<Contradiction> {
 #[test]
 fn drives_that_follow_the_same_law_agree() {
     let sin = Function::harmonic(0.3, 2.0, 0.0, 0.0).expect("finite");
-    // Another law with the same velocity and acceleration at t = 0; 0.3·2.0 is rounded.
+    // Another law has the same velocity and acceleration at t = 0; 0.3·2.0 is rounded.
     let law = polynomial(&[0.0, 0.6]);
     for motions in [
         [polynomial(&[0.0, 1.0, 2.0]), polynomial(&[5.0, 1.0, 2.0])],
         [sin.clone(), sin.clone()],
         [sin, law],
-        // At rest, one of them with the rounding of cos(π/2).
+        // The drives are at rest, and one of them has the rounding error of cos(π/2).
         [
             Function::harmonic(1.0, 1e-3, FRAC_PI_2, 0.0).expect("finite"),
             polynomial(&[0.0, 0.0, -0.5e-6]),
@@ -61,8 +61,9 @@ fn drives_that_differ_are_named_with_the_difference() {
     }
 }
 
-/// Near the flat pose the coefficients by which dropped rows depend on kept ones have errors of 1/σ
-/// roundings: no false alarm, and a real difference is still detected.
+/// Near the singular configuration the coefficients by which redundant rows depend on independent
+/// ones have errors of 1/σ roundings. This causes no false alarm, and a real difference is still
+/// detected.
 #[test]
 fn nearly_singular_rows_give_no_false_alarm() {
     for theta in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
@@ -104,7 +105,7 @@ fn a_large_function_of_another_drive_hides_nothing() {
     );
 }
 
-/// Laws that agree in all derivatives at t = 0 and differ later: then positions contradict each
+/// The laws agree in all derivatives at t = 0 and differ later: then positions contradict each
 /// other.
 #[test]
 fn positions_contradict_later() {
@@ -121,7 +122,7 @@ fn positions_contradict_later() {
         m.pose(t, &q, &mut s);
         m.phi(&mut s);
         m.c(&mut s);
-        // The rank is that of C; the dropped row's residual does not affect it.
+        // The rank is that of C; the residual of the redundant row does not affect it.
         s.phi.fill(0.0);
         let all = decide(m, &s, &q).expect("finite");
         let holonomic = decide_holonomic(m, &s, &q).expect("finite");
@@ -141,7 +142,7 @@ fn positions_contradict_later() {
     assert!((one.size - 1e-5).abs() < 1e-9 && one.unit == "rad", "{one}");
 }
 
-/// Two flat cranks rotate in the same or in opposite directions at equal speed; for other
+/// Two horizontal cranks rotate in the same or in opposite directions at equal speed; for other
 /// velocities no motion exists.
 #[test]
 fn velocities_that_cannot_leave_a_flat_pose() {
@@ -157,7 +158,7 @@ fn velocities_that_cannot_leave_a_flat_pose() {
         all: &decision,
         holonomic: &decision,
     };
-    // Tips at speeds v1 and v2 across the line.
+    // The tips move at speeds v1 and v2 across the line.
     let found = |v1: f64, v2: f64| {
         let crank = |v: f64| [0.0, 0.5 * v, v / length];
         let coupler = [0.0, 0.5 * (v1 + v2), (v2 - v1) / pitch];
@@ -165,7 +166,8 @@ fn velocities_that_cannot_leave_a_flat_pose() {
         contradictions(&mechanism, 0.0, &q, &v, ranks).expect("a state")
     };
     assert_eq!(found(1.0, 1.0), []);
-    // (v2 − v1)·[(v2 + v1)/L − (v2 − v1)/d] = 0: the other branch.
+    // The second-order condition (v2 − v1)·[(v2 + v1)/L − (v2 − v1)/d] = 0 describes the other
+    // branch.
     assert_eq!(found(length - pitch, length + pitch), []);
     let wrong = found(1.0, 2.0);
     assert_eq!(wrong.len(), 1);

@@ -1,4 +1,5 @@
-//! Do finite reactions exist where second order excludes a freedom? References are statics by hand.
+//! Tests whether finite reactions exist if the second-order conditions exclude a freedom. The
+//! references are static solutions by hand.
 
 use model::Registry;
 use pfaff::dynamics::MotionOptions;
@@ -12,7 +13,8 @@ fn read(text: &str) -> Study {
     found.unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Two bars of 1 kg between two pins 2·c apart, whose middle hangs lower by `sag`; `more` is added.
+/// Two bars of 1 kg are between two pins 2·c apart, and their middle is lower by `sag`; `more` is
+/// added.
 fn truss(sag: f64, more: &str) -> Study {
     let c = 1.0;
     let angle = (sag / c).atan();
@@ -37,7 +39,7 @@ joint = [
     ))
 }
 
-/// Values of a joint for the choice of least norm.
+/// Returns values of a joint for the choice of least norm.
 fn values(study: &Study, joint: &str) -> Vec<(&'static str, Value)> {
     let start = study.analyse(0.0, None).expect("a start");
     let least = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
@@ -46,8 +48,8 @@ fn values(study: &Study, joint: &str) -> Vec<(&'static str, Value)> {
     own.expect("a joint").components
 }
 
-/// Moments of the left bar about A: `H·sag = m·g·c/2`. H grows without bound, and the vertical part
-/// stays m·g; flat bars have no value at all.
+/// Moments of the left bar about A give `H·sag = m·g·c/2`. H grows without bound, and the vertical
+/// part remains m·g; horizontal bars have no value at all.
 #[test]
 fn a_truss_without_sag_has_no_reactions() {
     for sag in [1e-1, 1e-2, 1e-3] {
@@ -77,7 +79,7 @@ fn a_truss_without_sag_has_no_reactions() {
     }
 }
 
-/// What no joint connects with the truss keeps its number: `−m·g` on the ground.
+/// A reaction without a connection to the truss keeps its value: `−m·g` on the ground.
 #[test]
 fn reactions_of_other_bodies_keep_their_numbers() {
     let found = values(&truss(0.0, ""), "hook");
@@ -85,8 +87,8 @@ fn reactions_of_other_bodies_keep_their_numbers() {
     assert!((vertical.in_solution().expect("finite") + 3.0 * GRAVITY).abs() < 1e-12);
 }
 
-/// Springs that carry the bars leave nothing that pushes: 1 kg at 1/4 of the length of each side,
-/// and the pins carry what is left, m·g/2 each.
+/// Springs that carry the bars leave no resultant load: 1 kg at 1/4 of the length of each side, and
+/// the pins carry the remaining m·g/2 each.
 #[test]
 fn loads_that_cancel_do_not_push() {
     let forces = |share: f64| {
@@ -95,7 +97,7 @@ fn loads_that_cancel_do_not_push() {
             "force = [ {{ name = \"prop\", type = \"point-force\", body = \"left\", point = [0.5, 0.0], force = [0.0, {force}] }} ]"
         )
     };
-    // Both bars together weigh m·g/2 + m·g/2 on the middle.
+    // Together both bars have the weight m·g/2 + m·g/2 on the middle.
     let (_, vertical) = &values(&truss(0.0, &forces(1.0)), "A")[1];
     assert!(
         (vertical.in_solution().expect("finite") + 0.5 * GRAVITY).abs() < 1e-9,
@@ -107,9 +109,9 @@ fn loads_that_cancel_do_not_push() {
     assert_eq!(why.loads, ["gravity", "`prop`"]);
 }
 
-/// Three rods in the plane that meet at the centre of mass hold it, and nothing turns the body
-/// about it: the load in this direction is rounding, whichever way gravity points, and no reason to
-/// refuse.
+/// Three rods in the plane that meet at the centre of mass support it, and no moment acts on the
+/// body about it. The load in this direction is a rounding error, for any direction of gravity, and
+/// not a reason for an error.
 #[test]
 fn rods_that_meet_at_the_centre_of_mass_carry_it() {
     for gravity in [
@@ -135,7 +137,7 @@ joint = [
     }
 }
 
-/// The run is refused before its first row.
+/// The run is rejected before its first row.
 #[test]
 fn a_run_of_an_impossible_motion_is_refused() {
     let study = truss(0.0, "");
@@ -157,7 +159,7 @@ fn a_run_of_an_impossible_motion_is_refused() {
     }
 }
 
-/// A truss on a cart that rolls: whether the loads push along its sag follows from terms of higher
+/// A truss is on a rolling cart: whether the loads push along its sag follows from terms of higher
 /// order, so there is no number.
 #[test]
 fn bodies_that_move_are_undecided() {
@@ -190,8 +192,8 @@ joint = [
     );
 }
 
-/// A bar between two rails whose left end is locked: by a fixed joint, or by a drive that stands
-/// still. A drive that moves takes the bar with it, and the other freedom stays blocked.
+/// A bar between two rails has a locked left end: by a fixed joint, or by a drive at rest. A moving
+/// drive moves the bar with it, and the other freedom remains blocked.
 #[test]
 fn a_locked_drive_is_a_row_like_others() {
     let bar = |lock: &str, drive: &str, velocity: &str| {
@@ -220,7 +222,8 @@ joint = [
         )
     };
     let moving = "{ type = \"constant-rate\", rate = 1.0 }";
-    // Another velocity of the right end violates second order, and no motion begins.
+    // A different velocity of the right end violates the second-order conditions, and no motion
+    // begins.
     let along = ", velocity = [0.0, 1.0]";
     for (study, cannot_move, blocked) in [
         (bar("type = \"fixed\"", "", ""), Some(true), 1),

@@ -1,6 +1,6 @@
 //! Reactions on the first body of a joint by Newton and Euler: free-body diagrams on paper, and M·a
-//! − Q of bodies with only one joint. Gears with every order of bodies and carriers, racks with
-//! both orders, and a joint of three bodies with forces.
+//! − Q of bodies with only one joint. The cases are gears with every order of bodies and carriers,
+//! racks with both orders, and a joint of three bodies with forces.
 
 use std::ops::ControlFlow;
 
@@ -8,11 +8,11 @@ use joints::{Gear, RackAndPinion};
 use model::{BuildError, Mechanism, Reaction, System};
 use pfaff::prelude::*;
 
-/// The numbers below are of size 1 to 30 and result from one factorisation of a few rows.
+/// The numbers below have sizes of 1 to 30 and result from one factorisation of a few rows.
 const ROUNDING: f64 = 1e-11;
 
-/// States of the motion are accurate to the tolerance of the run, the accelerations at them to all
-/// digits: both sides use the same state.
+/// States of the motion are accurate to the tolerance of the run. The accelerations at these states
+/// are accurate to all digits, and both sides use the same state.
 const T_END: f64 = 0.3;
 
 fn close(found: f64, expected: f64, what: &str) {
@@ -72,8 +72,8 @@ fn at_rest(scene: &str, joint: &str) -> [f64; 3] {
     run(&study)[0].reactions[k]
 }
 
-/// Wheels a (2 kg·m²) and b (0.5 kg·m²) and an arm c (3 kg·m²) in bearings of the ground, with a
-/// torque on each.
+/// Wheels a (2 kg·m²) and b (0.5 kg·m²) and an arm c (3 kg·m²) turn in bearings of the ground, with
+/// a torque on each.
 fn wheels(gear: &str, torques: [f64; 3]) -> String {
     let [a, b, c] = torques;
     format!(
@@ -100,8 +100,8 @@ force = [
 }
 
 /// S is the couple of the joint on its second body. Its virtual work vanishes: T·δφ_i + S·δφ_j +
-/// T_c·δφ_c = 0 for δφ_j = n·δφ_i + (1 − n)·δφ_c, hence T = −n·S on the first body and T_c = −(1 −
-/// n)·S on the carrier; the three sum to zero.
+/// T_c·δφ_c = 0 for δφ_j = n·δφ_i + (1 − n)·δφ_c. Therefore T = −n·S acts on the first body and T_c
+/// = −(1 − n)·S on the carrier; the three couples sum to zero.
 #[test]
 fn gears_at_rest_by_hand() {
     let cases: [(&str, [f64; 3], f64, &str); 9] = [
@@ -127,7 +127,7 @@ fn gears_at_rest_by_hand() {
             r#"bodies = ["a", "ground"], ratio = -2.0"#,
             [10.0, 0.0, 0.0],
             -10.0,
-            "the same, told on the wheel",
+            "the same, reported on the wheel",
         ),
         (
             r#"bodies = ["ground", "a"], carrier = "ground", ratio = 0.25"#,
@@ -187,7 +187,8 @@ fn a_body_is_not_its_own_carrier() {
     }
 }
 
-/// A rack of 2 kg in a guide along x and a pinion of 0.25 kg·m² with its centre at P = (1, 2).
+/// A rack of 2 kg moves in a guide along x and meshes with a pinion of 0.25 kg·m² with its centre
+/// at P = (1, 2).
 fn rack(joint: &str, force: f64, torque: f64) -> String {
     format!(
         r#"
@@ -209,8 +210,8 @@ force = [
     )
 }
 
-/// The teeth exert the force R along x on the rack, −R on the pinion, both at the pitch point,
-/// which is below P by the radius. Rolling: a = r·α.
+/// The teeth exert the force R along x on the rack and −R on the pinion, both at the pitch point,
+/// which is below P by the radius. Rolling requires a = r·α.
 #[test]
 fn racks_at_rest_by_hand() {
     let cases = [
@@ -247,9 +248,10 @@ fn racks_at_rest_by_hand() {
     }
 }
 
-/// A pinion (2 kg, 0.25 kg·m², r = 0.5 m) rolls along a rack of the ground, with its centre held at
-/// y = 2 by a slot, a force of 7 N and a torque of 0.5 N·m: 2·a = 7 − R, 0.25·α = 0.5 − 0.5·R, α =
-/// −2·a, so a = 2 and R = 3. On the rack the force is 3 N along y = 1.5, and the torque about (1,
+/// A pinion (2 kg, 0.25 kg·m², r = 0.5 m) rolls along a rack of the ground. A slot constrains its
+/// centre to y = 2; a force of 7 N and a torque of 0.5 N·m act on it. The equations are 2·a = 7 −
+/// R, 0.25·α = 0.5 − 0.5·R, α = −2·a, so a = 2 and R = 3. On the rack the force is 3 N along y =
+/// 1.5, and the torque about (1,
 /// 2) is 1.5 N·m, also after the pinion has left that point.
 #[test]
 fn the_place_of_a_rack_stays_in_the_rack() {
@@ -281,7 +283,7 @@ force = [
     }
 }
 
-/// Three free bodies, rotated and moving, with a torque on each.
+/// Three free bodies rotate and move, with a torque on each.
 fn free_bodies() -> (Description, [BodyRef; 3]) {
     let mut d = Description {
         gravity: [1.0, -3.0],
@@ -309,8 +311,8 @@ fn free_bodies() -> (Description, [BodyRef; 3]) {
 /// Torques on the free bodies (N·m).
 const LOADS: [f64; 3] = [5.0, -2.0, 3.5];
 
-/// The forces on a body apart from its weight and its torque, `[Fx, Fy, T]` about a point: M·a − Q,
-/// transferred to it.
+/// Returns the forces on a body apart from its weight and its torque, `[Fx, Fy, T]` about a point:
+/// M·a − Q, transferred to this point.
 fn missing(d: &Description, row: &Row, body: usize, about: [f64; 2]) -> [f64; 3] {
     let b = &d.bodies[body];
     let (q, a) = (&row.q[3 * body..], &row.a[3 * body..]);
@@ -320,8 +322,8 @@ fn missing(d: &Description, row: &Row, body: usize, about: [f64; 2]) -> [f64; 3]
     [force[0], force[1], torque]
 }
 
-/// Compares the only reaction with M·a − Q: of its first body, or, if that is the ground, of all
-/// others with the opposite sign.
+/// Compares the only reaction with M·a − Q of its first body. If the first body is the ground, it
+/// compares the reaction with the values of all other bodies with the opposite sign.
 fn compare(study: &Study, d: &Description, first: BodyRef, place: impl Fn(&Row) -> [f64; 2]) {
     for row in run(study) {
         let about = place(&row);
@@ -381,7 +383,7 @@ fn racks_in_every_order_are_what_their_first_body_misses() {
             );
             d.joint("mesh", &bodies, joint);
             let study = Study::build(d.clone()).unwrap_or_else(|e| panic!("{e}"));
-            // The pinion's centre at the start, as a point fixed to the rack.
+            // Returns the centre of the pinion at the start, as a point fixed to the rack.
             let turn = |[x, y]: [f64; 2], angle: f64| {
                 let (sin, cos) = angle.sin_cos();
                 [cos * x - sin * y, sin * x + cos * y]
@@ -409,12 +411,12 @@ fn racks_in_every_order_are_what_their_first_body_misses() {
 }
 
 pfaff::joint! { plane MiddleDistance(i, j, k) {
-    /// Point `s_i` of body i keeps its distance from the middle between point `s_j` of body j and
-    /// the origin of body k.
+    /// Point `s_i` of body i has a constant distance from the midpoint between point `s_j` of body
+    /// j and the origin of body k.
     params {
-        /// The point of body i.
+        /// Point of body i.
         s_i: Point in i,
-        /// The point of body j.
+        /// Point of body j.
         s_j: Point in j,
     }
     let d = point(i, s_i) - 0.5 * (point(j, s_j) + origin(k));
@@ -424,7 +426,7 @@ pfaff::joint! { plane MiddleDistance(i, j, k) {
     place: point(i, s_i);
 } }
 
-/// Forces, too, are summed over the slots that the ground occupies.
+/// Forces are also summed over the slots that the ground occupies.
 #[test]
 fn a_joint_of_three_bodies_is_what_its_first_body_misses() {
     let (_, [a, b, _]) = free_bodies();
@@ -456,9 +458,9 @@ fn a_joint_of_three_bodies_is_what_its_first_body_misses() {
 }
 
 pfaff::joint! { plane NamedDistance(i, j, k) {
-    /// The origins of bodies j and k keep their distance along a direction of body i.
+    /// The origins of bodies j and k have a constant distance along a direction of body i.
     params {
-        /// The direction.
+        /// Direction in body i.
         along: Direction in i,
     }
     initial { start: Length = dot(direction(i, along), origin(k) - origin(j)) }

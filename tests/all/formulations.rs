@@ -17,7 +17,7 @@ const REFERENCE: &str = include_str!("../reference/robot_trolley.json");
 /// Reactions of the robot that the model does not determine.
 const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
-/// Pairs of rows (from 1) that can be dropped at every configuration of the robot's motion.
+/// Pairs of rows (from 1) that can be deleted at every configuration of the motion of the robot.
 const PAIRS: [[usize; 2]; 9] = [
     [4, 20],
     [4, 21],
@@ -73,7 +73,7 @@ impl Run {
         run
     }
 
-    /// The rows at the times of the reference, every second.
+    /// The rows at the times of the reference, at every second.
     fn seconds(&self) -> Vec<usize> {
         let whole = |k: &usize| (self.t[*k] - self.t[*k].round()).abs() < 1e-9;
         (0..self.t.len()).filter(whole).collect()
@@ -115,7 +115,7 @@ fn started(d: &Description, rows: &RowChoice) -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), rows).expect("starts")
 }
 
-/// Three cranks with gravity, swinging.
+/// Three cranks swing under gravity.
 fn swinging_cranks() -> Description {
     let mut d = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);
     d.gravity = [0.0, -9.81];
@@ -188,7 +188,7 @@ fn what_cannot_be_dropped_is_refused_with_the_time() {
     }
 }
 
-/// Φ of an output state, evaluated here.
+/// Evaluates Φ of an output state.
 fn opening(p: &PreparedMechanism, t: f64, q: &[f64]) -> f64 {
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(t, q, &mut s);
@@ -227,7 +227,8 @@ fn without_projection_the_drift_is_told() {
     }
 }
 
-/// Drives and knife edges, with break times: drift must not be taken as a jump of a drive.
+/// The robot has drives and knife edges, with break times: drift must not count as a jump of a
+/// drive.
 #[test]
 fn the_robot_drifts_without_impulses() {
     let p = started(&robot(steering()), &RowChoice::Automatic);

@@ -1,16 +1,16 @@
-//! Frames whose origin is not the centre of mass, markers and measures: a scene says the same
-//! motion whichever frames it is written in, and its columns are those of the frames.
+//! Frames whose origin is not the centre of mass, markers and joint coordinates. A scene describes
+//! the same motion in any frames, and its columns belong to these frames.
 
 use pfaff::documents::MotionDocument;
 use pfaff::model::Registry;
 use pfaff::{RunOptions, Study};
 
-/// The centre of mass of each body in its frame: cranks, coupler, pendulum.
+/// The centre of mass of each body in its frame: cranks, coupler and pendulum.
 type Centres = [[f64; 2]; 5];
 
 const AT_THE_CENTRES: Centres = [[0.0; 2]; 5];
 
-/// Frames at a joint, beyond the body, and at the centre of mass.
+/// The frames are at a joint, beyond the body, and at the centre of mass.
 const SHIFTED: Centres = [
     [0.2, 0.0],
     [-0.3, 0.7],
@@ -19,7 +19,7 @@ const SHIFTED: Centres = [
     [0.05, -0.25],
 ];
 
-/// Angle of the cranks at the start, their rate (rad, rad/s) and length (m).
+/// Angle of the cranks at the start (rad), their rate (rad/s) and length (m).
 const PHI: f64 = 1.0;
 const RATE: f64 = 2.0;
 const CRANK: f64 = 0.4;
@@ -42,17 +42,17 @@ fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// ω × r
+/// The velocity ω × r.
 fn whirl(omega: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     [-omega * y, omega * x]
 }
 
-/// A driven parallelogram with a third crank, which makes it redundant, and a pendulum on its
-/// coupler with a spring, a load in the frame of the coupler, and what `start` keeps.
+/// A driven parallelogram has a third crank, which makes it redundant. A pendulum on its coupler
+/// has a spring; a load acts in the frame of the coupler; and `start` keeps some values.
 fn scene(centres: &Centres) -> String {
     let tip = turned(PHI, [CRANK, 0.0]);
     let hook = plus(tip, [0.5, 0.0]);
-    // Centres of mass, angles, velocities: those of the pendulum are given.
+    // Centres of mass, angles and velocities: those of the pendulum are given.
     let hang = turned(SWING, [0.0, -0.25]);
     let hook_velocity = whirl(RATE, tip);
     let mass_centres = [
@@ -150,13 +150,13 @@ fn moved(centres: &Centres) -> MotionDocument {
     study.motion(&options).expect("it moves")
 }
 
-/// Rounding of numbers of size ten, amplified along three seconds of the motion.
+/// Limit for the rounding of numbers of size ten, amplified along three seconds of the motion.
 const SAME: f64 = 1e-10;
 
 #[track_caller]
 fn assert_same(found: f64, expected: f64, what: &str) {
     let apart = (found - expected).abs();
-    // What is not determined has no number in either.
+    // A component that is not determined has no number in either scene.
     let is_none = found.is_nan() && expected.is_nan();
     assert!(
         is_none || apart <= SAME * expected.abs().max(1.0),
@@ -179,7 +179,7 @@ fn a_scene_in_other_frames_says_the_same_motion() {
     for (a, b) in plain.rows.iter().zip(&shifted.rows) {
         for (k, name) in NAMES.iter().enumerate() {
             let (mass, frame) = (&a.bodies[name], &b.bodies[name]);
-            // The origin of the frame, and its velocity, from the centre of mass.
+            // Computes the origin of the frame, and its velocity, from the centre of mass.
             let arm = turned(mass["angle"], SHIFTED[k]);
             let [x, y] = minus([mass["x"], mass["y"]], arm);
             let [vx, vy] = minus([mass["vx"], mass["vy"]], whirl(mass["omega"], arm));
@@ -218,7 +218,7 @@ fn markers_and_measures_are_those_of_closed_forms() {
     for row in &motion.rows {
         let phi = PHI + RATE * row.t;
         let what = format!("at {} s", row.t);
-        // The coupler does not turn: its points move on circles.
+        // The coupler does not rotate: its points move on circles.
         let rim = plus(turned(phi, [CRANK, 0.0]), [0.6, 0.2]);
         let marker = &row.markers["rim"];
         assert_same(marker["x"], rim[0], &what);
@@ -227,7 +227,7 @@ fn markers_and_measures_are_those_of_closed_forms() {
         assert_same(marker["vx"], rim_velocity[0], &what);
         assert_same(marker["vy"], rim_velocity[1], &what);
         assert_same(row.measures["rim pace"], RATE * CRANK, &what);
-        // The end of the pendulum by its angle and its rate.
+        // Computes the end of the pendulum from its angle and its rate.
         let pendulum = &row.bodies["pendulum"];
         let (angle, omega) = (pendulum["angle"], pendulum["omega"]);
         let hook = plus(turned(phi, [CRANK, 0.0]), [0.5, 0.0]);
@@ -246,7 +246,7 @@ fn markers_and_measures_are_those_of_closed_forms() {
         }
         let apart = minus(rim, end);
         let [along, across] = turned(-(angle + 0.5), apart);
-        // In axes that turn: d/dt of Rᵀ·(r₂ − r₁).
+        // In rotating axes the velocity is d/dt of Rᵀ·(r₂ − r₁).
         let seen = minus(minus(rim_velocity, end_velocity), whirl(omega, apart));
         for (name, expected) in [
             ("span", apart[0].hypot(apart[1])),
@@ -261,7 +261,7 @@ fn markers_and_measures_are_those_of_closed_forms() {
     }
 }
 
-/// What reading the scene with this change reports.
+/// Returns the error of the reader for the scene with this change.
 fn refused(change: impl Fn(String) -> String) -> String {
     let text = change(scene(&SHIFTED));
     let read = Study::read(

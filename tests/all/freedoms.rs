@@ -10,8 +10,8 @@ use pfaff::{RunOptions, Study};
 
 use super::examples::{files, read, scene};
 
-/// Half the step of a difference: its error is a few times its square; the rounding error of Φ
-/// divided by it is smaller.
+/// Half the step of a difference: its error is a few times the square of the step, and the rounding
+/// error of Φ divided by the step is smaller.
 const STEP: f64 = 1e-5;
 
 /// Error bound of a difference for velocities and lengths of a few units.
@@ -20,7 +20,7 @@ const DIFFERENCE: f64 = 1e-7;
 /// Error bound of a row of Ψ.
 const ROUNDING: f64 = 1e-11;
 
-/// Directions that differ by more than this are independent.
+/// Directions that differ by more than this value are independent.
 const INDEPENDENT: f64 = 1e-3;
 
 fn study(name: &str) -> Study {
@@ -38,8 +38,9 @@ fn texts(motions: &FreeMotions) -> Vec<&str> {
     motions.motions.iter().map(|m| m.text.as_str()).collect()
 }
 
-/// All velocities of all motions, n_v each. In space they are told of frames in ground axes, while
-/// columns of C belong to centres of mass and to rotations about the axes of the bodies.
+/// Returns all velocities of all motions, n_v each. In space the motions describe frames in ground
+/// axes, while columns of C belong to centres of mass and to rotations about the axes of the
+/// bodies.
 fn velocities(mechanism: &Mechanism, q: &[f64], motions: &FreeMotions) -> Vec<Vec<f64>> {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);
@@ -103,15 +104,15 @@ fn stays_on(mechanism: &Mechanism, q: &[f64], v: &[f64], drives: bool, name: &st
     }
 }
 
-/// Asserts that the reported motions are a basis of what the rows allow, with the drives and
-/// without them; returns their number.
+/// Asserts that the reported motions are a basis of the motions that the rows allow, with the
+/// drives and without them; returns their number.
 pub(super) fn are_a_basis(study: &Study, name: &str) -> usize {
     let (mechanism, q) = (&study.prepared.mechanism, &study.prepared.q);
     let found = freedoms(study);
     are_a_basis_at(mechanism, q, &found, name)
 }
 
-/// The same for motions that are known.
+/// Makes the same check for known motions.
 fn are_a_basis_at(mechanism: &Mechanism, q: &[f64], found: &Freedoms, name: &str) -> usize {
     let without = found.without_drives.as_ref();
     let with = Some((true, found.mobility, &found.motions));
@@ -144,8 +145,8 @@ fn motions_of_the_gallery_are_a_basis_of_what_the_rows_allow() {
     assert!(seen > 25, "{seen} motions");
 }
 
-/// A body turned by some angle, held by one joint: what rounding leaves of a zero in its row is no
-/// direction of its own.
+/// One joint constrains a rotated body: the rounding error of a zero in a row is not an independent
+/// direction.
 #[test]
 fn rounding_of_a_row_is_no_direction() {
     let joints = [
@@ -185,7 +186,7 @@ fn motions_of_random_mechanisms_satisfy_their_rows() {
             &Registry::standard(),
             &RunOptions::default(),
         );
-        // A few are too nearly redundant to have velocities in `f64`.
+        // Some mechanisms are too nearly redundant to have velocities in `f64`.
         let Ok(study) = study else {
             refused += 1;
             continue;
@@ -202,8 +203,8 @@ fn motions_of_random_mechanisms_satisfy_their_rows() {
     );
 }
 
-/// The slider moves the links, which turn the knuckles of both axles; all other bodies are at rest.
-/// With the drive fixed the cart rolls straight ahead.
+/// The slider moves the links, which rotate the knuckles of both axles; all other bodies are at
+/// rest. With the drive locked the cart rolls straight ahead.
 #[test]
 fn the_robot_rolls_and_steers() {
     let found = freedoms(&study("robot-trolley"));
@@ -218,8 +219,8 @@ fn the_robot_rolls_and_steers() {
     assert_eq!(all, [rolls, steers]);
 }
 
-/// Rotor and axles rotate independently, each about its pivot; the board with all of them rolls
-/// along its wheels.
+/// Rotor and axles rotate independently, each about its pivot; the board rolls along its wheels
+/// together with all of them.
 #[test]
 fn the_snakeboard_has_a_motion_for_each_drive() {
     let found = freedoms(&study("snakeboard"));
@@ -238,8 +239,8 @@ fn the_snakeboard_has_a_motion_for_each_drive() {
     assert_eq!(all, expected);
 }
 
-/// ω of sun, carrier and planets are in the ratio 3 : 1 : −3, and the centres of the planets move
-/// with the carrier.
+/// The angular velocities of sun, carrier and planets are in the ratio 3 : 1 : −3, and the centres
+/// of the planets move with the carrier.
 #[test]
 fn the_planetary_gear_turns_as_one() {
     let study = study("planetary-gear");
@@ -259,7 +260,7 @@ fn the_planetary_gear_turns_as_one() {
 }
 
 /// Two motors drive two cranks, and a third law is redundant; without the drives crank and link
-/// move, one at a time with the other at rest.
+/// move, one at a time while the other is at rest.
 #[test]
 fn redundancy_of_drives_goes_with_them() {
     let found = freedoms(&study("five-bar"));
@@ -267,7 +268,8 @@ fn redundancy_of_drives_goes_with_them() {
     assert_eq!((without.ranks.redundancy, without.mobility), (0, 2));
 }
 
-/// A mechanism that cannot move is reported as such, one that is moved only by its drive is not.
+/// A mechanism that cannot move is reported as immovable; a mechanism that is moved only by its
+/// drive is not.
 #[test]
 fn a_truss_and_a_door_cannot_move() {
     for (name, cannot) in [("truss", true), ("door", true), ("four-bar", false)] {

@@ -8,9 +8,9 @@ use pfaff::prelude::*;
 use pfaff::report::OutputDirectory;
 use serde_json::Value;
 
-/// A coupler on three parallel cranks, one of them redundant, with a spring and a varying torque.
-/// On the coupler a slide with a drive, and separately a cart on two wheels of one axle whose speed
-/// is prescribed.
+/// A coupler is supported by three parallel cranks, one of them redundant, with a spring and a
+/// varying torque. The coupler has a slide with a drive, and a separate cart on two wheels of one
+/// axle has a prescribed speed.
 const SCENE: &str = r#"
 scene = { name = "three cranks and a cart", space = "plane", gravity = [0.0, -9.81] }
 
@@ -44,7 +44,7 @@ force = [
 ]
 "#;
 
-/// The same in Rust.
+/// The same mechanism in Rust.
 fn description() -> Description {
     let mut d = Description {
         gravity: [0.0, -9.81],
@@ -139,7 +139,7 @@ fn from_code() -> Study {
     Study::build(description()).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// As JSON, in which numbers are written such that the same bits are read back.
+/// Converts to JSON, in which numbers are written such that the same bits are read back.
 fn json(value: &impl serde::Serialize) -> String {
     serde_json::to_string(value).expect("plain data")
 }
@@ -226,13 +226,14 @@ fn rows_are_those_of_the_tables() {
         keys(&value["reactions"]["motor"]),
         ["Fx", "Fy", "T", "drive"]
     );
-    // Half a metre per second and a radian per second: a circle of half a metre about (0, −2.5).
+    // The cart moves at half a metre per second and a radian per second, on a circle of half a
+    // metre about (0, −2.5).
     let cart = &last.bodies["cart"];
     assert!((cart["x"] - 0.5 * 0.1_f64.sin()).abs() < 1e-9, "{cart:?}");
     assert!((cart["vx"] - 0.5 * 0.1_f64.cos()).abs() < 1e-9, "{cart:?}");
 }
 
-/// Without a text errors have no places, but they have names and numbers.
+/// Without a text errors have no positions, but they have names and numbers.
 #[test]
 fn errors_have_names() {
     let build = |change: &dyn Fn(&mut Description)| {

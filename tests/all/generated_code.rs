@@ -1,6 +1,6 @@
-//! Runs on generated code. The code here is not generated but solves the same equations in its own
-//! way, so that faults can be put into it: whatever it does, the motion is that of the interpreter,
-//! and the run reports which of them evaluated.
+//! Runs on generated code. The code here is not generated but solves the same equations in another
+//! way, so that the test can insert faults. For every fault the motion equals that of the
+//! interpreter, and the run reports which of them evaluated.
 
 mod elimination;
 
@@ -48,14 +48,14 @@ fn run(p: &PreparedMechanism, options: &MotionOptions) -> (Vec<Vec<f64>>, Summar
     (rows, summary)
 }
 
-/// The largest difference of two runs.
+/// Returns the largest difference between two runs.
 fn apart(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
     assert_eq!(a.len(), b.len());
     let pairs = a.iter().flatten().zip(b.iter().flatten());
     pairs.fold(0.0, |largest, (a, b)| f64::max(largest, (a - b).abs()))
 }
 
-/// (kind, time) of the events that concern the code.
+/// Returns (kind, time) of the events that concern the code.
 fn told(summary: &Summary) -> Vec<(EventKind, f64)> {
     let of_code = [EventKind::CodeLeft, EventKind::CodeUsed];
     let events = summary.events.iter();
@@ -99,8 +99,8 @@ fn a_run_on_healthy_code_is_that_of_the_interpreter() {
     }
 }
 
-/// From the last accepted state before the fault the equations are interpreted, and after some time
-/// the code is used again.
+/// After the last accepted state before the fault the equations are interpreted, and after some
+/// time the code is used again.
 #[test]
 fn code_that_is_not_sure_is_left_and_comes_back() {
     let p = trolley();
@@ -129,8 +129,8 @@ fn code_that_is_not_sure_is_left_and_comes_back() {
         let [(left, t_left), (used, t_used)] = [told[0], told[1]];
         assert_eq!([left, used], [EventKind::CodeLeft, EventKind::CodeUsed]);
         assert!((3.0..=4.1).contains(&t_left), "{reason}: {t_left}");
-        // Hysteresis: the code is used again only after it is healthy, for which some steps must be
-        // interpreted.
+        // The switch has hysteresis: the code is used again only after it is healthy, so some steps
+        // are interpreted.
         assert!(t_used > 4.1 && t_used < 10.0, "{reason}: {t_used}");
         let event = summary
             .events
@@ -141,7 +141,7 @@ fn code_that_is_not_sure_is_left_and_comes_back() {
     }
 }
 
-/// Cranks whose first one is driven.
+/// Cranks with a driven first crank.
 fn driven(pivots: &[f64], start: f64, motion: Function) -> PreparedMechanism {
     let mut d = cranks(pivots, 0.5, start);
     d.drives.push(Drive {
@@ -187,7 +187,8 @@ fn impulses_are_those_of_the_interpreter() {
     }
 }
 
-/// A parallelogram driven through its flat pose, where two branches meet: the code cannot pass it.
+/// A parallelogram is driven through its singular configuration, at which two branches meet: the
+/// code cannot pass it.
 #[test]
 fn singular_configurations_are_passed_by_the_interpreter() {
     let rate = Function::constant_rate(1.0).expect("finite");
@@ -225,8 +226,8 @@ fn singular_configurations_are_passed_by_the_interpreter() {
     );
 }
 
-/// The mechanism of the run is secretly replaced by another one: a call of the interpreter would be
-/// noticed.
+/// The test replaces the mechanism of the run by another one: a call of the interpreter would
+/// change the result.
 #[test]
 fn a_healthy_run_asks_the_interpreter_nothing() {
     let d = |length: f64| {
@@ -255,13 +256,14 @@ fn a_healthy_run_asks_the_interpreter_nothing() {
     code.evaluations.store(0, Ordering::Relaxed);
     let (found, summary) = last(&coded);
     assert_eq!(found, expected);
-    // Two at the start, twelve per step, eleven per rejected step; six more for rows between steps.
+    // The count is two at the start, twelve per step, eleven per rejected step, and six more for
+    // rows between steps.
     let counted = code.evaluations.load(Ordering::Relaxed) as u64;
     assert_eq!(counted, summary.evaluations);
     assert_eq!(counted, 2 + 12 * summary.steps + 11 * summary.rejected);
 }
 
-/// Falling bodies: no equations to solve.
+/// Falling bodies have no equations to solve.
 struct Falling(CodeSpec);
 
 impl SceneCode for Falling {

@@ -1,4 +1,4 @@
-//! Generated scenes of small sizes, read and judged: counts, ranks, and every verdict with its
+//! Generated scenes of small sizes, read and analysed: counts, ranks, and every verdict with its
 //! directions equal those that the generator states.
 
 use std::collections::BTreeMap;
@@ -134,8 +134,8 @@ fn two_loops_are_the_case_of_the_suite() {
     assert_eq!(joints(case), joints(generated));
 }
 
-/// θ from the equation for one angle after a time, by the classical Runge–Kutta method with steps
-/// of 0.1 ms: its error is below 1e-13.
+/// Integrates the equation for the angle θ over a time, by the classical Runge–Kutta method with
+/// steps of 0.1 ms: its error is below 1e-13.
 pub(crate) fn angle(n: usize, t: f64) -> f64 {
     let steps = (t / 1e-4).round() as usize;
     let h = t / steps as f64;
@@ -195,7 +195,7 @@ fn loops_move_as_one_angle_does() {
     }
 }
 
-/// The robots of a fleet move as the single robot: the springs between them stay unstressed.
+/// The robots of a fleet move like the single robot: the springs between them remain unstressed.
 #[test]
 fn a_fleet_moves_as_its_robot() {
     let last = |scene: &str| {

@@ -1,4 +1,4 @@
-//! Permanent or singular: the comparison with other configurations, and its results.
+//! Permanent or singular redundancy: the comparison with other configurations, and its results.
 
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive, Velocity, plane::Direction};
 use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Registry};
@@ -31,8 +31,8 @@ fn driven(mut d: Description) -> Description {
     d
 }
 
-/// n cranks: n − 2 redundant rows, and one more if they are flat, with a drive (no freedom left) or
-/// without.
+/// The mechanism has n cranks: n − 2 redundant rows, and one more in the singular configuration,
+/// with a drive (no freedom remains) or without.
 #[test]
 fn cranks_are_compared_with_themselves_elsewhere() {
     for (pivots, usual) in [
@@ -58,7 +58,8 @@ fn cranks_are_compared_with_themselves_elsewhere() {
                     };
                     assert!(seen.iter().all(is_far), "{found:?}");
                     seen.push(&point.q);
-                    // Two cranks that start flat may cross; all others have one angle.
+                    // Two cranks that start in the singular configuration may cross; all others
+                    // have one angle.
                     if pivots.len() > 2 || theta != 0.0 {
                         let is_new = |a: &f64| (a - point.q[2]).abs() > 0.05;
                         assert!(angles.iter().all(is_new), "{found:?}");
@@ -70,7 +71,7 @@ fn cranks_are_compared_with_themselves_elsewhere() {
     }
 }
 
-/// The verdicts on a component here and at other configurations.
+/// Returns the verdicts on a component here and at other configurations.
 fn here_and_elsewhere(d: &Description, joint: &str, component: &str) -> [&'static str; 2] {
     let mechanism = Mechanism::build(d).expect("builds");
     let (q, _) = mechanism.described_state();
@@ -86,8 +87,8 @@ fn here_and_elsewhere(d: &Description, joint: &str, component: &str) -> [&'stati
     [own, generic.expect("a component").word()]
 }
 
-/// Three cranks carry a load that two of them could carry, along the cranks: upright it has no part
-/// along x. Two cranks are redundant where they are flat, and nowhere else.
+/// Three cranks carry a load along the cranks that two of them could carry: in the upright position
+/// it has no component along x. Two cranks are redundant only in the singular configuration.
 #[test]
 fn verdicts_elsewhere_are_those_of_components() {
     let unique = "unique";
@@ -110,7 +111,8 @@ fn verdicts_elsewhere_are_those_of_components() {
     }
 }
 
-/// A cart on two wheels of one axle: they share a force along the axle, which turns with the cart.
+/// A cart on two wheels of one axle: the wheels share a force along the axle, which turns with the
+/// cart.
 #[test]
 fn a_cart_that_turns_has_both_components_open() {
     let wheel = |name: &str, y: f64| {
@@ -132,7 +134,7 @@ fn a_cart_that_turns_has_both_components_open() {
     }
 }
 
-/// The robot with straight wheels: rank 20 there and at other configurations.
+/// The robot with straight wheels has rank 20 there and at other configurations.
 #[test]
 fn the_robot_is_redundant_everywhere() {
     let (here, found) = at_start(&robot(steering()));
@@ -209,8 +211,8 @@ fn elsewhere(scene: &str) -> Option<Generic> {
     start.generic()
 }
 
-/// Two wheels, each held at its centre, and two gears between them: no body has an arm. The result
-/// must not depend on position, size or mass.
+/// Two wheels, each supported at its centre, have two gears between them: no body has a lever arm.
+/// The result must not depend on position, size or mass.
 #[test]
 fn wheels_are_compared_wherever_they_are_and_whatever_they_weigh() {
     for mass in [0.9, 1.0, 2.0, 3.0] {
@@ -239,8 +241,8 @@ joint = [
     }
 }
 
-/// The crank of a Scotch yoke rotates about the origin, and its pin moves along the slot: at this
-/// instant no row depends on its arm, for any direction of the slot.
+/// The crank of a Scotch yoke rotates about the origin, and its pin moves along the slot. At this
+/// instant no row depends on the lever arm of the crank, for any direction of the slot.
 #[test]
 fn a_pin_that_moves_along_its_slot_has_an_arm() {
     for turn in [0.0, 0.3, 0.7, 1.0, 2.5] {
@@ -269,9 +271,9 @@ joint = [
     }
 }
 
-/// A platform on four equal parallel legs moves on a sphere without turning, and the legs stay
-/// redundant. Second order blocks the turn about their direction. Legs that cross are another
-/// branch of the same joints, on which all four are independent.
+/// A platform on four equal parallel legs moves on a sphere without rotation, and the legs remain
+/// redundant. The second-order conditions exclude the rotation about their direction. Crossed legs
+/// are another branch of the same joints, on which all four are independent.
 #[test]
 fn legs_that_stay_parallel_are_not_compared_with_those_that_do_not() {
     let legs = |feet: &[[f64; 3]], lean: [f64; 3]| {
@@ -297,8 +299,8 @@ joint = [
         [0.0, 1.0, 0.0],
         [0.3, -0.2, 0.0],
     ];
-    // Four feet are on a circle: where these legs are upright, a branch begins on which they turn
-    // together, so the upright start of four belongs to both.
+    // Four feet are on a circle. In the upright position of the legs a branch begins on which they
+    // rotate together, so the upright start of four legs belongs to both branches.
     for (lean, counts) in [
         ([1.0, 0.5, 2.0], 4..=5),
         ([0.0, 0.0, 2.0], 5..=5),
@@ -308,7 +310,7 @@ joint = [
             let scene = legs(&feet[..count], lean);
             let found = elsewhere(&scene).unwrap_or_else(|| panic!("{scene}"));
             assert_eq!(found.redundancy, count - 3, "{lean:?} {count}: {found:?}");
-            // The orientation of the start is that of the ground.
+            // The orientation at the start is that of the ground.
             for point in &found.points {
                 assert!(point.q[4..].iter().all(|x| x.abs() < 1e-9), "{found:?}");
             }

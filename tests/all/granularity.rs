@@ -1,4 +1,4 @@
-//! Verdicts of all kinds of components: frames, sums of wrenches, groups, resultants; with drives,
+//! Verdicts on all kinds of components: frames, sums of wrenches, groups, resultants; with drives,
 //! affine and rheonomic rows.
 
 use joints::plane::{Direction, Line};
@@ -21,7 +21,7 @@ use solvability::{
 use tests::largest;
 use tests::robot::{robot, steering};
 
-/// Margins of numbers that are unique: rounding.
+/// Margins of unique numbers are rounding errors.
 const ROUNDING: f64 = 1e-14;
 
 fn body(name: &str, x: f64, y: f64, angle: f64) -> Body {
@@ -102,7 +102,7 @@ fn frames_of_the_robot() {
     for (found, expected) in w1[2].axes[0].iter().zip([-knuckle.sin(), knuckle.cos()]) {
         assert!((found - expected).abs() < 1e-15);
     }
-    // B is not reported in an edge frame, but along the edge of W1 it is unique.
+    // B is not reported in an edge frame, but its component along the edge of W1 is unique.
     let b = frames("B");
     assert_eq!(b.len(), 2);
     let configuration = Configuration::new(&m, 1.0, &q, &decision).expect("fits");
@@ -118,7 +118,7 @@ fn frames_of_the_robot() {
     assert_eq!(judged(&along).verdict.word(), "unique");
     assert!(judged(&along).margin < ROUNDING);
     assert_eq!(judged(&across).verdict.word(), "not_unique");
-    // The force of the drive is along the axis of the slider.
+    // The force of the drive is parallel to the axis of the slider.
     let drive = frames("steering");
     assert!(
         drive
@@ -136,7 +136,7 @@ fn sums_of_wrenches_of_the_robot() {
     };
     let asked = [
         sum(&[(1.0, "W3"), (1.0, "W4")]),
-        // On the knuckle B acts with the opposite sign.
+        // On the knuckle, B acts with the opposite sign.
         sum(&[(1.0, "W1"), (-1.0, "B")]),
         sum(&[(1.0, "W1"), (1.0, "B")]),
         sum(&[(2.5, "A"), (-1.0, "steering")]),
@@ -147,8 +147,7 @@ fn sums_of_wrenches_of_the_robot() {
         ["not_unique", "unique", "not_unique", "unique", "unique"]
     );
     let parts = &groups(&m, &q, &asked[..1]).expect("judged")[0].components;
-    // W3 and W4 are on one line across the platform, which is rotated: the torque about W3
-    // vanishes.
+    // W3 and W4 are on one line across the rotated platform: the torque about W3 vanishes.
     let parts: Vec<_> = parts
         .iter()
         .map(|c| (c.name, c.judgement.verdict.word()))
@@ -157,7 +156,7 @@ fn sums_of_wrenches_of_the_robot() {
         parts,
         [("Fx", "not_unique"), ("Fy", "not_unique"), ("T", "unique")]
     );
-    // With the edges at ±90° the circuits separate, and W3 and W4 only mix with each other.
+    // With the edges at ±90° the circuits separate, and W3 and W4 are coupled only with each other.
     let (m, q) = robot_steered(-0.135_153_013_442_6);
     let pair = Group::WrenchSum(vec![(1.0, id(&m, "W3")), (1.0, id(&m, "W4"))]);
     let each = Group::Members(vec![id(&m, "W3"), id(&m, "W4")]);
@@ -168,7 +167,7 @@ fn sums_of_wrenches_of_the_robot() {
     );
 }
 
-/// Newton and Euler: the resultant on any set of bodies is `M·a − Q`, in every solution.
+/// By Newton and Euler, the resultant on any set of bodies is `M·a − Q`, in every solution.
 #[test]
 fn resultants_are_unique_and_are_those_of_newton_and_euler() {
     let mut d = robot(steering());
@@ -187,7 +186,7 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
     let norm = c
         .distribute(lambda, &Choice::MinimumNorm(NormWeights::NEWTON_METRE))
         .expect("a norm");
-    // Straight ahead the edges hold the robot sideways; along x it accelerates at 3 m/s².
+    // In straight motion the edges support the robot sideways; along x it accelerates at 3 m/s².
     let masses: Vec<f64> = d.bodies.iter().map(|b| b.mass).collect();
     for set in [
         vec![0],
@@ -218,8 +217,8 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
         );
     }
     assert!(largest(lambda.iter().copied()) > 10.0);
-    // Two bodies that only hold each other, twice: no constraint acts on both together, up to
-    // rounding or not.
+    // Two bodies are connected only with each other, twice: no constraint acts on both together,
+    // with or without rounding.
     let hinge = |name: &str| {
         let element = Revolute {
             s_i: [0.1, 0.2],
@@ -251,7 +250,7 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
     );
 }
 
-/// The direction of the force of each definition, computed only from its wrench map.
+/// The test computes the direction of the force of each definition only from its wrench map.
 #[test]
 fn edge_frames_come_from_the_definitions() {
     let (angle, axis) = (0.4_f64, Direction::new([3.0, 4.0]).expect("a direction"));
@@ -330,7 +329,7 @@ fn edge_frames_come_from_the_definitions() {
         let found = m.reactions(&s).axes(ConstraintId(0), Frame::Edge);
         match (found, expected) {
             (None, None) => {}
-            // Up to the sign, which is that of the multiplier.
+            // The comparison ignores the sign, which is that of the multiplier.
             (Some(axes), Some([ex, ey])) => {
                 let [x, y, _] = axes[0];
                 assert!((x * ey - y * ex).abs() < 1e-15, "{name}: {x} {y}");
@@ -341,7 +340,7 @@ fn edge_frames_come_from_the_definitions() {
     }
 }
 
-/// Affine ψ and rheonomic Φ: rows that prescribe a motion are judged like all others.
+/// Affine ψ and rheonomic Φ: rows that prescribe a motion are analysed like all others.
 #[test]
 fn affine_and_rheonomic_rows() {
     let speed = |name: &str, s: [f64; 2]| Joint {
@@ -355,7 +354,8 @@ fn affine_and_rheonomic_rows() {
             },
         )
     };
-    // Both push the same body forward along one line; a third one, parallel to it, is independent.
+    // Both rows push the same body forward along one line; a third row, parallel to it, is
+    // independent.
     let joints = vec![
         speed("a", [0.0, 0.5]),
         speed("b", [2.0, 0.5]),
@@ -375,8 +375,8 @@ fn affine_and_rheonomic_rows() {
         Group::Combination(vec![term(0, "Fx", 1.0), term(1, "Fx", 1.0)]),
         Group::Combination(vec![term(0, "Fx", 1e-200), term(1, "Fx", -1e-200)]),
         Group::Combination(vec![term(0, "Fx", 1e200), term(1, "Fx", 1e200)]),
-        // Identically zero: perpendicular to the row, about the place, with a coefficient of zero,
-        // added and subtracted.
+        // The load is identically zero: perpendicular to the row, about the reference point, with a
+        // coefficient of zero, or added and subtracted.
         Group::Combination(vec![
             term(0, "Fy", 1.0),
             term(1, "T", 3.0),
@@ -404,7 +404,7 @@ fn affine_and_rheonomic_rows() {
     ];
     assert_eq!(words(&m, &[0.0; 3], &asked), expected);
 
-    // Two motors on one shaft.
+    // Two motors drive one shaft.
     let motor = |name: &str| Drive {
         tolerance: None,
         name: name.into(),
@@ -573,7 +573,7 @@ fn groups_of_a_study() {
             ("2*A - steering", "unique"),
         ]
     );
-    // A name that the mechanism does not have is an error and is not ignored.
+    // A name that does not exist in the mechanism is an error and is not ignored.
     study.scene.groups[0].content = pfaff::scene::GroupContent::Members(vec!["W9".into()]);
     let configuration = study.analyse(0.0, None).expect("judged");
     let error = configuration.groups(&[]).expect_err("unknown");

@@ -1,5 +1,5 @@
 //! The motion in independent coordinates: completed states, and the Jacobian compared with
-//! differences of the motion.
+//! difference quotients of the motion.
 
 use std::ops::ControlFlow;
 
@@ -18,7 +18,7 @@ fn prepared(d: &Description) -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("a start")
 }
 
-/// A state `[q; v; work]` on the constraints, in motion.
+/// Returns a moving state `[q; v; work]` on the constraints.
 fn state_at(p: &PreparedMechanism, t: f64) -> Vec<f64> {
     let mut y = Vec::new();
     let options = MotionOptions::to(t);
@@ -55,7 +55,7 @@ fn sprung_cranks() -> Description {
     d
 }
 
-/// The mechanisms, at times when all bodies move: the robot is steered at 1.5 s.
+/// The mechanisms, at times at which all bodies move: the robot is steered at 1.5 s.
 fn cases() -> [(&'static str, PreparedMechanism, f64); 2] {
     [
         ("cranks", prepared(&sprung_cranks()), 0.4),
@@ -175,9 +175,9 @@ fn shifted_systems_are_solved() {
     }
 }
 
-/// Three cranks whose first one is connected by a spring of 1e12 N·m/rad and a damper of 1e6
-/// N·m·s/rad to a hand that is driven by s(t) = −0.7 + 0.3·sin t: the fast motion decays at a rate
-/// of 3e5/s, and the crank follows the hand.
+/// A spring of 1e12 N·m/rad and a damper of 1e6 N·m·s/rad connect the first of three cranks to a
+/// hand, which is driven by s(t) = −0.7 + 0.3·sin t. The fast motion decays at a rate of 3e5/s, and
+/// the crank follows the hand.
 mod held {
     use super::*;
     use joints::RevoluteAngleDrive;
@@ -186,13 +186,14 @@ mod held {
     const K: f64 = 1e12;
     const C: f64 = 1e6;
     const G: f64 = 9.81;
-    /// Inertia of all bodies about the one angle θ, cranks 1 m long: 3·(0.1 + 1·0.5²) + 0.5·1².
+    /// Moment of inertia of all bodies for the one angle θ, with cranks 1 m long: 3·(0.1 +
+    /// 1·0.5²) + 0.5·1².
     const INERTIA: f64 = 1.55;
     /// Moment of the weight at θ = 0, divided by g: 3·1·0.5 + 0.5·1.
     const LEVER: f64 = 2.0;
 
-    /// θ and θ̇ of the slow motion, `I·θ̈ = −G·cos θ − k·(θ − s) − c·(θ̇ − ṡ)`, by two terms of its
-    /// series in 1/k: the third is below 1e-20.
+    /// The angle θ and the rate θ̇ of the slow motion, `I·θ̈ = −G·cos θ − k·(θ − s) − c·(θ̇ − ṡ)`,
+    /// by two terms of its series in 1/k: the third term is below 1e-20.
     pub(super) fn slow(t: f64) -> [f64; 2] {
         let (sin, cos) = t.sin_cos();
         let [s, d, dd, ddd] = [-0.7 + 0.3 * sin, 0.3 * cos, -0.3 * sin, -0.3 * cos];
@@ -238,7 +239,8 @@ mod held {
     }
 }
 
-/// Number of steps and the errors of angle and angular velocity of the held crank after 2 s.
+/// Returns the number of steps and the errors of angle and angular velocity of the coupled crank
+/// after 2 s.
 fn held_crank(p: &PreparedMechanism, rtol: f64) -> (u64, f64, f64) {
     let options = MotionOptions {
         method: Method::Radau5,
@@ -261,8 +263,8 @@ fn held_crank(p: &PreparedMechanism, rtol: f64) -> (u64, f64, f64) {
 
 /// A stiffness of 1e12 does not require short steps, although an explicit method would need 3e5 of
 /// them. The error of the angle is far below the tolerance. The velocity at the end of a step is
-/// the slope of a cubic through s at its Radau nodes, which differs from that of s by `s⁗·h³/80`:
-/// after 2 s it depends on the length of the last step.
+/// the slope of a cubic through s at its Radau nodes, which differs from the slope of s by
+/// `s⁗·h³/80`. So after 2 s it depends on the length of the last step.
 #[test]
 fn a_grip_of_1e12_takes_few_steps() {
     let p = prepared(&held::description());
@@ -281,8 +283,8 @@ fn a_grip_of_1e12_takes_few_steps() {
     assert!(smallest <= 1e-7, "{smallest:e}");
 }
 
-/// A blade through the centre of mass moves on circles: `x = v/ω·sin ωt`. The dependent velocity is
-/// that across the blade, which is another coordinate after every quarter of a turn.
+/// A knife edge at the centre of mass moves on circles: `x = v/ω·sin ωt`. The dependent velocity is
+/// the velocity across the edge, which is another coordinate after every quarter of a turn.
 #[test]
 fn partitions_are_renewed_as_a_blade_turns() {
     let (speed, omega) = (1.2, 1.5);
@@ -324,8 +326,8 @@ fn partitions_are_renewed_as_a_blade_turns() {
     }
 }
 
-/// Independent coordinates, inside an implicit method, and all coordinates on kept rows are two
-/// forms of the same motion.
+/// Independent coordinates, inside an implicit method, and all coordinates on the independent rows
+/// are two forms of the same motion.
 #[test]
 fn all_ways_lead_along_one_motion() {
     let end = |p: &PreparedMechanism, t: f64, method: Method| {

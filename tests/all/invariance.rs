@@ -1,5 +1,5 @@
 //! Verdicts do not depend on the description of a mechanism: order, scaling and recombination of
-//! rows, order of bodies, units, place, frame, masses, loads, speed.
+//! rows, order of bodies, units, position, frame, masses, loads, speed.
 
 use linalg::Matrix;
 use model::{BodyRef, Description, Mechanism, System};
@@ -16,8 +16,8 @@ const SEED: u64 = 18_112_026;
 /// Number of random mechanisms of each kind.
 const EACH: usize = 50;
 
-/// The frame-independent results for a reaction: the words for its wrench and its multipliers, and
-/// the numbers of its unique directions and of those that are not always zero.
+/// The frame-independent results for a reaction: the verdicts on its wrench and its multipliers,
+/// and the numbers of its unique directions and of the directions that are not always zero.
 type Said = (String, &'static str, &'static str, [Option<usize>; 2]);
 
 /// The verdicts of a configuration, by name: ranks, then every reaction.
@@ -84,7 +84,7 @@ fn order_of_bodies_and_joints() {
     });
 }
 
-/// Metres or millimetres, micrometres, megametres: equivalent to other sizes of mechanisms.
+/// Metres or millimetres, micrometres, megametres are equivalent to other sizes of mechanisms.
 #[test]
 fn units_of_length() {
     assert_same("length", |sketch, _| {
@@ -106,7 +106,8 @@ fn frame() {
     });
 }
 
-/// Kilograms or grams, seconds or milliseconds; any masses, loads and speeds.
+/// The units are kilograms or grams, seconds or milliseconds; masses, loads and speeds are
+/// arbitrary.
 #[test]
 fn masses_loads_and_speed() {
     let mut numbers = Numbers::new(SEED);
@@ -126,8 +127,8 @@ fn masses_loads_and_speed() {
     }
 }
 
-/// Order, scaling, and recombination inside a joint, of the rows of the robot, the cranks and
-/// random mechanisms.
+/// The test changes order, scaling, and recombination inside a joint, of the rows of the robot, the
+/// cranks and random mechanisms.
 #[test]
 fn rows() {
     let mut numbers = Numbers::new(SEED);
@@ -147,7 +148,7 @@ fn rows() {
             .iter()
             .map(|g| g.rows.iter().collect())
             .collect();
-        // Rounding errors as large as those of recombined rows are taken as noise in both.
+        // Both analyses treat rounding errors as large as those of recombined rows as noise.
         let noise = 1e-14;
         let judged = |c: &Matrix, groups: &[Vec<usize>]| -> Vec<&str> {
             let solvability =
@@ -161,7 +162,7 @@ fn rows() {
         };
         let expected = judged(&c, &groups);
 
-        // Joints in another order, the rows of each mixed and scaled.
+        // The joints have another order, and the rows of each are mixed and scaled.
         let order = numbers.order(groups.len());
         let (mut rows, mut changed) = (Vec::new(), vec![Vec::new(); groups.len()]);
         for &g in &order {
@@ -173,7 +174,7 @@ fn rows() {
     }
 }
 
-/// Some rows times a matrix with a dominant diagonal, scaled over 1e±6.
+/// Multiplies some rows by a matrix with a dominant diagonal, scaled over 1e±6.
 fn mixed(c: &Matrix, rows: &[usize], numbers: &mut Numbers) -> Vec<Vec<f64>> {
     let mut out = Vec::new();
     for &i in rows {
@@ -190,7 +191,7 @@ fn mixed(c: &Matrix, rows: &[usize], numbers: &mut Numbers) -> Vec<Vec<f64>> {
     out
 }
 
-/// The robot at any heading and place, in any size: it has no joint with the ground, so it may be
+/// The robot has any heading, position and size: it has no joint with the ground, so it may be
 /// moved as a whole.
 #[test]
 fn robot_anywhere() {

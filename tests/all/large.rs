@@ -1,6 +1,6 @@
-//! Mechanisms with hundreds of rows: judged by parts, moved on sparse kept rows. References are the
-//! known answers of the generators, the equation for one angle of chains of four-bars, and the
-//! dense solver with all rows.
+//! Mechanisms with hundreds of rows: analysed by parts, and simulated on sparse independent rows.
+//! References are the known results of the generators, the equation for one angle of chains of
+//! four-bars, and the dense solver with all rows.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -71,8 +71,8 @@ fn large_scenes_have_the_answer_that_their_generator_states() {
 
 #[test]
 fn sparse_rows_accelerate_as_dense_ones_do() {
-    // Weights of the lattice hang straight down: some accelerations are only the rounding errors of
-    // balanced multipliers.
+    // The weights of the lattice hang straight down: some accelerations are only the rounding
+    // errors of balanced multipliers.
     for (kind, n) in [(Kind::Parallelograms, 12), (Kind::Lattice, 4)] {
         accelerate_alike(&Order::of(kind, n));
     }
@@ -87,7 +87,7 @@ fn accelerate_alike(order: &Order) {
     motion
         .acceleration(0.0, &prepared.q, &prepared.v, &mut sparse)
         .expect("regular");
-    // All rows, by a complete orthogonal decomposition.
+    // Solves all rows, by a complete orthogonal decomposition.
     let rank = prepared.decision.rank;
     Equations::new(prepared, Drift::None, |_, _| {
         Ok(Box::new(MinimumNorm::new(rank)))
@@ -101,7 +101,8 @@ fn accelerate_alike(order: &Order) {
     }
 }
 
-/// Twenty four-bars are flat at 0.72 s and 1.24 s, where 2²⁰ branches meet.
+/// Twenty four-bars are in the singular configuration at 0.72 s and 1.24 s, at which 2²⁰ branches
+/// meet.
 #[test]
 fn flat_poses_of_many_four_bars_are_passed_on_the_branch() {
     let n = 20;
@@ -128,8 +129,8 @@ fn flat_poses_of_many_four_bars_are_passed_on_the_branch() {
     }
 }
 
-/// The benchmark A02 of the IFToMM/LIM library with forty loops: twenty seconds, forty flat poses.
-/// The library allows 1e-3.
+/// The test uses the benchmark A02 of the IFToMM/LIM library with forty loops: twenty seconds,
+/// forty singular configurations. The library allows 1e-3.
 #[test]
 fn forty_four_bars_are_where_one_angle_says() {
     let n = 40;
@@ -142,7 +143,7 @@ fn forty_four_bars_are_where_one_angle_says() {
     };
     let mut rows = 0;
     simulate(&study.prepared, &options, |sample| {
-        // The first upright; its top and its foot have the same distance from its centre.
+        // The top and the foot of the first upright rod have the same distance from its centre.
         let (sin, cos) = sample.q[2].sin_cos();
         let top = [sample.q[0] + 0.5 * cos, sample.q[1] + 0.5 * sin];
         let theta = angle(n, sample.t.max(1e-4));

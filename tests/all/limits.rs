@@ -1,6 +1,6 @@
-//! Numbers that somebody chose stand in one table for each crate, with their units, what breaks
-//! if they are wrong, and the test that fails then. `none, work only` says that none can, because
-//! only time or memory change; `none` that it is not written yet.
+//! Each crate has one table of its chosen numbers, with their units, the effect of wrong values,
+//! and the test that fails then. `none, work only` means that no test can fail, because only time
+//! or memory change; `none` means that the test is not written yet.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -41,10 +41,10 @@ const FACTS: [(&str, &[&str]); 14] = [
     ("solvability/src/sensitivity/instant.rs", &["GOLDEN_ANGLE"]),
 ];
 
-/// Instead of a test, where other values give the same answers.
+/// This text replaces the name of a test if other values give the same results.
 const WORK_ONLY: &str = "none, work only";
 
-/// Constants that no test pins yet, at most. A new one needs a test.
+/// Largest number of constants without a test. A new constant needs a test.
 const UNPINNED_MOST: usize = 20;
 
 const NUMBERS: [&str; 9] = [
@@ -84,7 +84,7 @@ struct Limit {
     comment: String,
 }
 
-/// The numeric constants of a text, up to its tests.
+/// Returns the numeric constants of a text, up to its tests.
 fn limits(text: &str) -> Vec<Limit> {
     let mut found = Vec::new();
     let mut comment = String::new();
@@ -115,7 +115,7 @@ fn limits(text: &str) -> Vec<Limit> {
     found
 }
 
-/// The text of a comment after a word, up to the end of the sentence.
+/// Returns the text of a comment after a word, up to the end of the sentence.
 fn said<'c>(limit: &'c Limit, word: &str) -> Option<&'c str> {
     let rest = limit.comment.split_once(word)?.1;
     Some(

@@ -1,4 +1,4 @@
-//! Linearised motions against closed forms and published tables.
+//! Compares linearised motions with closed forms and published tables.
 
 use linalg::{Matrix, eigenpairs};
 use model::Registry;
@@ -42,8 +42,8 @@ fn eigenvalues(a: &Matrix) -> Vec<[f64; 2]> {
     pairs.into_iter().map(|pair| pair.value).collect()
 }
 
-/// A compound pendulum: m = 2, J = 0.5, mass centre 1.5 below
-/// the pin, g = 9.81. `(J + m·l²)·ÿ + m·g·l·y = 0`.
+/// A compound pendulum has m = 2, J = 0.5, the mass centre 1.5 below the pin, and g = 9.81. Its
+/// equation is `(J + m·l²)·ÿ + m·g·l·y = 0`.
 #[test]
 fn a_pendulum_has_the_matrices_of_its_textbook() {
     let text = "
@@ -87,7 +87,8 @@ joint = [{ name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"rod\"], 
     );
 }
 
-/// A body that nothing holds is not sent to a search for rest, in which it falls as well.
+/// For a body without support the message does not recommend a search for an equilibrium, in which
+/// it would fall as well.
 #[test]
 fn a_body_that_falls_freely_is_told_to_be_held() {
     let text = "
@@ -95,12 +96,13 @@ scene = { name = \"stone\", space = \"spatial\", gravity = [0.0, 0.0, -10.0] }
 body = [{ name = \"stone\", mass = 2.0, inertia = [0.1, 0.2, 0.25] }]
 ";
     let refused = asked(text, &[], &[]).expect_err("it falls").to_string();
-    let end = "there is no rest: `stone` slides along (0, 0, −1), pushed with 20 N by the weight, wherever it \
-               goes; hold it by a joint to the ground, or describe what carries it";
+    let end = "there is no equilibrium: `stone` slides along (0, 0, −1), pushed with 20 N by the weight at every \
+               position; add a joint to the ground, or describe the support";
     assert!(refused.ends_with(end), "{refused}");
 }
 
-/// A mass on a spring in the middle of its swing has no acceleration, and is not steady.
+/// A mass on a spring in the middle of its swing has no acceleration, but it is not in steady
+/// motion.
 #[test]
 fn a_mass_that_passes_its_place_of_rest_is_not_steady() {
     let text = "
@@ -147,8 +149,8 @@ joint = [{ name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"rod\"], 
     assert!(matches!(refused(&["x"]), LineariseError::Coordinate { .. }));
 }
 
-/// A disk that rolls upright at ω leans with `(A + m·r²)·λ² = m·g·r − C·(C + m·r²)·ω²/A`: m = 3,
-/// r = 0.4, A = 0.12, C = 0.24. All other eigenvalues vanish.
+/// A disk that rolls upright at ω leans with `(A + m·r²)·λ² = m·g·r − C·(C + m·r²)·ω²/A`: m = 3, r
+/// = 0.4, A = 0.12, C = 0.24. All other eigenvalues vanish.
 #[test]
 fn a_rolling_disk_is_steady_beyond_its_critical_speed() {
     let (m, r, a, c, g) = (3.0_f64, 0.4_f64, 0.12_f64, 0.24_f64, 9.81_f64);
@@ -198,7 +200,7 @@ radius = {r}
     }
 }
 
-/// The weight of a pendulum acts on its angle.
+/// The weight of a pendulum depends on its angle.
 #[test]
 fn what_the_motion_depends_on_cannot_be_followed() {
     let text = "
@@ -213,7 +215,7 @@ joint = [{ name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"rod\"], 
     );
 }
 
-/// A bumper that begins to push where the mass is.
+/// A bumper begins to push at the position of the mass.
 #[test]
 fn a_force_with_a_corner_is_refused() {
     let text = "
@@ -229,8 +231,8 @@ drive = [{ name = \"bumper\", joint = \"rail\", type = \"displacement\", force =
     );
 }
 
-/// A bob on a rod of 0.2 m beside a pendulum 10 m away: steps of the size of the mechanism are long
-/// for the rod. `ω² = g/l`, and `m·g·l/(J + m·l²)` of the pendulum.
+/// A bob on a rod of 0.2 m is 10 m away from a pendulum: steps of the size of the mechanism are
+/// long for the rod. The reference is `ω² = g/l`, and `m·g·l/(J + m·l²)` for the pendulum.
 #[test]
 fn a_short_rod_in_a_large_mechanism_has_derivatives() {
     let text = "
@@ -256,7 +258,7 @@ joint = [
     }
 }
 
-/// A rod on a pin, hanging or standing, with or without a damper.
+/// A rod on a pin hangs or is upright, with or without a damper.
 #[test]
 fn what_first_order_says_of_stability() {
     let scene = |y: f64, damping: f64| {
@@ -280,7 +282,7 @@ force = [{{ name = \"oil\", type = \"torsion-spring-damper\", bodies = [\"ground
     let [mode] = &modes[..] else {
         panic!("{modes:?}")
     };
-    // (J + m·l²)·ÿ + d·ẏ + m·g·l·y = 0
+    // The equation is (J + m·l²)·ÿ + d·ẏ + m·g·l·y = 0.
     let (mass, stiffness): (f64, f64) = (5.0, 2.0 * 9.81 * 1.5);
     let natural = (stiffness / mass).sqrt();
     assert!((mode.natural_frequency() - natural).abs() < 1e-11);
@@ -291,8 +293,8 @@ force = [{{ name = \"oil\", type = \"torsion-spring-damper\", bodies = [\"ground
     );
 }
 
-/// A pendulum of mass m with its mass centre l below a cart on a rail, which a drive moves:
-/// `(J + m·l²)·φ̈ = −m·g·l·φ − m·l·ẍ`, and a force on the bob along x gives `l/(J + m·l²)`.
+/// A pendulum of mass m has its mass centre l below a cart on a rail, which a drive moves:
+/// `(J + m·l²)·φ̈ = −m·g·l·φ − m·l·ẍ`. A force on the bob along x gives `l/(J + m·l²)`.
 #[test]
 fn drives_and_forces_are_inputs() {
     let text = "

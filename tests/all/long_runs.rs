@@ -1,4 +1,4 @@
-//! Runs that pass singular configurations many times: no drift, no failure.
+//! Runs that pass singular configurations many times have no drift and no failure.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
@@ -7,8 +7,8 @@ use dynamics::{EventKind, Method, MotionOptions, RowChoice, Summary, prepare, si
 use model::{Description, Mechanism, StartOptions};
 use tests::cranks::cranks;
 
-/// Three cranks that swing under gravity from rest at θ. The flat poses are 0 and −π, the lowest
-/// one −π/2.
+/// Three cranks swing under gravity from rest at θ. The singular configurations are 0 and −π, and
+/// the lowest position is −π/2.
 fn swinging(theta: f64) -> Description {
     let mut d = cranks(&[0.0, 1.0, 1.7], 0.5, theta);
     d.gravity = [0.0, -9.81];
@@ -32,12 +32,13 @@ fn run(theta: f64, options: &MotionOptions) -> (Summary, Vec<f64>) {
     (summary, q)
 }
 
-/// Above and below a flat pose.
+/// The start is above or below a singular configuration.
 const ABOVE: f64 = 0.5;
 const BELOW: f64 = -0.7;
 
-/// Runs of 300 s; a start above the flat pose gives some 190 swings that pass a flat pose twice:
-/// there the drift of the energy is larger, because the rounding errors are.
+/// The runs take 300 s. A start above the singular configuration gives some 190 swings that pass a
+/// singular configuration twice; there the drift of the energy is larger, because the rounding
+/// errors are larger.
 #[test]
 fn three_cranks_swing_for_300_seconds() {
     for (theta, drift, passages) in [(BELOW, 1e-12, 0), (ABOVE, 1e-10, 300)] {
@@ -85,7 +86,7 @@ fn three_cranks_swing_for_300_seconds() {
     }
 }
 
-/// For any largest step: no NaN, and the cranks stay parallel.
+/// For any maximum step size there is no NaN, and the cranks remain parallel.
 #[test]
 fn sixty_four_step_sizes_over_the_flat_pose() {
     let reference = run(

@@ -54,3 +54,4 @@ mod tidy;
 mod two_levels;
 mod units;
 mod verdict_catalogue;
+mod words;

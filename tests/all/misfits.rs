@@ -1,5 +1,6 @@
-//! Motions within a stated tolerance: rows that are redundant within it only are dropped, and what
-//! they miss is a result. References are closed forms on the same kept rows.
+//! Motions within a stated tolerance: rows that are redundant only within it are treated as
+//! dependent, and their violations are a result. References are closed forms on the same
+//! independent rows.
 
 use dynamics::{MotionError, MotionFault};
 use model::Registry;
@@ -7,18 +8,18 @@ use pfaff::documents::MisfitDocument;
 use pfaff::documents::RunDocument;
 use pfaff::{RunOptions, Study, StudyError};
 
-/// Length of the cranks, and by how much the third pin of the coupler is off (m).
+/// Length of the cranks, and the offset of the third pin of the coupler (m).
 const LENGTH: f64 = 0.4;
 const OFF: f64 = 4e-4;
 
-/// A mean angle of the cranks, by how much a motor turns them back and forth (rad), and how fast
-/// (rad/s): θ = MEAN − SWING·sin(RATE·t).
+/// A mean angle of the cranks, the amplitude of the motor (rad), and its frequency (rad/s): θ =
+/// MEAN − SWING·sin(RATE·t).
 const MEAN: f64 = 1.1;
 const SWING: f64 = 0.5;
 const RATE: f64 = 2.0;
 
-/// Three parallel cranks with the given lines for `[scene]`; rows 1–12 are those of the joints A,
-/// B, C on the ground and A2, B2, C2 on the coupler, row 13 that of a motor on A.
+/// Three parallel cranks have the given lines for `[scene]`. Rows 1–12 belong to the joints A, B, C
+/// on the ground and A2, B2, C2 on the coupler, and row 13 belongs to a motor on A.
 fn cranks(stated: &str, motor: bool) -> String {
     let (sin, cos) = MEAN.sin_cos();
     let mut text =
@@ -57,7 +58,7 @@ fn cranks(stated: &str, motor: bool) -> String {
     text + "[start]\nkeep = [\"a.angle\"]\nallow_correction = true\n[simulate]\nt_end = 1.5\nrtol = 1e-9\natol = 1e-11\n"
 }
 
-/// A run on the rows that remain without the given ones, from 1.
+/// A run on the rows that remain without the given ones, counted from 1.
 fn run(text: &str, drop: Option<&[usize]>) -> Result<RunDocument, StudyError> {
     let overrides = RunOptions {
         drop: drop.map(|rows| rows.iter().map(|row| row - 1).collect()),
@@ -76,7 +77,7 @@ fn only(run: &RunDocument) -> &MisfitDocument {
 }
 
 /// Without C2.x the third crank follows the height of its pin, so that it is parallel to the
-/// others, and the pins are apart by what one of them is off at all times.
+/// others. The distance of the pins then equals the offset of one pin at all times.
 #[test]
 fn a_pin_misses_by_what_it_is_off() {
     let run = run(&cranks("tolerance = 1e-3", true), Some(&[11])).expect("runs");
@@ -90,8 +91,9 @@ fn a_pin_misses_by_what_it_is_off() {
     assert!(misfit.largest < misfit.bound, "{misfit:?}");
 }
 
-/// Without C2.y the third crank follows `L·cos φ = L·cos θ + off`; the pins are apart by
-/// `L·(sin θ − sin φ)`, most where θ is smallest, at `sin(RATE·t)` = 1, which is between two steps.
+/// Without C2.y the third crank follows `L·cos φ = L·cos θ + off`. The distance of the pins is
+/// `L·(sin θ − sin φ)`; it is largest for the smallest θ, at `sin(RATE·t)` = 1, which is between
+/// two steps.
 #[test]
 fn the_largest_misfit_and_its_time_are_those_of_the_closed_form() {
     let run = run(&cranks("tolerance = 1e-3", true), Some(&[12])).expect("runs");
@@ -109,8 +111,8 @@ fn the_largest_misfit_and_its_time_are_those_of_the_closed_form() {
     assert!(run.energy_balance < 1e-7, "{}", run.energy_balance);
 }
 
-/// The other choice keeps C2.y and lets the pin of the second crank go in height: the coupler tilts
-/// about the pin of the first crank, by what C2.y missed over their distance.
+/// The other choice keeps C2.y and releases the height of the pin of the second crank. The coupler
+/// tilts about the pin of the first crank, by the violation of C2.y divided by their distance.
 #[test]
 fn two_choices_differ_by_what_rows_miss() {
     let run = run(&cranks("tolerance = 1e-3", true), Some(&[12])).expect("runs");
@@ -126,10 +128,10 @@ fn two_choices_differ_by_what_rows_miss() {
     );
 }
 
-/// A slider on a line with a rod of length 1 across it: for short ways the rod is redundant within
-/// two hundredths. A motor pushes it by x, and the rod misses by x²/2 and its velocities by x·ẋ:
-/// the run stops by name once data within the tolerance do not explain that. Both bounds are
-/// about 3·0.02·3.2, so that the velocities reach theirs first.
+/// A slider on a line has a rod of length 1 across it: for short displacements the rod is redundant
+/// within two hundredths. A motor moves it by x. The rod is violated by x²/2 and its velocities by
+/// x·ẋ. The run stops with an error when data within the tolerance no longer explain these
+/// violations. Both bounds are about 3·0.02·3.2, so that the velocities reach their bound first.
 #[test]
 fn beyond_the_tolerance_a_run_stops_by_name() {
     let slider = r#"
@@ -172,8 +174,8 @@ fn beyond_the_tolerance_a_run_stops_by_name() {
     );
 }
 
-/// Cranks that swing freely: gravity turns them, so that velocities and accelerations of redundant
-/// rows differ by what the data explain, too.
+/// Cranks swing freely: gravity rotates them, so that velocities and accelerations of redundant
+/// rows also differ by amounts that the data explain.
 #[test]
 fn free_cranks_move_within_their_tolerance() {
     let text = cranks("tolerance = 1e-3", false)
@@ -184,7 +186,7 @@ fn free_cranks_move_within_their_tolerance() {
     assert!(run.energy_balance < 1e-7, "{}", run.energy_balance);
 }
 
-/// A leaf on two hinges at one place, half a millimetre apart in the ground.
+/// A leaf has two hinges at one point of the leaf, which are half a millimetre apart in the ground.
 #[test]
 fn a_door_on_two_hinges_misses_by_their_distance() {
     let door = r#"
@@ -207,7 +209,7 @@ fn a_door_on_two_hinges_misses_by_their_distance() {
     let misfit = only(&run);
     assert_eq!((misfit.unit, misfit.time), ("m", 0.0));
     assert!((misfit.largest - 5e-4).abs() < 1e-12, "{misfit:?}");
-    // The other choice holds the leaf at the other hinge.
+    // The other choice fixes the leaf at the other hinge.
     let spread = run.spread.as_ref().expect("a row misses");
     assert!(
         (spread.position - 5e-4).abs() < 1e-9 && spread.angle < 1e-9,
@@ -215,7 +217,7 @@ fn a_door_on_two_hinges_misses_by_their_distance() {
     );
 }
 
-/// A stated tolerance changes nothing where rows are redundant exactly.
+/// A stated tolerance has no effect if rows are exactly redundant.
 #[test]
 fn rows_that_are_redundant_exactly_miss_nothing() {
     let exact = |stated: &str| cranks(stated, true).replace("[1.0004, 0.0]", "[1.0, 0.0]");

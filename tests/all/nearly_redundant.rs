@@ -1,6 +1,6 @@
-//! The third of three parallel cranks misaligned by ε, from 1e-3 to 1e-20: full rank in exact
-//! arithmetic for every ε, with reactions of size 1/ε, until ε is less than the uncertainty of the
-//! data. No answer for any ε may be wrong.
+//! The third of three parallel cranks is misaligned by ε, from 1e-3 to 1e-20. In exact arithmetic
+//! the rank is full for every ε, with reactions of size 1/ε. The program finds this until ε is less
+//! than the uncertainty of the data. No result for any ε may be wrong.
 
 use dynamics::{MotionError, RowChoice, prepare};
 use exact::Exact;
@@ -12,19 +12,19 @@ use tests::cranks;
 
 use crate::plain::Plain;
 
-/// Some thousand rounding errors of numbers of size one: σ₁₂ is about ε/10, and the noise of 12 ×
-/// 12 entries about 10⁻¹⁴. Above it no misalignment may be taken as rounding.
+/// Limit of some thousand rounding errors of numbers of size one: σ₁₂ is about ε/10, and the noise
+/// of 12 × 12 entries about 10⁻¹⁴. Above this limit no misalignment may count as rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Number of misalignments that may be undecided if the rank is certified: between the uncertainty
-/// of the data and four times as much.
+/// of the data and four times this value.
 const UNDECIDED: usize = 2;
 
 fn misaligned(error: f64) -> Mechanism {
     Mechanism::build(&cranks::misaligned(error)).expect("the cranks build")
 }
 
-/// C of the mechanism at its described configuration.
+/// Returns C of the mechanism at its described configuration.
 fn constraint_matrix(mechanism: &Mechanism) -> Matrix {
     let (q, _) = mechanism.described_state();
     let mut s = mechanism.scratch();
@@ -45,13 +45,13 @@ fn analysed(mechanism: &Mechanism) -> Analysis {
     analyse(mechanism, 0.0, &q).expect("C is finite")
 }
 
-/// 1e-3, 3e-4, … 1e-20.
+/// Returns 1e-3, 3e-4, … 1e-20.
 fn misalignments() -> impl Iterator<Item = f64> {
     (3..=20).flat_map(|k| [10_f64.powi(-k), 3.0 * 10_f64.powi(-k - 1)])
 }
 
 /// The exact reference: with a misalignment of 10⁻²⁰, or of 10⁻³⁰⁰, the matrix has full rank;
-/// without one it has not.
+/// without a misalignment it has not.
 #[test]
 fn the_matrix_holds_the_misalignment() {
     for error in misalignments().chain([1e-100, 1e-300]) {
@@ -79,12 +79,12 @@ fn plain_matrices_have_full_rank_for_any_misalignment() {
     }
     let s = Plain::of(&constraint_matrix(&misaligned(0.0)));
     assert_eq!(s.decision().rank, 11);
-    // Vertical cranks: forces along them are not unique, forces across them are.
+    // In vertical cranks, forces along them are not unique, and forces across them are unique.
     let found: Vec<bool> = (0..12).map(|i| s.row(i).verdict.is_unique()).collect();
     assert_eq!(found, [true, false].repeat(6));
 }
 
-/// The answer of the program for a mechanism: redundant, of full rank, or undecided.
+/// The result of the program for a mechanism: redundant, of full rank, or undecided.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Said {
     Redundant,
@@ -100,8 +100,8 @@ fn said(analysis: &Analysis) -> Said {
     }
 }
 
-/// The data of a mechanism are at best accurate to their rounding: only within this accuracy may a
-/// misaligned crank be called redundant.
+/// The data of a mechanism are at best accurate to their rounding: only within this accuracy may
+/// the program call a misaligned crank redundant.
 #[test]
 fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
     let (mut before, mut undecided) = (Said::FullRank, 0);
@@ -142,7 +142,7 @@ fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
         if error <= 1e-17 {
             assert_eq!(found, Said::Redundant, "ε = {error:e}");
         }
-        // For decreasing ε: full rank, undecided, redundant.
+        // For decreasing ε the results are full rank, undecided, redundant.
         let order = |said: Said| {
             [Said::FullRank, Said::Undecided, Said::Redundant]
                 .iter()
@@ -174,12 +174,12 @@ fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
         Said::Redundant => assert_eq!(certificate.grounds, Grounds::WithinData, "ε = {error:e}"),
         Said::FullRank => {
             assert_eq!(certificate.grounds, Grounds::FullRank, "ε = {error:e}");
-            // The proof needs ten times more room than the decision.
+            // The proof needs ten times more margin than the decision.
             assert!(
                 certificate.rank_at_least == 12 || error < 1e-11,
                 "ε = {error:e}"
             );
-            // σ₁₂ is about ε/10.
+            // The singular value σ₁₂ is about ε/10.
             let near = decision.nearly_redundant();
             assert!(near.is_some() || error > 1e-6, "ε = {error:e}");
             if let Some(near) = near {
@@ -190,8 +190,8 @@ fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
     }
 }
 
-/// Vertical cranks at 0, 1 and 1.7 press on their coupler by 0.7, −1.7 and 1, each through two
-/// joints. Rows across them, and of a pendulum beside them, have no part in it.
+/// Vertical cranks at 0, 1 and 1.7 push against their coupler with 0.7, −1.7 and 1, each through
+/// two joints. Rows across them, and rows of a separate pendulum, do not take part.
 #[test]
 fn a_start_names_the_rows_that_nearly_depend_and_no_others() {
     let mut d = cranks::misaligned(1e-9);

@@ -1,5 +1,5 @@
-//! `rust-version` is stated once, every member has it, no dependency requires a newer compiler, and
-//! the present compiler has this version. See `docs/stability.md`.
+//! The workspace states `rust-version` once, every member has it, no dependency requires a newer
+//! compiler, and the present compiler has this version. See `docs/stability.md`.
 
 use std::path::Path;
 use std::process::Command;
@@ -23,7 +23,7 @@ fn version(text: &str) -> [u64; 3] {
     std::array::from_fn(|_| number(parts.next()))
 }
 
-/// The version in the root manifest.
+/// Returns the version in the root manifest.
 fn stated() -> String {
     let manifest = std::fs::read_to_string(root().join("Cargo.toml")).expect("readable");
     let line = manifest
@@ -34,14 +34,15 @@ fn stated() -> String {
         .to_owned()
 }
 
-/// A line of output of the present compiler.
+/// Returns a line of output of the present compiler.
 fn rustc(argument: &str) -> String {
     let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let output = Command::new(rustc).arg(argument).output();
     String::from_utf8(output.expect("it starts").stdout).expect("UTF-8")
 }
 
-/// Packages and members of the workspace on this platform, from the locally available sources.
+/// Returns packages and members of the workspace on this platform, from the locally available
+/// sources.
 fn metadata() -> Value {
     let verbose = rustc("-vV");
     let host = verbose.lines().find_map(|l| l.strip_prefix("host: "));
@@ -94,12 +95,12 @@ fn no_dependency_asks_for_a_newer_compiler() {
         .map(|p| format!("{} {} needs {}", p["name"], p["version"], p["rust_version"]))
         .collect();
     assert!(newer.is_empty(), "{newer:#?}");
-    // Most packages state their version; nothing is known of the others.
+    // Most packages state their version; the version of the others is unknown.
     let told = packages.iter().filter(|p| p["rust_version"].is_string());
     assert!(2 * told.count() > packages.len());
 }
 
-/// Cargo refuses an older compiler before this test runs.
+/// Cargo rejects an older compiler before this test runs.
 #[test]
 #[expect(
     clippy::print_stderr,

@@ -1,5 +1,5 @@
-//! Verdicts by cycles equal those of the whole: random mechanisms with constructed redundancy, and
-//! ranks by exact arithmetic.
+//! Verdicts by cycles equal those of the whole mechanism: random mechanisms with constructed
+//! redundancy, and ranks by exact arithmetic.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -28,7 +28,8 @@ fn parts_say_what_the_whole_says() {
         let sketch = &drawn.sketch;
         let mechanism = Mechanism::build(&sketch.description()).expect("the mechanism builds");
         let (q, _) = mechanism.described_state();
-        // Rows of the mechanism, by the names of joints: there the holonomic ones come first.
+        // The rows of the mechanism, by the names of joints: in the mechanism the holonomic rows
+        // come first.
         let mut rows_of = BTreeMap::new();
         for block in sketch.exact_rows() {
             rows_of.insert(block.name.clone(), block.rows);
@@ -82,8 +83,8 @@ fn described(found: &Analysis, whole: &Analysis) -> String {
     format!("{}whole: {:?}", parts.collect::<String>(), whole.decision)
 }
 
-/// Sums, choices and deletions, computed for the parts and for the whole: two methods with
-/// different null spaces.
+/// Sums, choices and deletions are computed for the parts and for the whole, which are two methods
+/// with different null spaces.
 #[test]
 fn questions_are_answered_by_parts_as_by_the_whole() {
     let mut numbers = Numbers::new(SEED + 1);

@@ -1,11 +1,11 @@
-//! Verdicts of plain matrices for the tests: the entries are exact, and the arguments are existing
+//! Verdicts on plain matrices for the tests: the entries are exact, and the arguments are existing
 //! rows.
 
 use linalg::Matrix;
 use rank::RankDecision;
 use solvability::{Judgement, Solvability};
 
-/// [`Solvability::of_exact`] of a finite matrix.
+/// The analysis [`Solvability::of_exact`] of a finite matrix.
 pub(crate) struct Plain(Solvability);
 
 impl Plain {

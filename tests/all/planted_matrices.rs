@@ -1,4 +1,4 @@
-//! Ten thousand matrices with constructed redundancy, judged by `solvability` and by exact
+//! Ten thousand matrices with constructed redundancy, analysed by `solvability` and by exact
 //! arithmetic. The given entries are exact: a matrix whose rows are dependent except for one part
 //! in 10¹⁰⁰ has full rank.
 //!
@@ -79,7 +79,7 @@ fn judge(rows: &[Vec<f64>], numbers: &mut Numbers, tally: &mut Tally) {
         tally.judgement(&plain.combination(&l), unique, || {
             format!("{l:?} of {rows:?}")
         });
-        // The same as a component of all rows.
+        // The same combination as a component of all rows.
         let map = Matrix::from_fn(1, m, |_, i| l[i]);
         let all: Vec<usize> = (0..m).collect();
         tally.judgement(&plain.component(&map, 0, &all), unique, || {
@@ -88,7 +88,7 @@ fn judge(rows: &[Vec<f64>], numbers: &mut Numbers, tally: &mut Tally) {
     }
 }
 
-/// The rows, in any order, in groups of one to three.
+/// Returns the rows, in any order, in groups of one to three.
 fn partition(m: usize, numbers: &mut Numbers) -> Vec<Vec<usize>> {
     let order = numbers.order(m);
     let mut rest = order.as_slice();
@@ -101,8 +101,8 @@ fn partition(m: usize, numbers: &mut Numbers) -> Vec<Vec<usize>> {
     groups
 }
 
-/// A column of C, the difference of two, or a few random coefficients. The first is always unique,
-/// the second up to rounding.
+/// Returns a column of C, the difference of two columns, or a few random coefficients. The first is
+/// always unique, and the second is unique up to rounding.
 fn combination(rows: &[Vec<f64>], numbers: &mut Numbers) -> Vec<f64> {
     let n = rows[0].len();
     let (j, k) = (numbers.below(n), numbers.below(n));

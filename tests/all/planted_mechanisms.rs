@@ -1,6 +1,6 @@
-//! Mechanisms with constructed redundancy at configurations on a grid, judged by `solvability` and
-//! by exact arithmetic. The bodies have arbitrary angles, so the parameters in their frames are
-//! rounded: the correct answer is that for the drawn mechanism.
+//! Mechanisms with constructed redundancy at configurations on a grid, analysed by `solvability`
+//! and by exact arithmetic. The bodies have arbitrary angles, so the parameters in their frames are
+//! rounded: the correct result is that for the drawn mechanism.
 //!
 //! `PFAFF_CASES=20000 cargo test -p tests planted_mechanisms -- --nocapture` makes a longer run.
 
@@ -61,7 +61,7 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
             format!("rank of Ψ of {sketch:?}")
         });
     } else {
-        // The rank of Φq or of Ψ alone.
+        // The rank of Φq or of Ψ alone is undecided.
         tally.undecided(|| format!("{:?} of {sketch:?}", analysis.warnings));
     }
 
@@ -91,7 +91,7 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
         }
         let directions = found.components.len() - freedom;
         if directions > 0 && found.unique_directions.is_empty() {
-            // Also empty if the number of directions is uncertain.
+            // The list is also empty if the number of directions is uncertain.
             tally.undecided(|| format!("unique directions of {name} of {sketch:?}"));
             continue;
         }
@@ -101,7 +101,7 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
     }
 }
 
-/// Ranks of Φq and of Ψ.
+/// Returns the ranks of Φq and of Ψ.
 fn ranks_apart(sketch: &Sketch) -> (usize, usize) {
     let rank_where = |nonholonomic: bool| {
         let blocks = sketch.exact_rows().into_iter().zip(&sketch.links);
@@ -111,8 +111,8 @@ fn ranks_apart(sketch: &Sketch) -> (usize, usize) {
     (rank_where(false), rank_where(true))
 }
 
-/// One body on three parallel edges, at many headings. If the normals are parallel to an axis up to
-/// rounding, a column of C contains only rounding errors: it must not count.
+/// One body has three parallel edges, at many headings. If the normals are parallel to an axis up
+/// to rounding, a column of C contains only rounding errors, which must not count.
 #[test]
 fn parallel_edges_at_any_heading() {
     let mut numbers = Numbers::new(SEED);
@@ -121,7 +121,7 @@ fn parallel_edges_at_any_heading() {
         .filter(|&angle| {
             let mut sketch = Sketch::default();
             let cart = sketch.body([0.0; 2], angle);
-            // The same normal, rounded in three ways.
+            // The normal is the same, rounded in three ways.
             for (at, length) in [([-1.0, 1.5], 1.0), ([0.5, -2.0], 3.0), ([2.0, 1.0], 7.0)] {
                 let normal = [0.0, length];
                 sketch.link(&[cart], Tie::KnifeEdge { at, normal });

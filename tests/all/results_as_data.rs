@@ -1,12 +1,12 @@
-//! The feature `serde` of the lower crates: results are data by the names of their fields, and a
-//! number that is no number is not one there either.
+//! The feature `serde` of the lower crates: results are data by the names of their fields, and NaN
+//! is not a number in the data either.
 
 use linalg::Matrix;
 use pfaff::model::Registry;
 use pfaff::{RunOptions, Study};
 use serde_json::{json, to_value};
 
-/// A beam between two pins, which share the force along it as they like.
+/// A beam between two pins, which share the force along it in an undetermined way.
 const BEAM: &str = "
 [scene]
 space = 'plane'
@@ -33,7 +33,7 @@ fn a_rank_is_data() {
     let decision = rank::decide(&c, rank::Accuracy::Exact).expect("decided");
     let data = to_value(&decision).expect("data");
     assert_eq!((&data["rank"], &data["redundancy"]), (&json!(1), &json!(1)));
-    // The larger row is kept; the other is half of it.
+    // The larger row is independent; the other row is half of it.
     assert_eq!(data["coefficients"], json!([[0.5]]), "{data}");
     assert_eq!(data["kept"], json!([1]));
 }

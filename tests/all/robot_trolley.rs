@@ -165,7 +165,8 @@ fn variants_differ_in_non_unique_reactions_only() {
         for (group, d) in groups.iter().zip(&differences) {
             let differs = ["B", "C", "W1", "W2", "W3", "W4"].contains(&group.name.as_str());
             if group.name == "W4" {
-                // Dropped, and so zero by definition, in all three.
+                // The row is redundant in all three variants, and so its multiplier is zero by
+                // definition.
                 assert_eq!(*d, 0.0);
             } else if differs {
                 assert!(*d > 1.0, "{} is the same in {pair:?}", group.name);
@@ -217,7 +218,7 @@ fn ranks_and_verdicts_hold_along_the_motion() {
     }
 }
 
-/// Pairs of rows (from 1) whose deletion keeps the motion.
+/// Returns pairs of rows (from 1) whose deletion does not change the motion.
 fn admissible_pairs(p: &PreparedMechanism, t: f64, q: &[f64]) -> Vec<[usize; 2]> {
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(t, q, &mut s);
@@ -293,8 +294,8 @@ fn rows_and_admissible_pairs_depend_on_the_angle_of_the_edges() {
 #[test]
 fn steered_edges_at_a_right_angle_split_the_circuits() {
     for displacement in [-0.135_153_013_442_6, 0.089_750_156_055_0] {
-        // The drive moves the slider at rest: no other velocity, so that the platform does not
-        // move.
+        // The drive moves the slider at rest: there is no other velocity, so that the platform does
+        // not move.
         let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
         let mut description = robot(ramp);
         for body in &mut description.bodies {
@@ -336,7 +337,7 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
     }
 }
 
-/// C at a configuration, and the verdicts of its multipliers.
+/// Returns C at a configuration, and the verdicts on its multipliers.
 fn solvability_at(p: &PreparedMechanism, t: f64, q: &[f64]) -> (linalg::Matrix, Solvability) {
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(t, q, &mut s);
@@ -376,7 +377,7 @@ fn directions_and_sums_that_are_unique() {
         "B across the edge of W1"
     );
     for k in 0..2 {
-        // On the knuckle: +λ_B of the joint, −λ·n of the edge.
+        // On the knuckle the force is +λ_B of the joint and −λ·n of the edge.
         let mut sum = vec![0.0; 22];
         (sum[2 + k], sum[w1]) = (1.0, -normal[k]);
         assert_eq!(
@@ -449,7 +450,7 @@ fn written_rows_are_as_accurate_as_steps() {
                 .map(|(a, b)| a - b),
         )
     };
-    // Steps end at the break times of the drive, and at the last time.
+    // Steps end at the break times of the drive, and at the end time.
     let steps = [1.0, 2.0, 3.0, 4.0, 6.0, 7.0, 8.0, 9.0, 10.0];
     let at_steps = steps.map(|t: f64| error((t / every).round() as usize));
     let worst_step = largest(at_steps);
@@ -464,8 +465,8 @@ fn written_rows_are_as_accurate_as_steps() {
     );
 }
 
-/// A table has a row at a time, and the same time is analysed: both are the same state, to the last
-/// bit, and so have the same numbers.
+/// A table has a row at a time, and the same time is analysed: both are bitwise the same state, and
+/// so have the same numbers.
 #[test]
 fn a_row_of_a_table_is_the_state_that_is_analysed_there() {
     let text = include_str!("../../crates/suite/scenes/robot-trolley.toml");

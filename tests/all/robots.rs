@@ -1,13 +1,13 @@
-//! Robots as they are imported: links whose frames lie in their joints, bodies without mass between
-//! the axes of a hip, rotors that stand in the joints they drive. Distances that are zero on paper
-//! are rounding wherever the robot does not stand at the origin and straight. Such an arm counts as
-//! zero: each robot moves, and has one rank, at all places of the world and at all turns of it.
+//! Imported robots: links with frames at their joints, bodies without mass between the axes of a
+//! hip, rotors at the joints that they drive. If the robot is not at the origin and aligned, zero
+//! distances become rounding errors. Such a lever arm counts as zero: each robot moves, and has one
+//! rank, at all positions and orientations.
 //!
-//! The rank is known on paper: a chain of joints without loops is redundant nowhere, so it is the
-//! number of rows. A closed loop of parallel axes has three rows that are redundant.
+//! The rank is known in advance: a chain of joints without loops is never redundant, so the rank is
+//! the number of rows. A closed loop of parallel axes has three rows that are redundant.
 //!
-//! With the variable `PFAFF_ROBOTS` each robot stands at each place in each turn: 10 000 mechanisms
-//! instead of 1180.
+//! With the variable `PFAFF_ROBOTS` each robot is tested at each position in each orientation: 10
+//! 000 mechanisms instead of 1180.
 
 use std::fmt::Write;
 
@@ -16,14 +16,14 @@ use pfaff::AssembledScene;
 use pfaff::prelude::*;
 use suite::numbers::Numbers;
 
-/// Number of robots, of places of the world, and of turns of it.
+/// Number of robots, of positions, and of orientations.
 const ROBOTS: u64 = 10;
 const PLACES: usize = 100;
 const TURNS: usize = 10;
 
 type Vector = [f64; 3];
 
-/// A turn of the world and a shift.
+/// A rotation of the world and a translation.
 #[derive(Clone, Copy)]
 struct World {
     axis: Vector,
@@ -32,7 +32,7 @@ struct World {
 }
 
 impl World {
-    /// A direction after the turn, by the formula of Rodrigues.
+    /// Rotates a direction by the formula of Rodrigues.
     fn turned(&self, v: Vector) -> Vector {
         let (n, (sin, cos)) = (self.axis, self.angle.sin_cos());
         let along: f64 = (0..3).map(|k| n[k] * v[k]).sum();
@@ -67,7 +67,7 @@ impl Robot {
         }
     }
 
-    /// A body whose frame is at a place; its centre of mass is elsewhere.
+    /// Adds a body whose frame is at a point; its centre of mass is elsewhere.
     fn body(&mut self, name: &str, at: Vector, (mass, inertia): (f64, f64), centre: Vector) {
         let World { axis, angle, .. } = self.world;
         let at = self.world.place(at);
@@ -79,7 +79,7 @@ impl Robot {
         );
     }
 
-    /// A joint at a place of the world; `more` are its directions.
+    /// Adds a joint at a point of the world; `more` contains its directions.
     fn joint(
         &mut self,
         name: &str,
@@ -108,7 +108,7 @@ impl Robot {
         );
     }
 
-    /// A rotor in the place of a joint with one axis, carried by a body and geared to the joint.
+    /// Adds a rotor at a joint with one axis, carried by a body and geared to the joint.
     fn rotor(&mut self, joint: &str, carrier: &str, at: Vector, axis: Vector, ratio: f64) {
         let [rotor, bearing] = [format!("{joint} rotor"), format!("{joint} bearing")];
         self.body(&rotor, at, (0.0, 1e-4), [0.0; 3]);
@@ -124,8 +124,8 @@ impl Robot {
         self.coupling(&format!("{joint} gear"), [of_joint, of_rotor], ratio);
     }
 
-    /// A leg below a place of a body: a hip of three axes through one point, made in one of four
-    /// ways, a knee, and a rotor in each joint with one axis.
+    /// Adds a leg below a point of a body: a hip of three axes through one point, a knee, and a
+    /// rotor in each joint with one axis. The hip has one of four forms.
     fn leg(&mut self, name: &str, base: &str, hip: Vector, way: u64, n: &mut Numbers) {
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let of = |part: &str| format!("{name} {part}");
@@ -194,7 +194,7 @@ impl Robot {
         self.rotor(&of("knee"), &thigh, knee, y, -9.0);
     }
 
-    /// A closed loop of parallel axes below a place: a parallelogram of three links.
+    /// Adds a closed loop of parallel axes below a point: a parallelogram of three links.
     fn pantograph(&mut self, base: &str, at: Vector) {
         let y = [0.0, 1.0, 0.0];
         let along = |by: f64, down: f64| [at[0] + by, at[1], at[2] - down];
@@ -227,13 +227,13 @@ impl Robot {
     }
 }
 
-/// Robot number k in a world: its own numbers do not depend on the world.
+/// Returns robot number k in a world: its own numbers do not depend on the world.
 fn robot(k: u64, world: World) -> Robot {
     let mut n = Numbers::new(7 + k);
     let mut robot = Robot::new(world);
     let base = [n.within(-0.1, 0.1), 0.0, n.within(0.8, 1.0)];
     robot.body("base", base, (6.6, 0.05), [-0.02, 0.0, 0.0]);
-    // One in two is bolted to the ground.
+    // Every second robot is fixed to the ground.
     if k.is_multiple_of(2) {
         robot.joint("bolt", "fixed", ["ground", "base"], base, &[]);
     }
@@ -254,7 +254,7 @@ fn robot(k: u64, world: World) -> Robot {
     robot
 }
 
-/// Turns of the world: none, quarter turns about its axes, and others.
+/// Returns a rotation of the world: none, a quarter turn about its axes, or another one.
 fn turn(k: usize, n: &mut Numbers) -> (Vector, f64) {
     let quarter = std::f64::consts::FRAC_PI_2;
     match k {
@@ -270,7 +270,7 @@ fn turn(k: usize, n: &mut Numbers) -> (Vector, f64) {
     }
 }
 
-/// Places of the world: the origin, round numbers, and others up to 100 m away.
+/// Returns a translation of the world: the origin, round numbers, or others up to 100 m away.
 fn shift(k: usize, n: &mut Numbers) -> Vector {
     let far = 10_f64.powi(k as i32 % 4 - 1);
     match k {
@@ -280,7 +280,7 @@ fn shift(k: usize, n: &mut Numbers) -> Vector {
     }
 }
 
-/// The rank of a robot, or why it does not move.
+/// Returns the rank of a robot, or the reason why it does not move.
 fn rank(robot: &Robot) -> Result<[usize; 2], String> {
     let scene = AssembledScene::read("robot.toml", &robot.text, &Registry::standard());
     let study = scene.and_then(|scene| scene.prepare(&RunOptions::default()));
@@ -297,7 +297,7 @@ fn robots_move_wherever_they_stand_and_whichever_way_they_are_turned() {
     let mut refused = Vec::new();
     for k in 0..ROBOTS {
         for (place, &shift) in shifts.iter().enumerate() {
-            // Each place has one of the turns, and the first places have all of them.
+            // Each position has one of the orientations, and the first positions have all of them.
             let is_asked = |turn: &usize| is_whole || place < 2 || place % TURNS == *turn;
             for turn in (0..TURNS).filter(is_asked) {
                 let (axis, angle) = turns[turn];

@@ -1,6 +1,6 @@
-//! Blocked, or a bifurcation? The tips of flat parallel cranks, of length L and at distance d, move
-//! across the line at v_k; two neighbours under one coupler require
-//! `(v₂ − v₁)·[(v₂ + v₁)/L − (v₂ − v₁)/d] = 0`, derived by hand.
+//! Tests whether a motion is blocked, or has a bifurcation. The tips of horizontal parallel cranks,
+//! of length L and at distance d, move across the line at v_k. Two neighbours under one coupler
+//! require `(v₂ − v₁)·[(v₂ + v₁)/L − (v₂ − v₁)/d] = 0`, derived by hand.
 
 use joints::RevoluteAngleDrive;
 use linalg::Matrix;
@@ -12,7 +12,7 @@ use tests::{largest, revolute, rod};
 const LENGTH: f64 = 0.5;
 const PITCH: f64 = 1.0;
 
-/// v₂/v₁ of two flat cranks on the branch that is not parallel.
+/// The ratio v₂/v₁ of two horizontal cranks on the branch that is not parallel.
 const RATIO: f64 = (LENGTH + PITCH) / (LENGTH - PITCH);
 
 fn driven(mut d: Description, rate: f64) -> Description {
@@ -27,7 +27,7 @@ fn driven(mut d: Description, rate: f64) -> Description {
     d
 }
 
-/// n + 1 flat cranks, each pair of neighbours with its own coupler.
+/// The mechanism has n + 1 horizontal cranks, and each pair of neighbours has its own coupler.
 fn four_bars(n: usize) -> Description {
     let x = |k: usize| PITCH * k as f64;
     let tip = |k: usize| [x(k) + LENGTH, 0.0];
@@ -74,7 +74,8 @@ fn parallel(d: &Description, n_cranks: usize, rate: f64) -> Vec<f64> {
     (0..d.bodies.len()).flat_map(of).collect()
 }
 
-/// The second-order test at the flat pose for the parallel motion, with the rank there.
+/// Returns the result of the second-order test at the singular configuration for the parallel
+/// motion, with the rank there.
 fn at_flat(d: &Description, n_cranks: usize, regular: &[Vec<f64>]) -> (usize, Continuation) {
     let mechanism = Mechanism::build(d).expect("builds");
     let (q, _) = mechanism.described_state();
@@ -166,7 +167,7 @@ fn what_is_not_decided_is_said() {
     let d = driven(four_bars(5), 2.0);
     let reason = SecondOrderDoubt::Kernel { found: 5, most: 4 };
     assert_eq!(at_flat(&d, 6, &[]), (5, Continuation::Undetermined(reason)));
-    // A motion that cannot continue.
+    // The motion cannot continue.
     let d = cranks(&[0.0, PITCH], LENGTH, 0.0);
     let mut v = parallel(&d, 2, 1.0);
     (v[4], v[5], v[7], v[8]) = (0.5, 2.0, 0.75, 0.5);
@@ -180,7 +181,7 @@ fn what_is_not_decided_is_said() {
     );
 }
 
-/// A triangle of rods stands still: rest is the only velocity.
+/// A triangle of rods cannot move: rest is its only velocity.
 #[test]
 fn what_has_no_freedom_stands_still() {
     let d = chain(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]);
@@ -197,7 +198,7 @@ fn what_has_no_freedom_stands_still() {
     assert_eq!(found.expect("a state"), Continuation::Unique);
 }
 
-/// Rods from pivot to pivot, end to end, with joints at these positions.
+/// Rods connect pivots end to end, with joints at these positions.
 fn chain(places: &[[f64; 2]]) -> Description {
     let links = places.len() - 1;
     let rods = places.windows(2).enumerate();
@@ -244,9 +245,9 @@ fn what_cannot_go_on_at_second_order_is_locked() {
     let x = |x: f64| [x, 0.0];
     assert!(locked(&chain(&[x(0.0), x(1.0), x(2.5)])));
     assert!(locked(&chain(&[x(0.0), x(1.0), x(2.5), x(3.0)])));
-    // A rod that points back: with it the chain can open.
+    // With a rod that points back, the chain can open.
     assert!(!locked(&chain(&[x(0.0), x(1.0), x(0.4), x(0.9)])));
-    // One without any freedom, and one with a finite motion.
+    // One chain has no freedom, and one has a finite motion.
     assert!(!locked(&chain(&[x(0.0), [1.0, 1.0], x(2.0)])));
     assert!(!locked(&chain(&[x(0.0), [0.0, 1.0], [1.0, 1.0], x(1.0)])));
     assert!(!locked(&cranks(&[0.0, PITCH], LENGTH, 0.0)));

@@ -1,5 +1,5 @@
-//! Change points of linkages: passed on the smooth branch, and reported. Rows that become nearly
-//! dependent although the rank does not change: exchanged, and reported.
+//! Change points of linkages are passed on the smooth branch, and reported. Rows that become nearly
+//! dependent, although the rank does not change, are exchanged, and this is reported.
 
 use std::ops::ControlFlow;
 
@@ -29,8 +29,9 @@ fn driven(pivots: &[f64], start: f64) -> dynamics::PreparedMechanism {
     prepare(mechanism, &options, &RowChoice::Automatic).expect("starts")
 }
 
-/// A parallelogram driven through its flat pose at θ = 0 can continue in two ways: it stays a
-/// parallelogram, and the run reports that the constraints do not determine this.
+/// A parallelogram that is driven through its singular configuration at θ = 0 can continue in two
+/// ways: it remains a parallelogram, and the run reports that the constraints do not determine
+/// this.
 #[test]
 fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
     for (start, rtol) in [
@@ -53,7 +54,7 @@ fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
                 Ok(ControlFlow::Continue(()))
             })
             .unwrap_or_else(|e| panic!("from {start}, rtol {rtol}, {method:?}: {e}"));
-            // Driven: all values follow from the constraints.
+            // The mechanism is driven: all values follow from the constraints.
             let theta = start + 1.0;
             for angle in [q[2], q[5]] {
                 assert!(
@@ -72,7 +73,7 @@ fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
     }
 }
 
-/// Runs that must end, or must write a row, in the flat pose or near it.
+/// The runs must end, or must write a row, in the singular configuration or near it.
 #[test]
 fn a_run_may_end_in_the_flat_pose_or_beside_it() {
     for pivots in [&[0.0, 1.0][..], &[0.0, 1.0, 1.7]] {
@@ -92,15 +93,15 @@ fn a_run_may_end_in_the_flat_pose_or_beside_it() {
             });
             let summary = match outcome {
                 Ok(summary) => summary,
-                // FIXME: two cranks that end so near to the flat pose stop with an error or not
-                // depending on the last digit of their initial velocities: changed by 1e-17 m/s, 26
-                // of 40 starts stop at one of these offsets. With the exact velocities of the start
-                // they stop.
+                // FIXME: two cranks that end very near the singular configuration stop with an
+                // error or not depending on the last digit of their initial velocities. Changed by
+                // 1e-17 m/s, 26 of 40 starts stop at one of these offsets. With the exact
+                // velocities of the start they stop.
                 Err(e) => {
                     let is_known = pivots.len() == 2 && (0.9e-6..4e-6).contains(&offset.abs());
                     let said = e.to_string();
                     assert!(is_known, "{} cranks, offset {offset}: {said}", pivots.len());
-                    assert!(said.contains("does not leave smoothly"), "{said}");
+                    assert!(said.contains("without a smooth continuation"), "{said}");
                     continue;
                 }
             };

@@ -1,4 +1,4 @@
-//! Mechanisms of space: verdicts and motions with known answers.
+//! Mechanisms in space: verdicts and motions with known answers.
 
 mod adams;
 mod axles;

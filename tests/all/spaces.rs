@@ -1,5 +1,5 @@
-//! A second space: planar bodies with coordinates (x, y, cos φ, sin φ), with n_q = 4 and n_v = 3,
-//! start, are judged and move as bodies with an angle do. Code that confuses velocities with
+//! A second space: planar bodies with coordinates (x, y, cos φ, sin φ), with n_q = 4 and n_v = 3.
+//! They start, are analysed and move like bodies with an angle. Code that confuses velocities with
 //! coordinates fails here.
 
 use std::ops::ControlFlow;
@@ -11,7 +11,7 @@ use model::{Bodies, BodyRef, Description, Mechanism, Registry, StartOptions, Sys
 use solvability::{ReactionVerdict, analyse};
 use tests::cranks::cranks;
 
-/// A mechanism in both spaces, the ordinary one first.
+/// Builds a mechanism in both spaces, the ordinary one first.
 fn both(d: &Description, start: &StartOptions) -> [PreparedMechanism; 2] {
     let built = || Mechanism::build(d).expect("a mechanism");
     [built(), built().on_unit_circle()].map(|mechanism| {
@@ -21,12 +21,12 @@ fn both(d: &Description, start: &StartOptions) -> [PreparedMechanism; 2] {
     })
 }
 
-/// Scenes of the suite, and the duration of their runs: those that pass many singular
-/// configurations stop before the first one that rounding would decide.
+/// Scenes of the suite, and the duration of their runs: runs that pass many singular configurations
+/// stop before the first one that rounding would decide.
 const SCENES: [(&str, f64); 9] = [
     ("robot-trolley", 4.0),
     ("three-cranks", 2.0),
-    // The flat pose is reached at 0.714 s.
+    // The singular configuration is reached at 0.714 s.
     ("n-four-bar", 0.7),
     ("andrews", 0.03),
     ("a01-pendulum", 10.0),
@@ -41,7 +41,7 @@ fn scene(name: &str) -> scene::Scene {
     scene::read(name, text, &Registry::standard()).expect("a scene")
 }
 
-/// The difference of poses: lengths relative to the size, angles by sine and cosine.
+/// Returns the difference of poses: lengths relative to the size, angles by sine and cosine.
 fn apart(a: &Bodies, b: &Bodies, size: f64) -> f64 {
     let of_body = |body: usize| {
         let place = norm(&difference(a.origin(body), b.origin(body))) / size;
@@ -53,7 +53,7 @@ fn apart(a: &Bodies, b: &Bodies, size: f64) -> f64 {
 /// Rows of output of a run: time, poses, velocities.
 type Rows = Vec<(f64, Bodies, Vec<f64>)>;
 
-/// A run, and its singular passages and exchanges of rows: time and kind.
+/// Returns a run, and time and kind of its singular configurations and exchanges of rows.
 fn run(p: &PreparedMechanism, options: &MotionOptions) -> (Rows, Vec<(f64, EventKind)>) {
     let mut rows = Rows::new();
     let done = simulate(p, options, |row| {
@@ -140,7 +140,7 @@ fn the_motion_is_the_same_by_every_way_through_it() {
                 rtol,
                 atol: rtol,
                 method,
-                // Rows between the ends of steps: dense output, projected.
+                // Rows between the ends of steps are dense output with projection.
                 output_step: t_end / 37.0,
                 ..MotionOptions::to(t_end)
             };
@@ -154,7 +154,8 @@ fn the_motion_is_the_same_by_every_way_through_it() {
     }
 }
 
-/// A parallelogram that passes its flat pose reports the passage at the same time, up to rounding.
+/// A parallelogram that passes its singular configuration reports it at the same time, up to
+/// rounding.
 #[test]
 fn passages_are_told_at_the_same_time() {
     let mut d = cranks(&[0.0, 1.0], 0.5, -0.5);
@@ -178,8 +179,8 @@ fn passages_are_told_at_the_same_time() {
     }
 }
 
-/// A start off the constraints is assembled to the same pose, also if bodies rotate by radians in
-/// the correction.
+/// A start off the constraints is assembled to the same pose, also if the correction rotates bodies
+/// by radians.
 #[test]
 fn a_start_far_beside_the_constraints_is_corrected_alike() {
     let mut d = cranks(&[0.0, 1.0, 2.5], 0.5, 0.4);

@@ -1,7 +1,7 @@
-//! Starts with velocities: given ones are kept, the others follow with the least kinetic energy,
-//! drives determine theirs; velocities that no motion has are named, with advice that works. The
-//! correct answer is computed by singular values of the dense rows, which the program does not use
-//! here.
+//! Starts with velocities: given velocities are kept, the others follow with the least kinetic
+//! energy, and drives determine theirs. Impossible velocities are named, with advice that works.
+//! The correct result is computed from singular values of the dense rows, which the program does
+//! not use here.
 
 mod scenes;
 
@@ -14,19 +14,19 @@ use tests::numbers::Numbers;
 
 const SEED: u64 = 8;
 
-/// Scenes of the campaign.
+/// Number of scenes of the test.
 const SCENES: usize = 1000;
 
-/// Singular values below this fraction of the largest are zero; the scenes have none between this
-/// and a thousandth.
+/// Singular values below this fraction of the largest are zero; the scenes have no value between
+/// this and a thousandth.
 const ZERO: f64 = 1e-8;
 
-/// Largest error of the program's velocities, relative to the fastest: rounding at a hundred sizes
-/// from the origin, times the condition number of a linkage.
+/// Largest error of the velocities of the program, relative to the fastest: rounding at a hundred
+/// sizes from the origin, times the condition number of a linkage.
 const AGREES: f64 = 1e-9;
 
-/// Rows and right-hand sides of a start, columns in units of points: rotations are multiplied by
-/// the size of the mechanism.
+/// Rows and right-hand sides of a start, with columns in units of points: rotations are multiplied
+/// by the size of the mechanism.
 struct Rows {
     c: DMatrix<f64>,
     b: DVector<f64>,
@@ -58,7 +58,7 @@ fn rows(text: &str) -> Rows {
     let unit: Vec<f64> = (0..layout.n_v)
         .map(|j| if j % 3 == 2 { 1.0 / size } else { 1.0 })
         .collect();
-    // Rows of angles are scaled to the size of those of lengths.
+    // Rows of angles are scaled to the size of the rows of lengths.
     let scale = |i: usize| if m.layout().is_angular(i) { size } else { 1.0 };
     let drives = layout.drive_rows();
     Rows {
@@ -73,13 +73,14 @@ fn rows(text: &str) -> Rows {
     }
 }
 
-/// Orthonormal bases of the range and of the left null space.
+/// Returns orthonormal bases of the range and of the left null space.
 fn range(a: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let n = a.nrows();
     if a.ncols() == 0 || n == 0 {
         return (DMatrix::zeros(n, 0), DMatrix::identity(n, n));
     }
-    // All left singular vectors: for this the matrix needs at least as many columns as rows.
+    // All left singular vectors are needed, so the matrix must have at least as many columns as
+    // rows.
     let wide = a.clone().resize_horizontally(n.max(a.ncols()), 0.0);
     let svd = wide.svd(true, false);
     let u = svd.u.expect("asked for");
@@ -91,7 +92,7 @@ fn range(a: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     (u.select_columns(&live), u.select_columns(&dead))
 }
 
-/// The component of a vector outside of the range.
+/// Returns the component of a vector outside of the range.
 fn outside(a: &DMatrix<f64>, b: &DVector<f64>) -> f64 {
     let (_, left) = range(a);
     (left.transpose() * b).norm()
@@ -106,7 +107,7 @@ fn solve(a: &DMatrix<f64>, b: &DVector<f64>) -> DVector<f64> {
     svd.solve(b, floor).expect("both factors")
 }
 
-/// How velocities are given.
+/// Way in which velocities are given.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Given {
     Exact,
@@ -159,7 +160,7 @@ fn give(sketch: &mut Sketch, rows: &Rows, numbers: &mut Numbers, how: Given) {
     }
 }
 
-/// Given velocities by column, in units of points.
+/// Returns the given velocities by column, in units of points.
 fn held(sketch: &Sketch, rows: &Rows) -> Vec<Option<f64>> {
     let all = sketch.bodies.iter().flat_map(|b| {
         let [vx, vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
@@ -170,19 +171,19 @@ fn held(sketch: &Sketch, rows: &Rows) -> Vec<Option<f64>> {
         .collect()
 }
 
-/// The correct answer.
+/// The correct result for a start.
 enum Truth {
     /// Drives contradict each other or the joints.
     Drives,
-    /// Velocities exist: `g` in the given ones.
+    /// Velocities exist: `g` contains the given ones.
     Velocities { g: Vec<f64>, is_exact: bool },
     /// The given velocities are impossible, but others exist.
     Given,
-    /// Too close to a limit for an answer.
+    /// The start is too close to a limit for a reliable result.
     Border,
 }
 
-/// Columns that are given, and the others.
+/// Returns the columns that are given, and the other columns.
 fn split(held: &[Option<f64>]) -> (Vec<usize>, Vec<usize>) {
     (0..held.len()).partition(|&j| held[j].is_some())
 }
@@ -212,7 +213,7 @@ fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
             is_exact: true,
         };
     }
-    // The smallest correction in the mass metric.
+    // Computes the smallest correction in the mass metric.
     let root = DVector::from_iterator(
         given.len(),
         given.iter().map(|&j| rows.mass[j].sqrt().recip()),
@@ -224,7 +225,8 @@ fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
         let free = solve(&cf, &(&rows.b - &cg * &corrected));
         free.amax().max(g.amax()).max(corrected.amax())
     };
-    // The limit applies to connected bodies: between these bounds the pieces of a scene may differ.
+    // The limit applies to connected bodies: between these bounds the separate parts of a scene may
+    // differ.
     match delta.amax() / fastest {
         share if share > 2e-2 => Truth::Given,
         share if share < 1e-4 => Truth::Velocities {
@@ -260,7 +262,7 @@ fn check_accepted(rows: &Rows, held: &[Option<f64>], study: &Study, g: &[f64], i
             "given {g:e}, {off:e} off"
         );
     }
-    // M·v in the range of C_Fᵀ.
+    // The vector M·v is in the range of C_Fᵀ.
     let momentum = DVector::from_iterator(free.len(), free.iter().map(|&j| rows.mass[j] * v[j]));
     let left = outside(&rows.c.select_columns(&free).transpose(), &momentum);
     let heaviest = rows.mass.iter().copied().fold(0.0, f64::max);
@@ -271,7 +273,7 @@ fn check_accepted(rows: &Rows, held: &[Option<f64>], study: &Study, g: &[f64], i
     );
 }
 
-/// The scene without the entries that the advice omits.
+/// Returns the scene without the entries that the advice omits.
 fn without(sketch: &Sketch, leave_out: &[HeldVelocity]) -> Sketch {
     let mut sketch = sketch.clone();
     for held in leave_out {
@@ -312,7 +314,7 @@ fn without(sketch: &Sketch, leave_out: &[HeldVelocity]) -> Sketch {
     sketch
 }
 
-/// The reason why a start was refused: drives, or one of the conflicts.
+/// The reason why a start was rejected: drives, or one of the conflicts.
 enum Refusal {
     Drives,
     Later,
@@ -335,15 +337,15 @@ fn refusal(sketch: &Sketch, error: &StudyError) -> Refusal {
         Err(dynamics::MotionError::Start(StartError::Velocities(conflict))) => {
             Refusal::Given(conflict)
         }
-        // Accelerations: at these velocities the joints do not allow the accelerations of the
-        // drives.
+        // The error concerns accelerations: at these velocities the joints do not allow the
+        // accelerations of the drives.
         Ok((_, Some(_))) => Refusal::Later,
         other => panic!("{:?}: {error}", other.err()),
     }
 }
 
-/// A thousand scenes: accepted exactly if such velocities exist, and then they are correct;
-/// otherwise the named entries are at fault and the advice works.
+/// A thousand scenes are accepted exactly if such velocities exist, and then the velocities are
+/// correct; otherwise the named entries cause the conflict and the advice works.
 #[test]
 fn a_thousand_random_starts() {
     let mut numbers = Numbers::new(SEED);
@@ -388,7 +390,7 @@ fn a_thousand_random_starts() {
             (Truth::Velocities { .. }, Err(e)) => {
                 let is_later = matches!(refusal(&sketch, e), Refusal::Later);
                 assert!(sketch.is_singular && is_later, "{e}\n{}", context());
-                "velocities that cannot go on"
+                "velocities that cannot continue"
             }
             (Truth::Drives | Truth::Given, Ok(_)) => panic!("accepted: {}", context()),
         };
@@ -455,7 +457,7 @@ fn check_conflict(
     if !rows.is_drive.contains(&true) {
         assert!(conflict.drives.is_empty(), "{conflict}\n{context}");
     }
-    // The advice works.
+    // The advice must work.
     assert!(
         conflict.is_enough && !conflict.leave_out.is_empty(),
         "{conflict}\n{context}"
@@ -481,8 +483,8 @@ fn check_conflict(
     }
 }
 
-/// A locked part with a velocity larger than rounding is refused with an error; with a velocity up
-/// to rounding it is at rest, at any place and of any size.
+/// A locked part with a velocity larger than rounding is rejected with an error; with a velocity up
+/// to rounding it is at rest, at any position and of any size.
 #[test]
 fn locked_parts() {
     for size in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
@@ -533,8 +535,8 @@ fn locked_parts() {
     }
 }
 
-/// Beside a wheel that turns, what rounding left of a velocity of a locked part is as large as the
-/// rate of the wheel makes it; a billion times as much is an error.
+/// The velocity of a locked part may be as large as the rounding error of the rate of a fast wheel;
+/// a velocity that is a billion times as large is an error.
 #[test]
 fn rounding_of_a_fast_wheel_is_no_velocity_of_a_locked_part() {
     let scene = |rate: f64, noise: f64| {

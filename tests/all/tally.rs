@@ -1,5 +1,5 @@
 //! Counts of verdicts: the number of cases, the number of undecided ones, and every wrong verdict
-//! by name.
+//! with its name.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use solvability::{Judgement, Verdict};
 /// Number of cases with wrong verdicts that are printed.
 const SHOWN: usize = 5;
 
-/// Of the cases that should be decided fewer than one out of this number may be undecided.
+/// Of the cases that should be decided, fewer than one in this number may be undecided.
 const UNDECIDED: usize = 1000;
 
 /// The number of cases that the environment variable `PFAFF_CASES` states, or the default.
@@ -24,7 +24,7 @@ pub(crate) fn cases(default: usize) -> usize {
 struct Count {
     cases: usize,
     undecided: usize,
-    /// Wrong verdicts.
+    /// Number of wrong verdicts.
     wrong: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Three parallel cranks under one coupler: one redundant constraint. Numbers from
+//! Three parallel cranks under one coupler have one redundant constraint. The numbers come from
 //! `reference/redundant_three_cranks.json`.
 
 use dynamics::{KeptRowMotion, RowChoice, prepare};
@@ -21,7 +21,7 @@ fn numbers(case: &Value, key: &str) -> Vec<f64> {
     }
 }
 
-/// The case: θ from the downward vertical is θ − π/2 from the x-axis.
+/// The case of the reference: its angle θ from the downward vertical is θ − π/2 from the x-axis.
 fn mechanism(theta: f64, rate: f64) -> Mechanism {
     let (length, half_span, pivots) = (0.5, 0.8, [-0.8, 0.0, 0.8]);
     let mut d: Description = cranks(&pivots, length, theta - std::f64::consts::FRAC_PI_2);
@@ -63,7 +63,7 @@ fn every_number_of_the_case() {
         assert!((a[3 * crank + 2] - alpha).abs() < TOLERANCE * alpha.abs());
     }
 
-    // Minimum norm: without the component of λ in the null space, which is one-dimensional.
+    // The minimum norm has no component of λ in the null space, which is one-dimensional.
     let decision = solvability::analyse(&p.mechanism, 0.0, &p.q)
         .expect("regular")
         .whole()
@@ -112,7 +112,7 @@ fn every_number_of_the_case() {
     let sum: f64 = tips.iter().map(|&j| on_second(j, lambda, radial)).sum();
     assert!(close(sum, radial_sum));
 
-    // The free direction: radial forces in the ratio 1 : −2 : 1, tip and ground together.
+    // The free direction consists of radial forces in the ratio 1 : −2 : 1 at tip and ground.
     let free: Vec<f64> = tips
         .iter()
         .chain(&pivots)

@@ -1,4 +1,4 @@
-//! Rules of the project that a compiler does not check; see ARCHITECTURE.md.
+//! Rules of the project that the compiler does not check; see ARCHITECTURE.md.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -27,7 +27,7 @@ fn crates() -> BTreeSet<String> {
         .collect()
 }
 
-/// Workspace crates that a crate depends on outside of tests.
+/// Returns the workspace crates on which a crate depends outside of tests.
 fn dependencies(name: &str) -> BTreeSet<String> {
     let manifest = read(format!("crates/{name}/Cargo.toml"));
     let section = manifest
@@ -44,7 +44,7 @@ fn dependencies(name: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// Our Rust files that are not generated.
+/// Lists our Rust files that are not generated.
 fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("readable").flatten() {
         let path = entry.path();
@@ -94,7 +94,8 @@ fn nothing_at_run_time_depends_on_the_generator() {
     };
     assert_eq!(users("codegen"), ["joint-macro"]);
     assert_eq!(users("symbolic"), ["codegen", "scene-codegen"]);
-    // Sweeps have tapes; what prints modules is a feature that the product does not have.
+    // Sweeps use operation lists; the part that prints modules is a feature that the product does
+    // not enable.
     assert_eq!(users("scene-codegen"), ["pfaff"]);
     let used = read("crates/pfaff/Cargo.toml");
     assert!(used.contains("\nscene-codegen.workspace = true\n"));
@@ -105,8 +106,8 @@ fn nothing_at_run_time_depends_on_the_generator() {
     assert!(stated.all(|l| l.contains("default-features = false")));
 }
 
-/// References of the product are not part of it, and its tests need scenes with known answers, but
-/// not the laboratory, which depends on the product.
+/// References of the product are not part of it. Its tests need scenes with known results, but not
+/// the laboratory, which depends on the product.
 #[test]
 fn the_product_depends_on_no_crate_of_the_laboratory() {
     const LABORATORY: [&str; 3] = ["exact", "lab", "suite"];
@@ -125,7 +126,7 @@ fn the_product_depends_on_no_crate_of_the_laboratory() {
     }
 }
 
-/// Documents are written by `report`; `scene` writes the schema of its own format.
+/// The crate `report` writes documents; `scene` writes the schema of its own format.
 #[test]
 fn json_is_written_by_report_alone() {
     const WRITERS: [&str; 3] = ["lab", "report", "scene"];
@@ -137,7 +138,7 @@ fn json_is_written_by_report_alone() {
     }
 }
 
-/// What the README says of a checkout is what is checked before a change lands.
+/// The test command in the README must be the one that is checked before each change.
 #[test]
 fn the_test_command_of_the_readme_is_that_of_the_checks() {
     let readme = read("README.md");
@@ -163,7 +164,8 @@ fn every_crate_has_a_readme_and_what_a_registry_asks_for() {
         let text = read(format!("crates/{name}/Cargo.toml"));
         let has = |line: &str| text.lines().any(|l| l.starts_with(line));
         assert!(has("license.workspace = true"), "{name}");
-        // It is published, with what it is found by, or it says that it is not.
+        // A crate is published with the metadata to find it, or its manifest states that it is not
+        // published.
         let stays = has("publish.workspace = true");
         let parts = ["publish = true", "keywords = [", "categories = ["];
         assert!(stays || parts.iter().all(|part| has(part)), "{name}");
@@ -186,7 +188,7 @@ fn every_module_says_what_it_is_for() {
 /// Largest width of a comment line (columns); tables, addresses and example code may be wider.
 const COLUMNS: usize = 100;
 
-/// Cargo does not strip a program whose package has settings of its own in the profile.
+/// Cargo does not strip a program whose package has separate settings in the profile.
 #[test]
 fn the_program_is_stripped() {
     let manifest = read("Cargo.toml");
@@ -228,7 +230,7 @@ fn comments_are_read_without_scrolling() {
     );
 }
 
-/// Markdown files of the repository that people write.
+/// Lists Markdown files of the repository that are written by hand.
 fn pages(folder: &Path, out: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("readable").flatten() {
         let path = entry.path();
@@ -241,7 +243,7 @@ fn pages(folder: &Path, out: &mut Vec<PathBuf>) {
     }
 }
 
-/// Pages that are made by a command.
+/// Pages that a command writes.
 const WRITTEN_BY_PROGRAMS: [&str; 5] = [
     "THIRD-PARTY.md",
     "table.md",

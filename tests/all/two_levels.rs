@@ -1,6 +1,6 @@
-//! A joint with rows of both levels, and a joint of one's own: a disc that rolls on a line touches
+//! A joint with rows of both levels, and a user-defined joint: a disc that rolls on a line touches
 //! it by a holonomic row and does not slip by a nonholonomic one. Verdicts, motions and reactions
-//! against closed forms, beside joints of either level alone.
+//! are compared with closed forms, next to joints of only one level.
 
 use std::ops::ControlFlow;
 
@@ -11,12 +11,12 @@ use model::{Mechanism, RowRanges, System};
 use pfaff::prelude::*;
 
 joint! { plane RollingDisc(i) {
-    /// A disc of this radius rolls without slip on a line of the ground: its centre is as far to
-    /// the left of the line, and the point of contact has no velocity along it.
+    /// A disc of this radius rolls without slip on a line of the ground. Its centre has this
+    /// distance to the left of the line, and the point of contact has no velocity along the line.
     params {
         /// The centre of the disc.
         s: Point in i,
-        /// Its radius.
+        /// Radius of the disc.
         radius: Length,
         /// The line, with the disc to its left.
         track: GroundLine,
@@ -36,8 +36,8 @@ const GRAVITY: f64 = 9.81;
 /// Slope of the track (rad).
 const SLOPE: f64 = 0.3;
 
-/// The motions below are polynomials of second degree in time, which every method finds but for
-/// rounding and its tolerance of 1e-10.
+/// The motions below are polynomials of second degree in time, which every method reproduces except
+/// for rounding and its tolerance of 1e-10.
 const TOLERANCE: f64 = 1e-8;
 
 fn close(found: f64, expected: f64, what: &str) {
@@ -48,14 +48,14 @@ fn close(found: f64, expected: f64, what: &str) {
     );
 }
 
-/// A line up the slope that is this far to the left of that through the origin.
+/// Returns a line up the slope at this distance to the left of the line through the origin.
 fn line(left: f64) -> Line {
     let (sin, cos) = SLOPE.sin_cos();
     let start = [-left * sin, left * cos];
     Line::new(start, [start[0] + cos, start[1] + sin]).expect("a line")
 }
 
-/// A disc at this distance up the slope.
+/// Adds a disc at this distance up the slope.
 fn disc(d: &mut Description, name: &str, at: f64) -> BodyRef {
     let (sin, cos) = SLOPE.sin_cos();
     let body = d.body(Body {
@@ -85,8 +85,8 @@ fn rail() -> PointOnLine {
     }
 }
 
-/// Rows are in the order of the contract, and every joint knows its own: nonholonomic ones follow
-/// the holonomic ones in the order of the description, in which an edge is first.
+/// Rows have the specified order, and every joint has the indices of its rows: nonholonomic rows
+/// follow the holonomic ones in the order of the description, in which an edge is first.
 #[test]
 fn rows_of_both_levels_have_their_places() {
     let mut d = slope();
@@ -128,7 +128,7 @@ fn rows_of_both_levels_have_their_places() {
     assert_eq!(labels, expected);
     let owners: Vec<usize> = layout.owners.iter().map(|id| id.0).collect();
     assert_eq!(owners, [0, 1, 2, 3, 0, 2]);
-    // The same as a part of the whole, with the names of the whole.
+    // The same check for a part of the whole, with the names of the whole.
     let part = mechanism.part(&[2]);
     assert_eq!(
         (part.places.rows, part.places.groups),
@@ -139,14 +139,15 @@ fn rows_of_both_levels_have_their_places() {
     assert_eq!((own.labels[1].number, own.labels[1].row), (6, "slip"));
 }
 
-/// Down the slope with g·sin α/(1 + J/(m·r²)): all that the track gives acts at the contact, the
-/// normal force m·g·cos α and what is left of the weight along the slope, which turns the disc.
+/// The acceleration down the slope is g·sin α/(1 + J/(m·r²)). The whole load of the track acts at
+/// the contact: the normal force m·g·cos α, and the rest of the weight along the slope, which
+/// rotates the disc.
 #[test]
 fn a_disc_rolls_down_a_slope() {
     for method in [Method::Dop853, Method::Radau5] {
         let mut d = slope();
         disc(&mut d, "disc", 0.0);
-        // Another one after it: neither has adjacent rows.
+        // Another disc follows it: neither has adjacent rows.
         disc(&mut d, "other", 3.0);
         let study = Study::build(d).unwrap_or_else(|e| panic!("{e}"));
         let options = MotionOptions {
@@ -181,8 +182,8 @@ fn a_disc_rolls_down_a_slope() {
     }
 }
 
-/// A rail for the centre is as good as the contact: of the reaction of the disc the part across the
-/// slope is not unique, that along it is, and the verdict is one.
+/// A rail for the centre can replace the contact. Of the reaction of the disc the component across
+/// the slope is not unique, the component along it is unique, and there is one verdict.
 #[test]
 fn a_rail_takes_the_load_of_one_row_of_a_joint() {
     let mut d = slope();
@@ -209,7 +210,7 @@ fn a_rail_takes_the_load_of_one_row_of_a_joint() {
         .map(|row| (row.row, row.judgement.verdict.word()))
         .collect();
     assert_eq!(rows, [(0, "not_unique"), (2, "unique")]);
-    // Of Fx, Fy and T the force across the slope alone is not unique.
+    // Of Fx, Fy and T only the force across the slope is not unique.
     let components: Vec<(&str, &str)> = rolls
         .components
         .iter()
@@ -226,7 +227,7 @@ fn a_rail_takes_the_load_of_one_row_of_a_joint() {
     assert_eq!(group.judgement.verdict.word(), "unique");
 }
 
-/// The definition has all properties of those that are shipped.
+/// The definition has all properties of the standard definitions.
 #[test]
 fn the_definition_conforms() {
     assert_eq!(

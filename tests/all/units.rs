@@ -7,7 +7,7 @@ use dynamics::{Method, MotionOptions, RowChoice, Summary, prepare, simulate};
 use model::{BodyRef, Description, Mechanism, StartOptions};
 use tests::{revolute, rod};
 
-/// Two rods of length L in a row, at rest and horizontal, on a pivot at the origin.
+/// Two rods of length L in series start at rest and horizontal, on a pivot at the origin.
 fn double_pendulum(length: f64) -> Description {
     let at = |k: f64| [k * length, 0.0];
     let bodies = vec![
@@ -37,7 +37,7 @@ fn double_pendulum(length: f64) -> Description {
     }
 }
 
-/// The end of a fall of 2·√L seconds, with lengths in units of L and times in units of √L.
+/// Returns the end of a fall of 2·√L seconds, with lengths in units of L and times in units of √L.
 fn fallen(length: f64, method: Method) -> (Vec<f64>, Summary) {
     let mechanism = Mechanism::build(&double_pendulum(length)).expect("builds");
     let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");

@@ -60,7 +60,7 @@ fn components<'a>(a: &'a Analysis, name: &str) -> Vec<(&'a str, &'a str)> {
         .collect()
 }
 
-/// P1, θ = 1: a driven parallelogram is determined.
+/// Case P1 at θ = 1: all reactions of a driven parallelogram are determined.
 #[test]
 fn two_cranks_at_an_angle() {
     let a = analysed(&driven_cranks(&[0.0, 1.0], 1.0));
@@ -68,7 +68,8 @@ fn two_cranks_at_an_angle() {
     assert!(words(&a).iter().all(|(_, word)| *word == "unique"));
 }
 
-/// P1, θ = 0: flat; the four revolutes can have forces along the line.
+/// Case P1 at θ = 0: in the singular configuration the four revolutes can have forces along the
+/// line.
 #[test]
 fn two_flat_cranks() {
     let a = analysed(&driven_cranks(&[0.0, 1.0], 0.0));
@@ -83,8 +84,8 @@ fn two_flat_cranks() {
     assert_eq!(words(&a).last(), Some(&("motor", "unique")));
 }
 
-/// P2, θ = 1: in every joint the component across the crank is unique, the component along it is
-/// not.
+/// Case P2 at θ = 1: in every joint the component across the crank is unique, and the component
+/// along it is not.
 #[test]
 fn three_cranks_at_an_angle() {
     let theta = 1.0_f64;
@@ -107,13 +108,13 @@ fn three_cranks_at_an_angle() {
     assert_eq!(words(&a).last(), Some(&("motor", "unique")));
 }
 
-/// P2, θ = 0.
+/// Case P2 at θ = 0, the singular configuration.
 #[test]
 fn three_flat_cranks() {
     assert_ranks(&analysed(&driven_cranks(&[0.0, 1.0, 1.7], 0.0)), 13, 11);
 }
 
-/// The four-bar A(0, 0), B(0.3, 0.8), C(1.5, 1.1), D(1.4, 0).
+/// The four-bar has the points A(0, 0), B(0.3, 0.8), C(1.5, 1.1), D(1.4, 0).
 fn four_bar(drives: &[BodyRef]) -> Description {
     let points = [[0.0, 0.0], [0.3, 0.8], [1.5, 1.1], [1.4, 0.0]];
     let bodies: Vec<Body> = (0..3)
@@ -145,7 +146,7 @@ fn four_bar(drives: &[BodyRef]) -> Description {
     }
 }
 
-/// P6, one drive.
+/// Case P6 with one drive.
 #[test]
 fn four_bar_with_one_drive() {
     let a = analysed(&four_bar(&[BodyRef::Body(0)]));
@@ -153,7 +154,7 @@ fn four_bar_with_one_drive() {
     assert!(words(&a).iter().all(|(_, word)| *word == "unique"));
 }
 
-/// P6, drives at A and at D can have opposing torques, which load every joint.
+/// Case P6: drives at A and at D can have opposing torques, which load every joint.
 #[test]
 fn four_bar_with_two_drives() {
     let a = analysed(&four_bar(&[BodyRef::Body(0), BodyRef::Body(2)]));
@@ -165,7 +166,7 @@ fn four_bar_with_two_drives() {
     );
 }
 
-/// One body on four knife edges; the front pair is steered in parallel.
+/// One body has four knife edges; the front pair is steered in parallel.
 fn four_edges(steering: f64) -> (Analysis, Solvability) {
     let normal = |x: f64| {
         let angle = if x > 0.0 { steering } else { 0.0 };
@@ -210,7 +211,7 @@ fn four_edges(steering: f64) -> (Analysis, Solvability) {
     )
 }
 
-/// N1: four parallel edges.
+/// Case N1: four parallel edges.
 #[test]
 fn four_parallel_edges() {
     let (a, s) = four_edges(0.0);
@@ -222,7 +223,7 @@ fn four_parallel_edges() {
     assert_eq!(word([1.0, 0.0, 1.0, 0.0]), "not_unique", "left pair");
 }
 
-/// N3: the front pair steered by 0.3 rad in parallel locks the body.
+/// Case N3: the front pair steered by 0.3 rad in parallel locks the body.
 #[test]
 fn parallel_steered_edges() {
     let (a, s) = four_edges(0.3);
@@ -246,7 +247,7 @@ fn parallel_steered_edges() {
     );
 }
 
-/// The flat poses are singular, the third crank is redundant everywhere.
+/// The horizontal configurations are singular, and the third crank is redundant everywhere.
 #[test]
 fn permanent_and_transient_redundancy() {
     let permanent = |d: &Description| {

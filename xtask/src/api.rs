@@ -1,5 +1,5 @@
-//! The public API of each crate that is published, as text: what a user of it can name. A change of
-//! it is then seen where a change is read, and a test compares text and code.
+//! The public API of each published crate, as text: everything that a user of the crate can name. A
+//! review then shows every change of the API, and a test compares text and code.
 
 mod module;
 mod public;
@@ -11,7 +11,7 @@ use crate::tree::root;
 use module::Module;
 use public::Public;
 
-/// Where the texts are, one for each library.
+/// Folder of the texts, one for each library.
 const FOLDER: &str = "docs/api";
 
 /// A published library: its name and the folder of its package.
@@ -32,7 +32,7 @@ pub(crate) fn write() -> Result<String, String> {
     Ok(format!("{} texts written to {FOLDER}", libraries.len()))
 }
 
-/// Compares them with the code.
+/// Compares the texts with the code.
 pub(crate) fn check() -> Result<String, String> {
     let libraries = libraries(&root())?;
     for library in &libraries {
@@ -43,7 +43,7 @@ pub(crate) fn check() -> Result<String, String> {
             let difference = is.lines().zip(told.lines()).find(|(is, told)| is != told);
             let (is, told) = difference.unwrap_or(("more lines or fewer", "the text"));
             return Err(format!(
-                "the public API of `{}` is not that of {FOLDER}: `{}`, told as `{}`; if this is meant, \
+                "the public API of `{}` is not that of {FOLDER}: `{}`, recorded as `{}`; if this is meant, \
                  `cargo xtask api` writes it anew",
                 library.name,
                 is.trim(),
@@ -51,7 +51,7 @@ pub(crate) fn check() -> Result<String, String> {
             ));
         }
     }
-    Ok(format!("{} public APIs are as told", libraries.len()))
+    Ok(format!("{} public APIs are as recorded", libraries.len()))
 }
 
 /// The packages under `crates/` that are published and have a library.

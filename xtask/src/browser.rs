@@ -1,6 +1,6 @@
-//! `cargo xtask browser`: reports of scenes of the plane and of space in a real browser. Needs Node
-//! and Chromium, which are not dependencies of the project: without them the pages are tested only
-//! as text.
+//! `cargo xtask browser`: opens reports of scenes in the plane and in space in a real browser. This
+//! needs Node and Chromium, which are not dependencies of the project; without them the pages are
+//! tested only as text.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,8 @@ use std::process::{Command, Stdio};
 use crate::tree::{cargo, root, run, target};
 
 /// Scenes whose reports are opened: redundant and driven, closed loops, and nonholonomic without
-/// redundancy; in space wheels and loops, and a loop that moves against the count.
+/// redundancy; in space wheels and loops, and a loop that moves although its mobility count is
+/// zero.
 const SCENES: [(&str, &str); 5] = [
     ("robot-trolley", "crates/robot-trolley/robot-trolley.toml"),
     ("three-cranks", "crates/suite/scenes/three-cranks.toml"),
@@ -18,7 +19,7 @@ const SCENES: [(&str, &str); 5] = [
     ("bennett", "examples/bennett.toml"),
 ];
 
-/// Two bars in space that cross, the first above the second, on springs so that they move.
+/// Two crossing bars in space, the first above the second, on springs so that they move.
 const CROSSING: &str = r#"
 scene = { name = "crossing", space = "spatial" }
 body = [
@@ -38,7 +39,7 @@ force = [
 simulate = { t_end = 0.5, output_step = 0.01 }
 "#;
 
-/// Half the number of bodies of a crowd: double pendulums in rows.
+/// Half the number of bodies of a large scene: double pendulums in rows.
 const PENDULUMS: usize = 500;
 
 /// A thousand bodies in space.
@@ -79,7 +80,7 @@ pub(crate) enum Program {
     OfTests,
 }
 
-/// Returns what this machine lacks, or `None` if the test can run.
+/// Returns the tools that are missing on this machine, or `None` if the test can run.
 pub(crate) fn missing() -> Result<String, String> {
     Ok(tools().err().unwrap_or_default().to_owned())
 }
@@ -97,7 +98,7 @@ pub(crate) fn check(program: Program) -> Result<String, String> {
         Program::OfTests => format!("{target}/debug/pfaff"),
     };
     let out = Path::new(&target).join("browser");
-    // An earlier program may have left files that this one refuses to replace.
+    // An earlier version of the program may have left files that this version refuses to replace.
     if out.exists() {
         fs::remove_dir_all(&out).map_err(|e| format!("{}: {e}", out.display()))?;
     }
@@ -135,7 +136,7 @@ pub(crate) fn check(program: Program) -> Result<String, String> {
     Ok(format!("pictures in {}", out.join("pictures").display()))
 }
 
-/// The browser's program, if Node is available, too.
+/// The path of the browser, if Node is also available.
 fn tools() -> Result<String, &'static str> {
     let chromium = chromium().ok_or(NO_CHROMIUM)?;
     if answers("node") {

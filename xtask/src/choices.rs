@@ -10,7 +10,7 @@ use std::time::Instant;
 use crate::scene;
 use crate::tree::{cargo, machine, root, run, said_by};
 
-/// A scene, and the path at which the program with generated code reads its module.
+/// A scene, and the path from which the program with generated code includes its module.
 const ROBOT: &str = "crates/robot-trolley/robot-trolley.toml";
 const GENERATED: &str = "xtask/choices/generated/src/robot.rs";
 
@@ -19,7 +19,7 @@ const REPORT: &str = "docs/reports/choices/table.md";
 /// A program and the crates that it uses.
 struct Choice {
     package: &'static str,
-    /// Its binary.
+    /// Name of the binary.
     binary: &'static str,
     uses: &'static str,
     /// The workspace that contains it, relative to the root.
@@ -79,9 +79,9 @@ struct Cost {
 
 /// A clean build.
 struct Build {
-    /// From start to end (s).
+    /// Wall-clock time (s).
     wall: f64,
-    /// On all processors, if the system reports it (s).
+    /// Time on all processors, if the system reports it (s).
     processor: Option<f64>,
 }
 
@@ -118,7 +118,8 @@ pub(crate) fn report() -> Result<String, String> {
     Ok(format!("written to {REPORT}"))
 }
 
-/// Pins the programs to the versions of the workspace; cargo removes those that they do not need.
+/// Sets the dependencies of the programs to the versions of the workspace; cargo removes the
+/// dependencies that they do not need.
 fn same_versions() -> Result<(), String> {
     let lock = |folder: &str| root().join(folder).join("Cargo.lock");
     let (from, to) = (lock("."), lock("xtask/choices"));
@@ -167,7 +168,7 @@ fn measure(choice: &Choice, target: &Path) -> Result<Cost, String> {
     })
 }
 
-/// Number of crates that are compiled with the program: ours, and others.
+/// Number of crates that are compiled with the program: crates of this project, and others.
 fn dependencies(choice: &Choice, folder: &Path) -> Result<(usize, usize), String> {
     let tree = [
         "tree",
@@ -183,7 +184,7 @@ fn dependencies(choice: &Choice, folder: &Path) -> Result<(usize, usize), String
         .iter()
         .filter(|l| !l.contains("(/") && !l.contains(":\\"))
         .count();
-    // The program is one of our crates, but not a dependency.
+    // The program is a crate of this project, but not a dependency.
     Ok((crates.len() - others - 1, others))
 }
 
@@ -223,8 +224,8 @@ fn remove(folder: &Path) -> Result<(), String> {
 /// second.
 fn processor_seconds() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // The name, in parentheses, may contain spaces; the times of children are the 14th and 15th
-    // value after it.
+    // The name, in parentheses, may contain spaces; the times of child processes are the 14th and
+    // 15th values after it.
     let (_, values) = stat.rsplit_once(')')?;
     let ticks: Vec<f64> = values
         .split_whitespace()

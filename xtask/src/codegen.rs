@@ -12,17 +12,18 @@ use crate::tree::root;
 const DEFINITIONS: &str = "crates/joints/definitions";
 const GENERATED: &str = "crates/joints/src/generated";
 
-/// The folders of a space, below those of all; and how its definitions are listed.
+/// The folders of a space, relative to the folders of all spaces; and the form in which its
+/// definitions are listed.
 struct Family {
     definitions: &'static str,
     generated: &'static str,
-    /// Words for its definitions.
+    /// Adjective for the definitions in texts.
     adjective: &'static str,
-    /// Prefix of the functions that visit them.
+    /// Prefix of the functions that visit the definitions.
     prefix: &'static str,
-    /// The bound of their visitors.
+    /// Trait bound of the visitors.
     visitor: &'static str,
-    /// What its list begins with.
+    /// Start of the list of definitions.
     head: &'static str,
 }
 
@@ -112,7 +113,7 @@ fn present(folder: &Path) -> Result<Vec<String>, String> {
     Ok(names)
 }
 
-/// Names of the generated files of all spaces, as they are found.
+/// Names of the existing generated files of all spaces.
 fn all_present(folder: &Path) -> Result<Vec<String>, String> {
     let mut all = Vec::new();
     for Family { generated, .. } in &FAMILIES {

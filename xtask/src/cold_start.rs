@@ -1,5 +1,5 @@
 //! Run times of the commands from a cold start, including the start of the process: the robot with
-//! its trolley, optimised build.
+//! its trolley, in an optimised build.
 
 use std::fmt::Write;
 use std::process::{Command, Stdio};
@@ -12,7 +12,7 @@ const RUNS: usize = 50;
 
 const SCENE: &str = "crates/robot-trolley/robot-trolley.toml";
 
-/// Least and median time of each command.
+/// Smallest and median time of each command.
 pub(crate) fn tell() -> Result<String, String> {
     let root = root();
     run(cargo(&root).args(["build", "--release", "-p", "pfaff-cli"]))?;

@@ -1,18 +1,18 @@
-//! The cost of the monitors of a run: the robot's run with them, and compiled without them
-//! (`--cfg pfaff_unguarded`). Both programs take turns, and the least time of each counts; in
-//! addition the instructions of one run by callgrind.
+//! The cost of the monitors of a run: the run of the robot with monitors, and compiled without them
+//! (`--cfg pfaff_unguarded`). Both programs run alternately, and the smallest time of each is used.
+//! In addition, callgrind counts the instructions of one run.
 
 use std::fmt::Write;
 use std::process::Command;
 
 use crate::tree::{cargo, root, run, said_by, target};
 
-/// Number of turns of the two programs, and of runs of each in a turn.
+/// Number of alternations of the two programs, and number of runs of each program per alternation.
 const TURNS: usize = 12;
 const RUNS: &str = "60";
 
-/// Number of runs whose instructions are counted; those of a single run are subtracted, and the
-/// difference is divided by the number of runs minus one.
+/// Number of runs whose instructions are counted; the instructions of a single run are subtracted,
+/// and the difference is divided by the number of runs minus one.
 const COUNTED: u64 = 4;
 
 /// Times and instructions of interpreted and generated runs, with and without monitors.
@@ -72,7 +72,7 @@ pub(crate) fn tell() -> Result<String, String> {
     Ok(text)
 }
 
-/// Instructions of one run, interpreted or on generated code.
+/// Instructions of one run, interpreted or with generated code.
 fn instructions(program: &str, way: &str) -> Result<u64, String> {
     let collected = |runs: u64| -> Result<u64, String> {
         let output = Command::new("valgrind")

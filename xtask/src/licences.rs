@@ -1,9 +1,9 @@
-//! `THIRD-PARTY.md`: the crates of others that the command `pfaff` and the package for Python link,
-//! and their fonts, with their licences and the texts of these, with all features. From `cargo
-//! tree`, which resolves features as a build does, and from the sources of the crates.
+//! `THIRD-PARTY.md`: the third-party crates and fonts that the command `pfaff` and the Python
+//! package link, with their licences and licence texts, for all features. The data come from
+//! `cargo tree`, which resolves features as a build does, and from the sources of the crates.
 //!
-//! cargo-about and cargo-deny do more, but they have to be installed first; this needs what builds
-//! the workspace, and `--check` needs no network.
+//! cargo-about and cargo-deny have more functions, but they must be installed first. This module
+//! needs only the tools that build the workspace, and `--check` needs no network.
 
 mod spdx;
 mod texts;
@@ -19,13 +19,13 @@ use self::texts::texts;
 use crate::platforms::PLATFORMS;
 use crate::tree::{cargo, root, said_by};
 
-/// What is given to others.
+/// A distributed product.
 #[derive(Clone, Copy)]
 struct Product {
-    /// The folder of its workspace.
+    /// Folder of the workspace of the product.
     workspace: &'static str,
     package: &'static str,
-    /// What it is called in the file.
+    /// Name of the product in the file.
     name: &'static str,
 }
 
@@ -42,7 +42,7 @@ const PRODUCTS: [Product; 2] = [
     },
 ];
 
-/// What others have made besides crates, with the file of its licence.
+/// Third-party content other than crates, with the file of its licence.
 const OTHERS: [(&str, &str); 1] = [(
     "the fonts DejaVu Sans Condensed",
     "crates/report/fonts/LICENSE.txt",
@@ -51,11 +51,11 @@ const OTHERS: [(&str, &str); 1] = [(
 const FILE: &str = "THIRD-PARTY.md";
 const WRITE: &str = "`cargo xtask licences` writes it anew";
 
-/// What is linked into the command, and what only builds it.
+/// Kinds of dependencies that are linked into the command, without those that only build it.
 const LINKED: &str = "normal,no-proc-macro";
 const BUILDING: &str = "normal,build";
 
-/// A crate of others.
+/// A third-party crate.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Package {
     name: String,
@@ -65,10 +65,10 @@ struct Package {
     repository: String,
 }
 
-/// Crates with the products and systems in which they are used.
+/// Crates with the products and systems that use them.
 type Packages = BTreeMap<Package, BTreeSet<(&'static str, &'static str)>>;
 
-/// Whether cargo may download what it lacks.
+/// Whether cargo may download missing crates.
 #[derive(Clone, Copy, PartialEq)]
 enum Network {
     Allowed,
@@ -103,8 +103,8 @@ pub(crate) fn write() -> Result<String, String> {
     ))
 }
 
-/// Compares the tables of the file with what is locked, without a network. A platform whose crates
-/// are not on this machine is compared with `Cargo.lock` by name and version alone.
+/// Compares the tables of the file with the locked versions, without a network. If the crates of a
+/// platform are not on this machine, they are compared with `Cargo.lock` only by name and version.
 pub(crate) fn check() -> Result<String, String> {
     let text =
         fs::read_to_string(root().join(FILE)).map_err(|e| format!("{FILE}: {e}; {WRITE}"))?;
@@ -134,7 +134,7 @@ impl Product {
         root().join(self.workspace)
     }
 
-    /// Whether a cell of the file names this product on a system.
+    /// Whether a cell of the file contains this product on a system.
     fn is_named(self, cell: &str, system: &str) -> bool {
         let on_system = format!("{} on {system}", self.name);
         cell.split(", ")
@@ -206,7 +206,7 @@ impl Product {
         Ok(())
     }
 
-    /// The crates of others on which it depends on a platform, by edges of these kinds.
+    /// The third-party crates on which the product depends on a platform, by edges of these kinds.
     fn packages(
         self,
         target: &str,
@@ -232,7 +232,7 @@ impl Product {
     }
 }
 
-/// The products and systems of a crate in words.
+/// The products and systems of a crate as text.
 fn words(on: &BTreeSet<(&'static str, &'static str)>) -> String {
     let systems: BTreeSet<&str> = PLATFORMS.iter().map(|(_, system)| *system).collect();
     let mut list = Vec::new();
@@ -279,7 +279,7 @@ fn document(
         out.push_str(&format!("- {name}: {reason}\n"));
     }
     for (text, crates) in texts(linked.keys(), sources)? {
-        // A fence that is longer than any in the text.
+        // A code fence that is longer than any fence in the text.
         out.push_str(&format!(
             "\n### {}\n\n````text\n{text}\n````\n",
             crates.join("; ")
@@ -291,7 +291,7 @@ fn document(
     Ok(out)
 }
 
-/// The licence of something that is no crate, as it stands in the file.
+/// The licence of content that is not a crate, as printed in the file.
 fn other(name: &str, licence: &str) -> Result<String, String> {
     let text = fs::read_to_string(root().join(licence)).map_err(|e| format!("{licence}: {e}"))?;
     Ok(format!(
@@ -319,8 +319,8 @@ fn add(all: &mut Packages, more: BTreeSet<Package>, on: (&'static str, &'static 
     }
 }
 
-/// A line such as `either v1.2.3|MIT OR Apache-2.0|https://…`. Returns `None` for crates of the
-/// workspace, which have a path.
+/// Reads a line such as `either v1.2.3|MIT OR Apache-2.0|https://…`. Returns `None` for crates of
+/// the workspace, which have a path.
 fn package(line: &str) -> Option<Package> {
     let mut parts = line.split('|');
     let (name, licence) = (parts.next()?, parts.next()?);
@@ -337,10 +337,10 @@ fn package(line: &str) -> Option<Package> {
     })
 }
 
-/// What the sources of a crate say of it.
+/// Information about a crate in its sources.
 struct Source {
     manifest: String,
-    /// Without their addresses.
+    /// Names of the authors without their addresses.
     authors: Vec<String>,
 }
 

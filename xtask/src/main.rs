@@ -1,7 +1,7 @@
 //! Commands for developers. `cargo xtask codegen` writes the kernels of all joints and forces from
 //! their definitions; with `--check` it only compares them; with `--scene` it writes one mechanism
-//! as one module. `house` measures the code, `licences` lists the crates of others in the command
-//! after a check of types for all systems, `platforms` makes that check alone. The others measure
+//! as one module. `house` measures the code. `licences` type-checks the command for all systems and
+//! then lists its third-party crates; `platforms` only makes this check. The other commands measure
 //! run times and write `docs/reports`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -67,7 +67,7 @@ fn main() -> ExitCode {
         ["house", flags @ ..] if flags.iter().all(|f| ["--json", "--check"].contains(f)) => {
             house::tell(flags.contains(&"--json"), flags.contains(&"--check"))
         }
-        // Crates of others have changed: they may lack a system.
+        // The third-party crates have changed: they may not support a system.
         ["licences"] => platforms::check_all()
             .and_then(|checked| Ok(format!("{checked}\n{}", licences::write()?))),
         ["licences", "--check"] => licences::check(),

@@ -1,5 +1,6 @@
-//! The platforms that the command supports, type-checked where their standard library can be
-//! installed. Nothing is linked or run for another platform than that of the machine.
+//! The platforms that the command supports. It is type-checked for each platform whose standard
+//! library can be installed. No program is linked or run for a platform other than the present
+//! machine.
 
 use std::process::Command;
 
@@ -13,16 +14,18 @@ pub(crate) const PLATFORMS: [(&str, &str); 4] = [
     ("aarch64-apple-darwin", "macOS"),
 ];
 
-/// Systems that are checked when the crates of others change, each with one processor. What is
-/// compiled for macOS on x86-64 is either for macOS or for this processor; nothing asks for both.
+/// Systems that are checked when the third-party crates change, each with one processor. Code
+/// compiled for macOS on x86-64 depends either on macOS or on this processor; no code depends on
+/// the combination.
 const ALL: [&str; 3] = [
     "x86_64-unknown-linux-gnu",
     "x86_64-pc-windows-gnu",
     "aarch64-apple-darwin",
 ];
 
-/// Stands for every system but Linux at each change: sources of this workspace tell Linux from
-/// others and nothing else, which a test of `house` holds, so only crates of others can differ.
+/// Represents every system except Linux at each change. The sources of this workspace only
+/// distinguish Linux from other systems, which a test of `house` checks, so only third-party crates
+/// can differ.
 const OTHER: [&str; 1] = ["x86_64-pc-windows-gnu"];
 
 /// Type-checks the command for a system that is not Linux.
@@ -30,14 +33,14 @@ pub(crate) fn check() -> Result<String, String> {
     check_for(&OTHER)
 }
 
-/// Type-checks it for all systems.
+/// Type-checks the command for all systems.
 pub(crate) fn check_all() -> Result<String, String> {
     check_for(&ALL)
 }
 
-/// Type-checks the command for those of other systems than this one whose standard libraries are
-/// there or can be installed; the others are skipped by name. All in one command: it waits for one
-/// crate of a system with crates of another.
+/// Type-checks the command for those other systems whose standard libraries are installed or can be
+/// installed; the names of skipped systems are printed. One cargo command checks all of them, so
+/// that waiting for a crate of one system overlaps with crates of another.
 fn check_for(targets: &[&str]) -> Result<String, String> {
     let own = said_by(Command::new("rustc").args(["--print", "host-tuple"]))?;
     let mut lines = Vec::new();
@@ -57,7 +60,7 @@ fn check_for(targets: &[&str]) -> Result<String, String> {
     Ok(lines.join("\n"))
 }
 
-/// Sees to it that the standard library of a target is there.
+/// Installs the standard library of a target if it is missing.
 fn install(target: &str) -> Result<(), String> {
     let folder =
         said_by(Command::new("rustc").args(["--print", "target-libdir", "--target", target]))?;

@@ -1,12 +1,12 @@
-//! What follows from the list of questions. It is written by a program of its own, which contains
-//! the product: xtask itself compiles without it.
+//! The files that are derived from the list of questions. A separate program that contains the
+//! product writes them: xtask itself compiles without the product.
 
 use std::env;
 use std::process::Command;
 
 use crate::tree::root;
 
-/// Runs this program with these words.
+/// Runs this program with these arguments.
 pub(crate) fn run(words: &[&str]) -> Result<String, String> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);

@@ -11,7 +11,7 @@ pub(crate) fn report() -> Result<String, String> {
     Ok(format!("written to {REPORT}"))
 }
 
-/// Measures times and instructions and prints them only.
+/// Measures times and instructions and only prints them.
 pub(crate) fn instructions() -> Result<String, String> {
     bench(&["--instructions"])?;
     Ok("instructions by callgrind".to_owned())

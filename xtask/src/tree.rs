@@ -1,4 +1,4 @@
-//! Paths of the project, and programs that are run in it.
+//! Paths of the project, and functions that run programs in it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,14 +9,14 @@ pub(crate) fn root() -> PathBuf {
     xtask.parent().unwrap_or(xtask).to_owned()
 }
 
-/// Cargo in a directory of the project.
+/// A cargo command in a directory of the project.
 pub(crate) fn cargo(folder: &Path) -> Command {
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(folder);
     cargo
 }
 
-/// Runs a command to its end.
+/// Runs a command and waits for its end.
 pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     let status = command.status().map_err(|e| format!("{command:?}: {e}"))?;
     if status.success() {
@@ -46,7 +46,7 @@ pub(crate) fn target(root: &Path) -> Result<String, String> {
         .split_once("\"target_directory\":\"")
         .and_then(|(_, rest)| rest.split_once('"'))
         .map(|(target, _)| target.to_owned())
-        .ok_or_else(|| "cargo metadata does not tell the target directory".to_owned())
+        .ok_or_else(|| "cargo metadata does not state the target directory".to_owned())
 }
 
 /// Processor, cores and compiler, as lines of a list.

@@ -1,8 +1,8 @@
-//! The Arenstorf orbit, one period, by the explicit methods:
+//! Computes one period of the Arenstorf orbit by the explicit methods:
 //! `cargo bench -p bench --bench arenstorf`.
 //!
-//! Before the times, the evaluations, the errors and the nanoseconds per evaluation (everything
-//! included) are printed with the names of the arguments; errors are asserted. Other libraries are
+//! Before the times, it prints the evaluations, the errors and the nanoseconds per evaluation
+//! (everything included) with the names of the arguments; errors are asserted. Other libraries are
 //! not compared here.
 
 use std::hint::black_box;
@@ -45,8 +45,8 @@ fn period<O: Ode>(method: &impl Method<O>, ode: &mut O, tolerance: f64) -> Outco
     .expect("the orbit is smooth")
 }
 
-/// `error` is asserted at the tightest tolerance. The counter counts evaluations: items per second
-/// are evaluations per second.
+/// `error` is asserted at the tightest tolerance. The counter counts evaluations, so items per
+/// second are evaluations per second.
 macro_rules! bench {
     ($name:ident, $method:expr, $error:expr) => {
         #[divan::bench(args = TOLERANCES)]

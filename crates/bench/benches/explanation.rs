@@ -1,4 +1,4 @@
-//! The cost of an explanation of the robot in addition to its rank decision:
+//! Benchmarks the cost of an explanation of the robot in addition to its rank decision:
 
 use std::hint::black_box;
 
@@ -25,7 +25,7 @@ fn judged() -> (Mechanism, Vec<f64>, Scratch, Solvability) {
     (mechanism, q, s, solvability)
 }
 
-/// Self-stresses, mixing, reactions in words, structure.
+/// Computes self-stresses, coupled reactions, the text of reactions, and the structure.
 #[divan::bench]
 fn explanation(bencher: Bencher<'_, '_>) {
     let (m, q, s, solvability) = judged();
@@ -39,7 +39,7 @@ fn explanation(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| explain(&m, &s, black_box(&q), &solvability));
 }
 
-/// The four ways to make W3 unique.
+/// Finds the four ways to make W3 unique.
 #[divan::bench]
 fn making_w3_unique(bencher: Bencher<'_, '_>) {
     let (m, _, _, solvability) = judged();
@@ -62,7 +62,7 @@ fn making_w3_unique(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| black_box(ask()));
 }
 
-/// Nine admissible pairs, counted and listed.
+/// Counts and lists nine admissible pairs.
 #[divan::bench]
 fn admissible_deletions(bencher: Bencher<'_, '_>) {
     let (_, _, _, solvability) = judged();

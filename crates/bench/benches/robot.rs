@@ -1,5 +1,6 @@
-//! The robot with its trolley, from one kernel to the whole run. Each benchmark asserts its result
-//! before it is timed. Compare only ratios within one run: `cargo bench -p bench`.
+//! Benchmarks of the robot with its trolley, from one kernel to the whole run. Each benchmark
+//! asserts its result before its time is measured. Compare only ratios within one run:
+//! `cargo bench -p bench`.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -19,7 +20,7 @@ fn prepared() -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("the robot starts")
 }
 
-/// C and Γ of one revolute joint.
+/// Computes C and Γ of one revolute joint.
 #[divan::bench]
 fn kernel_revolute(bencher: Bencher<'_, '_>) {
     let joint = Revolute {
@@ -51,7 +52,7 @@ fn kernel_revolute(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// Poses, C, Γ and Q of the whole mechanism.
+/// Computes poses, C, Γ and Q of the whole mechanism.
 #[divan::bench]
 fn assembly(bencher: Bencher<'_, '_>) {
     let p = prepared();
@@ -67,7 +68,7 @@ fn assembly(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// One certified rank decision of the 22 × 21 matrix.
+/// Makes one certified rank decision of the 22 × 21 matrix.
 #[divan::bench]
 fn rank_decision(bencher: Bencher<'_, '_>) {
     let p = prepared();
@@ -84,14 +85,14 @@ fn rank_decision(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::decide(black_box(&c), rank::Accuracy::Rounding));
 }
 
-/// The whole analysis: ranks, fourteen verdicts, directions, dependencies.
+/// Performs the whole analysis: ranks, fourteen verdicts, directions, dependencies.
 #[divan::bench]
 fn analysis(bencher: Bencher<'_, '_>) {
     let p = prepared();
     bencher.bench_local(|| solvability::analyse(&p.mechanism, 0.0, black_box(&p.q)));
 }
 
-/// One acceleration on kept rows: the right-hand side of the integration.
+/// Computes one acceleration on independent rows: the right-hand side of the integration.
 #[divan::bench]
 fn right_hand_side(bencher: Bencher<'_, '_>) {
     let p = prepared();
@@ -100,7 +101,7 @@ fn right_hand_side(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| motion.acceleration(black_box(1.5), &p.q, &p.v, black_box(&mut a)));
 }
 
-/// For comparison: one dense LU of the saddle matrix of the same size by nalgebra, without
+/// For comparison: solves the saddle matrix of the same size by dense LU of nalgebra, without
 /// assembly.
 #[divan::bench]
 fn dense_lu_41_of_nalgebra(bencher: Bencher<'_, '_>) {
@@ -116,7 +117,8 @@ fn dense_lu_41_of_nalgebra(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| black_box(&a).clone().lu().solve(black_box(&b)));
 }
 
-/// The whole run of ten seconds at the default tolerances, with output rows without reactions.
+/// Performs the whole run of ten seconds at the default tolerances, with output rows without
+/// reactions.
 #[divan::bench(sample_count = 20)]
 fn whole_run(bencher: Bencher<'_, '_>) {
     let p = prepared();

@@ -1,6 +1,6 @@
-//! Mechanisms of space: the kernels of one joint, and all verdicts of a four-bar and of a Delta
-//! robot. Each benchmark asserts its result before it is timed: `cargo bench -p bench --bench
-//! space`.
+//! Benchmarks of mechanisms in space: the kernels of one joint, and all verdicts of a four-bar and
+//! of a Delta robot. Each benchmark asserts its result before its time is measured:
+//! `cargo bench -p bench --bench space`.
 
 use std::hint::black_box;
 
@@ -17,7 +17,7 @@ fn main() {
     divan::main();
 }
 
-/// C and Γ of one revolute joint.
+/// Computes C and Γ of one revolute joint.
 #[divan::bench]
 fn kernel_revolute(bencher: Bencher<'_, '_>) {
     let axis = Axes::new([0.2, -0.3, 0.9], None).expect("a direction");
@@ -53,7 +53,7 @@ fn kernel_revolute(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// All verdicts of a drawing with this rank.
+/// Computes all verdicts of a drawing with this rank.
 fn verdicts(bencher: Bencher<'_, '_>, drawing: &Drawing, rank: usize) {
     let description = description(drawing, &Precision::default()).expect("a mechanism");
     let mechanism = Mechanism::build(&description).expect("builds");
@@ -63,13 +63,13 @@ fn verdicts(bencher: Bencher<'_, '_>, drawing: &Drawing, rank: usize) {
     bencher.bench_local(analysed);
 }
 
-/// 20 × 18.
+/// The matrix is 20 × 18.
 #[divan::bench]
 fn analysis_four_bar(bencher: Bencher<'_, '_>) {
     verdicts(bencher, &four_bar([Flat::R; 4]), 17);
 }
 
-/// 105 × 96.
+/// The matrix is 105 × 96.
 #[divan::bench]
 fn analysis_delta(bencher: Bencher<'_, '_>) {
     verdicts(bencher, &delta(), 93);

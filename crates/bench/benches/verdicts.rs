@@ -1,6 +1,6 @@
-//! The 22 × 21 matrix of the robot from a library user's view: certificates, and verdicts at a
-//! point that is already certified. Each benchmark asserts its result before it is timed:
-//! `cargo bench -p bench --bench verdicts`.
+//! Benchmarks of the 22 × 21 matrix of the robot for a user of the library: certificates, and
+//! verdicts at a point that is already certified. Each benchmark asserts its result before its time
+//! is measured: `cargo bench -p bench --bench verdicts`.
 
 use std::hint::black_box;
 
@@ -21,7 +21,7 @@ fn prepared() -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("the robot starts")
 }
 
-/// C of the robot at its start, and the rows of its fourteen reactions.
+/// Returns C of the robot at its start, and the rows of its fourteen reactions.
 fn matrix() -> (Matrix, Vec<RowRanges>) {
     let p = prepared();
     let mut s = p.mechanism.scratch();
@@ -32,7 +32,7 @@ fn matrix() -> (Matrix, Vec<RowRanges>) {
     (layout.dense(&s), groups)
 }
 
-/// How many of all rows and groups are unique.
+/// Counts the unique rows and groups.
 fn unique(s: &Solvability, groups: &[RowRanges]) -> usize {
     let judged =
         |verdict: Result<solvability::Judgement, _>| verdict.is_ok_and(|j| j.verdict.is_unique());
@@ -47,7 +47,7 @@ fn unique(s: &Solvability, groups: &[RowRanges]) -> usize {
         .count()
 }
 
-/// Rank, dependencies and proof for the entries as exact numbers.
+/// Computes rank, dependencies and proof for the entries as exact numbers.
 #[divan::bench]
 fn certify_exact(bencher: Bencher<'_, '_>) {
     let (c, _) = matrix();
@@ -55,7 +55,7 @@ fn certify_exact(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::certify_exact(black_box(&c)));
 }
 
-/// Rank, dependencies and bounds within the uncertainty of the data.
+/// Computes rank, dependencies and bounds within the uncertainty of the data.
 #[divan::bench]
 fn certify_within(bencher: Bencher<'_, '_>) {
     let c = DdMatrix::from(&matrix().0);
@@ -66,7 +66,7 @@ fn certify_within(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::certify_within(black_box(&c), rank::Accuracy::Absolute(1e-15)));
 }
 
-/// Verdicts of all rows and groups, computed only from the matrix.
+/// Computes the verdicts of all rows and groups only from the matrix.
 #[divan::bench]
 fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     let (c, groups) = matrix();
@@ -75,8 +75,8 @@ fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The verdict of every reaction of the robot, with its certificate and the smallest error of the
-/// data that would give a lower rank.
+/// Computes the verdict of every reaction of the robot, with its certificate and the smallest error
+/// of the data that would give a lower rank.
 #[divan::bench]
 fn analysis(bencher: Bencher<'_, '_>) {
     let p = prepared();
@@ -85,7 +85,7 @@ fn analysis(bencher: Bencher<'_, '_>) {
     bencher.bench_local(analysed);
 }
 
-/// The sensitivity of each unique reaction of the robot to the data.
+/// Computes the sensitivity of each unique reaction of the robot to the data.
 #[divan::bench]
 fn sensitivities(bencher: Bencher<'_, '_>) {
     let p = prepared();

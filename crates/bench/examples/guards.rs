@@ -1,6 +1,6 @@
-//! Ten seconds of the robot at the default tolerances, with 201 rows that are discarded: the least
-//! time of a run, interpreted and on generated code. `cargo xtask guards` compares it with the same
-//! program compiled without monitors.
+//! Measures the least time of ten seconds of the robot at the default tolerances, with 201 rows
+//! that are discarded, interpreted and on generated code. The command `cargo xtask guards` compares
+//! this time with that of the same program compiled without monitors.
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Least time and number of evaluations.
+/// Returns the least time and the number of evaluations.
 fn least(prepared: &PreparedMechanism, runs: usize) -> Result<(f64, u64), Box<dyn Error>> {
     let options = MotionOptions::to(10.0);
     let (mut least, mut evaluations) = (f64::INFINITY, 0);

@@ -1,5 +1,5 @@
-//! Timings of the kernels against nalgebra and faer, in one run on one machine. Compare ratios, not
-//! absolute values: `cargo run --release -p bench --features faer --example timings`.
+//! Compares timings of the kernels with nalgebra and faer, in one run on one machine. Compare
+//! ratios, not absolute values: `cargo run --release -p bench --features faer --example timings`.
 #![allow(
     clippy::print_stdout,
     reason = "the output is what this example is for"
@@ -13,7 +13,7 @@ use linalg::{KeptRowSaddle, Matrix, singular_values};
 use nalgebra::{DMatrix, DVector};
 use rank::decide;
 
-/// Median over batches of the time of one call, in microseconds.
+/// Returns the median over batches of the time of one call, in microseconds.
 fn microseconds(mut call: impl FnMut()) -> f64 {
     const BATCHES: usize = 31;
     const BATCH_SECONDS: f64 = 0.01;
@@ -33,7 +33,7 @@ fn microseconds(mut call: impl FnMut()) -> f64 {
     times[BATCHES / 2]
 }
 
-/// r×n rows: `per_row` entries each, or all.
+/// Returns r×n rows with `per_row` entries each, or with all entries.
 fn rows(r: usize, n: usize, per_row: usize) -> Matrix {
     Matrix::from_fn(r, n, |i, j| {
         if (j + n - i) % n < per_row {

@@ -1,6 +1,6 @@
 //! The data of a constraint: the numbers that it stores, and its derivatives with respect to each
-//! of them. A value that is computed from other numbers is not a datum: its derivative follows from
-//! theirs by the chain rule.
+//! of them. A value that is computed from other numbers is not a datum, because its derivative
+//! follows from theirs by the chain rule.
 
 use proc_macro2::Ident;
 use quote::format_ident;
@@ -12,13 +12,13 @@ use crate::identity;
 use crate::parse::{Definition, Kept, ParamKind};
 use crate::vector::cross;
 
-/// Numbers that form one quantity, as the two components of a point.
+/// Numbers that form one quantity, such as the two components of a point.
 #[derive(Clone)]
 pub(crate) struct Datum {
-    /// Its name in the facts.
+    /// Name of the datum in the specification.
     pub(crate) name: String,
     pub(crate) shape: Shape,
-    /// The field that holds it.
+    /// The field that stores the datum.
     pub(crate) field: Ident,
     /// The optional parameter that overrides the field.
     pub(crate) overridden_by: Option<Ident>,
@@ -27,7 +27,8 @@ pub(crate) struct Datum {
 }
 
 impl Datum {
-    /// Number of its numbers: axes have the three of a rotation, an angle by cosine and sine one.
+    /// Number of independent numbers: axes have three, those of a rotation vector; an angle stored
+    /// by its cosine and sine has one.
     pub(crate) fn count(&self) -> usize {
         match self.shape {
             Shape::Axes(_) => 3,
@@ -49,12 +50,12 @@ pub(crate) enum Shape {
     /// One number with its unit, and its index in a list of several.
     Number(Ident, Option<usize>),
     Kept(Ident),
-    /// An angle kept by its cosine and sine; the number is its change.
+    /// An angle stored by its cosine and sine; the number is the change of the angle.
     Turn,
     KeptVector(Ident),
 }
 
-/// The data in order: parameters, then values kept from the start.
+/// The data in order: parameters, followed by values stored at the start.
 pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
     let mut data = Vec::new();
     for p in &d.params {
@@ -74,7 +75,7 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
             ParamKind::Direction(slot) => push(name, Shape::Direction(slot.clone()), values),
             ParamKind::Axes { slot, .. } => push(name, Shape::Axes(slot.clone()), values),
             ParamKind::GroundPlane => {
-                // The direction along it stays.
+                // The direction along the plane is constant.
                 push(name, Shape::Plane, &values[..6]);
             }
             ParamKind::GroundLine => {
@@ -90,7 +91,8 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
                     push(format!("{name}[{k}]"), shape, &values[k..=k]);
                 }
             }
-            // Optional numbers are kept values; functions of time are passed as jets.
+            // Optional numbers are values stored at the start; functions of time are passed as
+            // jets.
             ParamKind::Number(_) | ParamKind::Function(_) | ParamKind::Functions(_) => {}
         }
     }
@@ -114,7 +116,7 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
     data
 }
 
-/// The initial value of the measure of a drive.
+/// The initial value of the joint coordinate of a drive.
 pub(crate) fn of_measure(model: &Model, unit: Ident) -> Datum {
     Datum {
         name: "measure_0".to_owned(),
@@ -125,7 +127,7 @@ pub(crate) fn of_measure(model: &Model, unit: Ident) -> Datum {
     }
 }
 
-/// The initial angle of the measure of a drive in space.
+/// The initial angle of the joint coordinate of a drive in space.
 pub(crate) fn of_turn(model: &Model) -> Datum {
     Datum {
         name: "measure_0".to_owned(),
@@ -147,7 +149,7 @@ pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Along> {
     all
 }
 
-/// The images of the symbols of a datum along its number `k`.
+/// The images of the symbols of a datum for its number `k`.
 fn images(model: &mut Model, datum: &Datum, k: usize) -> Vec<(Expr, Expr)> {
     let g = &mut model.g;
     match datum.shape {
@@ -170,7 +172,7 @@ fn images(model: &mut Model, datum: &Datum, k: usize) -> Vec<(Expr, Expr)> {
 }
 
 /// The derivation with respect to one number. The images of computed values are their own
-/// derivatives, each found with those of the values before it.
+/// derivatives, each computed with the derivatives of the values before it.
 fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
     let mut images = images(model, datum, k);
     let mut along = model.inputs.derivation(&model.g, &images);
@@ -191,7 +193,7 @@ fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
     along
 }
 
-/// The inputs that these expressions read of the constraint, in the order of their symbols.
+/// The inputs of the constraint in these expressions, in the order of their symbols.
 pub(crate) fn read_by<'e>(model: &Model, outputs: impl Iterator<Item = &'e Expr>) -> Vec<Symbol> {
     let mut stored: Vec<Symbol> = outputs.flat_map(|&e| model.g.inputs(e)).collect();
     stored.sort_unstable();
@@ -200,8 +202,8 @@ pub(crate) fn read_by<'e>(model: &Model, outputs: impl Iterator<Item = &'e Expr>
     stored
 }
 
-/// The derivatives of stored numbers by those of the data that are not zero: place among the
-/// former, index of the latter, value.
+/// The nonzero derivatives of stored numbers with respect to the data: index of the stored number,
+/// index of the datum, value.
 pub(crate) fn slopes(
     model: &mut Model,
     stored: &[Symbol],

@@ -1,12 +1,14 @@
-//! Values of space that are differentiated as a whole: rotated vectors and products of vectors.
+//! Values in space that are differentiated as a whole: rotated vectors and products of vectors.
 //!
 //! Entry by entry, the derivative of R·s along a rotation differentiates nine products; as a whole
-//! it is R·(ω × s). The product u·w of directions of two bodies changes by (ω × u)·w, for which w
-//! is wanted in the frame of u, once for all three rotations. So each such value is a symbol while
-//! derivatives are taken, with rules for its derivative; it is replaced by what it stands for
-//! before code is printed ([`Defined::expand`]).
+//! it is R·(ω × s). The product u·w of directions of two bodies changes by (ω × u)·w; this needs w
+//! in the frame of u, once for all three rotations. Therefore each such value is a symbol while
+//! derivatives are computed, with rules for its derivative. It is replaced by its definition before
+//! code is printed ([`Defined::expand`]).
 //!
-//! In the plane nothing is defined here: a rotation has two numbers.
+//! In the plane there are no such values, because a rotation has only two numbers.
+//!
+//! With these rules ∂(C·a − Γ)/∂x of a hinge in space has 360 products; entry by entry it has 939.
 
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
@@ -16,7 +18,7 @@ use symbolic::{Derivation, Expr, Graph, Symbol};
 
 use crate::vector::{Components, Frame, Vector, cross, dot};
 
-/// What a symbol stands for.
+/// The definition of a symbol.
 #[derive(Clone)]
 enum Definition {
     /// Component `k` of R·c or Rᵀ·c of the body in a slot; `all` are the three symbols.
@@ -37,7 +39,7 @@ enum Definition {
     Square(Vector),
 }
 
-/// All symbols that stand for something, and what that is.
+/// All symbols with a definition, and their definitions.
 #[derive(Default)]
 pub(crate) struct Definitions {
     /// R of the body in each slot, by rows.
@@ -90,7 +92,7 @@ impl Defined {
                 k,
             };
             definitions.of.insert(symbol, definition);
-            // Symbols of other definitions may come between.
+            // The three symbols need not be consecutive.
         }
         definitions.rotated.insert(key, all.clone());
         all
@@ -155,7 +157,7 @@ impl Defined {
         symbol
     }
 
-    /// A symbol with a name that nobody can write.
+    /// A symbol with a name that cannot occur in the source text.
     fn symbol(&self, g: &mut Graph) -> Expr {
         let mut definitions = self.0.borrow_mut();
         definitions.symbols += 1;
@@ -166,7 +168,7 @@ impl Defined {
         self.0.borrow().of.get(&e).cloned()
     }
 
-    /// The symbols in an expression that stand for something.
+    /// The symbols with a definition in an expression.
     fn defined_in(&self, g: &Graph, e: Expr) -> Vec<Expr> {
         let definitions = self.0.borrow();
         if definitions.of.is_empty() {
@@ -176,7 +178,7 @@ impl Defined {
         symbols.filter(|e| definitions.of.contains_key(e)).collect()
     }
 
-    /// Inputs on which an expression depends, also through what symbols stand for.
+    /// Inputs on which an expression depends, including those in the definitions of its symbols.
     pub(crate) fn inputs(&self, g: &Graph, e: Expr) -> Vec<Symbol> {
         let mut found = BTreeSet::new();
         let mut seen = BTreeSet::new();
@@ -197,7 +199,7 @@ impl Defined {
         found.into_iter().collect()
     }
 
-    /// All that a definition is made of.
+    /// All expressions in a definition.
     fn parts_of(&self, definition: Definition) -> Vec<Expr> {
         let definitions = self.0.borrow();
         let rotation = |slot: usize| definitions.rot[slot].into_iter().flatten();
@@ -218,7 +220,7 @@ impl Defined {
         }
     }
 
-    /// `e` with every symbol replaced by what it stands for.
+    /// `e` with every symbol replaced by its definition.
     pub(crate) fn expand(&self, g: &mut Graph, e: Expr) -> Expr {
         let symbols = self.defined_in(g, e);
         if symbols.is_empty() {
@@ -231,7 +233,7 @@ impl Defined {
         g.substitute(e, &pairs)
     }
 
-    /// What a symbol stands for, without other such symbols.
+    /// The definition of a symbol, in which other symbols are replaced by their definitions.
     fn value(&self, g: &mut Graph, symbol: Expr) -> Expr {
         if let Some(&known) = self.0.borrow().expanded.get(&symbol) {
             return known;
@@ -292,16 +294,17 @@ impl Defined {
     }
 }
 
-/// A derivation that knows how whole vectors rotate with their bodies.
+/// A derivation with rules for vectors that rotate with their bodies.
 #[derive(Clone)]
 pub(crate) struct Along {
     plain: Derivation,
-    /// Angular velocity of the body in each slot along this derivation, in its frame; empty in the
-    /// plane.
+    /// Angular velocity of the body in each slot for this derivation, in the frame of the body;
+    /// empty in the plane.
     spins: Vec<Components>,
     defined: Defined,
-    /// Whether products of two bodies are evaluated in the frame of the first of them; otherwise in
-    /// the frame of the vector that changes, which serves all rotations of its body.
+    /// Whether products of two bodies are evaluated in the frame of the first body. Otherwise they
+    /// are evaluated in the frame of the vector that changes, which can be used for all rotations
+    /// of its body.
     ordered: bool,
     images: RefCell<HashMap<Expr, Expr>>,
 }
@@ -323,7 +326,7 @@ impl Along {
         }
     }
 
-    /// The derivation along time: products of two bodies that occur twice are one.
+    /// The time derivation: two equal products of two bodies become one.
     pub(crate) fn in_time(self) -> Self {
         Self {
             ordered: true,
@@ -415,7 +418,7 @@ impl Along {
         Vector::of_parts(parts.collect())
     }
 
-    /// `ċ + ω × c` in the frame of a body, `ċ` in that of the ground.
+    /// `ċ + ω × c` in the frame of a body, `ċ` in the frame of the ground.
     fn carried(&self, g: &mut Graph, frame: Frame, c: &[Expr], rates: Components) -> Components {
         match frame {
             Frame::Body(slot) if slot < self.spins.len() => {

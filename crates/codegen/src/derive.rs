@@ -1,8 +1,7 @@
-//! The kernels that follow from a definition; none of them is written by hand for any joint.
+//! The kernels that are derived from a definition; no kernel is written by hand for any joint.
 //!
 //! Holonomic and nonholonomic rows both lead to a velocity row `e = Φ̇` or `e = Ψ·q̇ + ψ`, which is
-//! `e = C·v − b`: `C = ∂e/∂v`, `b = −e(v = 0)`, and `Γ = −ė` without the terms in the
-//! accelerations.
+//! `e = C·v − b`: `C = ∂e/∂v`, `b = −e(v = 0)`, and `Γ = −ė` without the acceleration terms.
 
 use std::ops::Range;
 
@@ -46,15 +45,15 @@ pub(crate) struct ConstraintKernels {
 }
 
 impl ConstraintKernels {
-    /// The expressions of its rows: all kernels that run in any number type.
+    /// The expressions of the rows: all kernels that run in any number type.
     pub(crate) fn rows(&self) -> impl Iterator<Item = &Expr> {
         let c = self.c.iter().map(|e| &e.value);
         let others = [&self.phi, &self.b, &self.gamma, &self.component];
         c.chain(others.into_iter().flatten())
     }
 
-    /// The unit of the measure that a driven row prescribes: it is an angle if the row does not
-    /// depend on the velocities of origins.
+    /// The unit of the joint coordinate that a driven row prescribes: it is an angle if the row
+    /// does not depend on the velocities of origins.
     pub(crate) fn unit_of_measure(&self, space: Space) -> Ident {
         let rotates = |e: &Entry| space.is_rotation(e.column % space.n_dof());
         if self.c.iter().all(rotates) {
@@ -72,18 +71,18 @@ pub(crate) struct ForceKernels {
     pub(crate) dq_dv: Sparse,
 }
 
-/// How a reaction component is computed.
+/// Computation of a reaction component.
 pub(crate) enum Component {
     None,
     /// The component of the force along the body's vector.
     Along,
-    /// The force along the measure that a motion moves: the negative of this derivative of Φ for
-    /// each multiplier.
+    /// The force along the joint coordinate that a motion moves: for each multiplier, the negative
+    /// of this derivative of Φ.
     Motion(Along),
 }
 
-/// Derives the kernels of a constraint, or reports which row restricts no motion. Rows of Ψ are
-/// linear in velocities, because elaboration refuses others.
+/// Derives the kernels of a constraint, or reports a row that restricts no motion. Rows of Ψ are
+/// linear in velocities, because the elaboration rejects other rows.
 pub(crate) fn constraint(
     model: &mut Model,
     body: &ConstraintBody,
@@ -171,7 +170,7 @@ pub(crate) fn constraint(
     Ok(kernels)
 }
 
-/// Replaces all symbols that stand for something.
+/// Replaces all symbols that have a definition.
 fn expand(k: &mut ConstraintKernels, model: &mut Model) {
     let dense = [
         &mut k.phi,
@@ -294,9 +293,10 @@ fn b_rows(model: &mut Model, velocity: &[Expr]) -> Vec<Expr> {
     }
 }
 
-/// Force and moment on the first body about the place, for each multiplier: the force is `−C_vᵀ`;
-/// the moment is `−C_ωᵀ` at the mass centre, transferred to the place with the arm from the body's
-/// origin. In space `−C_ωᵀ` has components in the body, the moment those of the ground.
+/// Force and moment on the first body about the reference point, for each multiplier. The force is
+/// `−C_vᵀ`. The moment is `−C_ωᵀ` at the centre of mass, transferred to the reference point with
+/// the arm from the body's origin. In space `−C_ωᵀ` has components in the frame of the body, and
+/// the moment has ground components.
 fn wrench(model: &mut Model, c: &[Entry], place: &Components, rows: usize) -> Sparse {
     let (space, dim) = (model.inputs.space, model.inputs.space.dim());
     let lever: Components = (0..dim)
@@ -326,7 +326,7 @@ fn wrench(model: &mut Model, c: &[Entry], place: &Components, rows: usize) -> Sp
     map
 }
 
-/// Coefficients of the component along a vector of the force on the first body.
+/// Coefficients of the component of the force on the first body along a vector.
 fn force_along(model: &mut Model, c: &[Entry], along: &Components, rows: usize) -> Vec<Expr> {
     (0..rows)
         .map(|row| {
@@ -344,7 +344,7 @@ fn entry(model: &mut Model, c: &[Entry], row: usize, column: usize) -> Expr {
     }
 }
 
-/// Whether a row contains a value kept from the start; such a row is satisfied at any start and
+/// Whether a row contains a value stored at the start; such a row is satisfied at any start and
 /// does not restrict it.
 fn keeps_start(model: &Model, row: Expr) -> bool {
     model.depends_on(row, |s| match s {
@@ -421,7 +421,7 @@ fn weighted(
     model.g.sum(&terms)
 }
 
-/// Partial derivatives of a scalar by the velocities.
+/// Partial derivatives of a scalar with respect to the velocities.
 fn along_velocities(model: &mut Model, e: Expr) -> Vec<Expr> {
     let slots = model.inputs.slots.iter();
     let twists: Vec<Expr> = slots.flat_map(|s| s.twist.iter().copied()).collect();

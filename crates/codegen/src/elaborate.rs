@@ -1,5 +1,5 @@
-//! Translation of expressions of the language into scalars of the expression graph. Shapes are
-//! checked and names are resolved here; the result is purely mathematical.
+//! Translates expressions of the language into scalars of the expression graph. This module checks
+//! shapes and resolves names; the result contains only mathematical expressions.
 
 mod body;
 mod check;
@@ -28,7 +28,8 @@ use names::Names;
 use scope::Scope;
 use value::Value;
 
-/// Names of fields, locals and patterns of the generated type, which no parameter can have.
+/// Names of fields, local variables and patterns in the generated code; parameters cannot have
+/// these names.
 const RESERVED: [&str; 7] = [
     "motion",
     "motion_cos",
@@ -39,7 +40,7 @@ const RESERVED: [&str; 7] = [
     "None",
 ];
 
-/// Names of types and traits in the generated module, which no definition can have.
+/// Names of types and traits in the generated module; definitions cannot have these names.
 const RESERVED_TYPES: [&str; 40] = [
     "Argument",
     "ArgumentError",
@@ -86,7 +87,7 @@ const RESERVED_TYPES: [&str; 40] = [
 /// Elaborates a definition.
 ///
 /// # Errors
-/// At the token that is wrong.
+/// Returns an error at the wrong token.
 pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
     if RESERVED_TYPES.iter().any(|r| d.name == r) {
         return Err(syn::Error::new_spanned(
@@ -258,8 +259,8 @@ impl<'a> Scope<'a> {
         values: Vec<Expr>,
         overridden_by: Option<Ident>,
     ) -> syn::Result<Value> {
-        // The optional parameter keeps its own name; the value that is used is another field.
-        // So it is of an angle: its name is that since the start.
+        // The optional parameter has its own name; the value that is used is stored in another
+        // field. The same applies to an angle: its name is used for the angle since the start.
         let field = match (&overridden_by, &kind) {
             (None, Kept::Number(_) | Kept::Vector(_)) => name.to_string(),
             (Some(_), _) | (None, Kept::Turn) => format!("{name}_0"),
@@ -308,7 +309,7 @@ fn arm_name(definition: &Definition, p: &Param, slot: usize) -> String {
     }
 }
 
-/// Refuses what exists in the other space only.
+/// Rejects an item that exists only in the other space.
 fn only_in(d: &Definition, space: Space, at: &Ident, what: &str) -> syn::Result<()> {
     if d.space == space {
         return Ok(());
@@ -319,7 +320,7 @@ fn only_in(d: &Definition, space: Space, at: &Ident, what: &str) -> syn::Result<
     ))
 }
 
-/// The parameter after `like` must be axes that stand before.
+/// The parameter after `like` must be axes that are declared before.
 fn check_like(d: &Definition, like: &Ident, own: &Param) -> syn::Result<()> {
     let mut before = d.params.iter().take_while(|p| p.name != own.name);
     let is_axes = |p: &Param| matches!(p.kind, ParamKind::Axes { .. });

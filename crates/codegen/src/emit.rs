@@ -1,4 +1,4 @@
-//! The text of a generated module: type, facts, kernels.
+//! Prints the text of a generated module: type, specification, kernels.
 
 mod constructors;
 mod data;
@@ -18,7 +18,7 @@ use crate::space::Space;
 use data::Stored;
 use parts::{Driven, Type};
 
-/// The module of a constraint: its type and one type for the drive of each measure.
+/// The module of a constraint: its type and one type for the drive of each joint coordinate.
 pub(crate) fn constraint(
     d: &Definition,
     mut model: Model,
@@ -197,12 +197,13 @@ pub(crate) fn constraint(
     Ok(quote!(#uses #(#items)*))
 }
 
-/// Operations of the closed derivatives of a definition and its drives, at most: longer ones are
-/// left to dual numbers, which compile nothing and take little longer. Mesh, screw and universal
-/// have 10 to 20 thousand and were a sixth of all generated lines; cylindrical, the next, has 6500.
+/// Maximum number of operations of the closed-form derivatives of a definition and its drives. For
+/// longer ones, dual numbers are used, which need no compilation and take little more time. Mesh,
+/// screw and universal have 10 to 20 thousand operations and were a sixth of all generated lines;
+/// cylindrical, the next one, has 6500.
 const MOST_OPERATIONS: usize = 8000;
 
-/// The derivatives of rows by poses and velocities.
+/// The derivatives of rows with respect to poses and velocities.
 fn derivatives(k: &ConstraintKernels) -> [(&'static str, &'static str, Signature, &Sparse); 4] {
     use Signature::{Force, Rate, Residual};
     [
@@ -361,7 +362,7 @@ fn constraint_type(
     }
 }
 
-/// The measure as it is printed.
+/// The joint coordinate in printed form.
 fn expanded(model: &mut Model, measure: Measure) -> Measure {
     match measure {
         Measure::Of(e) => Measure::Of(model.expand(e)),
@@ -373,7 +374,7 @@ fn expanded(model: &mut Model, measure: Measure) -> Measure {
     }
 }
 
-/// The row of the drive of an angle θ in space, `sin(θ − θ₀ − f)`, from cosine and sine of the
+/// The row of the drive of an angle θ in space, `sin(θ − θ₀ − f)`, from the cosine and sine of the
 /// angle.
 fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
     let [cos_f, sin_f] = model.inputs.motion_turn.map(|jet| jet[0]);
@@ -383,7 +384,8 @@ fn turned(model: &mut Model, [cos, sin]: [Expr; 2]) -> Expr {
     g.sub(a, b)
 }
 
-/// The traits that the generated types of a space implement; those of the plane are their defaults.
+/// The traits that the generated types of a space implement; the traits for the plane are the
+/// defaults.
 struct Traits {
     constraint: TokenStream,
     definition: TokenStream,
@@ -547,8 +549,8 @@ fn indexed(
     }
 }
 
-/// The statement that states once how many entries of `out` are written, so that this is not asked
-/// again for each entry; nothing for a single one.
+/// The statement that gives the number of entries of `out` once, so that the compiler needs no
+/// bounds check for each entry; no statement for a single entry.
 fn out_range(len: usize) -> Option<TokenStream> {
     let end = parts::index(len);
     (len > 1).then(|| quote!(let out = &mut out[..#end];))

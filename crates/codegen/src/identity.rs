@@ -1,6 +1,6 @@
-//! Decides whether an expression is zero for every pose, by evaluation at fixed pseudo-random
-//! points that satisfy `cos² + sin² = 1` and have unit directions; used only to omit structural
-//! zeros from patterns.
+//! Decides whether an expression is zero for every pose. It evaluates the expression at fixed
+//! pseudo-random points that satisfy `cos² + sin² = 1` and have unit directions. The result is used
+//! only to omit structural zeros from patterns.
 
 use std::ops::{Add, Div, Mul, Neg};
 
@@ -8,14 +8,14 @@ use symbolic::{Expr, Function, Graph, Number};
 
 use crate::elaborate::{Inputs, Source};
 
-/// Number of points; a polynomial that is not zero vanishes at all of them with probability zero.
+/// Number of points; the probability that a nonzero polynomial vanishes at all of them is zero.
 const POINTS: u64 = 6;
 
 /// Rounding error relative to the terms that cancel: ε = 2.2e-16 for each of at most some thousand
 /// operations.
 const ROUNDING: f64 = 1e-12;
 
-/// A value with the size of its terms, which is the value that it would have without cancellation.
+/// A value with the size of its terms; this size is the value without cancellation.
 #[derive(Clone, Copy)]
 struct Measured {
     value: f64,
@@ -128,7 +128,7 @@ fn value(inputs: &Inputs, name: &str, source: &Source, point: u64) -> f64 {
         }
         Source::Parameter { access } if access.contains(".xyz()") || access.contains(".uvw()") => {
             let axes = rotation(point, access.split('.').nth(1).unwrap_or_default());
-            // A direction along a plane is across its normal.
+            // A direction along a plane is perpendicular to its normal.
             let row = match () {
                 () if access.contains(".uvw()") => index(access, 1),
                 () if access.contains(".along()") => 1,
@@ -148,7 +148,7 @@ fn value(inputs: &Inputs, name: &str, source: &Source, point: u64) -> f64 {
     }
 }
 
-/// A rotation that depends on nothing but its arguments, by rows.
+/// A rotation that depends only on the arguments, by rows.
 fn rotation(point: u64, key: &str) -> [[f64; 3]; 3] {
     let e = ["w", "x", "y", "z"].map(|part| 0.1 + sample(point, &format!("{key}.{part}")));
     let square: f64 = e.iter().map(|e| e * e).sum();
@@ -172,7 +172,7 @@ fn rotation(point: u64, key: &str) -> [[f64; 3]; 3] {
     ]
 }
 
-/// A number in [0, 1) that depends on nothing but its arguments (FNV-1a).
+/// A number in [0, 1) that depends only on the arguments (FNV-1a).
 fn sample(point: u64, key: &str) -> f64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64 ^ point.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     for byte in key.bytes() {

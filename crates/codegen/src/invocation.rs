@@ -1,5 +1,5 @@
 //! The tokens between the braces of `joint! { … }` or `force! { … }`: an optional path of the crate
-//! `joints`, then the definition.
+//! `joints`, followed by the definition.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::quote;
@@ -12,16 +12,16 @@ pub struct Invocation {
     pub runtime: TokenStream,
     /// The definition.
     pub body: TokenStream,
-    /// The call as its author wrote it: the source text if the compiler provides it, printed tokens
-    /// otherwise.
+    /// The call as written by its author: the source text if the compiler provides it, printed
+    /// tokens otherwise.
     pub text: String,
 }
 
 impl Invocation {
-    /// Splits a macro call into `#![runtime = some::path]`, if it is there, and the rest.
+    /// Splits a macro call into `#![runtime = some::path]`, if present, and the rest.
     ///
     /// # Errors
-    /// If the definition starts with another inner attribute.
+    /// Returns an error if the definition starts with a different inner attribute.
     ///
     /// ```
     /// use pfaff_codegen::{Invocation, Kind};

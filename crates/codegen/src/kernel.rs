@@ -21,8 +21,8 @@ pub(crate) fn kernel(model: &Model, outputs: &[Expr], scalar: Scalar) -> Kernel 
     print(model, outputs, scalar, &[])
 }
 
-/// Prints rows, which tell the places of the numbers that they read of the constraint: those of
-/// these symbols.
+/// Prints rows with the indices of the stored numbers that they read; `stored` contains the symbols
+/// of these numbers.
 pub(crate) fn rows(model: &Model, outputs: &[Expr], stored: &[Symbol]) -> Kernel {
     print(model, outputs, Scalar::Generic, stored)
 }

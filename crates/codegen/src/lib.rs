@@ -6,16 +6,16 @@
 //! | --- | --- |
 //! | [`invocation`](Invocation) | tokens of a macro call → runtime path, definition, text |
 //! | [`parse`] | tokens → [`parse::Definition`] |
-//! | [`Space`] | sizes, and what kernels read of a body |
-//! | `vector` | vectors as sums of parts in frames: products of parts of one frame need no rotation |
-//! | `defined` | rotated vectors and products of vectors of space, differentiated as a whole |
+//! | [`Space`] | sizes, and the fields of a body that kernels read |
+//! | `vector` | vectors as sums of parts in frames: products of parts in the same frame need no rotation |
+//! | `defined` | rotated vectors and products of vectors in space, differentiated as a whole |
 //! | `elaborate` | expressions of the language → scalars of the graph, with shapes checked |
 //! | `data` | the numbers that a constraint stores, and the derivatives with respect to them |
-//! | `identity` | is an expression zero for every pose? |
-//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods; laws → Q and its derivatives |
+//! | `identity` | tests whether an expression is zero for every pose |
+//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods; force laws → Q and its derivatives |
 //! | `kernel` | a list of expressions → one function with its operation count |
 //! | `emit` | kernels and facts → the text of a module |
-//! | `names` | names of types as names of modules and of scene types |
+//! | `names` | conversion of type names into names of modules and scene types |
 //! | `nearest` | hints for misspelt names |
 
 mod data;
@@ -50,16 +50,16 @@ pub struct Expansion {
     pub kind: Kind,
     /// The space of its bodies.
     pub space: Space,
-    /// Items of the module: the type, its facts and its kernels.
+    /// Items of the module: the type, its specification and its kernels.
     pub items: TokenStream,
 }
 
 /// Expands the body of one `joint!` or `force!`. `runtime` is the path of the crate `joints` in the
-/// expanded code, `text` the definition as its author wrote it.
+/// expanded code, `text` the definition as written by its author.
 ///
 /// # Errors
-/// At the wrong token: an unknown name, a wrong shape, a Ψ that is not linear in velocities, a
-/// parameter that is never used, …
+/// Returns an error at the wrong token: an unknown name, a wrong shape, a Ψ that is not linear in
+/// velocities, a parameter that is never used, …
 pub fn expand(
     kind: Kind,
     body: TokenStream,
@@ -80,10 +80,11 @@ pub fn expand(
     })
 }
 
-/// Expands a file that holds one `joint! { … }` or `force! { … }`.
+/// Expands a file that contains one `joint! { … }` or `force! { … }`.
 ///
 /// # Errors
-/// If the file is not valid Rust, contains something else, or its definition is wrong.
+/// Returns an error if the file is not valid Rust, contains something else, or its definition is
+/// wrong.
 pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Expansion> {
     let file = syn::parse_file(source)?;
     let [syn::Item::Macro(item)] = file.items.as_slice() else {
@@ -111,8 +112,8 @@ pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Expansion
 pub fn in_module(expansion: &Expansion) -> TokenStream {
     let module = quote::format_ident!("__{}", snake_case(&expansion.name));
     let items = &expansion.items;
-    // All tokens have the place of the call, which is several lines: to Clippy a difference in a
-    // list then looks like two entries without their comma.
+    // All tokens have the position of the call, which has several lines. Because of this, Clippy
+    // would report a difference in a list as two entries without a comma.
     quote! {
         #[doc(hidden)]
         #[allow(clippy::possible_missing_comma)]

@@ -24,7 +24,7 @@ pub(crate) fn list(words: &[&str]) -> String {
     quoted.join(", ")
 }
 
-/// Levenshtein distance.
+/// The Levenshtein distance.
 fn distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();

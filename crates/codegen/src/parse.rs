@@ -1,4 +1,5 @@
-//! The syntax of the definition language, as a tree. Its meaning is resolved later, in `elaborate`.
+//! The syntax of the definition language, as a tree. The module `elaborate` determines its meaning
+//! later.
 //!
 //! ```text
 //! plane Name(slot, …) {               or   space Name(slot, …) {
@@ -44,7 +45,7 @@ pub use tree::{Binding, Definition, Kept, Kind, Param, ParamKind};
 /// Parses the body of a `joint!` or `force!`.
 ///
 /// # Errors
-/// At the first token that does not fit the syntax.
+/// Returns an error at the first token that does not fit the syntax.
 pub fn definition(kind: Kind, body: TokenStream) -> syn::Result<Definition> {
     limits::check(&body)?;
     (|input: ParseStream<'_>| item::definition(kind, input)).parse2(body)

@@ -1,4 +1,4 @@
-//! The space of a definition: sizes, and the names of what kernels read of a body.
+//! The space of a definition: sizes, and the names of the body fields that kernels read.
 
 /// The space in which the bodies of a definition move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ impl Space {
         dof >= self.dim()
     }
 
-    /// The word for it in a definition.
+    /// The word for the space in a definition.
     pub(crate) fn word(self) -> &'static str {
         match self {
             Self::Plane => "plane",

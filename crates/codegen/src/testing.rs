@@ -32,12 +32,12 @@ pub(crate) const VELOCITY: &str = "plane Velocity(i) {
     place: point(i, s);
 }";
 
-/// The definition as mathematics.
+/// The definition in mathematical form.
 pub(crate) fn model(kind: Kind, text: &str) -> syn::Result<Model> {
     elaborate(&definition(kind, text.parse()?)?)
 }
 
-/// The message for a wrong definition.
+/// The error message for a wrong definition.
 pub(crate) fn error(kind: Kind, text: &str) -> String {
     match model(kind, text) {
         Ok(_) => "(no error)".to_owned(),
@@ -77,7 +77,7 @@ pub(crate) struct State {
     /// x, y, angle of each slot.
     pub(crate) pose: Vec<[f64; 3]>,
     pub(crate) twist: Vec<[f64; 3]>,
-    /// Values by the field that holds them, without `self.`.
+    /// Values by the name of their field, without `self.`.
     pub(crate) parameters: Vec<(&'static str, f64)>,
     pub(crate) f: Vec<[f64; 3]>,
 }

@@ -79,12 +79,12 @@ impl Vector {
         self.map(|c| c.iter().map(|&e| g.mul(factor, e)).collect())
     }
 
-    /// The planar vector turned by a right angle, counterclockwise.
+    /// The planar vector rotated by a right angle, counterclockwise.
     pub(crate) fn perp(&self, g: &mut Graph) -> Self {
         self.map(|c| vec![g.neg(c[1]), c[0]])
     }
 
-    /// `self × other` in space. Parts of one frame need no rotation.
+    /// `self × other` in space. Parts in the same frame need no rotation.
     pub(crate) fn cross(&self, g: &mut Graph, other: &Self, turns: &[Turn]) -> Self {
         let (mine, theirs): (Vec<_>, Vec<_>) =
             (self.parts.iter().collect(), other.parts.iter().collect());
@@ -144,7 +144,7 @@ impl Vector {
         g.add(across, same)
     }
 
-    /// The other parts.
+    /// The parts in other frames.
     fn without(&self, frame: Frame) -> Self {
         let others = self.parts.iter().filter(|(f, _)| **f != frame);
         Self {
@@ -234,7 +234,7 @@ impl Turn {
         }
     }
 
-    /// `d + ω × c`: the derivative of a vector with components c and their rates d in the body.
+    /// `d + ω × c`: the derivative of a vector with components c in the body and their rates d.
     fn carried(&self, g: &mut Graph, c: &[Expr], d: Components) -> Components {
         match self {
             &Self::Plane { omega, .. } => {

@@ -1,4 +1,4 @@
-//! The complete translation, from tokens to the text of a module.
+//! Tests the complete translation, from tokens to the text of a module.
 
 use pfaff_codegen::{Kind, expand, expand_file, in_module, kebab_case, snake_case};
 use quote::quote;
@@ -76,7 +76,7 @@ fn a_module_is_named_after_its_definition() {
     assert_eq!(kebab_case("PinInSlot"), "pin-in-slot");
 }
 
-/// `(A || B) && C` is not `A || (B && C)`.
+/// The condition `(A || B) && C` is not `A || (B && C)`.
 #[test]
 fn conditions_keep_their_parentheses() {
     let body = "plane A(i) { /// Doc.

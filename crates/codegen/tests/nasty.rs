@@ -102,7 +102,7 @@ fn inputs_from_bad_dreams() {
     });
 }
 
-/// Long and deep expressions of every kind that a recursive parser descends into.
+/// The test uses long and deep expressions of every kind that a recursive parser processes.
 #[test]
 fn long_and_deep_expressions() {
     on_a_compiler_stack(|| {
@@ -207,7 +207,7 @@ const SHIPPED: [&str; 4] = [
     }",
 ];
 
-/// The tokens one by one; brackets are two tokens of their own.
+/// Lists the tokens one by one; brackets are two separate tokens.
 fn flat(tokens: TokenStream, out: &mut Vec<String>) {
     for token in tokens {
         match token {

@@ -1,4 +1,4 @@
-//! Chooses the method of a run if none is given.
+//! Chooses the method of a run if the user gives no method.
 
 use linalg::{Matrix, SaddleError};
 
@@ -11,11 +11,12 @@ use crate::prepare::PreparedMechanism;
 use crate::run::{ReducedJacobian, derivatives};
 
 /// The method of a run: the given one, or Dormand–Prince 8(5,3), or Radau IIA if forces make the
-/// motion stiff at its start. A mechanism without a degree of freedom leaves an implicit method no
-/// equation to solve.
+/// motion stiff at its start. A mechanism without a degree of freedom has no equation that an
+/// implicit method could solve.
 ///
 /// # Errors
-/// If the motion has no Jacobian at the start, or never has one because a force calls a function.
+/// Used if the motion has no Jacobian at the start, or if it never has one because a force calls a
+/// function.
 pub(crate) fn method(
     prepared: &PreparedMechanism,
     options: &MotionOptions,
@@ -23,9 +24,7 @@ pub(crate) fn method(
     let explicit = |why: &str| Ok(decided(Method::Dop853, why.to_owned()));
     let may_be_implicit = matches!(options.method, Method::Auto | Method::Radau5);
     if may_be_implicit && prepared.is_function_of_time(options) {
-        return explicit(
-            "the state is a function of time: nothing is free, so that nothing can be stiff",
-        );
+        return explicit("the state is a function of time: no free motion can be stiff");
     }
     if options.method.needs_independent_coordinates() && prepared.is_schur() {
         let rows = prepared.decision.kept.len();
@@ -41,15 +40,15 @@ pub(crate) fn method(
         return Ok(decided(options.method, "requested".to_owned()));
     }
     if prepared.mechanism.applied_forces().is_empty() {
-        return explicit("no applied forces, so that nothing can be stiff");
+        return explicit("no applied forces that could be stiff");
     }
     if let Some(called) = prepared.mechanism.applied_forces().called().next() {
-        let why = format!("{called} for implicit methods; whether it is stiff was not measured");
+        let why = format!("{called} for implicit methods; stiffness was not estimated");
         return explicit(&why);
     }
     if prepared.is_schur() {
         return explicit(
-            "its many free motions are solved for through the Schur complement, for explicit methods alone; whether it is stiff was not measured",
+            "the Schur complement, used for many free motions, requires an explicit method; stiffness was not estimated",
         );
     }
     if options.stabilisation != Stabilisation::Projection {
@@ -62,7 +61,11 @@ pub(crate) fn method(
         (Method::Dop853, "not more")
     };
     let why = format!(
-        "measured at the start: for stability alone an explicit method needs {steps:.1e} steps, {is} than {STIFF:.0e}"
+        "estimate at the start: for stability an explicit method needs {} steps, {is} than {STIFF:.0e}",
+        match steps {
+            few if few < 1.0 => "less than 1".to_owned(),
+            many => format!("about {many:.1e}"),
+        }
     );
     Ok(decided(method, why))
 }
@@ -80,7 +83,7 @@ fn fastest_rate(prepared: &PreparedMechanism) -> Result<f64, MotionFault> {
     Ok(spectral_radius(reduced.jacobian()))
 }
 
-/// Estimated from the growth of a vector under the matrix: the geometric mean also serves for
+/// Estimated from the growth of a vector under the matrix: the geometric mean is also valid for
 /// complex pairs.
 fn spectral_radius(a: &Matrix) -> f64 {
     let k = a.nrows();

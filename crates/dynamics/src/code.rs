@@ -1,12 +1,12 @@
-//! The interface between a run and straight-line code that was generated for one mechanism. How
-//! such code is generated is described elsewhere; when a run may use it is decided by
-//! [`PreparedMechanism::code_for`](crate::PreparedMechanism::code_for).
+//! The interface between a run and straight-line code that was generated for one mechanism. Another
+//! crate generates such code; [`PreparedMechanism::code_for`](crate::PreparedMechanism::code_for)
+//! decides when a run may use it.
 //!
-//! Generated code has fixed kept rows and a fixed order of elimination, so it cannot choose new
-//! pivots. Instead it reports the quality of its pivots, its *health*: the smallest ratio of a
-//! pivot, with its sign, to the smallest |pivot| that the generator found at the same place. 1
-//! means as good as for the generator; 0 or less means that a singular pivot has been passed; NaN
-//! is never healthy. The caller has to check the health.
+//! Generated code has fixed independent rows and a fixed order of elimination, so it cannot choose
+//! new pivots. Instead it reports the quality of its pivots, its *health*: the smallest ratio of a
+//! pivot, with its sign, to the smallest |pivot| that the generator found at the same position. A
+//! health of 1 is as good as in the generator; at 0 or less, the code has passed a singular pivot;
+//! NaN is never healthy. The caller must check the health.
 
 mod belongs;
 mod inputs;
@@ -31,9 +31,9 @@ pub struct CodeSpec {
     pub m: usize,
     /// Number of nonholonomic rows.
     pub h: usize,
-    /// Kept rows of C, from 0, ascending.
+    /// Independent rows of C, from 0, ascending.
     pub kept: Cow<'static, [usize]>,
-    /// Kept rows of Φq, from 0, ascending.
+    /// Independent rows of Φq, from 0, ascending.
     pub position_kept: Cow<'static, [usize]>,
     /// Times at which a function of time is not smooth (s), ascending.
     pub break_times: Cow<'static, [f64]>,
@@ -41,7 +41,7 @@ pub struct CodeSpec {
     pub operations: Cow<'static, str>,
 }
 
-/// Straight-line code for one mechanism on fixed kept rows.
+/// Straight-line code for one mechanism with fixed independent rows.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -82,8 +82,8 @@ pub struct CodeSpec {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
-/// No function allocates, or panics on slices of the lengths below. The arguments may be any
-/// numbers; the health states whether the result can be used.
+/// No function allocates memory, and no function panics on slices of the lengths below. The
+/// arguments may be any numbers; the health states whether the result can be used.
 ///
 /// | argument | length | meaning |
 /// | --- | --- | --- |
@@ -93,13 +93,14 @@ pub struct CodeSpec {
 /// | `phi` | m | Φ(q, t) of all holonomic rows |
 /// | `residual`, `lambda` | m + h | C·v − b, and multipliers, of all rows |
 pub trait SceneCode {
-    /// The mechanism for which it was generated.
+    /// The mechanism for which the code was generated.
     fn spec(&self) -> &CodeSpec;
 
     /// Computes `a` from `M·a + C_Kᵀ·λ_K = Q`, `C_K·a = Γ_K`; returns the health.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64;
 
-    /// Computes λ of these equations, 0 for dropped rows; returns the health.
+    /// Computes the multipliers λ of the same equations, with 0 for redundant rows; returns the
+    /// health.
     fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64;
 
     /// Computes Φ of all holonomic rows.
@@ -108,30 +109,31 @@ pub trait SceneCode {
     /// Computes `C·v − b` of all rows.
     fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]);
 
-    /// Computes the smallest `dq` in the mass metric with `Φq·dq = −phi` on the kept rows of Φq;
-    /// returns the health of their pivots.
+    /// Computes the smallest `dq` in the mass metric with `Φq·dq = −phi` on the independent rows of
+    /// Φq; returns the health of their pivots.
     fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64;
 
-    /// Computes the smallest `dv` in the mass metric with `C·dv = −residual` on the kept rows of C;
-    /// returns the health.
+    /// Computes the smallest `dv` in the mass metric with `C·dv = −residual` on the independent
+    /// rows of C; returns the health.
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64;
 
-    /// The numbers that it takes from a mechanism; `None` if all are folded in.
+    /// The numbers of a mechanism that the code takes as inputs; `None` if all numbers are
+    /// constants in the code.
     fn inputs(&self) -> Option<&CodeInputs> {
         None
     }
 
-    /// The same code with these values of its inputs, in their order; `None` if it has no inputs,
-    /// or not as many.
+    /// The same code with these input values, in the order of the inputs; `None` if the code has no
+    /// inputs or another number of inputs.
     fn with_inputs(&self, _values: &[f64]) -> Option<Arc<SharedCode>> {
         None
     }
 }
 
-/// Code that runs of several threads share.
+/// Generated code that several threads can share.
 pub type SharedCode = dyn SceneCode + Send + Sync;
 
-/// The functions of [`SceneCode`], for what evaluates them elsewhere.
+/// The functions of [`SceneCode`], for other evaluators of the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CodeFunction {
     /// [`SceneCode::acceleration`]
@@ -149,7 +151,7 @@ pub enum CodeFunction {
 }
 
 impl CodeFunction {
-    /// All of them, each at its index.
+    /// All functions, each at its index.
     pub const ALL: [Self; 6] = [
         Self::Acceleration,
         Self::Multipliers,
@@ -159,7 +161,7 @@ impl CodeFunction {
         Self::VelocityCorrection,
     ];
 
-    /// Its index in [`CodeFunction::ALL`].
+    /// Index in [`CodeFunction::ALL`].
     #[must_use]
     pub fn index(self) -> usize {
         self as usize

@@ -1,5 +1,5 @@
-//! Counts of work that tests compare, to prove that work which a plan omits is not done. Without
-//! tests it costs nothing.
+//! Counts of work that tests compare, to prove that a run does not do work which its plan omits.
+//! Without tests the counts cost nothing.
 
 /// Kinds of work that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -8,11 +8,12 @@ pub(crate) enum WorkKind {
     LinearSystems,
     /// Solving for multipliers at a row of output.
     Multipliers,
-    /// Comparing a dropped row with its limit.
+    /// Comparing a redundant row with its limit.
     Monitors,
-    /// Solving for the coefficients of dropped rows, to decide whether other rows should be kept.
+    /// Solving for the coefficients of redundant rows, to decide whether other independent rows
+    /// should be chosen.
     Coefficients,
-    /// Solving for accelerations on kept rows.
+    /// Solving for accelerations with the independent rows.
     Accelerations,
 }
 

@@ -1,10 +1,11 @@
-//! A configuration at rest near a start: Φ(q, t) = 0, v = 0 and `Zᵀ·Q(q, 0, t) = 0` with Z a basis
-//! of the velocities that the rows allow, at the time of the start.
+//! Finds a static equilibrium near a start: Φ(q, t) = 0, v = 0 and `Zᵀ·Q(q, 0, t) = 0` at the time
+//! of the start. Z is a basis of the velocities that the rows allow.
 //!
-//! Forces are followed downhill: a step solves `(K + μ·I)·y = Zᵀ·Q` with the stiffness K of the
-//! forces and of the multipliers, and μ such that `K + μ·I` is positive definite and the step is
-//! not too long. Near a place of rest it is Newton's method. So a potential falls at each step and
-//! a place is left where it has a maximum, if forces push there at all. Masses play no part.
+//! The search follows the forces: each step solves `(K + μ·I)·y = Zᵀ·Q`. K is the stiffness of the
+//! forces and of the multipliers, and μ makes `K + μ·I` positive definite and limits the length of
+//! the step. Near an equilibrium this is Newton's method. Therefore a potential decreases at each
+//! step, and the search leaves a maximum of the potential if a force acts there. Masses have no
+//! influence.
 //!
 //! Sources: C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM
 //! J. Numer. Anal. 35 (1998) 508–523; J. J. Moré, D. C. Sorensen, Computing a trust region step,
@@ -29,14 +30,15 @@ use stiffness::{Stiffness, Way};
 
 pub use error::{EquilibriumError, UnbalancedForce};
 
-/// What is asked of a search for a place of rest.
+/// Options of a search for an equilibrium.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EquilibriumOptions {
-    /// Whether a place at which the potential is not least is left by a small push.
+    /// Whether the search leaves an equilibrium that is not a minimum of the potential by a small
+    /// displacement.
     pub stable: bool,
 }
 
-/// A configuration at rest.
+/// A static equilibrium.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -45,49 +47,52 @@ pub struct Equilibrium {
     pub time: f64,
     /// Coordinates, n_q.
     pub q: Vec<f64>,
-    /// Steps of the search.
+    /// Number of steps of the search.
     pub steps: usize,
-    /// Pushes that left places at which the potential was not least.
+    /// Number of small displacements by which the search left an equilibrium that is not a minimum
+    /// of the potential.
     pub pushes: usize,
-    /// Largest force or torque that is left along a free motion, as a share of the largest one
-    /// that acts.
+    /// Largest remaining force or torque along a free motion, as a share of the largest acting one.
     pub residual: f64,
-    /// The largest force, or torque divided by the size of the mechanism, that acts (N).
+    /// Largest acting force, or torque divided by the size of the mechanism (N).
     pub largest_force: f64,
-    /// What becomes of small displacements.
+    /// Stability of the equilibrium against small displacements.
     pub stability: RestStability,
-    /// Free motions that nothing pushes and nothing resists, in words: they stay as they are.
+    /// Descriptions of the free motions without a force and without stiffness; they keep their
+    /// position.
     pub idle: Vec<String>,
-    /// Free motions away from which forces push, in words.
+    /// Descriptions of the unstable free motions: the forces drive the mechanism away from the
+    /// equilibrium.
     pub falling: Vec<String>,
-    /// Whether the place depends on the way: nonholonomic rows restrict how it is reached, not
-    /// where it is.
+    /// Whether the position depends on the path: nonholonomic rows restrict the path, but not the
+    /// position.
     pub depends_on_way: bool,
-    /// Drives and joints that are held here and that functions of time accelerate at once.
+    /// Drives and joints that are locked here, but would accelerate at once because of their
+    /// functions of time.
     pub moving_on: Vec<String>,
 }
 
-/// What becomes of small displacements from a place of rest.
+/// Stability of an equilibrium against small displacements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RestStability {
-    /// Nothing can move.
+    /// No motion is possible.
     Immovable,
-    /// The potential is least there.
+    /// The potential has a minimum at the equilibrium.
     Stable,
-    /// Nothing pushes away, and some motions are not resisted.
+    /// No motion is unstable, but some motions have no stiffness.
     Idle,
-    /// The potential is not least: some displacement is pushed further.
+    /// The equilibrium is not a minimum of the potential: the forces increase some displacement.
     Unstable,
-    /// Not judged: nonholonomic rows.
+    /// Stability is not analysed because of nonholonomic rows.
     Nonholonomic,
-    /// Not judged: forces without a potential.
+    /// Stability is not analysed because forces have no potential.
     NoPotential,
 }
 
 impl RestStability {
-    /// The word for it.
+    /// Name of the result in output.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -99,7 +104,7 @@ impl RestStability {
         }
     }
 
-    /// Reason why it is not judged.
+    /// Reason why stability is not analysed.
     #[must_use]
     pub fn why_not(self) -> Option<&'static str> {
         match self {
@@ -112,8 +117,8 @@ impl RestStability {
     }
 }
 
-/// Finds a configuration at rest near the start of a prepared mechanism, at its time; velocities of
-/// the start do not matter.
+/// Finds a static equilibrium near the start of a prepared mechanism, at the time of the start; the
+/// velocities of the start have no influence.
 ///
 /// ```
 /// use pfaff_dynamics::equilibrium::{EquilibriumOptions, RestStability, equilibrium};
@@ -135,11 +140,12 @@ impl RestStability {
 ///
 /// # Errors
 /// - [`EquilibriumError::Prescribed`]: a drive or a joint prescribes a velocity.
-/// - [`EquilibriumError::Pushed`]: a free motion is pushed, however far it goes.
-/// - [`EquilibriumError::NotFound`], [`EquilibriumError::Blocked`]: the search did not end.
+/// - [`EquilibriumError::Pushed`]: a force acts along a free motion, however far the mechanism
+///   moves.
+/// - [`EquilibriumError::NotFound`], [`EquilibriumError::Blocked`]: the search did not converge.
 /// - [`EquilibriumError::NoDerivatives`]: a force calls a function.
-/// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: a configuration on the way
-///   cannot be reached, or a force has no value there.
+/// - [`EquilibriumError::Start`], [`EquilibriumError::NotFinite`]: an intermediate configuration
+///   cannot be assembled, or a force has no finite value there.
 pub fn equilibrium(
     prepared: &PreparedMechanism,
     options: &EquilibriumOptions,
@@ -167,8 +173,8 @@ pub fn equilibrium(
     search.finish(&stiffness, prepared)
 }
 
-/// What falls freely at the configuration q and time t and what pushes it, in words: nothing ties
-/// it to the ground. `None` if nothing does for sure.
+/// Describes the bodies that fall freely at the configuration q and time t, and the loads that act
+/// on them. Such bodies have no connection to the ground. `None` if no body certainly falls.
 pub(crate) fn falling(prepared: &PreparedMechanism, t: f64, q: &[f64]) -> Option<String> {
     let mut statics = Statics::new(prepared);
     statics.t = t;
@@ -180,19 +186,19 @@ pub(crate) fn falling(prepared: &PreparedMechanism, t: f64, q: &[f64]) -> Option
 struct EquilibriumSearch<'m> {
     statics: Statics<'m>,
     at: Balance,
-    /// Longest step, for each body (sizes of the mechanism, radians).
+    /// Maximum step length, for each body (sizes of the mechanism, radians).
     radius: f64,
     steps: usize,
     pushes: usize,
-    /// Steps in a row along which nothing resisted.
+    /// Number of successive steps along a motion without stiffness.
     unresisted: usize,
-    /// The least force left so far, and the number of steps since it fell by half.
+    /// Smallest remaining force so far, and the number of steps since it fell by half.
     best: f64,
     stalled: usize,
 }
 
 impl EquilibriumSearch<'_> {
-    /// Moves to a place of rest; returns the stiffness there.
+    /// Moves to an equilibrium; returns the stiffness there.
     fn run(&mut self, options: &EquilibriumOptions) -> Result<Stiffness, EquilibriumError> {
         loop {
             let stiffness = self.statics.stiffness(&self.at)?;
@@ -213,7 +219,7 @@ impl EquilibriumSearch<'_> {
         }
     }
 
-    /// Whether what is left is rounding of the forces.
+    /// Whether the remaining forces are rounding errors.
     fn is_at_rest(&mut self, stiffness: &Stiffness) -> bool {
         let left = norm(&self.at.free);
         let rounding = f64::EPSILON * (self.at.scale + stiffness.largest);
@@ -226,7 +232,7 @@ impl EquilibriumSearch<'_> {
             || self.stalled >= REST_STALLED && left <= REST_LEFT * rounding
     }
 
-    /// Refuses a motion that is pushed wherever it goes.
+    /// Rejects a motion along which a force acts at every configuration.
     fn watch(&mut self, stiffness: &Stiffness) -> Result<(), EquilibriumError> {
         let free = &self.at.free;
         let size = norm(free);
@@ -260,14 +266,14 @@ impl EquilibriumSearch<'_> {
         }
     }
 
-    /// What is pushed where the search is.
+    /// The unbalanced forces at the present configuration.
     fn pushed(&mut self) -> Vec<UnbalancedForce> {
         let size = norm(&self.at.free);
         let along: Vec<f64> = self.at.free.iter().map(|f| f / size).collect();
         words::pushed(&mut self.statics, &self.at, &along)
     }
 
-    /// One step that follows the forces.
+    /// Makes one step along the forces.
     fn step(&mut self, stiffness: &Stiffness) -> Result<(), EquilibriumError> {
         let bodies = self.statics.bodies().max(1) as f64;
         let before = norm(&self.at.free);
@@ -293,7 +299,7 @@ impl EquilibriumSearch<'_> {
                     continue;
                 }
             };
-            // Work per length at the end and at the beginning of the step.
+            // Work per length at the end and at the start of the step.
             let begins = dot(&self.at.free, &y);
             let ends = dot(&self.statics.scaled(&at), &moved);
             let ratio = ends / begins;
@@ -315,7 +321,7 @@ impl EquilibriumSearch<'_> {
         }
     }
 
-    /// Leaves a place at which the potential is not least.
+    /// Leaves an equilibrium that is not a minimum of the potential.
     fn push(&mut self, along: &[f64]) -> Result<(), EquilibriumError> {
         let largest = along
             .iter()

@@ -1,4 +1,4 @@
-//! Reasons why a motion stops or does not begin.
+//! Reasons why a motion stops or does not start.
 
 mod rows;
 
@@ -16,7 +16,7 @@ pub use rows::DropError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionFault {
-    /// The kept rows became dependent.
+    /// The independent rows became dependent.
     #[error(
         "at t = {t} s the kept rows are no longer independent at row {row}: pivot {pivot:.3e} of {scale:.3e}; \
          the mechanism passes a singular configuration", t = rounded(*time))]
@@ -27,7 +27,7 @@ pub enum MotionFault {
         row: RowLabel,
         /// The pivot.
         pivot: f64,
-        /// The value with which it is compared.
+        /// The reference value with which the pivot is compared.
         scale: f64,
     },
     /// The independent coordinates no longer determine the others.
@@ -37,9 +37,9 @@ pub enum MotionFault {
     IndependentCoordinates {
         /// Time (s).
         time: f64,
-        /// The row that cannot be solved.
+        /// The row that has no solution.
         row: RowLabel,
-        /// Its pivot relative to the pivot at the choice of the coordinates.
+        /// Pivot relative to the pivot at the choice of the coordinates.
         pivot: f64,
     },
     /// The linear system of an implicit step has no solution.
@@ -50,16 +50,16 @@ pub enum MotionFault {
         /// Cause.
         source: SingularPivot,
     },
-    /// A motion that moves no mass is possible.
+    /// A motion is possible that moves no mass.
     #[error(
         "at t = {t} s a motion without mass or inertia is possible: body `{body}` can move its {coordinate} freely; \
          give it mass or inertia, or constrain it", t = rounded(*time))]
     Massless {
         /// Time (s).
         time: f64,
-        /// The body that moves most.
+        /// The body with the largest motion.
         body: String,
-        /// Its coordinate.
+        /// Coordinate of the body.
         coordinate: &'static str,
     },
     /// A value is NaN or infinite.
@@ -70,46 +70,45 @@ pub enum MotionFault {
         /// Name of the value.
         what: String,
     },
-    /// A called function did not give a finite value. The run ends: another step does not mend it.
+    /// An external function did not return a finite value. The run ends, because another step
+    /// cannot correct this.
     #[error(
-        "at t = {t} s {source} has no value; a function has to return finite numbers wherever it is asked: the \
-         stages of a step, which may be made again, lie beside the motion", t = rounded(*time))]
+        "at t = {t} s {source} has no value; a function must return finite numbers at every state, since the stages of a step may leave the motion", t = rounded(*time))]
     Function {
         /// Time (s).
         time: f64,
         /// The drive or force, with the state and the cause.
         source: UndefinedForce,
     },
-    /// A force calls a function, of which values alone are known.
+    /// A force calls an external function, which gives values but no derivatives.
     #[error("{needs} derivatives of all forces, and {source}; {instead}")]
     NoDerivatives {
-        /// What needs derivatives, with its verb.
+        /// The calculation that needs derivatives, with its verb.
         needs: &'static str,
-        /// The force.
+        /// The force that calls a function.
         source: CalledForce,
-        /// What to do instead.
+        /// Alternatives for the user.
         instead: &'static str,
     },
     /// Positions could not be moved back onto the constraints.
     #[error(
-        "at t = {t} s row {row} misses by {residual:.3e} after {iterations} corrections, {}",
+        "at t = {t} s row {row} is violated by {residual:.3e} after {iterations} corrections, {}",
         above(*residual, *tolerance), t = rounded(*time))]
     OffConstraints {
         /// Time (s).
         time: f64,
         /// The row with the largest residual.
         row: RowLabel,
-        /// Its residual.
+        /// Residual of the row.
         residual: f64,
         /// The largest residual allowed.
         tolerance: f64,
         /// Number of corrections made.
         iterations: usize,
     },
-    /// A dropped row is no longer implied by the kept ones.
+    /// The independent rows no longer imply a redundant row.
     #[error(
-        "at t = {t} s the dropped row {row} is violated by {residual:.3e} ({level}), {}: the kept rows implied it at \
-         the start, and do not imply it here; {}",
+        "at t = {t} s the dropped row {row} is violated by {residual:.3e} ({level}), {}: the kept rows implied it at the start, but no longer imply it here; {}",
         above(*residual, *tolerance), implied(drives), t = rounded(*time))]
     DroppedRow {
         /// Time (s).
@@ -118,19 +117,17 @@ pub enum MotionFault {
         row: RowLabel,
         /// "position" or "velocity".
         level: &'static str,
-        /// Its residual.
+        /// Residual of the row.
         residual: f64,
         /// The largest residual allowed.
         tolerance: f64,
-        /// Drives and joints with functions of time among the row and those that implied it.
+        /// Drives and joints with functions of time in this row and in the rows that implied it.
         drives: Box<[String]>,
     },
-    /// A row that is redundant within the stated tolerance misses by more than data within it
-    /// explain.
+    /// A row that is redundant within the stated tolerance has a larger violation than data within
+    /// the tolerance explain.
     #[error(
-        "at t = {time} s row {row} would have to give {residual:.3e} ({level}), and data within the stated tolerance explain {bound:.3e}: within it \
-         the mechanism moves to here only ({way} since the start). Correct the dimensions of its joint, state the tolerance that the joint has, or \
-         end the run earlier"
+        "at t = {time} s row {row} is violated by {residual:.3e} ({level}), but the stated tolerance explains only {bound:.3e}: within the tolerance the mechanism cannot move farther than this position ({way} since the start). Correct the dimensions of its joint, state a larger tolerance for the joint, or end the run earlier"
     )]
     BeyondTolerance {
         /// Time (s).
@@ -139,23 +136,23 @@ pub enum MotionFault {
         row: RowLabel,
         /// "position" or "velocity".
         level: &'static str,
-        /// Its residual.
+        /// Residual of the row.
         residual: f64,
-        /// What data within the tolerance explain.
+        /// Largest violation that data within the tolerance explain.
         bound: f64,
-        /// How far the mechanism has moved since its start.
+        /// Distance that the mechanism has moved since its start.
         way: String,
     },
-    /// From a time after the start on, redundant drives prescribe different motions, or one of them
-    /// prescribes what joints forbid.
-    #[error("at t = {t} s redundant rows part: {contradiction}", t = rounded(*time))]
+    /// From some time after the start, redundant drives prescribe different motions, or a drive
+    /// prescribes a motion that joints prevent.
+    #[error("at t = {t} s redundant rows contradict each other: {contradiction}", t = rounded(*time))]
     Drives {
-        /// Time at which the rows were found to differ (s).
+        /// Time at which the program detected the difference of the rows (s).
         time: f64,
-        /// The contradiction at a time at which they differ clearly.
+        /// The contradiction at a time at which the rows differ clearly.
         contradiction: Box<Contradiction>,
     },
-    /// A row that was dropped because the start is singular does not hold at neighbouring
+    /// A row that counted as redundant because the start is singular is violated at neighbouring
     /// configurations.
     #[error(
         "at t = {t} s the dropped row {row} is violated by {residual:.3e}: it contradicts the kept rows. It is redundant at the start only, which \
@@ -166,11 +163,11 @@ pub enum MotionFault {
         redundancy: usize,
         /// Degree of redundancy at other configurations.
         elsewhere: usize,
-        /// Time at which the row was found to be violated (s).
+        /// Time at which the program detected the violation of the row (s).
         time: f64,
         /// The row.
         row: RowLabel,
-        /// Its residual.
+        /// Residual of the row.
         residual: f64,
     },
     /// Newton's method for dependent coordinates converged to a configuration far away: another
@@ -181,14 +178,14 @@ pub enum MotionFault {
     FarCompletion {
         /// Time (s).
         time: f64,
-        /// The body that moved most.
+        /// The body with the largest motion.
         body: String,
-        /// Its coordinate.
+        /// Coordinate of the body.
         coordinate: &'static str,
         /// Distance: lengths as a fraction of the size of the mechanism, angles in radians.
         by: f64,
     },
-    /// A row of output is far from the path of its step.
+    /// An output row is far from the path of its step.
     #[error(
         "the row at t = {t} s lies {by:.2} (lengths of the mechanism, or radians) from where the step around it leads, at the {coordinate} of \
          `{body}`, or has other velocities: near a singular configuration the method's output between steps may lead to another branch; use another method, \
@@ -198,15 +195,14 @@ pub enum MotionFault {
         time: f64,
         /// The body with the largest distance.
         body: String,
-        /// Its coordinate.
+        /// Coordinate of the body.
         coordinate: &'static str,
         /// Distance: lengths as a fraction of the size of the mechanism, angles in radians.
         by: f64,
     },
-    /// A constraint jumps.
+    /// A constraint function jumps.
     #[error(
-        "at t = {t} s row {row} jumps by {jump:.3e}: positions cannot follow at once (an infinite force); use a function \
-         of time that is continuous, or a short ramp", t = rounded(*time))]
+        "at t = {t} s row {row} jumps by {jump:.3e}: this needs an infinite force; use a continuous function of time, or a short ramp", t = rounded(*time))]
     PositionJump {
         /// Time (s).
         time: f64,
@@ -215,24 +211,23 @@ pub enum MotionFault {
         /// Size of the jump.
         jump: f64,
     },
-    /// No step passes a singular configuration.
+    /// No step reaches the other side of a singular configuration.
     #[error(
-        "{} the mechanism is in or passes a singular configuration that it does not leave \
-         smoothly: the constraints do not determine how it goes on", instant(*from, *to))]
+        "{} the mechanism is at or passes a singular configuration without a smooth continuation: the constraints do not determine how the motion continues", instant(*from, *to))]
     SingularPassage {
-        /// The last time reached before it (s).
+        /// The last time reached before the singular configuration (s).
         from: f64,
-        /// The first time tried after it (s).
+        /// The first time tried after the singular configuration (s).
         to: f64,
     },
-    /// Drives prescribe what no configuration satisfies.
+    /// Drives prescribe values that no configuration can reach.
     #[error(
-        "at t = {t} s {limit}. End the run before, or prescribe a motion that turns back", t = rounded(limit.time))]
+        "at t = {t} s {limit}. End the run earlier, or prescribe a motion that reverses before", t = rounded(limit.time))]
     NoConfiguration {
-        /// The drives, and how far they go.
+        /// The drives, and the limits of their motion.
         limit: Box<DriveLimit>,
     },
-    /// The kept rows became dependent, and no others can be chosen.
+    /// The independent rows became dependent, and the program can choose no others.
     #[error(
         "at t = {t} s the kept rows are nearly dependent and no others can be chosen: {what}", t = rounded(*time))]
     NoRows {
@@ -241,13 +236,13 @@ pub enum MotionFault {
         /// Cause.
         what: String,
     },
-    /// The caller wanted the run to end; the steps before are valid.
+    /// The caller ended the run; the steps before are valid.
     #[error("interrupted at t = {t} s", t = rounded(*time))]
     Interrupted {
-        /// Time of the evaluation that was not made (s).
+        /// Time of the evaluation that was not carried out (s).
         time: f64,
     },
-    /// The saddle equations were refused for another reason.
+    /// The saddle-point equations were rejected for another reason.
     #[error("at t = {t} s: {source}", t = rounded(*time))]
     Saddle {
         /// Time (s).
@@ -258,7 +253,7 @@ pub enum MotionFault {
 }
 
 impl MotionFault {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -286,21 +281,21 @@ impl MotionFault {
     }
 }
 
-/// Reason why there is no motion, or only a part of it.
+/// Reason why there is no motion, or only part of a motion.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
     /// An option of the run is invalid.
     #[error("{name} is {value}, need {expected}")]
     Option {
-        /// Name of the option.
+        /// Name of the run option.
         name: &'static str,
-        /// Its value.
+        /// Value of the option.
         value: f64,
-        /// The values that are allowed.
+        /// The allowed values.
         expected: &'static str,
     },
-    /// Two options that cannot be combined.
+    /// Two options cannot be combined.
     #[error("{chosen} does not go with {with}: {why}")]
     Combination {
         /// The first option.
@@ -310,56 +305,57 @@ pub enum MotionError {
         /// Reason.
         why: &'static str,
     },
-    /// No consistent start.
+    /// There is no consistent start.
     #[error(transparent)]
     Start(#[from] StartError),
     /// The constraint matrix at the start cannot be analysed.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
-    /// The start is not a valid state of the mechanism.
+    /// The start is an invalid state of the mechanism.
     #[error(transparent)]
     State(#[from] StateError),
     /// Redundant rows require different motions.
     #[error(transparent)]
     Contradiction(#[from] Contradiction),
-    /// The rank of the start is undecided.
+    /// The rank at the start cannot be decided.
     #[error("the rank of the start is undecided, so no rows can be chosen: {}", undecided(.0))]
     RankUndecided(Doubt),
-    /// The kept rows are independent, but too nearly dependent to compute a motion.
+    /// The independent rows are too ill-conditioned to compute a motion.
     #[error(
-        "at the start the rows {} depend on each other but for {sigma:.1e}, need {required:.1e} to move: velocities would be known to {:.1e} of \
-         their size only. Correct the misalignment, or delete one of them",
+        "at the start the rows {} are dependent to within {sigma:.1e}; a simulation needs {required:.1e}: velocities would be accurate only to {:.1e} of their size. Correct the misalignment, or delete one of the rows",
         listed(rows), f64::EPSILON / sigma
     )]
     Inseparable {
         /// The rows.
         rows: Vec<String>,
-        /// The smallest singular value of the kept rows, in units of the bodies.
+        /// The smallest singular value of the independent rows, in units of the bodies.
         sigma: f64,
         /// The smallest value allowed.
         required: f64,
     },
-    /// Second order excludes the acceleration that the loads cause at the start.
+    /// The constraints exclude, at second order, the acceleration that the loads cause at the
+    /// start.
     #[error(
-        "at the start {0}. Remove these loads, support the freedom, or describe the small offset with which the mechanism carries them"
+        "at the start {0}. Remove these loads, support the freedom, or describe the small offset by which the mechanism supports them"
     )]
     NoFiniteReaction(Box<NoFiniteReaction>),
-    /// The rows that were to be dropped cannot be dropped.
+    /// The rows that the user wants to treat as redundant cannot be redundant.
     #[error(transparent)]
     Rows(#[from] DropError),
-    /// The equations could not be solved at the start.
+    /// The equations have no solution at the start.
     #[error(transparent)]
     Fault(#[from] MotionFault),
-    /// A reaction is requested of a joint or drive that does not exist.
-    #[error("the reaction of `{name}` is wanted, but no joint or drive has this name")]
+    /// The user requests a reaction of a joint or drive that does not exist.
+    #[error("the reaction of `{name}` is requested, but no joint or drive has this name")]
     NoReaction {
         /// The name.
         name: String,
     },
-    /// One of several independent components stopped; the others were stopped at the same time.
+    /// One of several independent components stopped; the run then stopped the others at the same
+    /// time.
     #[error("{component}: {source}")]
     Component {
-        /// Its bodies.
+        /// Bodies of the component.
         component: String,
         /// Cause.
         source: Box<MotionError>,
@@ -370,7 +366,7 @@ pub enum MotionError {
 }
 
 impl MotionError {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -392,7 +388,8 @@ impl MotionError {
     }
 }
 
-/// Explains an undecided rank to the author of a scene, with what can be changed there.
+/// Explains an undecided rank to the author of a scene, and lists changes to the scene that may
+/// help.
 fn undecided(doubt: &Doubt) -> String {
     match *doubt {
         Doubt::NoClearGap {
@@ -403,7 +400,7 @@ fn undecided(doubt: &Doubt) -> String {
             required,
         } => {
             let advice = if required > rank::NEARLY_SINGULAR {
-                "Places are known too badly for this: lengths differ too much, or lie too far from the origin"
+                "Positions are too inaccurate: lengths differ too much, or points are too far from the origin"
             } else {
                 "Some rows depend on each other nearly but not quite: correct the misalignment of their joints, or delete one of them"
             };
@@ -415,14 +412,14 @@ fn undecided(doubt: &Doubt) -> String {
             sigma_max,
             tolerance,
         } => format!(
-            "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e}: places are known too badly for any rank; place the mechanism \
+            "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e}: positions are too inaccurate for any rank; place the mechanism \
              nearer to the origin"
         ),
         other => other.to_string(),
     }
 }
 
-/// Why a row is no longer implied, as far as the rows that implied it say.
+/// Explains why a row is no longer implied, from the rows that implied it.
 fn implied(drives: &[String]) -> String {
     let names: Vec<String> = drives.iter().map(|name| format!("`{name}`")).collect();
     match names.as_slice() {
@@ -433,7 +430,7 @@ fn implied(drives: &[String]) -> String {
 }
 
 /// States the limit with which a residual was compared. A run continues up to the last allowed
-/// state, so both numbers may look the same.
+/// state, so both numbers may be equal when printed.
 fn above(residual: f64, tolerance: f64) -> String {
     let [found, allowed] = [residual, tolerance].map(|x| format!("{x:.3e}"));
     if found == allowed {
@@ -443,7 +440,7 @@ fn above(residual: f64, tolerance: f64) -> String {
     }
 }
 
-/// Where something lies between two times: one, if they are read as the same.
+/// Describes the interval between two times; prints one time if both look the same.
 fn instant(from: f64, to: f64) -> String {
     let [from, to] = [from, to].map(rounded);
     if from == to {

@@ -1,4 +1,4 @@
-//! Events during a run that are reported to the user.
+//! Events during a run that the output reports.
 
 use model::ConstraintId;
 use solvability::Value;
@@ -15,29 +15,29 @@ pub struct Event {
     pub redundancy_before: usize,
     /// Degree of redundancy after.
     pub redundancy_after: usize,
-    /// Rows dropped after the event, from 0.
+    /// Redundant rows after the event, from 0.
     pub dropped: Vec<usize>,
     /// Description.
     pub text: String,
-    /// The impulses of all joints and drives where velocities jump; empty at other events, and
-    /// if no reactions are requested.
+    /// Impulses of all joints and drives if velocities jump; empty for other events, and if no
+    /// reactions are requested.
     pub impulses: Vec<ReactionImpulse>,
 }
 
-/// The impulse of a joint or drive where velocities jump: the integral of its reaction over the
+/// The impulse of a joint or drive if velocities jump: the integral of its reaction over the
 /// instant, with the components of the reaction.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionImpulse {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// The components that are not identically zero, and the named one of the definition, with
-    /// their names and their verdicts at this instant (N·s, N·m·s).
+    /// The components that are not identically zero, and the component that the definition names;
+    /// with their names and their verdicts at this instant (N·s, N·m·s).
     pub components: Vec<(&'static str, Value)>,
 }
 
 impl Event {
-    /// An event that does not change the degree of redundancy, with the rows dropped after it.
+    /// An event that does not change the degree of redundancy, with the redundant rows after it.
     pub(crate) fn at(time: f64, kind: EventKind, dropped: &[usize], text: String) -> Self {
         Self {
             time,
@@ -56,20 +56,20 @@ impl Event {
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum EventKind {
-    /// Other rows are kept; the rank is the same.
+    /// Other independent rows are used; the rank is the same.
     RowsExchanged,
-    /// A singular configuration was passed: the rank dropped for an instant.
+    /// The mechanism moved through a singular configuration: the rank fell for an instant.
     SingularPassage,
-    /// A rate, and with it the velocities, jumped.
+    /// A prescribed rate jumped, and the velocities jumped with it.
     Impulse,
-    /// Generated code was no longer reliable: the equations are interpreted from here on.
+    /// Generated code became unreliable: the equations are interpreted from this time on.
     CodeLeft,
     /// Generated code is used again.
     CodeUsed,
 }
 
 impl EventKind {
-    /// Whether another stretch of verdicts begins with it.
+    /// Whether a new interval of verdicts starts with this event.
     #[must_use]
     pub fn cuts(self) -> bool {
         match self {
@@ -78,7 +78,7 @@ impl EventKind {
         }
     }
 
-    /// Its name in output files.
+    /// Name in output files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! States at rest in which functions of time are held: a drive that begins to move moves nothing
+//! States at rest in which functions of time are locked: a drive that starts to move has no effect
 //! there.
 
 use model::{Mechanism, System};
@@ -7,28 +7,28 @@ use crate::limits::RESTING_RATE;
 use crate::prepare::PreparedMechanism;
 
 impl PreparedMechanism {
-    /// The same with functions of time that keep the values that they have at t, for a state at
-    /// rest: [`Mechanism::held_at`].
+    /// The same mechanism with functions of time that keep their values at t, for a state at rest:
+    /// [`Mechanism::held_at`].
     #[must_use]
     pub fn held_at(&self, t: f64) -> Self {
         Self {
             mechanism: self.mechanism.held_at(t),
-            // Code is that of the functions that move.
+            // Generated code contains the functions of time that are not locked.
             code: None,
             ..self.clone()
         }
     }
 }
 
-/// Whether velocities are rounding for a mechanism of this size (m).
+/// Whether velocities are rounding errors for a mechanism of this size (m).
 pub(crate) fn rests(mechanism: &Mechanism, size: f64, v: &[f64]) -> bool {
     let unit = |j: usize| mechanism.space().unit(j, size);
     let mut each = v.iter().enumerate();
     each.all(|(j, v)| v.abs() <= RESTING_RATE * unit(j))
 }
 
-/// Drives and joints that functions of time accelerate at rest at the coordinates q, by more than
-/// rounding for a mechanism of this size (m).
+/// Drives and joints that their functions of time accelerate at rest at the coordinates q, by more
+/// than the rounding error for a mechanism of this size (m).
 pub(crate) fn accelerated(mechanism: &Mechanism, size: f64, t: f64, q: &[f64]) -> Vec<String> {
     let layout = mechanism.layout();
     let mut s = mechanism.scratch();

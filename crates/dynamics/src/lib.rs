@@ -5,17 +5,17 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`options`] | options of a run |
-//! | [`mod@prepare`] | consistent start, decided rank, kept rows |
-//! | [`code`] | what a run needs from code generated for one mechanism |
-//! | [`plan`] | what a run does and omits, with reasons |
-//! | `solve` | accelerations and multipliers at a state: null space, Schur complement, refined, generated |
-//! | `manifold` | moves states onto the constraints and along them; the only writer of q and v |
-//! | `watch` | checks the ends of steps: pivots, exchange of rows, singular passages, code |
-//! | [`motion`] | these three for one mechanism |
+//! | [`mod@prepare`] | consistent start, decided rank, independent rows |
+//! | [`code`] | interface to code that was generated for one mechanism |
+//! | [`plan`] | the computations that a run does and omits, with reasons |
+//! | `solve` | accelerations and multipliers at a state: by the null space, the Schur complement, refinement or generated code |
+//! | `manifold` | moves states onto the constraint manifold and along it; only this module writes q and v |
+//! | `watch` | checks the ends of steps: pivots, exchange of independent rows, singular configurations, generated code |
+//! | [`motion`] | combines `solve`, `manifold` and `watch` for one mechanism |
 //! | [`run`] | a run: integration, projected output, energy balance |
 //! | [`events`] | events during a run |
-//! | [`mod@linearise`] | small motions about a state at rest or a steady one |
-//! | `limits` | every threshold, with its reason |
+//! | [`mod@linearise`] | small motions about an equilibrium or a steady motion |
+//! | `limits` | every threshold, with the reason for its value |
 
 mod choose;
 pub mod code;

@@ -1,15 +1,16 @@
-//! Small motions about a state that is at rest or steady: `ẋ = A·x + B·u`.
+//! Small motions about an equilibrium or a steady motion: `ẋ = A·x + B·u`.
 //!
-//! x are independent positions, as many as the holonomic rows leave free, and independent
-//! velocities, as many as all rows leave free. Both are small changes of named coordinates of the
-//! bodies: places and turns of their frames, in axes that may turn with one of them
+//! The state x consists of independent positions and independent velocities. The number of
+//! positions equals the degrees of freedom of the holonomic rows, and the number of velocities
+//! those of all rows. Both are small changes of named coordinates of the bodies: translations and
+//! rotations of their frames, in axes that may rotate with one of them
 //! ([`LineariseOptions::follow`]).
 //!
-//! A state is displaced along a curve whose direction satisfies the linearised constraints, and
-//! accelerations of the motion on kept rows are differentiated along it: the derivative depends on
-//! the direction only, so the curve needs no projection. Central differences of order eight from
-//! steps of 1/128 of the mechanism are accurate to rounding, and those of order six tell by how
-//! much.
+//! The state is displaced along a curve whose direction satisfies the linearised constraints, and
+//! the accelerations of the motion on independent rows are differentiated along it. The derivative
+//! depends only on the direction, so the curve needs no projection. Central differences of order
+//! eight from steps of 1/128 of the mechanism are accurate to rounding. Their difference from those
+//! of order six is the estimate of the error.
 
 mod bases;
 mod chosen;
@@ -41,27 +42,29 @@ pub use inputs::Input;
 pub use linearisation::{Linearisation, SecondOrder};
 pub use modes::{Mode, Stability};
 
-/// What is asked of a linearisation.
+/// Options of a linearisation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LineariseOptions {
-    /// Independent coordinates that are wanted, such as `crank.angle`; the others are chosen.
+    /// Requested independent coordinates, such as `crank.angle`; the program chooses the remaining
+    /// ones.
     pub coordinates: Vec<String>,
-    /// Coordinates in which the state moves on without change, such as `frame.x` or `frame.wz`:
-    /// they are left out, and axes turn with the latter.
+    /// Cyclic coordinates of a steady motion, such as `frame.x` or `frame.wz`; they are eliminated,
+    /// and the axes rotate with the last one.
     pub follow: Vec<String>,
 }
 
-/// Linearises the motion about the state q, v at time t, which satisfies the constraints.
+/// Linearises the motion about the state q, v at time t; the state must satisfy the constraints.
 ///
-/// At rest, v = 0, functions of time keep the values that they have at t, as in
-/// [`crate::equilibrium`]: what a drive does next is an input.
+/// At rest (v = 0), functions of time keep their values at t, as in [`crate::equilibrium`]. The
+/// further motion of a drive is an input.
 ///
 /// # Errors
-/// - [`LineariseError::NotSteady`]: the state is neither at rest nor steady.
-/// - [`LineariseError::Coordinate`], [`LineariseError::Dependent`]: asked coordinates do not exist,
-///   or do not determine the state.
-/// - [`LineariseError::NotASymmetry`]: the motion depends on a coordinate that is followed.
-/// - [`LineariseError::Fault`]: the equations have no solution there, or a force calls a function.
+/// - [`LineariseError::NotSteady`]: the state is neither an equilibrium nor steady.
+/// - [`LineariseError::Coordinate`], [`LineariseError::Dependent`]: requested coordinates do not
+///   exist, or do not determine the state.
+/// - [`LineariseError::NotASymmetry`]: the motion depends on a cyclic coordinate.
+/// - [`LineariseError::Fault`]: the equations have no solution at the state, or a force calls an
+///   external function.
 pub fn linearise(
     prepared: &PreparedMechanism,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -133,7 +136,8 @@ pub fn linearise(
     })
 }
 
-/// M, D and K of a state at rest whose velocities are the rates of its positions.
+/// M, D and K of a state at rest whose independent velocities are the rates of its independent
+/// positions.
 fn second_order(x: &Linearisation, curves: &Curves<'_>, bases: &Bases) -> Option<SecondOrder> {
     let n = x.positions.len();
     if !curves.is_at_rest() || x.velocities.len() != n {

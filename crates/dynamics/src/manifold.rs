@@ -1,6 +1,6 @@
 //! The constraint manifold: moves q and v onto it and along it, and computes residuals. No other
-//! module writes accepted coordinates and velocities, neither for kept rows nor for generated code.
-//! Whether a step may end at a state is decided in [`crate::watch`].
+//! module writes accepted coordinates and velocities, neither for independent rows nor for
+//! generated code. The module [`crate::watch`] decides whether a step may end at a state.
 
 mod coordinates;
 mod dropped;

@@ -1,7 +1,11 @@
-//! The motion of a mechanism on kept rows: combines its equations (`solve`), its constraints
-//! (`manifold`) and the monitors (`watch`). Kept rows may become nearly dependent although the rank
-//! stays the same, for example if a knife edge rotates. Then other rows are kept from an accepted
-//! and polished point on, which does not change the motion.
+//! The motion of a mechanism on independent rows: combines its equations (`solve`), its constraints
+//! (`manifold`) and the monitors (`watch`). The independent rows may become ill-conditioned
+//! although the rank stays the same, for example if a knife edge rotates. Then the motion continues
+//! with other independent rows from an accepted and corrected state; this does not change the
+//! motion.
+//!
+//! The rows that the user requests to drop are dropped again once the other rows are independent
+//! again. Reactions always belong to the requested rows.
 
 use model::{Mechanism, Scratch, System};
 use solvability::ChosenValues;
@@ -17,31 +21,32 @@ use crate::prepare::PreparedMechanism;
 use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, Misfits, State};
 use crate::watch::{CodeSwitch, Monitors, Next, are_worn};
 
-/// A mechanism on kept rows. All storage is allocated here; accelerations and projections do not
-/// allocate.
+/// A mechanism on independent rows. All memory is allocated here; accelerations and projections
+/// allocate no memory.
 pub struct KeptRowMotion<'m> {
     pub(crate) equations: KeptEquations<'m>,
     pub(crate) manifold: Manifold,
     pub(crate) watch: Monitors,
-    /// Generated code, if there is some that can be used.
+    /// Generated code, if available and usable.
     pub(crate) code: Option<CodeSwitch<'m>>,
 }
 
 impl<'m> KeptRowMotion<'m> {
-    /// The motion of a prepared mechanism on kept rows, with projection and without generated code.
+    /// The motion of a prepared mechanism on independent rows, with projection and without
+    /// generated code.
     ///
     /// # Errors
-    /// If more rows are kept than there are velocities.
+    /// Returns an error if there are more independent rows than velocities.
     pub fn new(prepared: &'m PreparedMechanism) -> Result<Self, MotionFault> {
         Self::interpreted(prepared, &MotionOptions::to(0.0))
     }
 
-    /// The motion of a prepared mechanism with the method and stabilisation of a run; with
-    /// generated code, if there is some for it.
+    /// The motion of a prepared mechanism with the method and stabilisation of a run, and with
+    /// generated code if available.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit
-    /// method.
+    /// Returns the same errors as [`KeptRowMotion::new`]; also if no independent coordinates can be
+    /// chosen for an implicit method.
     pub fn with(
         prepared: &'m PreparedMechanism,
         options: &MotionOptions,
@@ -49,8 +54,8 @@ impl<'m> KeptRowMotion<'m> {
         Self::evaluated(prepared, options, None)
     }
 
-    /// Like [`KeptRowMotion::with`]; the generated code, if it is used, is evaluated by
-    /// `evaluator`.
+    /// Like [`KeptRowMotion::with`]; `evaluator` evaluates the generated code if the motion uses
+    /// it.
     pub(crate) fn evaluated(
         prepared: &'m PreparedMechanism,
         options: &MotionOptions,
@@ -96,7 +101,7 @@ impl<'m> KeptRowMotion<'m> {
         })
     }
 
-    /// The mechanism.
+    /// The mechanism of the motion.
     #[must_use]
     pub fn mechanism(&self) -> &'m Mechanism {
         self.equations.at.mechanism
@@ -141,7 +146,7 @@ impl<'m> KeptRowMotion<'m> {
     /// ```
     ///
     /// # Errors
-    /// If the kept rows are dependent at this configuration.
+    /// Returns an error if the independent rows are dependent at this configuration.
     pub fn use_independent_coordinates(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
         self.equations.at.pose(t, q);
         let (q, v) = (q.to_vec(), vec![0.0; self.mechanism().layout().n_v]);
@@ -157,7 +162,7 @@ impl<'m> KeptRowMotion<'m> {
         coordinates.map(|c| (&c.partition.z[..], &c.partition.u[..]))
     }
 
-    /// Whether generated code is in use.
+    /// Whether the motion uses generated code.
     pub(crate) fn is_on_code(&self) -> bool {
         self.code.as_ref().is_some_and(CodeSwitch::is_in_use)
     }
@@ -169,7 +174,7 @@ impl<'m> KeptRowMotion<'m> {
         Ok(())
     }
 
-    /// Chooses new independent coordinates if they are needed and a step has begun.
+    /// Chooses new independent coordinates if necessary and if a step has started.
     pub(crate) fn begin_step(
         &mut self,
         has_begun: impl Fn(f64) -> bool,
@@ -184,7 +189,7 @@ impl<'m> KeptRowMotion<'m> {
         };
         let equations = &mut self.equations;
         equations.at.pose_and_phi(origin.t, &origin.q);
-        // Whether other rows are needed is decided without a partition.
+        // The decision on an exchange of rows is made without a partition.
         for rows in [&mut equations.velocity, &mut equations.position] {
             rows.forget_partition();
             rows.factor(&equations.at)?;
@@ -200,7 +205,7 @@ impl<'m> KeptRowMotion<'m> {
     /// Computes `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`.
     ///
     /// # Errors
-    /// If the equations have no unique solution at this state.
+    /// Returns an error if the equations have no unique solution at this state.
     pub fn acceleration(
         &mut self,
         t: f64,
@@ -217,11 +222,11 @@ impl<'m> KeptRowMotion<'m> {
         }
     }
 
-    /// Moves q and v onto the constraints by the smallest correction in the mass metric, and checks
-    /// the dropped rows.
+    /// Moves q and v onto the constraint manifold by the smallest correction in the mass metric,
+    /// and checks the redundant rows.
     ///
     /// # Errors
-    /// If that fails, or a dropped row is violated.
+    /// Returns an error if the projection fails, or a redundant row is violated.
     pub fn project(
         &mut self,
         t: f64,
@@ -231,11 +236,12 @@ impl<'m> KeptRowMotion<'m> {
         self.manifold.project(&mut self.equations, t, (q, v))
     }
 
-    /// Multipliers of all rows. Those of dropped rows are set to zero. All are NaN if the kept rows
-    /// are dependent at exactly this instant, because then no multipliers belong to them.
+    /// Multipliers of all rows. The multipliers of redundant rows are zero. All multipliers are NaN
+    /// if the independent rows are dependent at exactly this instant, because then the multipliers
+    /// are not defined.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::acceleration`].
+    /// Returns the same errors as [`KeptRowMotion::acceleration`].
     pub fn multipliers(
         &mut self,
         t: f64,
@@ -272,11 +278,11 @@ impl<'m> KeptRowMotion<'m> {
     /// applied forces. With independent coordinates the dependent entries of y have no effect.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::acceleration`]; [`MotionFault::OffConstraints`],
+    /// Returns the same errors as [`KeptRowMotion::acceleration`]; [`MotionFault::OffConstraints`],
     /// [`MotionFault::IndependentCoordinates`] if a state cannot be completed.
     ///
     /// # Panics
-    /// If `y` or `dy` are shorter than n_q + n_v.
+    /// Panics if `y` or `dy` are shorter than n_q + n_v.
     pub fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
         self.begin_step(|accepted| t > accepted)?;
         let mechanism = self.mechanism();
@@ -307,11 +313,11 @@ impl<'m> KeptRowMotion<'m> {
         Ok(())
     }
 
-    /// Like [`Self::derivative`], at a state that a projection has just moved onto the constraints
-    /// and at which the rows are factored.
+    /// Like [`Self::derivative`], at a state that a projection has just moved onto the constraint
+    /// manifold and at which the rows are factored.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::derivative`].
+    /// Returns the same errors as [`KeptRowMotion::derivative`].
     pub(crate) fn derivative_of_projected(
         &mut self,
         t: f64,
@@ -334,7 +340,7 @@ impl<'m> KeptRowMotion<'m> {
         self.solve_factored(state.v, a)
     }
 
-    /// The same if the pose is evaluated and the rows are factored.
+    /// The same accelerations if the pose is evaluated and the rows are factored.
     pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
         self.watch.passage.see(&self.equations.velocity);
         self.equations.solve_factored(v, a)
@@ -357,7 +363,7 @@ impl<'m> KeptRowMotion<'m> {
         (q, &rest[..layout.n_v])
     }
 
-    /// The parts q, v and, if y has it, the work; or their rates.
+    /// The parts q, v and, if y contains it, the work; or their rates.
     pub(crate) fn parts_mut<'y>(
         &self,
         y: &'y mut [f64],
@@ -368,10 +374,10 @@ impl<'m> KeptRowMotion<'m> {
         (q, v, work.first_mut())
     }
 
-    /// Moves the end of a step that passed its error test onto the constraints, or computes its
-    /// residuals, and keeps other rows if the present ones have become nearly dependent there. If
-    /// `has_to_end` is true, the step ends at t whatever the configuration. Events are reported
-    /// once the step is accepted.
+    /// Moves the end of a step that passed its error test onto the constraint manifold, or computes
+    /// its residuals. Selects other independent rows if the present ones are ill-conditioned there.
+    /// If `has_to_end` is true, the step ends at t whatever the configuration. Events are reported
+    /// when the step is accepted.
     pub(crate) fn end_step(
         &mut self,
         t: f64,
@@ -399,7 +405,7 @@ impl<'m> KeptRowMotion<'m> {
         }
         let corrections = manifold.settle_completed(equations, t, (&mut *q, &mut *v))?;
         watch.judge_place(equations, t, has_to_end).stands()?;
-        // With independent coordinates, rows are exchanged when the next step begins.
+        // With independent coordinates, rows are exchanged when the next step starts.
         if GUARDED
             && manifold.coordinates.is_none()
             && let Some(rows) = watch.judge_rows(equations, q).stands()?
@@ -413,7 +419,7 @@ impl<'m> KeptRowMotion<'m> {
         Ok(manifold.finish(equations, v, corrections)?)
     }
 
-    /// Like [`Self::end_step`], for states that are not projected: kept rows are monitored
+    /// Like [`Self::end_step`], for states without projection: the independent rows are monitored
     /// nevertheless.
     fn end_unprojected_step(
         &mut self,
@@ -427,7 +433,7 @@ impl<'m> KeptRowMotion<'m> {
         if !watch.may_exchange(equations) {
             return Ok(found);
         }
-        // Ranks are decided only at configurations on the constraints.
+        // The rank is decided only at configurations on the constraint manifold.
         let mut polished = q.to_vec();
         self.manifold.settle(equations, t, &mut polished)?;
         if let Some(rows) = watch.judge_rows(equations, &polished).stands()? {
@@ -445,11 +451,11 @@ impl<'m> KeptRowMotion<'m> {
         self.watch.accept(&mut self.equations, t, may_have_passed)
     }
 
-    /// Finishes a row of output: projects it, or computes its residuals. Dropped rows are checked
+    /// Completes an output row: projects it, or computes its residuals. Redundant rows are checked
     /// in both cases.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::project`].
+    /// Returns the same errors as [`KeptRowMotion::project`].
     pub(crate) fn end_row(
         &mut self,
         t: f64,
@@ -497,8 +503,8 @@ impl<'m> KeptRowMotion<'m> {
     }
 }
 
-/// Computes q̇ and, if there is space for it, the power of drives and applied forces at a state
-/// with acceleration a.
+/// Computes q̇ and, if `rates` has an entry for it, the power of drives and applied forces at a
+/// state with acceleration a.
 fn rates(
     mechanism: &Mechanism,
     (q, v, a): (&[f64], &[f64], &[f64]),

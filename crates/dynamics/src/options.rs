@@ -35,7 +35,7 @@ impl Method {
         Self::Radau5,
     ];
 
-    /// Its name in scenes and results.
+    /// Name of the method in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,15 +47,17 @@ impl Method {
         }
     }
 
-    /// Whether it needs the Jacobian of the motion, which only independent coordinates have.
+    /// Whether the method needs the Jacobian of the motion, which exists only for independent
+    /// coordinates.
     #[must_use]
     pub fn needs_independent_coordinates(self) -> bool {
         self == Self::Radau5
     }
 }
 
-/// Treatment of redundant rows in every run: r independent rows are kept, the others are only
-/// monitored. This is its name in results; reactions that are not unique depend on it.
+/// Treatment of redundant rows in every run: the run solves r independent rows and only monitors
+/// the others. The value is the name in results; reactions that are not unique depend on this
+/// treatment.
 pub const FORMULATION: &str = "kept-rows";
 
 /// Method that prevents drift from the constraints.
@@ -73,7 +75,7 @@ impl Stabilisation {
     /// All methods that can be requested.
     pub const ALL: &[Self] = &[Self::Projection, Self::None];
 
-    /// Its name in scenes and results.
+    /// Name of the method in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -83,45 +85,45 @@ impl Stabilisation {
     }
 }
 
-/// Which rows are kept.
+/// Choice of the independent rows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum RowChoice {
-    /// The rank decision chooses well-conditioned ones.
+    /// The rank decision chooses well-conditioned rows.
     #[default]
     Automatic,
-    /// All rows except these, counted from 0.
+    /// All rows except the given ones, counted from 0.
     Drop(Vec<usize>),
 }
 
 /// Options of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionOptions {
-    /// Last time (s); the first is 0.
+    /// End time (s); the start time is 0.
     pub t_end: f64,
-    /// Time between written rows (s).
+    /// Time between output rows (s).
     pub output_step: f64,
     /// Relative tolerance of the step control.
     pub rtol: f64,
     /// Absolute tolerance of the step control.
     pub atol: f64,
-    /// Largest step (s); infinite if error control alone decides.
+    /// Maximum step (s); infinite if only error control limits the step.
     pub max_step: f64,
-    /// Largest number of accepted and rejected steps of a component.
+    /// Maximum number of accepted and rejected steps of a component.
     pub max_steps: u64,
-    /// Integrator.
+    /// Integration method.
     pub method: Method,
-    /// Treatment of drift.
+    /// Method that prevents drift from the constraints.
     pub stabilisation: Stabilisation,
-    /// Rows to keep, as passed to [`crate::prepare()`]. A run uses the rows of its
+    /// Choice of independent rows, as passed to [`crate::prepare()`]. A run uses the rows of its
     /// [`crate::PreparedMechanism`].
     pub rows: RowChoice,
-    /// Number of components that compute at the same time if there are several; `None` allows all
-    /// of them. Results do not depend on it.
+    /// Maximum number of components that are computed at the same time; `None` means no limit.
+    /// Results do not depend on this number.
     pub threads: Option<NonZeroUsize>,
 }
 
 impl MotionOptions {
-    /// The defaults for a run to `t_end`.
+    /// Default options for a run to `t_end`.
     #[must_use]
     pub fn to(t_end: f64) -> Self {
         Self {
@@ -141,7 +143,7 @@ impl MotionOptions {
     /// Checks the options of a run.
     ///
     /// # Errors
-    /// - [`MotionError::Option`]: one is not finite or out of range.
+    /// - [`MotionError::Option`]: an option is not finite or out of range.
     /// - [`MotionError::Combination`]: method and stabilisation cannot be combined.
     pub fn check(&self) -> Result<(), MotionError> {
         let numbers = [

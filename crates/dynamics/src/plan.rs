@@ -1,6 +1,7 @@
-//! The computations of a run and those that it omits, decided once from a prepared mechanism, its
-//! options and the requested output. Each decision has its reason and states what it saves; a run
-//! follows its plan ([`crate::simulate`]). The computations themselves are in other modules.
+//! The plan of a run: the computations of the run and the computations that it omits. They are
+//! decided once from a prepared mechanism, its options and the requested output. Each decision has
+//! a reason and states what it saves; a run follows its plan ([`crate::simulate`]). Other modules
+//! contain the computations.
 
 mod component;
 mod decided;
@@ -29,38 +30,41 @@ pub use sizes::Sizes;
 /// The requested output of a motion. Other values are not computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputRequest {
-    /// Which rows of output are requested.
+    /// The requested output rows.
     pub rows: Rows,
-    /// Whether accelerations are requested at these rows.
+    /// Whether accelerations are requested at the output rows.
     pub accelerations: bool,
-    /// Joints and drives whose reactions are requested at these rows. With reactions come the
-    /// verdicts of the run.
+    /// Joints and drives whose reactions are requested at the output rows. If reactions are
+    /// requested, the run also computes verdicts.
     pub reactions: Reactions,
-    /// Groups whose verdicts are requested besides.
+    /// Additional groups whose verdicts are requested.
     pub groups: Vec<Group>,
-    /// Which verdicts are requested with the reactions.
+    /// The verdicts that are requested with the reactions.
     pub verdicts: Verdicts,
-    /// Choices by which all reactions are requested besides, which are possible at the start.
+    /// Additional choices of multipliers for which all reactions are requested; they are possible
+    /// at the start.
     pub choices: Vec<NamedChoice>,
 }
 
-/// Verdicts that come with reactions.
+/// Verdicts that are computed with reactions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdicts {
-    /// Those on stretches, and the instants that differ: read at accepted steps and rows of output.
+    /// Verdicts on time intervals, and the instants that differ: computed at accepted steps and
+    /// output rows.
     WithInstants,
-    /// Those on the whole run: read at the start, in each stretch at the end of its first accepted
-    /// step and at the begin of its last, and at the second, fourth, eighth … step if one is open.
-    /// More instants can only add such as differ: between events a component is determined
-    /// throughout or, but for isolated instants, nowhere. A reaction is not computed any more where
-    /// neither its force nor its torque is determined in a stretch.
+    /// Verdicts on the whole run. They are computed at the start, and in each time interval at the
+    /// end of its first accepted step and at the start of its last step. If a verdict is still
+    /// undecided, they are also computed at the second, fourth, eighth … step. Further instants can
+    /// only add differing instants: between events a component is either determined throughout, or
+    /// determined at isolated instants at most. A reaction is not computed further if neither its
+    /// force nor its torque is determined in an interval.
     OfRun,
     /// No verdicts.
     None,
 }
 
 impl Default for OutputRequest {
-    /// Everything.
+    /// All output is requested.
     fn default() -> Self {
         Self {
             rows: Rows::Every,
@@ -73,14 +77,15 @@ impl Default for OutputRequest {
     }
 }
 
-/// Which rows of output.
+/// Kinds of output rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rows {
     /// At time 0, at every output step, and at the end.
     #[default]
     Every,
-    /// At the same times, but states as interpolated within steps, which violate the constraints by
-    /// about the tolerance of the run. For callers that project them anyway.
+    /// Rows at the same times, but with the states that are interpolated within steps. These states
+    /// violate the constraints by about the tolerance of the run. This is for callers that project
+    /// the states anyway.
     Interpolated,
     /// At time 0 and at the end.
     Ends,
@@ -98,7 +103,7 @@ pub enum Reactions {
     None,
 }
 
-/// The plan of a run.
+/// The plan of a run: its decisions.
 ///
 /// ```
 /// use pfaff_dynamics::{MotionOptions, Plan, RowChoice, OutputRequest, prepare};
@@ -129,29 +134,29 @@ pub struct Plan<'a> {
     options: MotionOptions,
     /// Whether the mechanism is split into components.
     pub apart: Decision<bool>,
-    /// Whether code generated for the mechanism is used.
+    /// Whether the run uses code generated for the mechanism.
     pub code: Decision<bool>,
-    /// Which rows of output are computed.
+    /// The output rows that are computed.
     pub rows: Decision<Rows>,
-    /// Whether accelerations are computed at these rows.
+    /// Whether accelerations are computed at the output rows.
     pub accelerations: Decision<bool>,
-    /// Groups whose verdicts are computed; none without reactions.
+    /// Groups whose verdicts are computed; empty without reactions.
     pub groups: Vec<Group>,
-    /// Verdicts that come with reactions.
+    /// Verdicts that are computed with reactions.
     pub verdicts: Verdicts,
-    /// Choices by which reactions are computed at rows of output.
+    /// Choices of multipliers for which reactions are computed at output rows.
     pub choices: Vec<NamedChoice>,
-    /// Its components, or the whole mechanism as the only one.
+    /// Components of the mechanism, or the whole mechanism as the only component.
     pub components: Vec<ComponentPlan<'a>>,
 }
 
 impl<'a> Plan<'a> {
-    /// Makes all decisions that are possible before the motion begins.
+    /// Makes all decisions that are possible before the motion starts.
     ///
     /// # Errors
     /// - [`MotionError::Option`], [`MotionError::Combination`]: the options are invalid.
-    /// - [`MotionError::NoReaction`]: a reaction is requested of a joint that does not exist.
-    /// - [`MotionError::Fault`]: the motion cannot be evaluated at its start.
+    /// - [`MotionError::NoReaction`]: a reaction of a nonexistent joint is requested.
+    /// - [`MotionError::Fault`]: the equations of motion have no solution at the start.
     pub fn new(
         prepared: &'a PreparedMechanism,
         options: &MotionOptions,
@@ -196,13 +201,13 @@ impl<'a> Plan<'a> {
         self.prepared
     }
 
-    /// The options of the run; the methods are those of the components.
+    /// The options of the run; each component has its own method.
     #[must_use]
     pub fn options(&self) -> &MotionOptions {
         &self.options
     }
 
-    /// All decisions, those of the whole mechanism first.
+    /// All decisions, starting with the decisions for the whole mechanism.
     #[must_use]
     pub fn lines(&self) -> Vec<Line<'_>> {
         let of_whole = [
@@ -265,7 +270,7 @@ fn code(
         Ok(code) => code.spec(),
     };
     let reason = format!(
-        "its values are those of this mechanism ({}); kernels and elimination below are what it falls back to",
+        "it was generated for this mechanism ({}); the kernels and the elimination below are the fallback",
         code.operations
     );
     Ok(Decision::new(true, format!("`{}`", code.name), reason))
@@ -273,23 +278,23 @@ fn code(
 
 fn rows(options: &MotionOptions, rows: Rows) -> Decision<Rows> {
     let every = (options.t_end / options.output_step).ceil().max(0.0) as u64 + 1;
-    let wanted = format!("wanted every {} s", options.output_step);
+    let wanted = format!("requested every {} s", options.output_step);
     match rows {
         Rows::Every => Decision::new(rows, format!("{every}"), wanted),
         Rows::Interpolated => Decision::new(
             rows,
-            format!("{every}, as interpolated within steps"),
-            format!("{wanted}, and moved onto the constraints elsewhere"),
+            format!("{every}, interpolated within steps"),
+            format!("{wanted}; projected onto the constraints later"),
         ),
-        Rows::Ends => Decision::new(rows, "the ends only", "nothing is written of the others")
+        Rows::Ends => Decision::new(rows, "only first and last", "no other rows are written")
             .saving(every.saturating_sub(2), every, Cost::Rows),
     }
 }
 
 fn accelerations(wanted: bool) -> Decision<bool> {
     if wanted {
-        Decision::new(true, "at rows of output", "wanted")
+        Decision::new(true, "at output rows", "requested")
     } else {
-        Decision::new(false, "within steps only", "not wanted at rows of output")
+        Decision::new(false, "only within steps", "not requested at output rows")
     }
 }

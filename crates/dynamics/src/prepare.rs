@@ -1,5 +1,5 @@
-//! From an assembled mechanism to one that can move: a consistent start, a decided rank, kept rows.
-//! The rank is decided here, at a polished point, and nowhere else during a run.
+//! Prepares an assembled mechanism for motion: a consistent start, a decided rank, independent
+//! rows. The rank is decided only here, at a corrected state; a run does not decide it again.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::motion::KeptRowMotion;
 use crate::options::{MotionOptions, RowChoice, Stabilisation};
 use crate::solve::{self, Misfit};
 
-/// A mechanism with a consistent start and kept rows.
+/// A mechanism with a consistent start and independent rows.
 #[derive(Clone)]
 #[non_exhaustive]
 pub struct PreparedMechanism {
@@ -28,39 +28,40 @@ pub struct PreparedMechanism {
     pub q: Vec<f64>,
     /// Velocities at t = 0.
     pub v: Vec<f64>,
-    /// The requested choice of rows.
+    /// The requested choice of independent rows.
     pub choice: RowChoice,
-    /// What the start keeps.
+    /// Options of the start, such as the coordinates that it keeps.
     pub start: StartOptions,
-    /// Whether a tolerance is stated and rows are dropped: these may be redundant within it only.
-    /// Then they have misfits, and which rows are kept changes the motion by as much.
+    /// Whether a tolerance is stated and there are redundant rows: they may be redundant only
+    /// within this tolerance. Then these rows have constraint violations, and the choice of the
+    /// independent rows changes the motion by a similar amount.
     pub may_miss: bool,
-    /// Rank and kept rows of C.
+    /// Rank and independent rows of C.
     pub decision: RowDecision,
-    /// Rank and kept rows of Φq alone, which determine the configuration.
+    /// Rank and independent rows of Φq alone, which determine the configuration.
     pub position_decision: RowDecision,
-    /// The decisions at the start, part by part, from which its verdicts are read; `None` for a
-    /// component of another mechanism.
+    /// The decisions at the start, part by part, from which the verdicts at the start are computed;
+    /// `None` for a component of another mechanism.
     pub decided: Option<Arc<Rows>>,
-    /// How the configuration was assembled.
+    /// Result of the assembly of the configuration.
     pub assembly: Assembly,
     /// Velocities at the start minus the given ones; zero for velocities that are not given.
     pub velocity_correction: Vec<f64>,
-    /// Code generated for this mechanism on these rows, if any: see
+    /// Code generated for this mechanism with these rows, if any: see
     /// [`PreparedMechanism::with_code`].
     pub(crate) code: Option<Arc<SharedCode>>,
 }
 
 impl PreparedMechanism {
-    /// Estimated upper bound (bytes) on the memory of a run, not counting the mechanism itself:
-    /// solvers, stages, rows of output. It uses sparsity patterns only.
+    /// Estimated upper bound (bytes) on the memory of a run, without the mechanism itself: solvers,
+    /// stages, output rows. The estimate uses only sparsity patterns.
     #[must_use]
     pub fn memory(&self) -> usize {
         let levels = [&self.decision, &self.position_decision].map(|d| d.kept.as_slice());
         solve::memory(&self.mechanism, self.assembly.size, levels)
     }
 
-    /// Whether the kept rows are solved through the Schur complement of the masses.
+    /// Whether the independent rows are solved through the Schur complement of the masses.
     pub(crate) fn is_schur(&self) -> bool {
         let rows = self.decision.kept.len();
         solve::is_schur(&self.mechanism, self.assembly.size, rows)
@@ -71,17 +72,17 @@ impl PreparedMechanism {
         solve::is_far(self.assembly.size)
     }
 
-    /// Spread of the masses, see [`solve::mass_spread`].
+    /// Ratio of the largest to the smallest mass, see [`solve::mass_spread`].
     pub(crate) fn mass_spread(&self) -> f64 {
         solve::mass_spread(&self.mechanism, self.assembly.size)
     }
 
-    /// Other rows to drop: those that have missed are kept, each instead of the row that takes the
-    /// largest part in its dependency at the start. Returns `None` if these rows cannot be dropped
-    /// together, or for a component of another mechanism.
+    /// Another choice of redundant rows: each violated row becomes independent, and the row with
+    /// the largest coefficient in its dependency at the start becomes redundant. Returns `None` if
+    /// these rows cannot be redundant together, or for a component of another mechanism.
     ///
     /// # Errors
-    /// If the start cannot be evaluated.
+    /// Returns an error if the equations have no solution at the start.
     pub fn other_rows(&self, misfits: &[Misfit]) -> Result<Option<Vec<usize>>, MotionError> {
         if self.decided.is_none() {
             return Ok(None);
@@ -102,11 +103,11 @@ impl PreparedMechanism {
         Ok(Some(dropped))
     }
 
-    /// The same mechanism with these rows dropped. Returns `None` if they cannot be dropped
+    /// The same mechanism with these redundant rows. Returns `None` if they cannot be redundant
     /// together, or for a component of another mechanism.
     ///
     /// # Errors
-    /// As [`prepare`].
+    /// Returns the same errors as [`prepare`].
     pub fn dropping(&self, dropped: &[usize]) -> Result<Option<Self>, MotionError> {
         let Some(found) = &self.decided else {
             return Ok(None);
@@ -119,10 +120,11 @@ impl PreparedMechanism {
         }
     }
 
-    /// The same mechanism on these kept rows of C and of Φq, ascending, such as those of generated
-    /// code. `None` if they are dependent at the start, or not as many as its rank; if the caller
-    /// chose other rows; and where rows are chosen in a way of their own: within stated tolerances,
-    /// in a large mechanism, in a component of another one.
+    /// The same mechanism with these independent rows of C and of Φq, ascending, for example the
+    /// rows of generated code. Returns `None` if the rows are dependent at the start, if their
+    /// number differs from the rank, or if the caller chose other rows. It also returns `None` if
+    /// rows are chosen by another method: within stated tolerances, in a large mechanism, in a
+    /// component of another mechanism.
     #[must_use]
     pub fn on_rows(&self, kept: &[usize], position_kept: &[usize]) -> Option<Self> {
         if kept == self.decision.kept && position_kept == self.position_decision.kept {
@@ -174,8 +176,8 @@ impl PreparedMechanism {
         })
     }
 
-    /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is
-    /// free, and states are projected.
+    /// Whether a run evaluates the state as a function of time: no coordinate or velocity is free,
+    /// and states are projected.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
         let n_v = self.mechanism.layout().n_v;
         let is_held = self.decision.rank == n_v && self.position_decision.rank == n_v;
@@ -186,12 +188,12 @@ impl PreparedMechanism {
 /// Assembles the start, decides the rank there, chooses rows, and makes the velocities consistent.
 ///
 /// # Errors
-/// - [`MotionError::Start`]: no consistent configuration or velocities.
+/// - [`MotionError::Start`]: no consistent configuration or velocities exist.
 /// - [`MotionError::Contradiction`]: redundant rows require different positions, velocities or
 ///   accelerations.
-/// - [`MotionError::Inseparable`]: independent rows differ by too little to move on.
-/// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the
-///   requested ones.
+/// - [`MotionError::Inseparable`]: the independent rows are too ill-conditioned for a motion.
+/// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or the requested
+///   rows cannot be chosen.
 pub fn prepare(
     mechanism: Mechanism,
     start: &StartOptions,
@@ -200,11 +202,11 @@ pub fn prepare(
     prepare_after(mechanism, start, rows, None)
 }
 
-/// Like [`prepare`]; what has been decided for another mechanism with the same constraints at the
-/// same configuration is taken from there, instead of being decided once more.
+/// Like [`prepare`], but uses the decisions for another mechanism with the same constraints at the
+/// same configuration instead of a new decision.
 ///
 /// # Errors
-/// As [`prepare`].
+/// Returns the same errors as [`prepare`].
 pub fn prepare_after(
     mut mechanism: Mechanism,
     start: &StartOptions,
@@ -223,7 +225,8 @@ pub fn prepare_after(
     }
     let found = rows_of(&mechanism, 0.0, &assembly.q)?;
     if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
-        // Report what prevents any motion first, since it is also an error of the analysis.
+        // The cause that prevents any motion is reported first, because it is also an error of the
+        // analysis.
         return Err(if found.are_certified() {
             start_velocity(&mechanism, start, &found, &assembly.q, &found.all.kept)
                 .err()
@@ -236,7 +239,7 @@ pub fn prepare_after(
     on_rows(mechanism, assembly, Arc::new(found), start, rows)
 }
 
-/// An assembled mechanism on a choice of rows.
+/// An assembled mechanism with a choice of rows.
 fn on_rows(
     mechanism: Mechanism,
     assembly: Assembly,
@@ -288,7 +291,8 @@ fn on_rows(
     })
 }
 
-/// The requested rows to drop, of C and of Φq: the same ones, as far as they are holonomic.
+/// The rows of C and of Φq that are requested to be redundant: the same ones for Φq, as far as they
+/// are holonomic.
 fn drop_within_tolerance(
     mechanism: &Mechanism,
     found: &Rows,
@@ -307,8 +311,8 @@ fn drop_within_tolerance(
     Ok((all, positions))
 }
 
-/// The reason why no motion can begin at a configuration, if none can: its rank is undecided, or
-/// rows that the certificate shows to be independent are too nearly dependent for `f64`.
+/// The reason why no motion can start at a configuration, if there is one. Either the rank is
+/// undecided, or rows that are certified to be independent are too ill-conditioned for `f64`.
 #[must_use]
 pub fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
     if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
@@ -333,10 +337,10 @@ pub fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<Motio
         })
 }
 
-/// Velocities of an assembled start, see [`consistent_velocity`], and a contradiction of
-/// accelerations there, if any: redundant rows may allow the velocities but no motion that begins
-/// with them. Rows that contradict each other for any initial velocities, such as those of drives,
-/// are reported before given velocities that contradict them.
+/// Velocities of an assembled start, see [`consistent_velocity`], and a contradiction between
+/// accelerations there, if any: redundant rows may allow the velocities but no motion that starts
+/// with them. Rows that contradict each other for all initial velocities, such as rows of drives,
+/// are reported before given velocities that contradict the rows.
 ///
 /// # Errors
 /// - [`MotionError::Start`]: the given velocities are impossible.
@@ -364,8 +368,9 @@ pub fn start_velocity(
     };
     let mut all = rows.contradictions(mechanism, 0.0, q, v)?;
     if all.is_empty() && mechanism.has_tolerances() && rows.all.redundancy > 0 {
-        // Data within the tolerance may explain what a joint misses where a drive moves it. What a
-        // drive asks is compared with what the joints allow, here as in a check of the drives.
+        // Data within the tolerance may explain the violation of a joint that a drive moves. Here,
+        // as in a check of the drives, the prescribed motion of a drive is compared with the motion
+        // that the joints allow.
         all = contradicting_drives(mechanism, 0.0, q)?;
     }
     let is_late = |c: &Contradiction| c.level == ConstraintLevel::Acceleration;

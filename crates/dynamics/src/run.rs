@@ -1,5 +1,5 @@
-//! A run according to its plan: integration of q̇ = T·v and the solved accelerations, projection
-//! after each step, projected rows of output, and the energy balance.
+//! Runs a plan: integration of q̇ = T·v and of the solved accelerations, projection after each
+//! step, projected output rows, and the energy balance.
 
 use std::ops::ControlFlow;
 
@@ -37,7 +37,7 @@ pub use sample::{ChosenReactions, Sample};
 pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 
 /// Runs a prepared mechanism from t = 0 and passes rows at 0, at every output step and at the end
-/// to `row`: a plan with all output.
+/// to `row`. The plan requests all output.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -64,7 +64,7 @@ pub use summary::{ComponentSummary, DroppedRows, Failure, Summary};
 /// ```
 ///
 /// # Errors
-/// A failure contains the summary of the part that was completed; rows passed before remain valid.
+/// A failure contains the summary of the completed part; rows passed before remain valid.
 pub fn simulate(
     prepared: &PreparedMechanism,
     options: &MotionOptions,
@@ -73,11 +73,11 @@ pub fn simulate(
     simulate_until(prepared, options, &|| false, row)
 }
 
-/// Like [`simulate`]; `stop` is asked at each evaluation, and the run ends at the last accepted
-/// step once it returns true.
+/// Like [`simulate`]; `stop` is called at each evaluation, and the run ends at the last accepted
+/// step when it returns true.
 ///
 /// # Errors
-/// As [`simulate`].
+/// Returns the same errors as [`simulate`].
 pub fn simulate_until(
     prepared: &PreparedMechanism,
     options: &MotionOptions,
@@ -93,8 +93,7 @@ impl Plan<'_> {
     /// Runs the plan from t = 0 and passes its rows to `row`.
     ///
     /// # Errors
-    /// A failure contains the summary of the part that was completed; rows passed before remain
-    /// valid.
+    /// A failure contains the summary of the completed part; rows passed before remain valid.
     pub fn simulate(
         &self,
         row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
@@ -103,10 +102,10 @@ impl Plan<'_> {
     }
 
     /// Like [`Plan::simulate`]; `watch` is also called between rows, at each accepted step, and
-    /// `stop` at each evaluation: once it returns true, the run ends at the last accepted step.
+    /// `stop` at each evaluation: when it returns true, the run ends at the last accepted step.
     ///
     /// # Errors
-    /// As [`Plan::simulate`].
+    /// Returns the same errors as [`Plan::simulate`].
     pub fn simulate_watched(
         &self,
         watch: &Watch<'_>,
@@ -116,12 +115,12 @@ impl Plan<'_> {
         self.go((watch, stop), None, &mut row)
     }
 
-    /// Like [`Plan::simulate_watched`] with the code of the mechanism evaluated by `evaluator`,
-    /// which has to give its results: for callers that evaluate several runs at once. A plan
-    /// without code runs as always.
+    /// Like [`Plan::simulate_watched`], but `evaluator` evaluates the code of the mechanism and
+    /// must return its results. This is for callers that evaluate several runs at once. A plan
+    /// without code runs as usual.
     ///
     /// # Errors
-    /// As [`Plan::simulate`].
+    /// Returns the same errors as [`Plan::simulate`].
     pub fn simulate_evaluated(
         &self,
         evaluator: &dyn SceneCode,

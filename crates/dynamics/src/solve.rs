@@ -1,6 +1,6 @@
-//! Accelerations and multipliers at one state: on kept rows, in their null space or through the
-//! Schur complement, plain or refined, or by generated code. Moving states onto the constraints is
-//! in [`crate::manifold`], the acceptance of steps in [`crate::watch`].
+//! Accelerations and multipliers at one state: with independent rows, in their null space or
+//! through the Schur complement, without or with refinement, or by generated code. The module
+//! [`crate::manifold`] moves states onto the constraint manifold; [`crate::watch`] accepts steps.
 
 mod equations;
 mod evaluation;
@@ -36,6 +36,6 @@ pub(crate) trait Accelerations {
     /// Computes v̇, n_v values.
     fn accelerations(&mut self, state: State<'_>, a: &mut [f64]) -> Result<(), Self::Fault>;
 
-    /// Computes λ of all rows, 0 for dropped ones.
+    /// Computes λ of all rows, 0 for redundant rows.
     fn multipliers(&mut self, state: State<'_>, lambda: &mut [f64]) -> Result<(), Self::Fault>;
 }

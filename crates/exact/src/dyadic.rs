@@ -1,9 +1,10 @@
-//! Numbers `mantissa·2^exponent`: every finite `f64` is one, and so are sums and products of them.
+//! Numbers `mantissa·2^exponent`. Every finite `f64` is such a number, and so are sums and products
+//! of these numbers.
 
 use num_bigint::BigInt;
 use num_traits::Zero;
 
-/// `mantissa·2^exponent`, the mantissa odd or zero.
+/// The number `mantissa·2^exponent` with an odd or zero mantissa.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dyadic {
     mantissa: BigInt,
@@ -11,7 +12,7 @@ pub struct Dyadic {
 }
 
 impl Dyadic {
-    /// `mantissa·2^exponent`
+    /// Creates the number `mantissa·2^exponent`.
     #[must_use]
     pub fn new(mantissa: BigInt, exponent: i64) -> Self {
         match mantissa.trailing_zeros() {
@@ -26,19 +27,19 @@ impl Dyadic {
         }
     }
 
-    /// Exponent of the odd mantissa; `None` for zero.
+    /// Returns the exponent of the odd mantissa; `None` for zero.
     #[must_use]
     pub fn exponent(&self) -> Option<i64> {
         (!self.is_zero()).then_some(self.exponent)
     }
 
-    /// Whether it is zero.
+    /// Returns whether it is zero.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.mantissa.is_zero()
     }
 
-    /// The sum.
+    /// Returns the sum.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
         let exponent = self.exponent.min(other.exponent);
@@ -46,13 +47,13 @@ impl Dyadic {
         Self::new(sum, exponent)
     }
 
-    /// The difference.
+    /// Returns the difference.
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
         self.plus(&Self::new(-&other.mantissa, other.exponent))
     }
 
-    /// The product.
+    /// Returns the product.
     #[must_use]
     pub fn times(&self, other: &Self) -> Self {
         Self::new(
@@ -61,10 +62,10 @@ impl Dyadic {
         )
     }
 
-    /// The whole number `self/2^exponent`.
+    /// Returns the integer `self/2^exponent`.
     ///
     /// # Panics
-    /// If it is not a whole number.
+    /// Panics if the result is not an integer.
     #[must_use]
     pub fn over_power(&self, exponent: i64) -> BigInt {
         if self.is_zero() {
@@ -84,7 +85,7 @@ impl Dyadic {
 
 impl From<f64> for Dyadic {
     /// # Panics
-    /// If `x` is NaN or infinite.
+    /// Panics if `x` is NaN or infinite.
     fn from(x: f64) -> Self {
         assert!(x.is_finite(), "{x} is no number");
         const FIELD: u64 = (1 << 52) - 1;

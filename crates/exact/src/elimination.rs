@@ -3,15 +3,15 @@
 use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
-/// Brings the first `columns` columns to echelon form by exchanging rows and adding multiples of
-/// rows to others; returns the rank r of these columns and the rows. The first r rows are the pivot
-/// rows; in the others these columns are zero.
+/// Transforms the first `columns` columns to echelon form by exchanging rows and adding multiples
+/// of rows to others. Returns the rank r of these columns, and the rows. The first r rows are the
+/// pivot rows; in the other rows these columns are zero.
 ///
 /// Source: E. H. Bareiss, Sylvester's identity and multistep integer-preserving Gaussian
 /// elimination, Math. Comp. 22 (1968): all entries remain minors of the matrix,
-/// `row ← (d_k·row − b·pivot row)/d_{k−1}`. Here a row is not changed while its b is zero: after ℓ
-/// steps it is divided by `d_ℓ`, and a pivot row is first converted to `d_{k−1}`. Sparse matrices
-/// stay sparse and their entries small.
+/// `row ← (d_k·row − b·pivot row)/d_{k−1}`. In this implementation, a row is not changed while its
+/// b is zero: after ℓ steps it is divided by `d_ℓ`, and a pivot row is first converted to
+/// `d_{k−1}`. Sparse matrices stay sparse, and their entries stay small.
 pub(super) fn eliminate(mut rows: Vec<Vec<BigInt>>, columns: usize) -> (usize, Vec<Vec<BigInt>>) {
     let mut determinants = vec![BigInt::one()];
     let mut steps = vec![0; rows.len()];

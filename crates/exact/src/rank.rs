@@ -18,8 +18,8 @@ use crate::elimination::eliminate;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Exact {
-    /// Whole numbers: row i of the matrix is row i of these numbers times `2^row_exponents[i]`
-    /// times a power of two for each column.
+    /// Integers: row i of the matrix is row i of these numbers times `2^row_exponents[i]`, times a
+    /// power of two for each column.
     rows: Vec<Vec<BigInt>>,
     row_exponents: Vec<i64>,
     rank: usize,
@@ -28,23 +28,23 @@ pub struct Exact {
 }
 
 impl Exact {
-    /// The matrix with these rows, which have equal lengths.
+    /// Analyses the matrix with these rows, which have equal lengths.
     ///
     /// # Panics
-    /// If an entry is not finite.
+    /// Panics if an entry is not finite.
     pub fn of<R: AsRef<[f64]>>(rows: &[R]) -> Self {
         let dyadic = |row: &R| row.as_ref().iter().map(|&x| Dyadic::from(x)).collect();
         Self::of_dyadic(&rows.iter().map(dyadic).collect::<Vec<_>>())
     }
 
-    /// The same for dyadic entries.
+    /// Analyses a matrix with dyadic entries.
     #[must_use]
     pub fn of_dyadic(matrix: &[Vec<Dyadic>]) -> Self {
         let (rows, row_exponents) = whole(matrix);
         Self::of_scaled(rows, row_exponents)
     }
 
-    /// The same for whole entries.
+    /// Analyses a matrix with integer entries.
     ///
     /// ```
     /// use pfaff_exact::Exact;
@@ -78,34 +78,34 @@ impl Exact {
         }
     }
 
-    /// The rank r.
+    /// Returns the rank r.
     #[must_use]
     pub fn rank(&self) -> usize {
         self.rank
     }
 
-    /// Whether row `i` is in no dependency: `Z_i = 0`.
+    /// Returns whether row `i` belongs to no dependency: `Z_i = 0`.
     #[must_use]
     pub fn row_is_unique(&self, i: usize) -> bool {
         self.z.iter().all(|z| z[i].is_zero())
     }
 
-    /// Basis of the vectors z with `zᵀ·C = 0`, for a matrix of whole numbers; the rows of other
-    /// matrices are multiplied by powers of two.
+    /// Returns a basis of the vectors z with `zᵀ·C = 0`, for a matrix of integers. The rows of
+    /// other matrices are multiplied by powers of two.
     #[must_use]
     pub fn null_space(&self) -> &[Vec<BigInt>] {
         &self.z
     }
 
-    /// Whether `ℓᵀ·λ` is unique, for a matrix of whole entries: `ℓᵀ·Z = 0`.
+    /// Returns whether `ℓᵀ·λ` is unique, for a matrix with integer entries: `ℓᵀ·Z = 0`.
     #[must_use]
     pub fn determines(&self, l: &[BigInt]) -> bool {
         let product = |z: &Vec<BigInt>| z.iter().zip(l).map(|(z, l)| z * l).sum::<BigInt>();
         self.z.iter().all(|z| product(z).is_zero())
     }
 
-    /// Rank of `B_X = C_Xᵀ·Z_X`: the number of directions in which the reaction of the rows X is
-    /// not unique.
+    /// Returns the rank of `B_X = C_Xᵀ·Z_X`: the number of directions in which the reaction of the
+    /// rows X is not unique.
     #[must_use]
     pub fn freedom(&self, rows: &[usize]) -> usize {
         let n = self.rows.first().map_or(0, Vec::len);
@@ -116,21 +116,21 @@ impl Exact {
         eliminate(self.z.iter().map(b_x).collect(), n).0
     }
 
-    /// Rank of `Z_X`: the number of directions in which the multipliers of the rows X are not
-    /// unique.
+    /// Returns the rank of `Z_X`: the number of directions in which the multipliers of the rows X
+    /// are not unique.
     #[must_use]
     pub fn multiplier_freedom(&self, rows: &[usize]) -> usize {
         let z_x = |z: &Vec<BigInt>| rows.iter().map(|&i| z[i].clone()).collect();
         eliminate(self.z.iter().map(z_x).collect(), rows.len()).0
     }
 
-    /// Whether `ℓᵀ·λ` is unique: `ℓᵀ·Z = 0`.
+    /// Returns whether `ℓᵀ·λ` is unique: `ℓᵀ·Z = 0`.
     ///
     /// # Panics
-    /// If a coefficient is not finite.
+    /// Panics if a coefficient is not finite.
     #[must_use]
     pub fn combination_is_unique(&self, l: &[f64]) -> bool {
-        // `2^−row_exponents` times z annihilates the original rows.
+        // The product of `2^−row_exponents` and z annihilates the original rows.
         let term = |(i, z): (usize, &BigInt)| {
             Dyadic::from(l[i]).times(&Dyadic::new(z.clone(), -self.row_exponents[i]))
         };
@@ -142,8 +142,8 @@ impl Exact {
     }
 }
 
-/// The matrix in whole numbers, made small by powers of two for rows and columns, and the exponents
-/// of the rows.
+/// Returns the matrix as integers, made small by powers of two for rows and columns, and the
+/// exponents of the rows.
 fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
     let n = matrix.first().map_or(0, Vec::len);
     let entries: Vec<(usize, usize, i64)> = matrix
@@ -171,11 +171,11 @@ fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
     (rows.collect(), down)
 }
 
-/// Number of sweeps that bring the powers of two of rows and columns near their least-squares
-/// values; more sweeps could only make the later steps faster.
+/// Number of sweeps that move the powers of two of rows and columns near their least-squares
+/// values. More sweeps could only make the later steps faster.
 const SWEEPS: usize = 12;
 
-/// The mean of the values for each index.
+/// Returns the mean of the values for each index.
 fn means(n: usize, values: impl Iterator<Item = (usize, i64)>) -> Vec<i64> {
     let mut sums = vec![(0, 0); n];
     for (place, value) in values {

@@ -1,15 +1,15 @@
-//! The equations of motion on kept rows, solved exactly:
+//! Solves the equations of motion on kept rows exactly:
 //!
 //! ```text
 //! | M  Cᵀ | | a |   | Q |
 //! | C  0  | | λ | = | Γ |     M = diag(m) ≥ 0 (n), C the kept rows (r×n)
 //! ```
 //!
-//! All numbers are taken as given, as exact fractions, and the result is rounded once, at the end.
-//! So it is correct for the C, M, Q and Γ that a program in `f64` has to solve with; the rounding
-//! errors in these numbers themselves are not included. Of redundant rows only kept ones may be
-//! given: Γ of the others contains its own rounding error, and the equations of all rows together
-//! have no solution.
+//! All given numbers count as exact fractions, and the result is rounded once, at the end. It is
+//! therefore correct for the C, M, Q and Γ that a program in `f64` uses; the rounding errors in
+//! these numbers themselves are not included. If rows are redundant, only kept rows may be given: Γ
+//! of the other rows contains its own rounding error, and the equations of all rows together have
+//! no solution.
 
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, ToPrimitive, Zero};
@@ -18,12 +18,12 @@ use crate::dyadic::Dyadic;
 use crate::elimination::eliminate;
 use crate::rank::Exact;
 
-/// The solution, each number rounded to the nearest `f64`.
+/// The solution; each number is rounded to the nearest `f64`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// Accelerations, n.
+    /// Accelerations, n values.
     pub a: Vec<f64>,
-    /// Multipliers of the kept rows, r.
+    /// Multipliers of the kept rows, r values.
     pub lambda: Vec<f64>,
 }
 
@@ -54,10 +54,10 @@ pub enum Singular {
 /// ```
 ///
 /// # Errors
-/// [`Singular`]
+/// Returns [`Singular`] if there is no unique solution.
 ///
 /// # Panics
-/// If a number is not finite, or the shapes do not match.
+/// Panics if a number is not finite, or the shapes do not match.
 pub fn solve<R: AsRef<[f64]>>(
     mass: &[f64],
     rows: &[R],
@@ -93,16 +93,16 @@ pub fn solve<R: AsRef<[f64]>>(
     Ok(Solution { a, lambda })
 }
 
-/// A row of numbers as whole numbers, all multiplied by the same power of two.
+/// Returns a row of numbers as integers, all multiplied by the same power of two.
 fn whole(row: &[f64]) -> Vec<BigInt> {
     let row: Vec<Dyadic> = row.iter().map(|&x| Dyadic::from(x)).collect();
     let least = row.iter().filter_map(Dyadic::exponent).min().unwrap_or(0);
     row.iter().map(|x| x.over_power(least)).collect()
 }
 
-/// The unknowns of an upper triangular system whose last column is its right-hand side. Multiplied
-/// by the determinant they are whole numbers (Cramer's rule), so that all divisions except the last
-/// are exact.
+/// Returns the unknowns of an upper triangular system whose last column is its right-hand side.
+/// Multiplied by the determinant they are integers (Cramer's rule), so that all divisions except
+/// the last are exact.
 fn back_substituted(rows: &[Vec<BigInt>]) -> Vec<f64> {
     let n = rows.len();
     let determinant = rows
@@ -117,12 +117,12 @@ fn back_substituted(rows: &[Vec<BigInt>]) -> Vec<f64> {
     x.iter().map(|x| quotient(x, &determinant)).collect()
 }
 
-/// The `f64` nearest to x/y, ties to even, if it is a normal number.
+/// Returns the `f64` nearest to x/y, ties to even, if it is a normal number.
 fn quotient(x: &BigInt, y: &BigInt) -> f64 {
     let is_negative = (x < &BigInt::zero()) != (y < &BigInt::zero());
     let (x, y) = (x.magnitude(), y.magnitude());
-    // The first 64 or 65 bits of the quotient, with the last bit set if further digits follow:
-    // enough to round once.
+    // Uses the first 64 or 65 bits of the quotient. The last bit is set if further digits follow,
+    // which is sufficient to round once.
     let shift = 64 + y.bits() as i64 - x.bits() as i64;
     let scaled = |x: &BigUint, by: i64| if by > 0 { x << by } else { x.clone() };
     let (x, y) = (scaled(x, shift), scaled(y, -shift));
@@ -151,8 +151,8 @@ mod tests {
         ] {
             assert_eq!(quotient(&big(x), &big(y)), x / y, "{x}/{y}");
         }
-        // Half a unit in the last place, slightly more and slightly less: only digits far behind
-        // decide.
+        // The values are half a unit in the last place, slightly more and slightly less: only much
+        // later digits decide.
         let half = (BigInt::one() << 200) + (BigInt::one() << 147);
         let one = BigInt::one() << 200;
         assert_eq!(quotient(&half, &one), 1.0);
@@ -162,13 +162,13 @@ mod tests {
 
     #[test]
     fn a_pendulum_released_level() {
-        // Mass at distance 2 on a massless rod: (x, y, φ), the pivot at −2 along the rod. φ̈ =
-        // −g/2, ÿ = −g, no force in the pivot.
+        // A mass at distance 2 on a massless rod: (x, y, φ), with the pivot at −2 along the rod.
+        // Then φ̈ = −g/2 and ÿ = −g, and there is no force in the pivot.
         let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, -2.0]];
         let found = solve(&[3.0, 3.0, 0.0], &rows, &[0.0, -30.0, 0.0], &[0.0, 0.0]).unwrap();
         assert_eq!(found.a, [0.0, -10.0, -5.0]);
         assert_eq!(found.lambda, [0.0, 0.0]);
-        // With a moment of inertia of 12 = m·l² half the acceleration is left, and the pivot
+        // With a moment of inertia of 12 = m·l², the acceleration is half as large, and the pivot
         // carries half of the weight.
         let found = solve(&[3.0, 3.0, 12.0], &rows, &[0.0, -30.0, 0.0], &[0.0, 0.0]).unwrap();
         assert_eq!(found.a, [0.0, -5.0, -2.5]);
@@ -184,7 +184,7 @@ mod tests {
             solve(&[1.0; 2], &rows, &[0.0; 2], &[0.0; 2]),
             Err(Singular::Rows)
         );
-        // 0.3 is not 3·0.1 in f64: these rows are exactly independent.
+        // In f64, 0.3 is not 3·0.1, so these rows are exactly independent.
         let rows = [[0.1, 1.0], [0.3, 3.0]];
         assert!(solve(&[1.0; 2], &rows, &[0.0; 2], &[0.0; 2]).is_ok());
     }

@@ -1,9 +1,9 @@
-//! Angles that look as if they were written in another unit than that of the file: degrees where it
-//! has radians, and radians where it has degrees.
+//! Angles that may be in another unit than the unit of the file: degrees instead of radians, and
+//! radians instead of degrees.
 
 use crate::limits::{COMMON_ANGLE, TURN};
 
-/// Angles of one kind that look wrong: the first one in words, and how many there are.
+/// Suspicious angles of one kind: a description of the first one, and their number.
 #[derive(Default)]
 pub(crate) struct Suspects {
     first: Option<String>,
@@ -11,7 +11,7 @@ pub(crate) struct Suspects {
 }
 
 impl Suspects {
-    /// Notes a value with a suspicious angle.
+    /// Records a value with a suspicious angle.
     pub(crate) fn see(&mut self, subject: &str, angle: f64, line: usize) {
         self.count += 1;
         self.first
@@ -28,33 +28,33 @@ impl Suspects {
     }
 }
 
-/// Whether an angle in rad is more than a turn, as one in degrees would be.
+/// Whether an angle in rad is larger than one revolution, which suggests degrees.
 pub(crate) fn is_beyond_a_turn(radians: f64) -> bool {
     radians.abs() > TURN
 }
 
-/// Whether an angle in degrees is a common part of a turn in rad, as 1.5708.
+/// Whether an angle in degrees is a common fraction of a revolution in rad, such as 1.5708.
 pub(crate) fn is_common_in_radians(degrees: f64) -> bool {
     use std::f64::consts::PI;
     let part = |unit: f64| {
         let times = (degrees / unit).round();
         times != 0.0 && times.abs() <= 12.0 && (degrees - times * unit).abs() <= COMMON_ANGLE
     };
-    // Whole numbers of degrees are meant: 22/7 of them are none.
+    // An integer counts as degrees even if it is close to such a fraction (22 ≈ 7π).
     degrees.fract() != 0.0 && (part(PI / 4.0) || part(PI / 6.0))
 }
 
-/// Remarks on angles in degrees where radians are read, and the other way round.
+/// Remarks on suspected degrees instead of radians, and on suspected radians instead of degrees.
 pub(crate) fn remarks(degrees: &Suspects, radians: &Suspects) -> Vec<String> {
     let mut out = Vec::new();
     if let Some(told) = degrees.told() {
         out.push(format!(
-            "Is this file in degrees? {told}, more than a turn: angles are read in rad."
+            "Does this file use degrees? {told}, more than one revolution; angles are read in rad."
         ));
     }
     if let Some(told) = radians.told() {
         out.push(format!(
-            "Is this file in rad? {told}, and angles are read in degrees: <compiler angle=\"radian\"/> \
+            "Does this file use radians? {told}, but angles are read in degrees: <compiler angle=\"radian\"/> \
              says otherwise."
         ));
     }

@@ -1,6 +1,6 @@
-//! A pose at which loops are closed, found from a guess by least squares in the coordinates of the
-//! joints that place links; by continuation from the gaps of the guess, and from other guesses,
-//! where that fails.
+//! A pose at which loops are closed. It is found from a guess by least squares in the coordinates
+//! of the joints that define the positions of links. If this fails, the search continues from the
+//! gaps of the guess in steps, and from other guesses.
 
 mod loops;
 
@@ -15,25 +15,25 @@ use loops::{Gap, Tree};
 /// A pose of all links.
 pub(crate) struct Assembly {
     poses: Vec<Isometry3<f64>>,
-    /// For each joint, changes of its coordinates since the described pose.
+    /// For each joint, changes of its coordinates relative to the described pose.
     moved: Vec<[f64; 2]>,
     /// Displacements of the joints.
     displacements: Vec<Isometry3<f64>>,
-    /// The largest gap that is left, as a share of the size or in rad.
+    /// The largest remaining gap, as a share of the size or in rad.
     pub(crate) gap: f64,
-    /// How it was found, in words.
+    /// Description of how the pose was found.
     pub(crate) way: &'static str,
 }
 
-/// Why there is none.
+/// Reason why no pose was found.
 pub(crate) enum AssemblyFailure {
     /// The loop with the largest gap at the best pose, and this gap.
     Open(String, f64),
-    /// More coordinates than are tried.
+    /// The number of coordinates is above the limit.
     TooLarge(usize),
 }
 
-/// Whether loops are open at the described pose: the largest gap.
+/// The largest gap of a loop at the described pose.
 pub(crate) fn gap(model: &Model) -> f64 {
     let tree = Tree::new(model);
     let state = State::new(model, &[]);
@@ -41,12 +41,12 @@ pub(crate) fn gap(model: &Model) -> f64 {
     gaps.iter().map(Gap::size).fold(0.0, f64::max)
 }
 
-/// Where the links are for a guess of changes of coordinates.
+/// Poses of the links for a guess of coordinate changes.
 pub(crate) fn poses(model: &Model, guess: &[(usize, usize, f64)]) -> Vec<Isometry3<f64>> {
     State::new(model, guess).poses(model)
 }
 
-/// What is open for these poses of the links and changes of the coordinates, in words: names with
+/// Descriptions of the gaps for these poses of the links and these coordinate changes: names with
 /// distances and angles.
 pub(crate) fn open(model: &Model, poses: &[Isometry3<f64>], moved: &[[f64; 2]]) -> Vec<String> {
     let gaps = Tree::new(model).gaps(model, poses, moved);
@@ -55,8 +55,8 @@ pub(crate) fn open(model: &Model, poses: &[Isometry3<f64>], moved: &[[f64; 2]]) 
         .collect()
 }
 
-/// Assembles a model from a guess of changes of its coordinates. Those that are `held` (joint,
-/// coordinate) keep their values of the guess, if the loops close with them.
+/// Assembles a model from a guess of its coordinate changes. Coordinates in `held` (joint,
+/// coordinate) keep the values of the guess, if the loops can be closed with them.
 pub(crate) fn assemble(
     model: &Model,
     guess: &[(usize, usize, f64)],
@@ -71,7 +71,7 @@ pub(crate) fn assemble(
     let mut best = first.search(model, &tree.holding(held));
     if best.1 > ASSEMBLED && !held.is_empty() {
         let free = first.search(model, &tree);
-        // Where neither closes, because digits do not fit, what was asked for counts more.
+        // If both fail because of too few digits, the pose with the requested values is used.
         if free.1 <= ASSEMBLED || best.1 > CLOSED {
             best = free;
         }
@@ -93,9 +93,9 @@ pub(crate) fn assemble(
     })
 }
 
-/// Makes a pose the described one: springs, couplings and what welds keep still refer to that of
-/// the file. Springs of spherical joints that have turned cannot: they are removed, and their
-/// joints named.
+/// Makes a pose the described pose. Springs, couplings and orientations that welds keep still refer
+/// to the pose of the file. This is not possible for springs of spherical joints that have rotated:
+/// they are removed, and their joints are returned.
 pub(crate) fn describe(model: &mut Model, found: &Assembly) -> Vec<String> {
     let mut removed = Vec::new();
     for k in 0..model.joints.len() {
@@ -146,7 +146,7 @@ impl State {
         state
     }
 
-    /// Takes the displacement of a joint from its coordinates, if it has any.
+    /// Computes the displacement of a joint from its coordinates, if it has coordinates.
     fn follow(&mut self, model: &Model, joint: usize) {
         let of = &model.joints[joint];
         let n = of.kind.measures().len();
@@ -156,7 +156,8 @@ impl State {
         }
     }
 
-    /// The state with the smallest gap that is found from this one, its gap, and how it was found.
+    /// The state with the smallest gap that the search finds from this state, its gap, and a
+    /// description of how it was found.
     fn search(&self, model: &Model, tree: &Tree) -> (Self, f64, &'static str) {
         let mut best = self.clone();
         let mut least = best.descend(model, tree, None);
@@ -193,7 +194,7 @@ impl State {
         links.map(|(link, g)| g * link.pose).collect()
     }
 
-    /// Other values of all coordinates that are not held.
+    /// Sets random values of all coordinates that are not in `held`.
     fn shake(&mut self, model: &Model, tree: &Tree, random: &mut Random) {
         for (k, joint) in model
             .joints
@@ -224,7 +225,7 @@ impl State {
         }
     }
 
-    /// Closes the loops in steps: gaps of the guess are made smaller by and by.
+    /// Closes the loops in steps: the gaps of the guess are reduced gradually.
     fn continue_from(&mut self, model: &Model, tree: &Tree) -> f64 {
         let start = tree.residual(model, &self.poses(model), &self.q);
         let (mut share, mut step): (f64, f64) = (1.0, 0.125);
@@ -243,8 +244,8 @@ impl State {
         self.descend(model, tree, None)
     }
 
-    /// Least squares by steps of Levenberg and Marquardt towards a target, by default zero; returns
-    /// the largest residual.
+    /// Least squares with Levenberg–Marquardt steps towards a target, by default zero; returns the
+    /// largest residual.
     fn descend(&mut self, model: &Model, tree: &Tree, target: Option<&DVector<f64>>) -> f64 {
         let off = |state: &Self| {
             let r = tree.residual(model, &state.poses(model), &state.q);
@@ -267,7 +268,7 @@ impl State {
                     continue;
                 };
                 let mut step = factor.solve(&gradient);
-                // Half a radian, or half of the size, at most.
+                // The step is at most half a radian, or half of the size.
                 let longest = step.amax();
                 if longest > 0.5 {
                     step *= 0.5 / longest;
@@ -297,7 +298,7 @@ impl State {
     }
 }
 
-/// A generator of numbers (xorshift64*).
+/// A pseudo-random number generator (xorshift64*).
 struct Random(u64);
 
 impl Random {

@@ -1,5 +1,5 @@
-//! Axes of loops that are nearly parallel, or nearly meet: rounded digits, or a tilt that is meant.
-//! They are named, and on request made so.
+//! Axes of loops that are nearly parallel or nearly meet, either because of rounded digits or
+//! because of an intended tilt. They are reported, and made parallel or intersecting on request.
 
 use std::cmp::Reverse;
 
@@ -10,12 +10,13 @@ use crate::limits::{EXACT, MEETING, NEARLY, SNAPPED};
 use crate::mechanism::{JointKind, Model};
 use crate::pose::placing;
 
-/// Whether axes are made parallel, or only told.
+/// Whether axes are made parallel or only reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Axes {
-    /// They are told.
+    /// Axes are only reported.
     Told,
-    /// Those that nearly are parallel or meet are made so, and by how much is told.
+    /// Axes that are nearly parallel or nearly meet are made parallel or intersecting, and the
+    /// changes are reported.
     Snapped,
 }
 
@@ -27,14 +28,14 @@ struct JointAxis {
     direction: Vector3<f64>,
 }
 
-/// An axis that is tilted against others of its loop.
+/// An axis that is tilted relative to others of its loop.
 struct Tilt {
     joint: usize,
     /// Angle (rad).
     off: f64,
-    /// The direction of the others, with the sense of the axis.
+    /// The direction of the other axes, with the sense of this axis.
     direction: Vector3<f64>,
-    /// Names of the others.
+    /// Names of the other axes.
     others: String,
 }
 
@@ -47,12 +48,12 @@ impl Tilt {
     }
 }
 
-/// Angle up to which axes are made parallel, for what angles are known to.
+/// Angle up to which axes are made parallel, from the accuracy of angles.
 fn near(angle: Option<f64>) -> f64 {
     SNAPPED.max(3.0 * angle.unwrap_or(0.0))
 }
 
-/// The axes of one loop that nearly are parallel to most others of it.
+/// The axes of one loop that are nearly parallel to most other axes of the loop.
 fn tilted(
     model: &Model,
     poses: &[Isometry3<f64>],
@@ -64,7 +65,7 @@ fn tilted(
         .iter()
         .filter_map(|&joint| axis(model, poses, joint))
         .collect();
-    // The reference is the axis that most others of the loop agree with.
+    // The reference is the axis to which most other axes of the loop are parallel.
     let agree = |a: &JointAxis| of.iter().filter(|b| tilt(a, b) <= known).count();
     let votes: Vec<usize> = of.iter().map(agree).collect();
     let best = (0..of.len()).max_by_key(|&k| (votes[k], Reverse(of[k].joint)));
@@ -94,7 +95,7 @@ fn tilted(
     (of, Some(reference), tilts)
 }
 
-/// Axes that `--snap` would make parallel, in words; `None` if there are none.
+/// Descriptions of the axes that `--snap` would make parallel; `None` if there are none.
 pub(crate) fn tilts(model: &Model, poses: &[Isometry3<f64>], angle: Option<f64>) -> Option<String> {
     let loops = loops(model);
     let all = loops
@@ -106,7 +107,8 @@ pub(crate) fn tilts(model: &Model, poses: &[Isometry3<f64>], angle: Option<f64>)
     (!words.is_empty()).then(|| words.join("; "))
 }
 
-/// Makes axes parallel that nearly are, before loops are closed: `poses` are those of the guess.
+/// Makes nearly parallel axes parallel, before loops are closed: `poses` are the poses of the
+/// guess.
 pub(crate) fn align(
     model: &mut Model,
     poses: &[Isometry3<f64>],
@@ -130,15 +132,15 @@ fn snap(model: &mut Model, poses: &[Isometry3<f64>], tilt: &Tilt, findings: &mut
     turn(model, poses, tilt.joint, tilt.direction);
 }
 
-/// Words with a capital at their beginning.
+/// The text with a capital letter at its start.
 fn sentence(words: &str) -> String {
     let mut letters = words.chars();
     let first = letters.next().map(|c| c.to_uppercase().to_string());
     first.unwrap_or_default() + letters.as_str()
 }
 
-/// Names axes of each loop that nearly are parallel or meet. `poses` are those of the links at the
-/// start, `tolerance` what lengths and angles are known to.
+/// Reports axes of each loop that are nearly parallel or nearly meet. `poses` are the poses of the
+/// links at the start, `tolerance` the accuracy of lengths and angles.
 pub(crate) fn look(
     model: &mut Model,
     poses: &[Isometry3<f64>],
@@ -210,7 +212,7 @@ pub(crate) fn look(
     }
 }
 
-/// Angle between two lines, sense not counted.
+/// Angle between two lines, independent of their sense.
 fn tilt(a: &JointAxis, b: &JointAxis) -> f64 {
     let sine = a.direction.cross(&b.direction).norm();
     sine.atan2(a.direction.dot(&b.direction).abs())
@@ -233,7 +235,7 @@ fn axis(model: &Model, poses: &[Isometry3<f64>], joint: usize) -> Option<JointAx
     })
 }
 
-/// Gives a joint another direction of its axis.
+/// Sets the direction of the axis of a joint.
 fn turn(model: &mut Model, poses: &[Isometry3<f64>], joint: usize, direction: Vector3<f64>) {
     let of = &mut model.joints[joint];
     for side in 0..2 {
@@ -242,7 +244,7 @@ fn turn(model: &mut Model, poses: &[Isometry3<f64>], joint: usize, direction: Ve
     }
 }
 
-/// Shifts the point of a joint.
+/// Moves the point of a joint.
 fn shift(model: &mut Model, poses: &[Isometry3<f64>], joint: usize, by: Vector3<f64>) {
     let of = &mut model.joints[joint];
     for side in 0..2 {
@@ -251,7 +253,7 @@ fn shift(model: &mut Model, poses: &[Isometry3<f64>], joint: usize, by: Vector3<
     }
 }
 
-/// The joints of each loop: one that closes it, and those of the tree between its links.
+/// The joints of each loop: the joint that closes it, and the joints of the tree between its links.
 fn loops(model: &Model) -> Vec<Vec<usize>> {
     let before = placing(model);
     let chain = |link: Option<usize>| {
@@ -271,7 +273,7 @@ fn loops(model: &Model) -> Vec<Vec<usize>> {
     closing
         .map(|(k, joint)| {
             let [mut a, mut b] = joint.links.map(chain);
-            // What both have in common is no part of the loop.
+            // The common part of both chains does not belong to the loop.
             while a.last().is_some() && a.last() == b.last() {
                 a.pop();
                 b.pop();

@@ -1,5 +1,5 @@
-//! Couplings that are not satisfied where the file describes the links: a coordinate that follows
-//! another one is described where the coupling puts it.
+//! Couplings that are not satisfied at the described pose of the links: a dependent coordinate is
+//! moved to the value that its coupling requires.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ pub(crate) fn about(coefficients: &[f64], s: f64) -> Vec<f64> {
     let mut shifted = coefficients.to_vec();
     if s != 0.0 {
         let n = shifted.len();
-        // Horner's scheme again and again: the Taylor coefficients at s.
+        // Repeated Horner scheme: the Taylor coefficients at s.
         for first in 0..n {
             for k in (first..n.saturating_sub(1)).rev() {
                 shifted[k] += s * shifted[k + 1];
@@ -32,12 +32,12 @@ pub(crate) fn about(coefficients: &[f64], s: f64) -> Vec<f64> {
     shifted
 }
 
-/// The given coordinates (joint, coordinate, change since the described pose), with those that
-/// follow them, and those that lead them where that is linear.
+/// The given coordinates (joint, coordinate, change relative to the described pose), the
+/// coordinates that depend on them, and the coordinates on which they depend linearly.
 pub(crate) fn follow(model: &Model, given: &[(usize, usize, f64)]) -> Vec<(usize, usize, f64)> {
     let mut known: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     known.extend(given.iter().map(|&(joint, k, change)| ((joint, k), change)));
-    // A chain of couplings is followed after as many rounds as it is long.
+    // A chain of couplings is complete after as many rounds as it has couplings.
     for _ in 0..=model.couplings.len() {
         let before = known.len();
         for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
@@ -64,10 +64,11 @@ pub(crate) fn follow(model: &Model, given: &[(usize, usize, f64)]) -> Vec<(usize
     all.map(|((joint, k), change)| (joint, k, change)).collect()
 }
 
-/// Moves what couplings place, and makes their polynomials ones of changes.
+/// Moves the links that couplings determine, and converts the polynomials of the couplings to
+/// coordinate changes.
 pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
     let mut shifts = vec![[0.0; 2]; model.joints.len()];
-    // A chain of couplings is settled after as many rounds as it is long.
+    // A chain of couplings is complete after as many rounds as it has couplings.
     for _ in 0..=model.couplings.len() {
         let before = shifts.clone();
         for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
@@ -84,7 +85,7 @@ pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
     for coupling in &mut model.couplings {
         let x = coupling.x.map_or(0.0, |(joint, k)| shifts[joint][k]);
         coupling.coefficients = about(&coupling.coefficients, x);
-        // What follows nothing is held.
+        // A coupling without a leading coordinate locks its coordinate.
         if coupling.coefficients.iter().all(|c| *c == 0.0) {
             coupling.x = None;
         }

@@ -1,18 +1,18 @@
-//! The finest decimal place that a file writes: half a unit of it is what its numbers are known to.
+//! The finest decimal place in a file: half a unit of it is the accuracy of the numbers.
 //!
-//! A file does not say how many digits of its numbers count: `0.5` may be a half or a rounded
-//! number. The finest place among all lengths is what its writer could tell, so half a unit of it
-//! is their tolerance; the same for angles and directions.
+//! A file does not state how many digits of its numbers are significant: `0.5` may be an exact half
+//! or a rounded number. The finest place among all lengths is the resolution of the writer, so half
+//! a unit of it is the tolerance of lengths; the same applies to angles and directions.
 
 /// The finest decimal place of numbers of one kind.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Digits {
-    /// Largest number of decimals that was written; `None` if no number had any.
+    /// Largest number of decimals in the text; `None` if no number has decimals.
     pub(crate) decimals: Option<i32>,
 }
 
 impl Digits {
-    /// Counts the decimals of a number. Trailing zeros count: they were written.
+    /// Counts the decimals of a number, including trailing zeros.
     pub(crate) fn see(&mut self, text: &str) {
         let (mantissa, exponent) = match text.split_once(['e', 'E']) {
             Some((mantissa, exponent)) => (mantissa, exponent.parse().unwrap_or(0)),

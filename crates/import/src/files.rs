@@ -1,4 +1,4 @@
-//! The files of a model: the given one, and those that it includes, which must lie in its folder.
+//! The files of a model: the given file and its included files, which must be in the same folder.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::xml::{Element, Value, parse};
 /// The folder in which included files may be.
 #[derive(Clone, Debug)]
 pub enum Folder {
-    /// Includes are refused, as for a text from standard input.
+    /// Includes are rejected, as for a text from standard input.
     None,
     /// The folder of the file, and folders in it.
     At(PathBuf),
@@ -31,7 +31,7 @@ impl Folder {
         })
     }
 
-    /// The text of a file in it; else why it cannot be had.
+    /// The text of a file in the folder; otherwise the reason why it cannot be read.
     fn read(&self, name: &str) -> Result<String, String> {
         let Self::At(folder) = self else {
             return Err("files are included only into a file, not into standard input".to_owned());
@@ -51,13 +51,13 @@ impl Folder {
         }
         let size = std::fs::metadata(&path).map_err(told)?;
         if !size.is_file() || size.len() > LARGEST as u64 {
-            return Err(format!("it is no file of at most {LARGEST} bytes"));
+            return Err(format!("it is not a file of at most {LARGEST} bytes"));
         }
         std::fs::read_to_string(&path).map_err(told)
     }
 }
 
-/// The texts of all files, the given one first.
+/// The texts of all files, starting with the given file.
 pub(crate) fn load(
     source: SourceText,
     folder: &Folder,
@@ -119,7 +119,8 @@ impl<'a> Files<'a> {
         self.roots[0]
     }
 
-    /// The elements within an element, with those of included files in their places.
+    /// The child elements of an element; includes are replaced by the elements of the included
+    /// files.
     pub(crate) fn children(
         &self,
         element: Element<'a>,

@@ -1,5 +1,5 @@
-//! What is found while a file is read: problems that refuse it, what is left out of the scene, and
-//! how many digits its numbers have.
+//! Findings while a file is read: problems because of which it is rejected, content that the scene
+//! omits, and the number of digits.
 
 use std::ops::Range;
 
@@ -11,35 +11,35 @@ use crate::digits::Digits;
 use crate::limits::{LARGEST_NUMBER, MOST_PROBLEMS};
 use crate::xml::{Element, Value};
 
-/// How a file with macros becomes one without.
+/// Advice for converting a file with macros to one without macros.
 pub(crate) const EXPAND: &str = "expand it with xacro: xacro robot.urdf.xacro > robot.urdf";
 
 /// A kind of fault of a file.
 #[derive(Clone, Copy)]
 pub(crate) enum Fault {
-    /// The root is that of no format that is known.
+    /// The root element belongs to no supported format.
     Format,
     /// An element or attribute is missing.
     Missing,
-    /// A text is not what is expected: a number, a word, a list of some length.
+    /// A text differs from the expected value: a number, a word, a list of some length.
     Value,
-    /// A name that nothing has.
+    /// A name that does not exist.
     Unknown,
-    /// An attribute or element that the format does not know.
+    /// An attribute or element that does not exist in the format.
     Name,
-    /// A name that two things have.
+    /// A name that is used twice.
     Twice,
-    /// Something that changes the mechanism and cannot be read.
+    /// Content that changes the mechanism and is not supported.
     Unsupported,
-    /// Links and joints that do not fit together.
+    /// Links and joints that are inconsistent.
     Structure,
     /// A number that no body or joint can have.
     Range,
-    /// A file that is included and cannot be used.
+    /// An included file that cannot be used.
     Include,
     /// A file of loop closures that cannot be read.
     Loops,
-    /// Loops that are open at every pose that is tried.
+    /// Loops that no pose of the search closes.
     Assembly,
 }
 
@@ -62,28 +62,28 @@ impl Fault {
     }
 }
 
-/// Something of the file that the scene does not contain.
+/// Content of the file that the scene does not contain.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Omission {
-    /// What kind of thing, in words.
+    /// Kind of the content, as text.
     pub kind: &'static str,
-    /// Which one.
+    /// Name of the content.
     pub subject: String,
-    /// Name of the file, if it is an included one.
+    /// Name of the file, if it is an included file.
     pub file: Option<String>,
-    /// Its line.
+    /// Line of the content.
     pub line: usize,
 }
 
-/// Everything that is found.
+/// All findings.
 #[derive(Default)]
 pub(crate) struct Findings {
     problems: Vec<Diagnostic>,
     more: usize,
     pub(crate) omissions: Vec<Omission>,
-    /// Statements about the scene as a whole, for its head.
+    /// Statements about the scene as a whole, for the start of its text.
     pub(crate) remarks: Vec<String>,
-    /// Name of the file that was given; others are included.
+    /// Name of the given file; the other files are included by it.
     pub(crate) file: String,
     pub(crate) lengths: Digits,
     pub(crate) directions: Digits,
@@ -93,7 +93,7 @@ pub(crate) struct Findings {
     pub(crate) radians: Suspects,
 }
 
-/// What numbers mean, for the count of digits.
+/// Meaning of numbers, for the count of digits.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum NumberKind {
     Length,
@@ -163,7 +163,7 @@ impl Findings {
         self.of(Fault::Missing, element, message);
     }
 
-    /// Notes something that the scene does not contain.
+    /// Records content that the scene does not contain.
     pub(crate) fn leave(
         &mut self,
         kind: &'static str,
@@ -181,7 +181,7 @@ impl Findings {
         });
     }
 
-    /// Notes an element that the scene does not contain.
+    /// Records an element that the scene does not contain.
     pub(crate) fn leave_element(&mut self, kind: &'static str, element: Element, subject: &str) {
         self.leave(kind, subject, element.source, element.line());
     }
@@ -275,14 +275,14 @@ impl Findings {
         None
     }
 
-    /// Notes angles in rad that look like degrees.
+    /// Records angles in rad that look like degrees.
     pub(crate) fn look_for_degrees(&mut self, value: &Value, radians: &[f64]) {
         if let Some(angle) = radians.iter().find(|x| is_beyond_a_turn(**x)) {
             self.degrees.see(&value.subject, *angle, value.line());
         }
     }
 
-    /// Notes angles in degrees that look like rad.
+    /// Records angles in degrees that look like rad.
     pub(crate) fn look_for_radians(&mut self, value: &Value, degrees: &[f64]) {
         if let Some(angle) = degrees.iter().find(|x| is_common_in_radians(**x)) {
             self.radians.see(&value.subject, *angle, value.line());
@@ -304,7 +304,7 @@ impl Findings {
     }
 }
 
-/// A vector scaled to length 1; one that has it to rounding keeps its digits.
+/// A vector scaled to length 1. A vector with length 1 within rounding keeps its digits.
 pub(crate) fn unit(vector: nalgebra::Vector3<f64>) -> nalgebra::Vector3<f64> {
     let scaled = vector / vector.amax();
     let length = scaled.norm() * vector.amax();

@@ -5,19 +5,19 @@
 //! | module | content |
 //! | --- | --- |
 //! | `limits` | largest sizes |
-//! | `xml`, `files` | guarded parsing, elements with their places; included files |
-//! | `options` | how a file is imported |
-//! | `findings` | problems, what is left out, digits of numbers |
-//! | `vocabulary` | the names that a format knows; unknown ones are refused |
+//! | `xml`, `files` | protected parsing, elements with their positions in the text; included files |
+//! | `options` | options of an import |
+//! | `findings` | problems, omitted content, digits of numbers |
+//! | `vocabulary` | the names in a format; unknown names are rejected |
 //! | `mjcf`, `urdf` with `loops`, `sdf` | one reader for each format |
-//! | `solids` | what URDF and SDF share |
+//! | `solids` | common parts of URDF and SDF |
 //! | `mechanism`, `mass` | links, joints, couplings, keyframes; masses and simple solids |
-//! | `couple` | couplings that are not satisfied where the file describes the links |
-//! | `digits`, `tolerance`, `angles` | the decimal places of the numbers of a file, and what these are known to; angles in another unit |
-//! | `pose` | where links are for coordinates of joints |
-//! | `start`, `assemble` | where the scene starts: keyframes, poses at which loops are closed |
-//! | `axes` | axes that nearly are parallel or meet |
-//! | `merge` | fixed links become parts of others |
+//! | `couple` | couplings that are not satisfied at the described pose of the links |
+//! | `digits`, `tolerance`, `angles` | the decimal places of the numbers of a file, and the accuracy of these numbers; angles in another unit |
+//! | `pose` | poses of links for given joint coordinates |
+//! | `start`, `assemble` | the start of the scene: keyframes, poses at which loops are closed |
+//! | `axes` | axes that are nearly parallel or nearly meet |
+//! | `merge` | merges fixed links into other links |
 //! | `names`, `write` | the text of the scene |
 
 mod angles;
@@ -55,37 +55,37 @@ pub use options::{Base, FixedLinks, Options};
 use findings::{Fault, Findings};
 use mechanism::Model;
 
-/// A scene that was made of a file.
+/// A scene that was created from a file.
 #[derive(Clone, Debug)]
 pub struct ImportedScene {
     /// The text of the scene.
     pub scene: String,
     /// `MJCF`, `URDF` or `SDF`.
     pub format: &'static str,
-    /// What the scene does not contain.
+    /// Content of the file that the scene does not contain.
     pub omissions: Vec<Omission>,
-    /// Statements about the scene as a whole, which stand at its head, too.
+    /// Statements about the scene as a whole, which are also at the start of its text.
     pub remarks: Vec<String>,
-    /// Numbers of bodies and of joints and couplings of the file.
+    /// Number of bodies, and number of joints and couplings, in the file.
     pub counts: [usize; 2],
-    /// Number of rotors for armatures: each is one more body with a joint and a coupling.
+    /// Number of rotors for armatures: each rotor is one more body with a joint and a coupling.
     pub rotors: usize,
 }
 
 impl ImportedScene {
-    /// What the scene does not contain, kind by kind, in words with lines of the file.
+    /// Descriptions of omitted content, by kind, with lines of the file.
     #[must_use]
     pub fn left_out(&self) -> Vec<(&'static str, Vec<String>)> {
         write::by_kind(&self.omissions)
     }
 }
 
-/// Why a file is not imported.
+/// Reason why a file cannot be imported.
 #[derive(Clone, Debug)]
 pub struct Refusal {
     /// The file with the problems: the given one, or one that it includes.
     pub file: String,
-    /// Its text.
+    /// Text of this file.
     pub text: String,
     /// The problems.
     pub diagnostics: Vec<Diagnostic>,
@@ -93,7 +93,8 @@ pub struct Refusal {
 
 impl Refusal {
     fn of(mut diagnostics: Vec<Diagnostic>, more: usize, texts: &[SourceText]) -> Self {
-        // Places belong to one text: problems of others are told when this one is mended.
+        // Positions belong to one text: problems of other files are reported after the user has
+        // corrected this one.
         let file = diagnostics
             .first()
             .map_or_else(String::new, |d| d.file.clone());
@@ -117,7 +118,7 @@ impl Refusal {
     }
 }
 
-/// Imports a text; `name` is that of its file.
+/// Imports a text; `name` is the name of its file.
 ///
 /// ```
 /// let file = r#"<mujoco model="pendulum"><worldbody><body name="rod">
@@ -130,7 +131,7 @@ impl Refusal {
 /// ```
 ///
 /// # Errors
-/// Everything that is wrong with the file, with its places.
+/// All problems of the file, with their positions.
 pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene, Box<Refusal>> {
     let mut findings = Findings::new(name);
     let source = SourceText::new(name, text);
@@ -149,7 +150,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
             Err(problem) => return Err(Box::new(Refusal::of(vec![*problem], 0, &texts))),
         }
     }
-    // Files that include each other would be read again and again.
+    // Files that include each other would be read repeatedly without end.
     if let Some(refusal) = refused(&mut findings) {
         return Err(refusal);
     }
@@ -244,7 +245,7 @@ fn read<'a>(
         );
         findings.of(Fault::Unsupported, root, message);
     }
-    // Readers would miss what is misspelt, and tell that again.
+    // Readers would not find misspelt names, and would report them as missing.
     if findings.has_problems() {
         return (Model::default(), format);
     }
@@ -268,7 +269,7 @@ fn read<'a>(
     (model, format)
 }
 
-/// Bodies that no scene can have.
+/// Checks for bodies that no scene can contain.
 fn check(model: &Model, root: xml::Element, findings: &mut Findings) {
     if model.links.is_empty() {
         findings.of(Fault::Structure, root, "the file has no body");

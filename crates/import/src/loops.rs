@@ -1,5 +1,5 @@
-//! Loop closures of a URDF as a file of their own, as in the collection of parallel robots of
-//! Gepetto: pairs of links whose frames coincide, and joints with more freedoms than URDF knows.
+//! Loop closures of a URDF in a separate file, as in Gepetto's collection of parallel robots: pairs
+//! of links whose frames coincide, and joints with more degrees of freedom than URDF supports.
 
 mod yaml;
 
@@ -72,14 +72,17 @@ fn apply(
             model.joints[joint].kind,
             JointKind::Revolute | JointKind::Fixed
         ) {
-            return Err((at, format!("joint `{name}` is no hinge")));
+            return Err((
+                at,
+                format!("joint `{name}` is not a revolute or fixed joint"),
+            ));
         }
         change_kind(model, joint, kind)?;
     }
     Ok(())
 }
 
-/// Each key once, and none that may be another one, misspelt.
+/// Checks that each key occurs once, and that no key is a misspelling of another one.
 fn check_names(keys: &[Key], text: &SourceText, findings: &mut Findings) -> Result<(), Wrong> {
     let mut seen: HashMap<&str, usize> = HashMap::new();
     for key in keys {
@@ -106,7 +109,7 @@ fn check_names(keys: &[Key], text: &SourceText, findings: &mut Findings) -> Resu
     Ok(())
 }
 
-/// Two names of links, each with its place.
+/// Two names of links, each with its position in the text.
 type Pair<'n> = [(&'n str, usize); 2];
 
 /// The pairs of links of `closed_loop`, which may be missing if the file has joints.
@@ -168,7 +171,7 @@ fn closure(
     })
 }
 
-/// Makes a hinge a joint with more freedoms.
+/// Changes a hinge to a joint with more degrees of freedom.
 fn change_kind(model: &mut Model, joint: usize, (kind, at): (&str, usize)) -> Result<(), Wrong> {
     let joint = &mut model.joints[joint];
     let axis = |letter: char| match letter {
@@ -191,7 +194,7 @@ fn change_kind(model: &mut Model, joint: usize, (kind, at): (&str, usize)) -> Re
             if first == second {
                 return Err((at, format!("`{kind}` has one axis twice")));
             }
-            // The rotation from the joint's axes to those of the first link.
+            // The rotation from the joint's axes to the axes of the first link.
             let turned = model.links[joint.links[1].unwrap_or(0)].pose.rotation;
             let before = joint.links[0].map(|link| model.links[link].pose.rotation);
             let relation = before.unwrap_or_default().inverse() * turned;
@@ -219,7 +222,7 @@ fn texts(key: Option<&Key>) -> Result<Vec<(&str, usize)>, Wrong> {
 
 fn no_type(kind: &str) -> String {
     format!(
-        "`{kind}` is no type of a joint here: `SPHERICAL`, or `UJOINT_XY` with two of the letters X, \
+        "`{kind}` is not a joint type here: use `SPHERICAL`, or `UJOINT_XY` with two of the letters X, \
          Y, Z; other joints are those of the URDF"
     )
 }

@@ -1,4 +1,5 @@
-//! Mass, centre and tensor of inertia of rigid bodies: sums, other axes, and simple solids.
+//! Mass, centre of mass and inertia tensor of rigid bodies: sums, transformation to other axes, and
+//! simple solids.
 
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
@@ -7,11 +8,11 @@ use crate::limits::ROUNDING;
 /// Mass of a rigid body in some axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Mass {
-    /// Unit: kg.
+    /// Mass (kg).
     pub(crate) mass: f64,
     /// Centre of mass (m).
     pub(crate) centre: Vector3<f64>,
-    /// Tensor about the centre of mass, in the same axes (kg·m²).
+    /// Inertia tensor about the centre of mass, in the same axes (kg·m²).
     pub(crate) inertia: Matrix3<f64>,
 }
 
@@ -27,7 +28,7 @@ impl Default for Mass {
 }
 
 impl Mass {
-    /// A body with this tensor in axes that are turned against those of the body.
+    /// A body with this tensor in axes that are rotated relative to the axes of the body.
     pub(crate) fn turned(
         mass: f64,
         centre: Vector3<f64>,
@@ -42,7 +43,7 @@ impl Mass {
         }
     }
 
-    /// The same body in other axes: `pose` maps its own axes to them.
+    /// The same body in other axes: `pose` maps its own axes to these.
     pub(crate) fn seen(&self, pose: &Isometry3<f64>) -> Self {
         Self {
             mass: self.mass,
@@ -55,7 +56,7 @@ impl Mass {
         self.mass == 0.0 && self.inertia == Matrix3::zeros()
     }
 
-    /// Both bodies as one; where one of them is nothing, the numbers of the other are kept.
+    /// Both bodies as one; if one of them has no mass, the numbers of the other are unchanged.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         if other.is_nothing() {
             return *self;
@@ -86,7 +87,7 @@ impl Mass {
     }
 }
 
-/// A tensor in other axes; without a turn its digits are kept.
+/// A tensor in other axes; without a rotation its digits do not change.
 fn turned(axes: UnitQuaternion<f64>, inertia: Matrix3<f64>) -> Matrix3<f64> {
     if axes == UnitQuaternion::identity() {
         return inertia;
@@ -96,7 +97,7 @@ fn turned(axes: UnitQuaternion<f64>, inertia: Matrix3<f64>) -> Matrix3<f64> {
     without_rounding((turned + turned.transpose()) * 0.5)
 }
 
-/// A tensor without the products that are rounding of its largest entry.
+/// A tensor without the products that are rounding errors relative to its largest entry.
 fn without_rounding(mut inertia: Matrix3<f64>) -> Matrix3<f64> {
     let floor = ROUNDING * inertia.amax();
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
@@ -118,7 +119,7 @@ pub(crate) enum Solid {
     Sphere {
         radius: f64,
     },
-    /// A cylinder of this half length with half spheres at its ends.
+    /// A cylinder of this half length with hemispheres at its ends.
     Capsule {
         radius: f64,
         half: f64,
@@ -148,7 +149,7 @@ impl Solid {
         }
     }
 
-    /// Principal moments of a mass of that form.
+    /// Principal moments of a mass of this shape.
     pub(crate) fn moments(self, mass: f64) -> [f64; 3] {
         match self {
             Self::Sphere { radius } => [0.4 * mass * radius * radius; 3],
@@ -157,7 +158,8 @@ impl Solid {
                 let whole = height + 4.0 / 3.0 * r;
                 let (tube, ends) = (mass * height / whole, mass * (4.0 / 3.0 * r) / whole);
                 let along = tube * r * r / 2.0 + 0.4 * ends * r * r;
-                // Half spheres: centre at 3r/8 from their plane, 83/320·m·r² about it.
+                // Hemispheres: centre of mass at 3r/8 from their plane, moment 83/320·m·r² about
+                // it.
                 let across = tube * (3.0 * r * r + height * height) / 12.0
                     + ends * (0.4 * r * r + 0.375 * r * height + 0.25 * height * height);
                 [across, across, along]
@@ -180,7 +182,7 @@ impl Solid {
 mod tests {
     use super::*;
 
-    /// A capsule as 400 000 discs: volume and moments by a sum.
+    /// A capsule as 400 000 discs: volume and moments from a sum.
     #[test]
     fn a_capsule_is_the_sum_of_its_discs() {
         let (radius, half) = (0.3, 0.5);
@@ -202,8 +204,8 @@ mod tests {
         assert!((z - along).abs() < 1e-9 && (x - across).abs() < 1e-9);
     }
 
-    /// A quarter turn, whose cosine is 2e-16, leaves a diagonal tensor diagonal; products that a
-    /// file states stay.
+    /// A rotation by a quarter turn, whose cosine is 2e-16, leaves a diagonal tensor diagonal;
+    /// products that a file states do not change.
     #[test]
     fn rounded_products_are_zero() {
         use std::f64::consts::FRAC_PI_2;
@@ -221,7 +223,7 @@ mod tests {
         assert!((body.inertia[(1, 2)].abs() - 1e-13).abs() < 1e-16);
     }
 
-    /// Two halves of a cube are the cube.
+    /// Two halves of a cube have the mass and the tensor of the cube.
     #[test]
     fn parts_add_up() {
         let half = Solid::Box {

@@ -1,7 +1,7 @@
-//! What all formats are read into: links with mass and place, joints between them, couplings.
+//! The common data of all formats: links with mass and position, joints between them, couplings.
 //!
-//! Everything is at the *described* pose, at which the coordinates of all joints have the values
-//! `zero`. A link that is `None` is the ground.
+//! All positions are at the *described* pose, at which the coordinates of all joints have the
+//! values `zero`. A link that is `None` is the ground.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
@@ -11,33 +11,33 @@ use crate::mass::Mass;
 #[derive(Clone, Debug)]
 pub(crate) struct Link {
     pub(crate) name: String,
-    /// From its axes to those of the ground, at the described pose.
+    /// Transformation from its axes to the axes of the ground, at the described pose.
     pub(crate) pose: Isometry3<f64>,
-    /// In its axes.
+    /// Mass in the axes of the link.
     pub(crate) mass: Mass,
-    /// Share of its weight that is held from outside: MuJoCo's `gravcomp`.
+    /// Share of its weight that is compensated: `gravcomp` of MuJoCo.
     pub(crate) held_weight: f64,
 }
 
-/// What a joint lets its second link do.
+/// Degrees of freedom of the second link relative to the first one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum JointKind {
     Revolute,
     Translational,
     Spherical,
-    /// About the axis of the first link, then about `cross` of the second.
+    /// Rotations about the axis of the first link, then about `cross` of the second.
     Universal,
     Cylindrical,
-    /// Metres of advance per turn.
+    /// Advance in metres per revolution.
     Screw(f64),
     Planar,
     Fixed,
-    /// Six freedoms: no joint, but coordinates of a file.
+    /// Six degrees of freedom: the scene has no joint, but the file has coordinates.
     Free,
 }
 
 impl JointKind {
-    /// The type in a scene; `None` if it has no joint there.
+    /// The type in a scene; `None` if the scene has no such joint.
     pub(crate) fn name(self) -> Option<&'static str> {
         match self {
             Self::Revolute => Some("revolute"),
@@ -52,7 +52,7 @@ impl JointKind {
         }
     }
 
-    /// Names of its measures in a scene, in the order of its coordinates.
+    /// Names of the joint coordinates in a scene, in the order of the coordinates.
     pub(crate) fn measures(self) -> &'static [&'static str] {
         match self {
             Self::Revolute => &["angle"],
@@ -70,9 +70,9 @@ impl JointKind {
 pub(crate) struct Load {
     pub(crate) stiffness: f64,
     pub(crate) damping: f64,
-    /// Value of the coordinate without a load of the spring.
+    /// Value of the coordinate at which the spring has no load.
     pub(crate) reference: f64,
-    /// Inertia of a rotor that turns with the coordinate.
+    /// Inertia of a rotor that rotates with the coordinate.
     pub(crate) armature: f64,
 }
 
@@ -80,33 +80,33 @@ pub(crate) struct Load {
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
     pub(crate) name: String,
-    /// Names of its coordinates: those of the joints of the file that it stands for.
+    /// Names of the coordinates: names of the joints of the file that this joint replaces.
     pub(crate) names: [String; 2],
     pub(crate) kind: JointKind,
     /// First and second link.
     pub(crate) links: [Option<usize>; 2],
-    /// Whether it places the second link: it is an edge of the tree of links. Other joints close
-    /// loops.
+    /// Whether the joint determines the position of the second link, as an edge of the tree of
+    /// links. Other joints close loops.
     pub(crate) places: bool,
-    /// Its point in the axes of each link.
+    /// Point of the joint in the axes of each link.
     pub(crate) points: [Vector3<f64>; 2],
-    /// Its axis in the axes of each link.
+    /// Axis of the joint in the axes of each link.
     pub(crate) axes: [Vector3<f64>; 2],
     /// Second axis of a universal joint, in the axes of the second link.
     pub(crate) cross: Vector3<f64>,
-    /// For joints that keep an orientation and close a loop: the axes of both links that have to
-    /// coincide. `None` keeps the relation at the described pose.
+    /// For joints that keep an orientation and close a loop: the axes of both links that must
+    /// coincide. `None` keeps the relative orientation at the described pose.
     pub(crate) frames: Option<[UnitQuaternion<f64>; 2]>,
-    /// Values of its coordinates at the described pose.
+    /// Values of the coordinates at the described pose.
     pub(crate) zero: [f64; 2],
-    /// Changes of its coordinates from the described pose to the start.
+    /// Changes of the coordinates from the described pose to the start.
     pub(crate) moved: [f64; 2],
     pub(crate) loads: [Load; 2],
     pub(crate) is_active: bool,
 }
 
 impl Joint {
-    /// A joint without loads that places its second link.
+    /// A joint without loads that determines the position of its second link.
     pub(crate) fn new(
         name: impl Into<String>,
         kind: JointKind,
@@ -133,19 +133,19 @@ impl Joint {
     }
 }
 
-/// y = a₀ + a₁·x + a₂·x² + …, with x, y the coordinates of joints, measured from where
-/// `coefficients` are told.
+/// y = a₀ + a₁·x + a₂·x² + …; x and y are coordinates of joints, relative to the values for which
+/// `coefficients` are given.
 #[derive(Clone, Debug)]
 pub(crate) struct Coupling {
     pub(crate) name: String,
-    /// Joint and coordinate of x; `None` holds y at a₀.
+    /// Joint and coordinate of x; `None` locks y at a₀.
     pub(crate) x: Option<(usize, usize)>,
     pub(crate) y: (usize, usize),
     pub(crate) coefficients: Vec<f64>,
     pub(crate) is_active: bool,
 }
 
-/// A place of a link with a name: sites and frames.
+/// A named point of a link: sites and frames.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub(crate) name: String,
@@ -153,21 +153,21 @@ pub(crate) struct Frame {
     pub(crate) pose: Isometry3<f64>,
 }
 
-/// A state of all joints by coordinates, as a keyframe tells it.
+/// A state of all joints by coordinates, as given by a keyframe.
 #[derive(Clone, Debug)]
 pub(crate) struct Keyframe {
     pub(crate) name: String,
-    /// The line of the file.
+    /// Line in the file.
     pub(crate) line: usize,
-    /// For each joint its coordinates: for a spherical joint a quaternion (w, x, y, z), for a free
+    /// For each joint, its coordinates: for a spherical joint a quaternion (w, x, y, z), for a free
     /// link position and quaternion.
     pub(crate) q: Vec<Vec<f64>>,
-    /// For each joint its velocities; a spherical joint and the rotation of a free link have their
+    /// For each joint, its velocities; for a spherical joint and the rotation of a free link, the
     /// angular velocity in the axes of the link. `None` if all are zero.
     pub(crate) v: Option<Vec<Vec<f64>>>,
 }
 
-/// Everything that is read of a file.
+/// All data that are read from a file.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Model {
     pub(crate) name: String,
@@ -187,7 +187,7 @@ impl Model {
         loads.filter(|load| load.armature != 0.0).count()
     }
 
-    /// Where a link is at the described pose.
+    /// Pose of a link at the described pose of the model.
     pub(crate) fn pose(&self, link: Option<usize>) -> Isometry3<f64> {
         link.and_then(|link| self.links.get(link))
             .map_or_else(Isometry3::identity, |link| link.pose)

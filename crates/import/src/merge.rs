@@ -1,4 +1,4 @@
-//! Links that are fixed to others become parts of them.
+//! Merges links that are fixed to other links into these.
 
 use nalgebra::Isometry3;
 
@@ -6,11 +6,12 @@ use crate::findings::Findings;
 use crate::mechanism::{Frame, Joint, JointKind, Model};
 use crate::pose::{Motion, placing};
 
-/// Where the axes of a link have gone: the link that has them, and their place there.
+/// Position of the axes of a link after merging: the link that contains them, and their pose in
+/// this link.
 type Host = (Option<usize>, Isometry3<f64>);
 
-/// Makes links that fixed joints place parts of the links before them. `motions` are those of the
-/// links, and stay so.
+/// Merges links that fixed joints position into the links before them. `motions` are the motions of
+/// the links; they do not change.
 pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut Findings) {
     let hosts = hosts(model);
     let is_merged = |k: &usize| hosts[*k].0 != Some(*k);
@@ -30,7 +31,7 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
     for &link in &merged {
         absorb(model, link, &hosts[link]);
     }
-    // Bodies that stay, by their new numbers.
+    // Remaining bodies, by their new indices.
     let mut numbers = vec![None; hosts.len()];
     let stay = (0..hosts.len()).filter(|k| !is_merged(k));
     for (new, old) in stay.enumerate() {
@@ -79,7 +80,7 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
     motions.retain(|_| flags.next().unwrap_or(true));
 }
 
-/// Where the axes of each link go: along fixed joints that place it, as far as they lead.
+/// The host of each link: the link at the start of a chain of fixed joints that position the link.
 fn hosts(model: &Model) -> Vec<Host> {
     let before = placing(model);
     let fixed = |link: usize| {
@@ -110,7 +111,7 @@ fn absorb(model: &mut Model, link: usize, (host, pose): &Host) {
     if let Some(host) = *host {
         let seen = own.mass.seen(pose);
         let whole = &mut model.links[host];
-        // Weight that is held acts on the whole: as a mean by mass.
+        // Gravity compensation of the merged body: the mean of both shares, weighted by mass.
         let held = whole.held_weight * whole.mass.mass + own.held_weight * seen.mass;
         whole.mass = whole.mass.plus(&seen);
         if held != 0.0 && whole.mass.mass > 0.0 {

@@ -26,11 +26,11 @@ pub(crate) use names::NAMES;
 use reader::Reader;
 use source::Source;
 
-/// What is left out with actuators that do nothing without a signal, and with others.
+/// Kind of omissions for actuators that have no effect without a signal, and for others.
 const IDLE_ACTUATORS: &str = "actuators";
 const ACTING: &str = "actuators that act without a signal, too: accelerations differ";
 
-/// Reads a model. What is found is in `findings`.
+/// Reads a model. Problems are added to `findings`.
 pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
     let root = files.root();
     let sections = files.children(root, findings);
@@ -156,13 +156,13 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// What is left out with an actuator: motors do nothing without a signal, others do.
+    /// Kind of omission for an actuator: motors have no effect without a signal, others have.
     fn actuator(&mut self, element: Element<'a>) -> &'static str {
         let has = |element: &Element, key: &str| {
             let value = element.attribute(key);
             value.is_some_and(|value| value.text.split_whitespace().any(|x| x.parse() != Ok(0.0)))
         };
-        // Dampers and armatures of an actuator are those of its joint.
+        // Damping and armature of an actuator belong to its joint.
         if has(&element, "damping") || has(&element, "armature") {
             return ACTING;
         }
@@ -180,7 +180,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Notes the tendons of a section by their names.
+    /// Records the tendons of a section by their names.
     fn tendons(&mut self, section: Element<'a>) {
         if section.name() != "tendon" {
             return;
@@ -197,7 +197,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// What is left out with a tendon: springs, dampers and friction, too.
+    /// Kind of omission for a tendon: springs, dampers and friction are also omitted.
     fn tendon(&mut self, element: Element<'a>) -> &'static str {
         let class = self.source.attributes(element, 0).class;
         let acts = ["stiffness", "damping", "frictionloss", "armature"]

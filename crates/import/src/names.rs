@@ -1,23 +1,24 @@
-//! Names of a file as names of a scene: each once, and none that a scene refuses.
+//! Converts names of a file to names of a scene: each name occurs once, and the scene accepts each
+//! name.
 
 use std::collections::{HashMap, HashSet};
 
 use crate::findings::Findings;
 use crate::limits::LONGEST_NAME;
 
-/// The name of what does not move, which no body of a scene may have.
+/// The name of the ground; no body of a scene may have this name.
 const GROUND: &str = "ground";
 
-/// Names of one kind that are taken.
+/// The used names of one kind.
 #[derive(Default)]
 pub(crate) struct Names {
     taken: HashSet<String>,
-    /// The next number of names that were wanted again.
+    /// The next number to append to a repeated name.
     numbers: HashMap<String, usize>,
 }
 
 impl Names {
-    /// A name for a scene: the given one if it is free, else with a number.
+    /// A name for a scene: the given one if it is free, otherwise with a number.
     pub(crate) fn take(&mut self, name: &str, findings: &mut Findings) -> String {
         let free = self.free(name);
         if free != name {
@@ -31,7 +32,7 @@ impl Names {
         free
     }
 
-    /// The same for a name that the file does not contain.
+    /// A free name that does not come from the file.
     pub(crate) fn free(&mut self, name: &str) -> String {
         let clean = fit(name);
         let mut free = clean.clone();
@@ -46,7 +47,7 @@ impl Names {
     }
 }
 
-/// A name without signs that a scene refuses.
+/// A name without characters that a scene rejects.
 fn fit(name: &str) -> String {
     let clean: String = name
         .trim()

@@ -1,25 +1,25 @@
-//! How a file is imported.
+//! Options of an import.
 
 use crate::axes::Axes;
 use crate::files::Folder;
 
-/// How a file is imported.
+/// Options of an import.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// Where included files are.
+    /// Folder of included files.
     pub folder: Folder,
-    /// Whether links that are fixed to others stay bodies of their own.
+    /// Whether links that are fixed to others remain separate bodies.
     pub fixed: FixedLinks,
-    /// What becomes of the root link of a URDF.
+    /// Treatment of the root link of a URDF.
     pub base: Base,
     /// A file of loop closures of a URDF: its name and its text.
     pub loops: Option<(String, String)>,
-    /// Values of coordinates of joints near which loops are closed: name of the joint and value (m
-    /// or rad), in the file's sense of the coordinate.
+    /// Values of joint coordinates near which loops are closed: name of the joint and value (m or
+    /// rad), with the sense of the coordinate in the file.
     pub pose: Vec<(String, f64)>,
-    /// What is done with axes that nearly are parallel or meet.
+    /// Treatment of axes that are nearly parallel or nearly meet.
     pub axes: Axes,
-    /// The keyframe at which the scene starts; without it, where the file describes the links.
+    /// The keyframe at which the scene starts; without it, the scene starts at the described pose.
     pub keyframe: Option<String>,
 }
 
@@ -37,29 +37,29 @@ impl Default for Options {
     }
 }
 
-/// What becomes of links that are fixed to others.
+/// Treatment of links that are fixed to others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FixedLinks {
-    /// They are parts of the others, and markers there.
+    /// They are merged into the others and become markers.
     Merged,
     /// They are bodies with a `fixed` joint.
     Kept,
 }
 
-/// What becomes of the root link of a URDF, of which the format says nothing.
+/// Treatment of the root link of a URDF, which the format does not define.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Base {
-    /// It is fixed to the ground.
+    /// The root link is fixed to the ground.
     Fixed,
-    /// It is free.
+    /// The root link is free.
     Free,
 }
 
 impl Base {
-    /// Both.
+    /// Both values.
     pub const ALL: [Self; 2] = [Self::Fixed, Self::Free];
 
-    /// Its name on a command line.
+    /// Name on a command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

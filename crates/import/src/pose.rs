@@ -1,14 +1,14 @@
-//! Where links are for given coordinates of the joints: products of displacements from the
-//! described pose.
+//! Poses of links for given joint coordinates: products of displacements relative to the described
+//! pose.
 //!
-//! The displacement of a link is that of the link before it, and then that of its joint about the
-//! described place of the joint: g_child = g_parent·D(q).
+//! The displacement of a link is the displacement of the previous link, followed by the
+//! displacement of its joint about the described position of the joint: g_child = g_parent·D(q).
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use crate::mechanism::{Joint, JointKind, Model};
 
-/// A joint that places a link, at the described pose in ground axes.
+/// A joint that determines the position of a link, at the described pose in ground axes.
 pub(crate) struct JointPlacement {
     pub(crate) point: Vector3<f64>,
     pub(crate) axis: Vector3<f64>,
@@ -28,14 +28,14 @@ impl JointPlacement {
         }
     }
 
-    /// A turn about an axis through its point.
+    /// A rotation about an axis through the point of the joint.
     pub(crate) fn turn(&self, rotation: UnitQuaternion<f64>) -> Isometry3<f64> {
         let shift = self.point - rotation * self.point;
         Isometry3::from_parts(Translation3::from(shift), rotation)
     }
 
-    /// The displacement for changes of the coordinates since the described pose; spherical joints
-    /// and free links have the coordinates of a state.
+    /// The displacement for coordinate changes relative to the described pose; spherical joints and
+    /// free links have the coordinates of a state.
     pub(crate) fn displacement(&self, kind: JointKind, q: &[f64]) -> Isometry3<f64> {
         let about = |axis: Vector3<f64>, angle: f64| self.turn(rotation(axis, angle));
         let along =
@@ -64,7 +64,7 @@ impl JointPlacement {
     }
 }
 
-/// A rotation vector's rotation; exactly none for an angle of zero.
+/// The rotation of a rotation vector; exactly the identity for an angle of zero.
 pub(crate) fn rotation(axis: Vector3<f64>, angle: f64) -> UnitQuaternion<f64> {
     if angle == 0.0 {
         return UnitQuaternion::identity();
@@ -73,14 +73,14 @@ pub(crate) fn rotation(axis: Vector3<f64>, angle: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::from_parts(cos, axis * sin))
 }
 
-/// The smallest turn that brings z to a unit vector.
+/// The smallest rotation that maps z to a unit vector.
 pub(crate) fn along_z(z: Vector3<f64>) -> UnitQuaternion<f64> {
     if z == Vector3::z() {
         return UnitQuaternion::identity();
     }
     let axis = Vector3::z().cross(&z);
     let angle = axis.norm().atan2(z.z);
-    // Across a vector along z only rounding is left, and it has no direction.
+    // For a vector along z, the cross product is a rounding error without a meaningful direction.
     let axis = if axis.amax() > model::ROUNDING {
         crate::findings::unit(axis)
     } else {
@@ -89,7 +89,7 @@ pub(crate) fn along_z(z: Vector3<f64>) -> UnitQuaternion<f64> {
     rotation(axis, angle)
 }
 
-/// A quaternion of any length but zero.
+/// A quaternion of any length except zero.
 pub(crate) fn quaternion([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
     let q = Quaternion::new(w, x, y, z);
     if q == Quaternion::identity() {
@@ -99,12 +99,12 @@ pub(crate) fn quaternion([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
 }
 
 /// Displacements of all links for displacements of the joints, in any order of the joints. A link
-/// that no joint places stays where it is described.
+/// that no joint positions keeps its described pose.
 pub(crate) fn displaced(model: &Model, joints: &[Isometry3<f64>]) -> Vec<Isometry3<f64>> {
     let mut links = vec![None; model.links.len()];
     let before = placing(model);
     for link in 0..model.links.len() {
-        // Up to a link that is known, and down again.
+        // The search goes up to a link with a known displacement, and down again.
         let (mut chain, mut at) = (Vec::new(), Some(link));
         let mut known = Isometry3::identity();
         while let Some(link) = at {
@@ -129,7 +129,7 @@ pub(crate) fn displaced(model: &Model, joints: &[Isometry3<f64>]) -> Vec<Isometr
     links.into_iter().map(Option::unwrap_or_default).collect()
 }
 
-/// For each link the joint that places it.
+/// For each link, the joint that determines its position.
 pub(crate) fn placing(model: &Model) -> Vec<Option<usize>> {
     let mut before = vec![None; model.links.len()];
     for (k, joint) in model.joints.iter().enumerate() {
@@ -182,7 +182,7 @@ pub(crate) fn at_state(model: &Model, q: &[Vec<f64>], v: Option<&[Vec<f64>]>) ->
         })
         .collect();
     let Some(v) = v else { return motions };
-    // Twists (ω, velocity of the point of the ground's origin) add up along the chain.
+    // Twists (ω, velocity of the body point at the origin of the ground) are added along the chain.
     let no_twist = (Vector3::zeros(), Vector3::zeros());
     for link in 0..model.links.len() {
         let mut twist: (Vector3<f64>, Vector3<f64>) = no_twist;

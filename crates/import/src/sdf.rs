@@ -15,11 +15,11 @@ use crate::xml::{Element, Value};
 use frames::{Frames, pose_of};
 pub(crate) use names::NAMES;
 
-/// Names of links for joints, and how the file writes axes.
+/// Names of links for joints, and the convention of the file for axes.
 pub(crate) struct Scope<'n> {
     links: HashMap<&'n str, Option<usize>>,
     frames: Frames,
-    /// Axes are written in the axes of the model, as before version 1.5.
+    /// Axes are written in the axes of the model, as in versions before 1.5.
     in_model: bool,
 }
 
@@ -191,7 +191,7 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
     find_tree(model);
 }
 
-/// Mass of a link, and the share of its weight that is held.
+/// Mass of a link, and the compensated share of its weight.
 fn link(element: Element, name: &str, findings: &mut Findings) -> Option<(Mass, f64)> {
     let (mut mass, mut held) = (None, 0.0);
     for child in element.children() {
@@ -272,14 +272,14 @@ fn inertial(element: Element, link: &str, findings: &mut Findings) -> Option<Mas
 
 /// An axis with its loads.
 struct Axis {
-    /// In the axes of the second link.
+    /// Direction in the axes of the second link.
     direction: Vector3<f64>,
     load: Load,
 }
 
 /// Reads a joint and adds it to the model.
 pub(crate) fn joint(element: Element, scope: &Scope, model: &mut Model, findings: &mut Findings) {
-    // What is missing or wrong has been told.
+    // Missing or wrong content has already been reported.
     let _ = read_joint(element, scope, model, findings);
 }
 
@@ -402,7 +402,7 @@ fn kind_of(
     })
 }
 
-/// The way of a screw in a turn.
+/// The advance of a screw per revolution.
 fn pitch_of(element: Element, findings: &mut Findings) -> Option<f64> {
     if let Some(metres) = element.text_of("screw_thread_pitch") {
         return findings.number(&metres, NumberKind::Length);
@@ -456,7 +456,7 @@ fn read_axis(
     for child in element.children() {
         match child.name() {
             "limit" => {
-                // Limits as large as 1e16 stand for none.
+                // Limits as large as 1e16 mean no limit.
                 let bounds = ["lower", "upper"].map(|key| {
                     let text = child.text_of(key)?;
                     text.text.parse::<f64>().ok().filter(|x| x.abs() < 1e15)

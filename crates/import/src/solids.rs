@@ -1,4 +1,4 @@
-//! What URDF and SDF have in common: poses of six numbers, tensors by names, tree and loops.
+//! Common parts of URDF and SDF: poses of six numbers, tensors with named entries, tree and loops.
 
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
@@ -7,7 +7,7 @@ use crate::limits::{GRAVITY, RIGHT_ANGLE};
 use crate::mechanism::{Joint, JointKind, Load, Model};
 use crate::pose::rotation;
 
-/// What friction that is left out changes.
+/// Effect of the omitted friction.
 pub(crate) const FRICTION: &str = "friction of joints: accelerations differ where they move";
 
 /// Angles about the fixed axes x, then y, then z.
@@ -26,15 +26,15 @@ pub(crate) fn tensor([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
 
-/// Tells that the gravity is not that of the file.
+/// Reports that the gravity does not come from the file.
 pub(crate) fn assume_gravity(model: &mut Model, findings: &mut Findings) {
     model.gravity = Vector3::new(0.0, 0.0, GRAVITY);
     let remark = "The file has no gravity: 9.81 m/s² along −z is taken.";
     findings.remarks.push(remark.to_owned());
 }
 
-/// Decides which joints place links: the first one of each link, unless it would go round in a
-/// circle. The others close loops.
+/// Decides which joints determine the positions of links: the first joint of each link, unless it
+/// would close a cycle. The other joints close loops.
 pub(crate) fn find_tree(model: &mut Model) {
     let mut before: Vec<Option<Option<usize>>> = vec![None; model.links.len()];
     for joint in &mut model.joints {
@@ -60,8 +60,8 @@ pub(crate) fn find_tree(model: &mut Model) {
     }
 }
 
-/// A joint with a second axis: universal if both are at right angles, else two hinges with a link
-/// without mass between them. `second` is the axis in the axes of the second link.
+/// A joint with a second axis: a universal joint if the axes are perpendicular, otherwise two
+/// hinges with a massless link between them. `second` is the axis in the axes of the second link.
 pub(crate) fn with_second_axis(
     model: &mut Model,
     mut joint: Joint,
@@ -97,7 +97,8 @@ pub(crate) fn with_second_axis(
     model.joints.extend([outer, inner]);
 }
 
-/// The place of a joint on both links: its frame in the axes of the second, at the described pose.
+/// The position of a joint on both links: its frame in the axes of the second link, at the
+/// described pose.
 pub(crate) fn joint_between(
     model: &Model,
     name: &str,

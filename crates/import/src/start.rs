@@ -1,5 +1,4 @@
-//! Where a scene starts: at a keyframe, or where loops are closed, near the values that are asked
-//! for.
+//! The start of a scene: a keyframe, or a pose with closed loops near the requested values.
 
 use crate::angles;
 use crate::assemble::{self, AssemblyFailure};
@@ -12,8 +11,8 @@ use crate::options::{Base, Options};
 use crate::pose::{self, Motion};
 use crate::xml::Element;
 
-/// The state at which the scene starts, and whether it has velocities; `None` if it starts as
-/// described. `angle` is what angles of the file are known to.
+/// The state at which the scene starts, and whether it has velocities; `None` if it starts at the
+/// described pose. `angle` is the accuracy of angles in the file.
 pub(crate) fn start(
     model: &mut Model,
     options: &Options,
@@ -74,7 +73,7 @@ pub(crate) fn start(
     Some((motions, moves))
 }
 
-/// Angles of a start have no turns, and couplings count them.
+/// Angles of a start have no full revolutions, but couplings count them.
 fn refuse_turns(model: &Model, keyframe: &str, root: Element, findings: &mut Findings) {
     for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
         for (joint, k) in coupling.x.into_iter().chain([coupling.y]) {
@@ -92,7 +91,7 @@ fn refuse_turns(model: &Model, keyframe: &str, root: Element, findings: &mut Fin
     }
 }
 
-/// A coordinate and the value that is asked for it.
+/// A coordinate and its requested value.
 struct RequestedValue<'o> {
     name: &'o str,
     value: f64,
@@ -109,7 +108,7 @@ impl RequestedValue<'_> {
     }
 }
 
-/// The coordinates that a pose names.
+/// The coordinates in a requested pose.
 fn asked<'o>(
     model: &Model,
     pose: &'o [(String, f64)],
@@ -168,8 +167,8 @@ fn short(x: f64) -> f64 {
     format!("{x:.4e}").parse().unwrap_or(x)
 }
 
-/// Describes the links where loops are closed, if they are open where the file describes them or a
-/// pose is wanted.
+/// Moves the links to a pose with closed loops, if the loops are open at the described pose or if a
+/// pose is requested.
 fn close(
     model: &mut Model,
     options: &Options,
@@ -243,7 +242,7 @@ fn close(
     }
 }
 
-/// Names the coordinates that do not have the values that were asked for.
+/// Reports the coordinates whose values differ from the requested ones.
 fn tell_moved(model: &Model, asked: &[RequestedValue], findings: &mut Findings) {
     let mut moved = Vec::new();
     for one in asked {
@@ -267,7 +266,7 @@ fn tell_moved(model: &Model, asked: &[RequestedValue], findings: &mut Findings) 
     }
 }
 
-/// Why nothing moves, for a root that is fixed by default.
+/// Explains why no part can move, for a root that is fixed by default.
 pub(crate) fn nothing_moves(format: &str, base: Base) -> Option<String> {
     let is_fixed = format == "URDF" && base == Base::Fixed;
     is_fixed.then(|| "the root link is fixed to the ground by default: --base free".to_owned())

@@ -1,12 +1,13 @@
-//! What lengths and directions of a scene are known to: half a unit of the finest decimal place of
-//! the file.
+//! Accuracy of lengths and directions of a scene: half a unit of the finest decimal place of the
+//! file.
 
 use crate::findings::Findings;
 use crate::limits::{COARSEST, FINEST};
 use crate::mechanism::Model;
 use crate::write::number;
 
-/// The tolerances of lengths and of directions for the head of a scene, and why there is none.
+/// The tolerances of lengths and of directions for the start of a scene's text; reports the reason
+/// if there is no tolerance.
 pub(crate) fn tolerances(model: &Model, findings: &mut Findings) -> [Option<f64>; 2] {
     let size = size(model);
     let length = findings.lengths.half_unit();

@@ -37,7 +37,7 @@ pub(crate) fn read(root: Element, base: Base, findings: &mut Findings) -> Model 
         .unwrap_or_else(|| "URDF robot".into());
     let names = links(root, &mut model, findings);
     let edges = edges(root, &names, findings);
-    // Joints that cannot be read leave links without a place: that is no fault of its own.
+    // If joints cannot be read, links have no position; this is not reported as a separate fault.
     if findings.has_problems() || !place(root, &edges, base, &mut model, findings) {
         return model;
     }
@@ -218,7 +218,7 @@ fn edges<'a>(
     edges
 }
 
-/// Places all links from the root on. Returns whether they form a tree.
+/// Computes the poses of all links, starting at the root. Returns whether the links form a tree.
 fn place(
     root: Element,
     edges: &[Edge],
@@ -307,8 +307,8 @@ fn place(
     true
 }
 
-/// Joints each of which has the child of the one before as its parent, all around. `before` is the
-/// joint of which a link is the child.
+/// A cycle of joints, in which the child of each joint is the parent of the next one. `before`
+/// contains the joint of which a link is the child.
 fn cycle(edges: &[Edge], before: &[Option<usize>]) -> Option<Vec<usize>> {
     let mut seen = vec![usize::MAX; before.len()];
     for first in 0..before.len() {
@@ -429,7 +429,7 @@ fn coupling(
     })
 }
 
-/// Joints that close loops, in the words of SDF; settings of a simulator are left out.
+/// Joints that close loops, written as in SDF; settings of a simulator are omitted.
 fn gazebo(
     element: Element,
     names: &HashMap<String, usize>,
@@ -457,7 +457,7 @@ fn gazebo(
 
 /// Adds the closures of a file of loops.
 pub(crate) fn close_loops(model: &mut Model, text: &scene::SourceText, findings: &mut Findings) {
-    // A joint stands for the link that it places.
+    // In the file of loops, the name of a joint means the link that the joint positions.
     let joints = model
         .joints
         .iter()

@@ -1,7 +1,7 @@
-//! The names that a format knows: for each element that is read, its attributes and the elements
-//! within it. One that is in no list is refused where it stands, since a misspelt `density` would
-//! give another mass. In formats that allow extensions those that resemble no name are left out and
-//! told.
+//! The names in a format: for each supported element, its attributes and its child elements. A name
+//! that is in no list is rejected at its position, because a misspelt `density` would change the
+//! mass. In formats that allow extensions, names that are not similar to a known name are omitted
+//! and reported.
 
 use std::ops::Range;
 
@@ -13,21 +13,21 @@ use crate::xml::Element;
 /// The names of one format.
 pub(crate) struct Vocabulary {
     pub(crate) entries: &'static [Entry],
-    /// Whether its programs pass over names that they do not know. Those that resemble no name are
-    /// extensions then.
+    /// Whether programs for the format ignore unknown names. In this case, names that are not
+    /// similar to a known name are extensions.
     pub(crate) is_open: bool,
 }
 
-/// The names of one element. Lists are words between spaces: `name` is an attribute, `<name>` an
-/// element.
+/// The names of one element. Lists are words separated by spaces: `name` is an attribute, `<name>`
+/// an element.
 pub(crate) struct Entry {
-    /// Its name; `around/name` where the name means something else within that element.
+    /// Name of the element; `around/name` if the name has another meaning within that element.
     element: &'static str,
-    /// What a reader takes, or tells of itself.
+    /// Names that a reader uses or reports itself.
     read: &'static str,
-    /// What says nothing of a mechanism: looks, and settings of what is left out.
+    /// Names without an effect on the mechanism: appearance, and settings of omitted content.
     idle: &'static str,
-    /// What is left out and told, with its kind.
+    /// Names that are omitted and reported, with their kind.
     left: &'static [(&'static str, &'static str)],
 }
 
@@ -81,11 +81,11 @@ fn inner(word: &'static str) -> Option<&'static str> {
     word.strip_prefix('<')?.strip_suffix('>')
 }
 
-/// What is left out since no format says what it is.
+/// Kind of omission for names that no format defines.
 const EXTENSIONS: &str = "extensions that are not read";
 
-/// Refuses unknown names in an element that a format has, and in those within it; tells what is
-/// left out. `files` are those that may be included.
+/// Rejects unknown names in an element of a format and in its descendants; reports omitted content.
+/// `files` contains the files that may be included.
 pub(crate) fn check<'a>(
     element: Element<'a>,
     vocabulary: &Vocabulary,
@@ -178,7 +178,8 @@ fn unknown_element(
     findings.fault_with_help(Fault::Name, source, span, message, "unknown", help);
 }
 
-/// An element of another name space: a macro, an extension of what is read, or any other one.
+/// An element of another name space: a macro, an extension of supported content, or any other
+/// element.
 fn foreign(entry: &Entry, around: Element, child: Element, findings: &mut Findings) {
     let prefix = child.prefix().unwrap_or_default();
     let name = format!("{prefix}:{}", child.name());
@@ -202,7 +203,7 @@ fn foreign(entry: &Entry, around: Element, child: Element, findings: &mut Findin
     findings.leave_element(EXTENSIONS, child, &subject);
 }
 
-/// An element that is left out, in words: its name, or what it is and of what.
+/// Description of an omitted element: its name, or its kind and the name of its parent.
 fn subject(around: Element, child: Element) -> String {
     let name = |element: Element| {
         let name = element.attribute("name").map(|name| name.text.trim());
@@ -224,7 +225,7 @@ fn list(names: impl Iterator<Item = String>) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    /// No name has two meanings.
+    /// Checks that no name has two meanings.
     #[test]
     fn tables_say_each_name_once() {
         let tables = [crate::mjcf::NAMES, crate::urdf::NAMES, crate::sdf::NAMES];

@@ -1,4 +1,4 @@
-//! The text of a scene.
+//! Writes the text of a scene.
 
 use std::fmt::Write;
 
@@ -10,13 +10,14 @@ use crate::mechanism::{Joint, JointKind, Load, Model};
 use crate::names::Names;
 use crate::pose::{Motion, along_z};
 
-/// What is written in addition to the model.
+/// Content that is written in addition to the model.
 pub(crate) struct Heading<'a> {
-    /// Name of the file and of its format.
+    /// Name of the file and name of its format.
     pub(crate) source: (&'a str, &'static str),
-    /// Lengths and directions are known to this (m, rad).
+    /// Accuracy of lengths and directions (m, rad).
     pub(crate) tolerance: [Option<f64>; 2],
-    /// The links where they start, if that is not where they are described, and whether they move.
+    /// The start poses of the links, if they differ from the described poses, and whether the links
+    /// move.
     pub(crate) start: Option<(&'a [Motion], bool)>,
 }
 
@@ -49,7 +50,7 @@ pub(crate) fn scene(model: &Model, heading: &Heading, findings: &mut Findings) -
     out + &body
 }
 
-/// Comments: where the scene comes from, and what it lacks.
+/// Comments: the source of the scene, and its omissions.
 fn head(heading: &Heading, findings: &Findings) -> String {
     let (file, format) = heading.source;
     let mut out = String::new();
@@ -76,7 +77,7 @@ fn head(heading: &Heading, findings: &Findings) -> String {
     out
 }
 
-/// Omissions of each kind, in the order in which kinds were met.
+/// Omissions of each kind, in the order in which kinds were found.
 pub(crate) fn by_kind(omissions: &[Omission]) -> Vec<(&'static str, Vec<String>)> {
     let mut kinds: Vec<(&'static str, Vec<String>)> = Vec::new();
     for omission in omissions {
@@ -96,7 +97,7 @@ pub(crate) fn by_kind(omissions: &[Omission]) -> Vec<(&'static str, Vec<String>)
     kinds
 }
 
-/// A comment in lines; signs that would end one are replaced.
+/// A comment in lines; characters that would end a comment are replaced.
 fn comment(out: &mut String, lead: &str, words: &str) {
     let mut line = lead.to_owned();
     let mut is_empty = true;
@@ -242,7 +243,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Markers whose axes a joint makes coincide.
+    /// Markers whose axes a joint aligns.
     fn ends(
         &mut self,
         k: usize,
@@ -250,7 +251,7 @@ impl<'a> Writer<'a> {
         frames: [UnitQuaternion<f64>; 2],
         out: &mut String,
     ) -> [String; 2] {
-        // A marker has the axis of a slide as its z.
+        // The z axis of a marker is the axis of a slide.
         let own = match joint.kind {
             JointKind::Translational => along_z(frames[1].inverse() * joint.axes[1]),
             _ => UnitQuaternion::identity(),
@@ -280,14 +281,15 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// The measure of a coordinate of a joint, as `joint.angle`.
+    /// The joint coordinate of a coordinate, such as `joint.angle`.
     fn measure(&self, (joint, coordinate): (usize, usize)) -> String {
         let measures = self.model.joints[joint].kind.measures();
         let measure = measures.get(coordinate).unwrap_or(&"angle");
         format!("{}.{measure}", self.joints[joint])
     }
 
-    /// The name of a coordinate: that of the joint of the file, where several became one here.
+    /// The name of a coordinate: the name of the joint in the file, if several joints were
+    /// combined.
     fn coordinate(&self, joint: usize, coordinate: usize) -> &str {
         let of = &self.model.joints[joint];
         match of.names.get(coordinate) {
@@ -335,7 +337,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Springs, dampers and rotors of joints, and weights that are held.
+    /// Springs, dampers and rotors of joints, and compensated weights.
     fn loads(&mut self, out: &mut String) {
         for (k, joint) in self.model.joints.iter().enumerate() {
             if !joint.is_active {
@@ -375,7 +377,8 @@ impl<'a> Writer<'a> {
         let of = self.coordinate(k, coordinate).to_owned();
         let name = self.elements.free(&format!("{of} spring"));
         let of = |list: &[f64; 2]| list.get(coordinate).copied().unwrap_or(0.0);
-        // A start knows an angle up to whole turns only: the spring is told of the others.
+        // A start determines an angle only up to full revolutions: the others are added to the free
+        // angle of the spring.
         let turns = match joint.kind.measures().get(coordinate) {
             Some(&"displacement") | None => 0.0,
             Some(_) => (of(&joint.moved) / std::f64::consts::TAU).round(),
@@ -427,8 +430,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A wheel on the ground that turns with a coordinate: its kinetic energy ½·a·q̇² is that of a
-    /// rotor as MuJoCo adds it to the diagonal of the mass matrix.
+    /// A wheel on the ground that rotates with a coordinate. Its kinetic energy ½·a·q̇² is that of
+    /// a rotor which MuJoCo adds to the diagonal of the mass matrix.
     fn rotor(&mut self, k: usize, coordinate: usize, inertia: f64, out: &mut String) {
         let joint = self.coordinate(k, coordinate).to_owned();
         let wheel = self.places.free(&format!("{joint} rotor"));
@@ -485,7 +488,7 @@ fn key(out: &mut String, key: &str, value: &str) {
     let _ = writeln!(out, "{key} = {value}");
 }
 
-/// The shortest digits that are this double.
+/// The shortest digits that represent this double.
 pub(crate) fn number(x: f64) -> String {
     if x == 0.0 {
         "0.0".to_owned()
@@ -498,7 +501,7 @@ fn vector(v: Vector3<f64>) -> String {
     format!("[{}, {}, {}]", number(v.x), number(v.y), number(v.z))
 }
 
-/// A direction: components below the rounding of the others are zero.
+/// A direction: components below the rounding error of the others are set to zero.
 fn direction(v: Vector3<f64>) -> String {
     let floor = 4.0 * f64::EPSILON * v.amax();
     vector(v.map(|x| if x.abs() < floor { 0.0 } else { x }))

@@ -1,4 +1,4 @@
-//! XML files with the places of all values: guarded parsing, elements, attributes.
+//! XML files with the positions of all values: protected parsing, elements, attributes.
 
 use std::ops::Range;
 
@@ -15,18 +15,18 @@ pub(crate) struct Element<'a> {
     pub(crate) source: &'a SourceText,
 }
 
-/// A text of a file: the value of an attribute, or what an element contains.
+/// A text of a file: the value of an attribute, or the content of an element.
 #[derive(Clone)]
 pub(crate) struct Value<'a> {
     pub(crate) text: &'a str,
     pub(crate) span: Range<usize>,
     pub(crate) source: &'a SourceText,
-    /// Its key and element, as `pos` of `<body>`.
+    /// Key and element of the text, such as `pos` of `<body>`.
     pub(crate) subject: String,
 }
 
 impl Value<'_> {
-    /// The line at which it begins.
+    /// The line of the start of the text.
     pub(crate) fn line(&self) -> usize {
         self.source.line(self.span.start)
     }
@@ -43,7 +43,7 @@ impl<'a> Element<'a> {
         self.node.tag_name().name()
     }
 
-    /// The place of its opening tag.
+    /// Position of the opening tag.
     pub(crate) fn span(&self) -> Range<usize> {
         let range = self.node.range();
         let text = self.source.text().get(range.clone()).unwrap_or_default();
@@ -55,12 +55,12 @@ impl<'a> Element<'a> {
         self.source.line(self.node.range().start)
     }
 
-    /// The elements within it, less those of other name spaces.
+    /// The child elements, except those of other name spaces.
     pub(crate) fn children(&self) -> impl Iterator<Item = Self> + use<'a> {
         self.all_children().filter(|child| child.prefix().is_none())
     }
 
-    /// The elements within it that belong to another name space than the root.
+    /// The child elements that belong to another name space than the root.
     pub(crate) fn foreign_children(&self) -> impl Iterator<Item = Self> + use<'a> {
         self.all_children().filter(|child| child.prefix().is_some())
     }
@@ -71,8 +71,7 @@ impl<'a> Element<'a> {
         elements.map(move |node| Self { node, source })
     }
 
-    /// What stands before the colon of its name, if that is another name space than that of the
-    /// root.
+    /// The prefix before the colon of the name, if its name space differs from that of the root.
     pub(crate) fn prefix(&self) -> Option<&'a str> {
         let own = self.node.tag_name().namespace();
         let root = self.node.document().root_element();
@@ -80,12 +79,12 @@ impl<'a> Element<'a> {
         Some(self.node.lookup_prefix(space).unwrap_or_default())
     }
 
-    /// The name space of its name.
+    /// The name space of the element name.
     pub(crate) fn name_space(&self) -> &'a str {
         self.node.tag_name().namespace().unwrap_or_default()
     }
 
-    /// The places of its attributes with their keys; those of other name spaces with `true`.
+    /// The positions of the attributes with their keys; `true` for attributes of other name spaces.
     pub(crate) fn keys(&self) -> impl Iterator<Item = (&'a str, bool, Range<usize>)> + use<'a> {
         self.node.attributes().map(|attribute| {
             let is_foreign = attribute.namespace().is_some();
@@ -95,7 +94,7 @@ impl<'a> Element<'a> {
         })
     }
 
-    /// The first child of that name.
+    /// The first child element with this name.
     pub(crate) fn child(&self, name: &str) -> Option<Self> {
         self.children().find(|child| child.name() == name)
     }
@@ -121,12 +120,12 @@ impl<'a> Element<'a> {
         })
     }
 
-    /// The text in a child of that name.
+    /// The text in a child element with this name.
     pub(crate) fn text_of(&self, name: &str) -> Option<Value<'a>> {
         self.child(name).map(|child| child.text())
     }
 
-    /// The text that it contains.
+    /// The text content of the element.
     pub(crate) fn text(&self) -> Value<'a> {
         let texts = self
             .node
@@ -149,7 +148,7 @@ impl<'a> Element<'a> {
     }
 }
 
-/// Parses a text. Declarations of types and entities, great depth and great size are refused.
+/// Parses a text. Declarations of types and entities, great depth and great size are rejected.
 pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>> {
     let text = source.text();
     let refuse = |code, span, message: String, label: &str| {
@@ -196,9 +195,9 @@ pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>
     }
 }
 
-/// Where a text has more than a parser takes without its stack, or in a time that is proportional
-/// to its length: it looks for each attribute among all others of its element, and for each prefix
-/// among all name spaces.
+/// Position of the first excess in a text that would overflow the stack of the parser, or would
+/// take more than linear time. The parser searches each attribute among all others of its element,
+/// and each prefix among all name spaces.
 fn too_much(text: &str) -> Option<(usize, String)> {
     let (mut depth, mut spaces) = (0_usize, 0);
     let tags = Tags { text, at: 0 };
@@ -229,8 +228,7 @@ struct Tags<'t> {
     at: usize,
 }
 
-/// A tag: where it begins, what it does, how many attributes it has, and how many of these declare
-/// name spaces.
+/// A tag: its start, its kind, its number of attributes, and how many of these declare name spaces.
 struct Tag {
     at: usize,
     kind: TagKind,
@@ -282,7 +280,7 @@ impl Iterator for Tags<'_> {
                     return Some(tag);
                 };
                 tag.attributes += 1;
-                // The first one has the name of the element before it.
+                // The element name comes before the first attribute.
                 let key = before.split_whitespace().next_back();
                 tag.spaces += usize::from(key.is_some_and(|key| key.starts_with("xmlns")));
                 word = sign + 2 + rest[sign + 1..].find(quote)?;
@@ -291,7 +289,7 @@ impl Iterator for Tags<'_> {
     }
 }
 
-/// The byte of a place of the parser.
+/// The byte offset of a position of the parser.
 fn offset(source: &SourceText, place: roxmltree::TextPos) -> usize {
     let text = source.text();
     let mut lines = text.split_inclusive('\n');

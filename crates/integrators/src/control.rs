@@ -1,23 +1,24 @@
 //! Step-size control from the estimated error: a PI controller with limits.
 //!
-//! `h_new = h · clamp(safety · err^(−α) · err_old^β)`: Gustafsson's controller in the form of
-//! Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4 and of Hairer,
-//! Wanner, vol. II, IV.2; evaluated with one logarithm and one exponential per step. Failures of
-//! trials are handled in `drive`; the error estimate belongs to each method.
+//! The rule is `h_new = h · clamp(safety · err^(−α) · err_old^β)`: Gustafsson's controller in the
+//! form of Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4 and of
+//! Hairer, Wanner, vol. II, IV.2. It is evaluated with one logarithm and one exponential per step.
+//! The module `drive` handles failures of trials, and each method computes its error estimate.
 
 /// Determines the size of the next trial step.
 pub trait StepControl {
-    /// Resets the memory, at the start of a leg.
+    /// Resets the memory at the start of a leg.
     fn reset(&mut self);
 
-    /// After an accepted step of size `h` with error norm `error` ≤ 1.
+    /// Returns the next step size after an accepted step of size `h` with error norm `error` ≤ 1.
     fn accept(&mut self, h: f64, error: f64) -> f64;
 
-    /// After a trial of size `h` with error norm `error` > 1, possibly infinite.
+    /// Returns the next step size after a trial of size `h` with error norm `error` > 1, possibly
+    /// infinite.
     fn reject(&mut self, h: f64, error: f64) -> f64;
 
-    /// After a trial of size `h` that gave no error estimate or was refused; `factor` is the
-    /// proposal of the loop.
+    /// Returns the next step size after a trial of size `h` that gave no error estimate or was
+    /// rejected. `factor` is the proposal of the loop.
     fn shorten(&mut self, h: f64, factor: f64) -> f64;
 }
 
@@ -28,8 +29,7 @@ pub(crate) struct ControlConstants {
     pub(crate) alpha: f64,
     /// β, exponent of the previous error; 0 gives the classical controller.
     pub(crate) beta: f64,
-    /// The step size is this fraction of the one for which the error would be exactly the
-    /// tolerance.
+    /// The step size is this fraction of the size with an error exactly equal to the tolerance.
     pub(crate) safety: f64,
     /// Smallest permitted h_new / h.
     pub(crate) min_factor: f64,
@@ -37,14 +37,14 @@ pub(crate) struct ControlConstants {
     pub(crate) max_factor: f64,
 }
 
-/// ln 1e-4: an err_old below 1e-4 counts as 1e-4.
+/// The value ln 1e-4: an err_old below 1e-4 counts as 1e-4.
 const LOG_ERROR_FLOOR: f64 = -9.210_340_371_976_182;
 
 /// A PI controller and its memory.
 #[derive(Debug, Clone)]
 pub(crate) struct Control {
     constants: ControlConstants,
-    /// ln err_old.
+    /// Logarithm ln err_old.
     log_previous_error: f64,
     after_rejection: bool,
 }
@@ -67,7 +67,7 @@ impl StepControl for Control {
     /// Does not increase the step size directly after a rejection.
     fn accept(&mut self, h: f64, error: f64) -> f64 {
         let c = self.constants;
-        // ln 0 = −∞ gives the factor +∞, which is limited.
+        // The value ln 0 = −∞ gives the factor +∞, which is limited.
         let log_error = error.ln();
         let factor = c.safety * (c.beta * self.log_previous_error - c.alpha * log_error).exp();
         let limit = if self.after_rejection {
@@ -92,8 +92,8 @@ impl StepControl for Control {
     }
 }
 
-/// `√(1/n · Σ (d_i / scale_i)²)`; 0 for n = 0. A component with d_i = 0 is ignored even if its
-/// scale is 0.
+/// Returns `√(1/n · Σ (d_i / scale_i)²)`, or 0 for n = 0. A component with d_i = 0 is ignored even
+/// if its scale is 0.
 pub(crate) fn weighted_rms(d: &[f64], scale: &[f64]) -> f64 {
     if d.is_empty() {
         return 0.0;
@@ -101,7 +101,7 @@ pub(crate) fn weighted_rms(d: &[f64], scale: &[f64]) -> f64 {
     (weighted_square_sum(d, scale) / d.len() as f64).sqrt()
 }
 
-/// `Σ (d_i / scale_i)²`.
+/// Returns `Σ (d_i / scale_i)²`.
 pub(crate) fn weighted_square_sum(d: &[f64], scale: &[f64]) -> f64 {
     d.iter()
         .zip(scale)

@@ -2,19 +2,19 @@
 //! the noise of rounding; for all implicit methods.
 //!
 //! Source: Hairer, Wanner II, 2nd ed., IV.8, and the constants of the authors' program RADAU5; the
-//! rule for noise is ours.
+//! rule for noise is new.
 
 pub(crate) const MAX_ITERATIONS: u32 = 7;
-/// With convergence at this rate or faster, the matrices are kept for another step.
+/// If the convergence rate is at most this value, the matrices are kept for another step.
 pub(crate) const GOOD_RATE: f64 = 1e-3;
-/// Convergence at this rate or slower counts as none.
+/// If the convergence rate is at least this value, the iteration does not converge.
 const BAD_RATE: f64 = 0.99;
-/// Step-size factor if nothing is known about the convergence.
+/// Step-size factor if the convergence rate is not known.
 const FACTOR_WITHOUT_RATE: f64 = 0.5;
-/// Iterations that once converged at this rate and then stop converging have reached the noise of
-/// rounding ...
+/// If an iteration has converged at this rate and then stops converging, it may have reached the
+/// noise of rounding …
 const RATE_ABOVE_NOISE: f64 = 0.1;
-/// ... if their increments are below this fraction of the permitted error.
+/// … provided that its increments are below this fraction of the permitted error.
 const LARGEST_NOISE: f64 = 0.03;
 
 /// The decision after an iteration.
@@ -24,7 +24,7 @@ pub(crate) enum Verdict {
     GoOn,
     /// The solution is accurate enough.
     Converged,
-    /// Give up; with `factor` times the step size they might converge.
+    /// The iteration ends without success; with `factor` times the step size it might converge.
     Diverged { factor: f64 },
 }
 
@@ -35,8 +35,8 @@ pub(crate) struct Convergence {
     pub(crate) iterations: u32,
     /// Smoothed quotient of successive increments.
     pub(crate) rate: f64,
-    /// rate/(1 − rate): bound on the remaining error relative to the last increment; for a first
-    /// iteration taken from earlier steps.
+    /// Bound rate/(1 − rate) on the remaining error relative to the last increment. For a first
+    /// iteration it is taken from earlier steps.
     remaining: f64,
     norm: f64,
     quotient: f64,
@@ -57,7 +57,7 @@ impl Default for Convergence {
 }
 
 impl Convergence {
-    /// The state for the next solve, which keeps how far a first increment can be trusted.
+    /// Returns the state for the next solve, which keeps the reliability of a first increment.
     pub(crate) fn next(self) -> Self {
         Self {
             remaining: self.remaining.max(f64::EPSILON).powf(0.8),
@@ -65,8 +65,8 @@ impl Convergence {
         }
     }
 
-    /// Evaluates an iteration with increments of the given norm; the remaining error may have the
-    /// norm `permitted`.
+    /// Evaluates an iteration with increments of the given norm. `permitted` is the permitted norm
+    /// of the remaining error.
     pub(crate) fn judge(&mut self, norm: f64, permitted: f64) -> Verdict {
         self.iterations += 1;
         let (last_norm, last_quotient) = (self.norm.max(f64::EPSILON), self.quotient);
@@ -134,12 +134,12 @@ mod tests {
     #[test]
     fn iterations_end_by_their_rate() {
         use Verdict::{Converged, Diverged, GoOn};
-        // 1e-2/(1 − 1e-2)·1e-4 ≤ 1e-5
+        // The bound is 1e-2/(1 − 1e-2)·1e-4 ≤ 1e-5.
         let (verdicts, last) = judge_all(&[1.0, 1e-2, 1e-4], 1e-5);
         assert_eq!(verdicts, [GoOn, GoOn, Converged]);
         assert!((last.rate - 1e-2).abs() < 1e-16);
         assert_eq!(judge_all(&[1.0, 1.0], 1e-5).0[1], Diverged { factor: 0.5 });
-        // Halved six times: far from 1e-8.
+        // After six halvings, the increments are far from 1e-8.
         let (verdicts, _) = judge_all(&[1.0, 0.5], 1e-8);
         assert!(matches!(verdicts[1], Diverged { factor } if factor > 0.5 && factor < 0.8));
         assert_eq!(judge_all(&[f64::NAN], 1e-5).0, [Diverged { factor: 0.5 }]);
@@ -151,7 +151,7 @@ mod tests {
         let (verdicts, last) = judge_all(&[1.0, 1e-3, 1e-3, 1e-3], 1e-6);
         assert_eq!(verdicts[3], Converged);
         assert_eq!(last.rate, 1e-3);
-        // Too large for noise; never contracted.
+        // The increments are too large for noise and never contracted.
         let (verdicts, _) = judge_all(&[1e3, 1.0, 1.0, 1.0], 1e-6);
         assert!(matches!(verdicts[3], Diverged { .. }));
         assert!(matches!(

@@ -1,8 +1,8 @@
-//! The loop shared by all methods: trials, rejections, accepted steps, legs between break times,
-//! limits.
+//! The loop that all methods share: trials, rejections, accepted steps, legs between break times,
+//! and limits.
 //!
-//! The formulas of a method are in its `Stepper`, the step-size control is in `control`, output
-//! times are in `sample`.
+//! The `Stepper` of a method contains its formulas, `control` the step-size control, and `sample`
+//! the output times.
 
 use crate::error::{Cause, Failure, IntegrationError};
 use crate::interval::{Interval, Leg};
@@ -17,19 +17,20 @@ use std::ops::ControlFlow;
 /// A step below this many units in the last place of t counts as collapsed: stage times could no
 /// longer be distinguished.
 const SMALLEST_STEP_IN_EPSILONS: f64 = 16.0;
-/// A step that would leave less than this fraction of itself before the end of a leg is extended to
-/// the end.
+/// If a step would leave less than this fraction of itself before the end of a leg, it is extended
+/// to the end.
 const STRETCH: f64 = 1.01;
-/// A step that ends before a delicate time leaves this fraction of the distance that a step of its
-/// size could pass.
+/// A step that ends before an ill-conditioned time leaves this fraction of the largest distance
+/// that a step of its size can step over.
 const LEFT_TO_PASS: f64 = 0.8;
-/// A step may miss its tolerance by the slack of a delicate time if it ends at most this many times
-/// its size before it: a step that leaves the next one nearly all of its reach still does.
+/// If a step ends before an ill-conditioned time at a distance of at most this multiple of its
+/// size, its error may exceed the tolerance by the slack of that time. A step that leaves nearly
+/// its whole size to the next step is still in this range.
 const NEAR: f64 = 2.0;
-/// Trials after which progress is looked at.
+/// Number of trials between checks of progress.
 const STRIDE: u64 = 2000;
-/// A run that would need this many times the permitted steps, at the pace of the last [`STRIDE`]
-/// trials, does not proceed: a transient is over long before.
+/// If a run, at the pace of the last [`STRIDE`] trials, would need this multiple of the permitted
+/// steps, it makes no progress: a transient would have ended long before.
 const HOPELESS: f64 = 1e3;
 /// Step-size factor after a failed evaluation.
 const FACTOR_AFTER_FAILURE: f64 = 0.25;
@@ -39,7 +40,8 @@ const FACTOR_AFTER_HOOK: f64 = 0.5;
 /// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted
 /// step.
 ///
-/// Memory is allocated before the first step only. If t0 = t_end, nothing is evaluated or called.
+/// Memory is allocated only before the first step. If t0 = t_end, the function evaluates and calls
+/// nothing.
 ///
 /// # Errors
 ///
@@ -125,7 +127,7 @@ where
     Ok(run.finish(End::Reached))
 }
 
-/// Checks everything that can be checked before the first evaluation.
+/// Checks all conditions that can be checked before the first evaluation.
 pub(crate) fn check<O: Ode>(
     ode: &O,
     interval: &Interval<'_>,
@@ -148,13 +150,14 @@ pub(crate) fn check<O: Ode>(
     interval.legs()
 }
 
-/// Whether a step goes over a delicate time, or ends at most [`NEAR`] of its size before it.
+/// Returns whether a step goes over an ill-conditioned time, or ends at most [`NEAR`] times its
+/// size before it.
 fn is_near(delicate: &Delicate, trial: &Trial<'_>) -> bool {
     let ahead = |t: f64| (delicate.t - t) / trial.h;
     ahead(trial.t) > 0.0 && ahead(trial.t1) < NEAR
 }
 
-/// A failure before the first evaluation.
+/// Returns a failure before the first evaluation.
 pub(crate) fn refuse<E: std::error::Error>(
     error: IntegrationError<E>,
     t: f64,
@@ -168,12 +171,13 @@ pub(crate) fn refuse<E: std::error::Error>(
     })
 }
 
-/// Whether error control has failed so close to a delicate time that smaller steps would not be
-/// better.
+/// Whether error control has failed so close to an ill-conditioned time that smaller steps would
+/// not improve the result.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Noise {
     None,
-    /// In the last trial: the same size is tried once more with the larger permitted error.
+    /// Error control failed in the last trial. The same size is tried once more with the larger
+    /// permitted error.
     Found,
     Known,
 }
@@ -195,7 +199,7 @@ struct Run<'a, E: std::error::Error + 'static> {
     t: f64,
     /// Signed size of the next trial.
     h: f64,
-    /// Its value before it was changed for a reason other than its error.
+    /// Size of the next trial before it was changed for a reason other than its error.
     uncut: Option<f64>,
     noise: Noise,
     states: States,
@@ -205,7 +209,7 @@ struct Run<'a, E: std::error::Error + 'static> {
     failures: u32,
     last_rejection: Option<Cause<E>>,
     is_first_leg: bool,
-    /// Trials and time when progress was looked at last.
+    /// Number of trials and time of the last check of progress.
     looked_at: (u64, f64),
 }
 
@@ -292,7 +296,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         Ok(())
     }
 
-    /// Lets the problem change the state at a break time.
+    /// Calls the problem, which may change the state at a break time.
     fn cross_break<O: Ode<Error = E>>(
         &mut self,
         ode: &mut O,
@@ -305,9 +309,9 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         finite(&self.states.y0).map_err(|component| failed(Cause::NonFinite { component }))
     }
 
-    /// Changes a step that would reach a delicate time, so that this or the next step passes it
-    /// with the time in the widest gap between its nodes. If smaller steps would not be better, it
-    /// passes from as far away as the slack allows.
+    /// Changes a step that would reach an ill-conditioned time, so that this or the next step goes
+    /// over it with the time in the widest gap between its nodes. If smaller steps would not
+    /// improve the result, the step goes over the time from as far away as the slack permits.
     fn step_over(&mut self, delicate: Delicate, gap: f64, order: i32) {
         let longest = match self.noise {
             Noise::None => 1.0,
@@ -318,8 +322,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         if distance <= 0.0 || distance >= 1.0 + reach {
             return;
         }
-        // In units of h: this step passes if it may be long enough, otherwise it leaves slightly
-        // less than the reach of the next one.
+        // In units of h: this step goes over the time if it may be long enough. Otherwise it leaves
+        // slightly less than the range of the next step.
         let share = if distance <= reach {
             distance / gap
         } else {
@@ -329,7 +333,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.h *= share;
     }
 
-    /// The next trial, which ends exactly at the end of the leg if it reaches it.
+    /// Returns the next trial, which ends exactly at the end of the leg if it reaches it.
     fn next_trial<'l>(&mut self, leg: &'l Leg) -> Result<Trial<'l>, IntegrationError<E>> {
         let (t, h) = (self.t, self.h);
         let steps = self.statistics.accepted + self.statistics.rejected();
@@ -364,7 +368,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         })
     }
 
-    /// Whether the last trials have led so little on that the rest of the leg is out of reach.
+    /// Returns whether the progress of the last trials is too small to reach the end of the leg.
     fn stands_still(&mut self, steps: u64, remaining: f64) -> bool {
         let (before, since) = self.looked_at;
         if steps < before + STRIDE {
@@ -375,8 +379,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         remaining.abs() > HOPELESS * self.options.max_steps as f64 * pace
     }
 
-    /// Stages, error test, hook. On success `y1`, `f1` and `error_norm` describe a step that is
-    /// accepted.
+    /// Performs stages, error test and hook. On success, `y1`, `f1` and `error_norm` describe an
+    /// accepted step.
     fn attempt<O: Ode<Error = E>, S: Stepper<O>>(
         &mut self,
         ode: &mut O,
@@ -441,7 +445,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         }
     }
 
-    /// The step just accepted, for the observer.
+    /// Returns the last accepted step, for the observer.
     fn accepted<'s, O: Ode<Error = E>, S: Stepper<O>>(
         &'s mut self,
         ode: &'s mut O,
@@ -460,15 +464,15 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         Step::new(ode, stepper, ends, error_norm, &mut self.statistics)
     }
 
-    /// Continues from the end of the step just accepted.
+    /// Continues from the end of the last accepted step.
     fn advance<O: Ode<Error = E>, S: Stepper<O>>(&mut self, stepper: &mut S, trial: &Trial<'_>) {
         std::mem::swap(&mut self.states.y0, &mut self.states.y1);
         std::mem::swap(&mut self.states.f0, &mut self.states.f1);
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        // A step shortened by the end of its leg or before a delicate time does not reduce the size
-        // of later steps.
+        // A step shortened by the end of its leg or before an ill-conditioned time does not reduce
+        // the size of later steps.
         let is_cut = trial.t1 == trial.leg.end || self.uncut.is_some();
         let wanted = self.uncut.take().unwrap_or(self.h);
         let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));

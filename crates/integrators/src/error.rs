@@ -1,4 +1,4 @@
-//! Errors, by name and with numbers.
+//! Errors with names and numbers.
 
 use crate::statistics::Statistics;
 use std::error::Error;
@@ -11,8 +11,8 @@ pub enum Cause<E: Error + 'static> {
     /// Error control requires shorter steps.
     #[error("error control (the last estimated local error is {norm:.3e} of the permitted one)")]
     ErrorTest {
-        /// Weighted norm of the last estimated error; ≤ 1 if that step was accepted and the next
-        /// one had to be shorter.
+        /// Weighted norm of the last estimated error. It is ≤ 1 if that step was accepted and the
+        /// next one had to be shorter.
         norm: f64,
     },
     /// A derivative or a new state was not finite.
@@ -29,7 +29,7 @@ pub enum Cause<E: Error + 'static> {
         "Newton's iteration for the stages does not converge (rate {rate:.2e} after {iterations} iterations)"
     )]
     NewtonDiverges {
-        /// Last increment divided by the one before; NaN or infinite if they are not finite.
+        /// Last increment divided by the previous one; NaN or infinite if they are not finite.
         rate: f64,
         /// Number of iterations with the last Jacobian.
         iterations: u32,
@@ -51,12 +51,12 @@ pub enum IntegrationError<E: Error + 'static> {
         /// Length of the initial state.
         found: usize,
     },
-    /// The initial state has a NaN or an infinity.
+    /// The initial state contains a NaN or an infinity.
     #[error("component {component} (counted from 0) of the initial state is {value}")]
     NonFiniteInitialState {
         /// First such component, counted from 0.
         component: usize,
-        /// Its value.
+        /// Value of this entry of the state.
         value: f64,
     },
     /// A time is not finite, or the interval is longer than the largest number.
@@ -64,7 +64,7 @@ pub enum IntegrationError<E: Error + 'static> {
     InvalidTime {
         /// Name of the time.
         name: &'static str,
-        /// Its value.
+        /// Value of the time (s).
         value: f64,
     },
     /// An option is outside its range.
@@ -72,7 +72,7 @@ pub enum IntegrationError<E: Error + 'static> {
     InvalidOption {
         /// Name of the field.
         option: &'static str,
-        /// Its value.
+        /// The permitted values.
         value: f64,
         /// The allowed values.
         expected: &'static str,
@@ -101,8 +101,8 @@ pub enum IntegrationError<E: Error + 'static> {
         /// End of the interval.
         t_end: f64,
     },
-    /// f could not be evaluated at the start or just after a break time, where a shorter step
-    /// cannot help.
+    /// f could not be evaluated at the start or just after a break time, so a shorter step does not
+    /// help.
     #[error("f(t, y) cannot be evaluated at t = {t}, where a step has to start: {cause}")]
     StartFailed {
         /// The time.
@@ -119,11 +119,11 @@ pub enum IntegrationError<E: Error + 'static> {
     StepSizeCollapsed {
         /// Time reached.
         t: f64,
-        /// Signed step size to be tried next.
+        /// Signed size of the next trial step.
         h: f64,
         /// Number of rejected trials since the last accepted step.
         failures: u32,
-        /// Norm of the last estimated error, if any trial had one.
+        /// Norm of the last estimated error, if there was an estimate.
         last_error_norm: Option<f64>,
         /// Cause of the last rejection.
         #[source]
@@ -138,7 +138,7 @@ pub enum IntegrationError<E: Error + 'static> {
         t: f64,
         /// Number of accepted and rejected steps.
         steps: u64,
-        /// Signed step size to be tried next.
+        /// Signed size of the next trial step.
         h: f64,
     },
     /// The function whose zeros are events is not a number.
@@ -158,7 +158,7 @@ pub enum IntegrationError<E: Error + 'static> {
     },
 }
 
-/// An error, with everything that was reached before it.
+/// An error with the results that were reached before it.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("{error}")]
 pub struct Failure<E: Error + 'static> {

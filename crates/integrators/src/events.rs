@@ -1,8 +1,8 @@
 //! Events: times at which a function g(t, y) of the solution passes zero, found in the accurate
 //! dense output of accepted steps.
 //!
-//! The handling of an event is up to the caller. If a motion jumps, it is integrated again from
-//! there.
+//! The caller handles an event. If a motion jumps, the caller starts a new integration at the
+//! event.
 
 use crate::drive::integrate;
 use crate::error::{Failure, IntegrationError};
@@ -15,15 +15,15 @@ use crate::step::Step;
 use std::error::Error;
 use std::ops::ControlFlow;
 
-/// Which zeros of g count, in the direction of integration.
+/// Direction of the zeros of g that count, in the direction of integration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Direction {
-    /// All.
+    /// All zeros.
     #[default]
     Any,
-    /// From negative to positive.
+    /// Zeros from negative to positive values.
     Rising,
-    /// From positive to negative.
+    /// Zeros from positive to negative values.
     Falling,
 }
 
@@ -31,27 +31,27 @@ pub enum Direction {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Crossing {
-    /// Time, exact to a few units in the last place of t for the dense output; at this time g is
+    /// Time, exact to a few units in the last place of t for the dense output. At this time g is
     /// zero or already has its new sign.
     pub t: f64,
     /// Whether g was negative before.
     pub is_rising: bool,
 }
 
-/// Number of parts of a step at whose ends g is evaluated.
+/// Number of parts of a step. g is evaluated at their ends.
 const PARTS: u32 = 10;
 /// Width of the final bracket around a zero, in units of the rounding of t.
 const WIDTH_IN_EPSILONS: f64 = 2.0;
 
 /// Finds the zeros of one function g step by step, for use in an observer.
 ///
-/// g is evaluated at eleven places of each step, first in the dense output without extra
-/// evaluations; the accurate one is used only in a step in which the sign changes. A zero at the
-/// end of a step belongs to that step; a zero at the start of the integration is ignored. Not
-/// detected are two zeros between neighbouring places, a contact without change of sign (a grazing
-/// contact) unless g happens to be exactly 0 at one of the places, and a change of sign due to a
-/// jump of the state at a break time. Limit the step size if g changes faster than the solution,
-/// and search for zeros of dg/dt if contacts matter.
+/// g is evaluated at eleven points of each step, first in the dense output without extra
+/// evaluations. The accurate dense output is used only in a step in which the sign changes. A zero
+/// at the end of a step belongs to that step; a zero at the start of the integration is ignored.
+/// The search does not detect two zeros between neighbouring points, or a change of sign due to a
+/// jump of the state at a break time. It detects a contact without change of sign (a grazing
+/// contact) only if g is exactly 0 at one of the points. Limit the step size if g changes faster
+/// than the solution, and search for zeros of dg/dt if contacts matter.
 ///
 /// # Examples
 ///
@@ -96,7 +96,7 @@ impl Crossings {
     ///
     /// # Errors
     ///
-    /// [`IntegrationError::EventUndefined`] if g is not a number,
+    /// Returns [`IntegrationError::EventUndefined`] if g is not a number, and
     /// [`IntegrationError::OutputFailed`] if an extra evaluation of f fails.
     pub fn locate<O: Ode>(
         &mut self,
@@ -147,7 +147,7 @@ impl Crossings {
     }
 }
 
-/// End number `i` of the parts of a step; the ends of the step exactly.
+/// Returns end number `i` of the parts of a step; the ends of the step are exact.
 fn place(t0: f64, t1: f64, i: u32) -> f64 {
     if i == PARTS {
         t1
@@ -156,7 +156,7 @@ fn place(t0: f64, t1: f64, i: u32) -> f64 {
     }
 }
 
-/// Whether g reaches or passes zero between `before` and `after`.
+/// Returns whether g reaches or passes zero between `before` and `after`.
 fn passes(before: f64, after: f64) -> bool {
     (before < 0.0 && after >= 0.0) || (before > 0.0 && after <= 0.0)
 }
@@ -173,9 +173,9 @@ fn number<E: Error + 'static>(t: f64, g: f64) -> Result<f64, IntegrationError<E>
 /// then [`End::Stopped`](crate::End::Stopped) with the time of the event and the state of the
 /// accurate dense output at that time.
 ///
-/// Zeros that [`Crossings`] does not detect are not detected here either. A motion that continues
-/// from an event begins with g = 0 up to rounding: choose the direction so that leaving the zero
-/// does not count.
+/// Zeros that [`Crossings`] does not detect are not detected by this function, either. A motion
+/// that continues from an event begins with g = 0 up to rounding. Choose the direction so that this
+/// initial zero does not count.
 ///
 /// # Errors
 ///

@@ -1,13 +1,13 @@
 //! Problems for methods that solve linear systems with the Jacobian J = ∂f/∂y.
 //!
-//! For the treatment of a plain problem with dense matrices see `dense_implicit`.
+//! The module `dense_implicit` treats a plain problem with dense matrices.
 
 use crate::ode::Ode;
 
 /// A problem that stores its Jacobian and solves with the two matrices of Radau IIA.
 ///
-/// The linear algebra belongs to the problem, because it knows which components depend on each
-/// other. A problem without its own linear algebra can be wrapped in
+/// The linear algebra belongs to the problem, because the dependencies between the components are a
+/// property of the problem. A problem without its own linear algebra can be wrapped in
 /// [`DenseImplicit`](crate::DenseImplicit). J may be an approximation: it affects the convergence
 /// of Newton's method, but not the result.
 pub trait Implicit: Ode {
@@ -19,7 +19,7 @@ pub trait Implicit: Ode {
     fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), Self::Error>;
 
     /// Factors `a·I − J` for a = `real` and for a = `complex[0]` + i·`complex[1]`, with the last
-    /// stored J. May be called again with the same J.
+    /// stored J. The function may be called again with the same J.
     ///
     /// # Errors
     ///

@@ -1,9 +1,10 @@
 //! The time span, its break times, and the one-sided evaluation of f at them.
 //!
 //! The interval between two break times is called a *leg*. A step never crosses the end of a leg,
-//! ends there exactly, and f is only evaluated at times within the leg: at a break time the
-//! neighbouring floating-point number is used instead, so that f has its left limit in the leg
-//! before and its right limit in the leg after, however the problem writes its `if t < …`.
+//! but ends there exactly. f is evaluated only at times within the leg. At a break time, the
+//! neighbouring floating-point number replaces the time. Therefore f has its left limit in the
+//! previous leg and its right limit in the next leg, for any form of the condition `if t < …` in
+//! the problem.
 
 use crate::error::IntegrationError;
 use std::error::Error;
@@ -16,13 +17,13 @@ pub struct Interval<'a> {
     /// End; may be smaller than `t0`.
     pub t_end: f64,
     /// Times at which f or one of its derivatives with respect to t jumps, in any order. A step
-    /// ends exactly at each of them. Those outside the interval are ignored; `t0` and `t_end` may
-    /// be among them.
+    /// ends exactly at each of them. Times outside the interval are ignored; `t0` and `t_end` may
+    /// be included.
     pub break_times: &'a [f64],
 }
 
 impl Interval<'static> {
-    /// The interval without break times.
+    /// Returns the interval without break times.
     #[must_use]
     pub fn new(t0: f64, t_end: f64) -> Self {
         Self {
@@ -43,7 +44,7 @@ pub(crate) struct Leg {
 }
 
 impl Leg {
-    /// `t`, or the nearest time within the leg.
+    /// Returns `t`, or the nearest time within the leg.
     #[inline]
     pub(crate) fn evaluation_time(&self, t: f64) -> f64 {
         let (a, b) = self.inside;
@@ -52,13 +53,13 @@ impl Leg {
 }
 
 impl Interval<'_> {
-    /// +1 forwards, −1 backwards.
+    /// Returns +1 for integration forwards, −1 for integration backwards.
     pub(crate) fn direction(&self) -> f64 {
         if self.t_end < self.t0 { -1.0 } else { 1.0 }
     }
 
-    /// Checks the times and divides the interval into legs, in the direction of integration; none
-    /// if t0 = t_end.
+    /// Checks the times and divides the interval into legs, in the direction of integration. There
+    /// are no legs if t0 = t_end.
     pub(crate) fn legs<E: Error + 'static>(&self) -> Result<Vec<Leg>, IntegrationError<E>> {
         let invalid = |name, value| Err(IntegrationError::InvalidTime { name, value });
         if !self.t0.is_finite() {
@@ -99,7 +100,7 @@ impl Interval<'_> {
             }
         };
         let inside = (towards(start, true), towards(end, false));
-        // Two break times may be neighbouring numbers; then there is no number between them.
+        // If two break times are neighbouring numbers, there is no number between them.
         let inside = if (inside.1 - inside.0) * sign >= 0.0 {
             inside
         } else {

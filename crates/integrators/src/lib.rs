@@ -2,24 +2,24 @@
 //!
 //! ## Code map
 //!
-//! | module | idea |
+//! | module | content |
 //! | --- | --- |
 //! | `ode` | the problem: [`Ode`], the hook at the end of a step |
 //! | `interval` | the interval: [`Interval`], break times, one-sided evaluation |
 //! | `options` | options: [`Options`], [`Tolerance`], [`InitialStep`] |
-//! | `method` | the choice of a method and what a method must provide |
+//! | `method` | the choice of a method, and the interface of a method |
 //! | `drive` | the loop of trials, rejections and accepted steps, shared by all methods |
 //! | `control`, `start` | step-size control and the automatic first step |
 //! | `step` | an accepted step with its dense output: [`Step`] |
-//! | `events`, `root` | zeros of a function of the solution: [`Crossings`] for observers, [`integrate_until`] for the rest |
-//! | `rows`, `sample` | rows at given output times: [`Rows`] for observers, [`sample()`] for the rest |
+//! | `events`, `root` | zeros of a function of the solution: [`Crossings`] in observers, [`integrate_until`] otherwise |
+//! | `rows`, `sample` | rows at given output times: [`Rows`] in observers, [`sample()`] otherwise |
 //! | `combine` | sums of stages |
 //! | `rk5` | Dormand–Prince 5(4) and Tsitouras 5(4): `dopri5` and `tsit5` (tables), `step`, `dense` |
 //! | `dop853` | Dormand–Prince 8(5,3): `tableau`, `step`, `dense` |
 //! | `implicit` | problems with a Jacobian: [`Implicit`] |
 //! | `dense_implicit` | a plain problem with a dense Jacobian: [`DenseImplicit`] |
 //! | `radau5` | Radau IIA of order 5: `tableau`, `scale`, `newton`, `step`, `dense` |
-//! | `convergence` | the end of Newton's iterations |
+//! | `convergence` | convergence test of Newton's iterations |
 
 #![forbid(unsafe_code)]
 

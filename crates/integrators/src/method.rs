@@ -7,10 +7,11 @@ use crate::ode::Ode;
 use crate::options::Tolerance;
 use crate::statistics::Statistics;
 
-/// A method that can integrate the problem `O`, such as [`Dopri5`](crate::Dopri5). A method
-/// requires of the problem what it needs: explicit methods are methods for every [`Ode`].
+/// A method that can integrate the problem `O`, such as [`Dopri5`](crate::Dopri5). The trait bounds
+/// of a method state its requirements on the problem: explicit methods work for every [`Ode`].
 ///
-/// Sealed: the loop of [`integrate`](crate::integrate) and the methods depend on each other.
+/// The trait is sealed, because the loop of [`integrate`](crate::integrate) and the methods depend
+/// on each other.
 pub trait Method<O: Ode> {
     /// Stages and memory of the method.
     #[doc(hidden)]
@@ -21,13 +22,13 @@ pub trait Method<O: Ode> {
     fn stepper(&self, ode: &O) -> Self::Stepper;
 }
 
-/// How an integration ended without failure.
+/// Reason for the end of an integration without failure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum End {
-    /// `t_end` was reached, exactly.
+    /// The integration reached `t_end` exactly.
     Reached,
-    /// The observer asked to stop.
+    /// The observer requested a stop.
     Stopped,
 }
 
@@ -41,16 +42,16 @@ pub struct Outcome {
     pub y: Vec<f64>,
     /// Whether `t_end` was reached.
     pub end: End,
-    /// Size > 0 of the next step, not shortened by any end or break time: the value for
-    /// [`InitialStep::Given`](crate::InitialStep::Given) of an integration that continues from
+    /// Size > 0 of the next step, before it is shortened by an end or break time. It is the value
+    /// for [`InitialStep::Given`](crate::InitialStep::Given) of an integration that continues from
     /// here. `None` if there was no step.
     pub next_step: Option<f64>,
-    /// Cost.
+    /// Cost of the integration.
     pub statistics: Statistics,
 }
 
 impl Outcome {
-    /// The outcome if no step was made.
+    /// Returns the outcome if no step was made.
     pub(crate) fn unmoved(t: f64, y0: &[f64], end: End) -> Self {
         Self {
             t,
@@ -62,7 +63,7 @@ impl Outcome {
     }
 }
 
-/// One trial step: from t over h to t1 = t + h, within a leg.
+/// A trial step from t over h to t1 = t + h, within a leg.
 #[derive(Debug, Clone, Copy)]
 pub struct Trial<'a> {
     pub(crate) leg: &'a Leg,
@@ -72,7 +73,8 @@ pub struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Time of the stage with node `c`; at break times the neighbouring number within the leg.
+    /// Returns the time of the stage with node `c`; at break times the neighbouring number within
+    /// the leg.
     #[inline]
     pub(crate) fn stage_time(&self, c: f64) -> f64 {
         let t = if c == 1.0 {
@@ -98,18 +100,18 @@ pub struct Ends<'a> {
 #[derive(Debug, Clone, Copy)]
 pub struct Start<'a> {
     pub(crate) y0: &'a [f64],
-    /// f(t, y0); at a break time the limit from within the step.
+    /// Derivative f(t, y0); at a break time the limit from within the step.
     pub(crate) f0: &'a [f64],
     pub(crate) tolerance: &'a Tolerance,
 }
 
-/// Largest relative position of a delicate time in the step that passes it: so the step ends
-/// farther from the time than it began, and a distance that was sufficient at the beginning is
-/// sufficient at the end.
+/// Largest relative position of an ill-conditioned time in the step that goes over it. The step
+/// therefore ends farther from the time than it began, and a distance that was sufficient at the
+/// beginning is sufficient at the end.
 const AHEAD: f64 = 0.45;
 
-/// A relative position in the widest gap between nodes, including 0 and 1: its middle, if a step
-/// that passes the time there ends farther away than it began.
+/// Returns a relative position in the widest gap between nodes, including 0 and 1. It is the middle
+/// of the gap, if a step with the time at this position ends farther away than it began.
 pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     let all = || nodes.iter().copied().chain([0.0, 1.0]);
     let gap = |from: f64| (from, all().filter(|c| *c > from).fold(1.0, f64::min));
@@ -122,15 +124,15 @@ pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
 /// The interface of a method to the shared loop: a trial step, its error, the derivative at its
 /// end, and the next step size.
 pub trait Stepper<O: Ode>: Dense<O> {
-    /// Order of the solution that is continued.
+    /// Returns the order of the propagated solution.
     fn order(&self) -> i32;
 
-    /// A relative position in the widest gap between nodes, at which f is not evaluated.
+    /// Returns a relative position in the widest gap between nodes, at which f is not evaluated.
     fn widest_gap(&self) -> f64 {
         AHEAD
     }
 
-    /// The controller of the step size.
+    /// Returns the controller of the step size.
     fn control(&mut self) -> &mut dyn StepControl;
 
     /// Computes the stages and the new state `y1`.
@@ -143,7 +145,7 @@ pub trait Stepper<O: Ode>: Dense<O> {
         statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>>;
 
-    /// Weighted norm of the estimated error of the last trial.
+    /// Returns the weighted norm of the estimated error of the last trial.
     fn error_norm(
         &mut self,
         ode: &mut O,
@@ -154,7 +156,7 @@ pub trait Stepper<O: Ode>: Dense<O> {
     ) -> Result<f64, Cause<O::Error>>;
 
     /// Writes the derivative at the end of the last trial to `f1`, for a state that the hook has
-    /// left unchanged.
+    /// not changed.
     fn end_derivative(
         &mut self,
         ode: &mut O,
@@ -169,30 +171,30 @@ pub trait Stepper<O: Ode>: Dense<O> {
         self.control().reset();
     }
 
-    /// Size of the next trial after an accepted step of size h.
+    /// Returns the size of the next trial after an accepted step of size h.
     fn after_acceptance(&mut self, h: f64, error_norm: f64) -> f64 {
         self.control().accept(h, error_norm)
     }
 
-    /// Size of the next trial after one of size h whose error was too large.
+    /// Returns the size of the next trial after a trial of size h whose error was too large.
     fn after_rejection(&mut self, h: f64, error_norm: f64) -> f64 {
         self.control().reject(h, error_norm)
     }
 
-    /// Size of the next trial after one of size h that gave no error estimate or was refused;
-    /// `factor` is the proposal of the loop.
+    /// Returns the size of the next trial after a trial of size h that gave no error estimate or
+    /// was rejected. `factor` is the proposal of the loop.
     fn after_failure(&mut self, h: f64, factor: f64) -> f64 {
         self.control().shorten(h, factor)
     }
 }
 
-/// The interface of a method for dense output; object-safe, so that `Step` does not depend on the
-/// method.
+/// The interface of a method for dense output. It is object-safe, so that `Step` does not depend on
+/// the method.
 pub trait Dense<O: Ode> {
-    /// Without further evaluations.
+    /// Writes the dense output without further evaluations.
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]);
 
-    /// Extra evaluations for [`Dense::interpolate_accurately`], once in an accepted step.
+    /// Performs extra evaluations for [`Dense::interpolate_accurately`], once in an accepted step.
     fn prepare(
         &mut self,
         ode: &mut O,
@@ -200,6 +202,6 @@ pub trait Dense<O: Ode> {
         evaluations: &mut u64,
     ) -> Result<(), Cause<O::Error>>;
 
-    /// Dense output as accurate as the step itself; needs [`Dense::prepare`].
+    /// Writes a dense output as accurate as the step itself; it requires [`Dense::prepare`].
     fn interpolate_accurately(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]);
 }

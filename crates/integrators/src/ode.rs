@@ -1,6 +1,7 @@
 //! The problem y' = f(t, y), with a hook at the end of each step.
 //!
-//! Tolerances and limits are in `options`, the interval and its break times in `interval`.
+//! The module `options` contains tolerances and limits, and `interval` the interval and its break
+//! times.
 
 use crate::error::Cause;
 use std::convert::Infallible;
@@ -12,7 +13,7 @@ pub trait Ode {
     /// smaller step size; the error is returned to the caller only if this does not help.
     type Error: Error + 'static;
 
-    /// Number n of components of y.
+    /// Returns the number n of components of y.
     fn dim(&self) -> usize;
 
     /// Writes f(t, y) to `dy`; `y` and `dy` have length n.
@@ -23,14 +24,14 @@ pub trait Ode {
     /// same way.
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Error>;
 
-    /// Called after a trial step has passed the error test, before it is accepted. May move `y`
-    /// onto a manifold.
+    /// The hook is called after a trial step has passed the error test, before it is accepted. It
+    /// may move `y` onto a manifold.
     ///
     /// | argument | length | meaning |
     /// | --- | --- | --- |
     /// | `step` | – | beginning and end of the step, its estimated error and the error weights |
     /// | `y` | n | on entry the result of the step; may be changed if [`StepEnd::Projected`] is returned |
-    /// | `dy` | n | on entry unspecified; must hold f([`StepInfo::t_rhs`], `y`) if `Projected` is returned |
+    /// | `dy` | n | on entry unspecified; must contain f([`StepInfo::t_rhs`], `y`) if `Projected` is returned |
     ///
     /// # Errors
     ///
@@ -45,22 +46,24 @@ pub trait Ode {
         Ok(StepEnd::Unchanged)
     }
 
-    /// A later time near which f should not be evaluated, if one is known: a removable singularity,
-    /// near which values are mostly rounding. Steps are then chosen such that it lies between two
-    /// stages, as far from both as the method allows.
+    /// Returns a later time near which f should not be evaluated, if there is one: a removable
+    /// singularity, near which values are mostly rounding. The steps are chosen such that this time
+    /// is between two stages, as far from both as the method permits.
     fn delicate_time(&self) -> Option<Delicate> {
         None
     }
 
-    /// Whether the caller wants the integration to end: asked before each trial step. It then ends
-    /// at the last accepted step, with [`End::Stopped`](crate::End::Stopped); an error of f is no
-    /// failure then, so that f need not finish what nobody waits for.
+    /// Returns whether the caller requests the end of the integration. The function is called
+    /// before each trial step. The integration then ends at the last accepted step, with
+    /// [`End::Stopped`](crate::End::Stopped). An error of f then does not count as a failure, so
+    /// that f need not complete an evaluation that is no longer required.
     fn is_stopped(&self) -> bool {
         false
     }
 
-    /// Called at each break time inside the interval, before the first evaluation after it, with
-    /// the time just after it. May change `y` (length n), so that the solution jumps.
+    /// The function is called at each break time inside the interval, before the first evaluation
+    /// after it, with the time just after it. It may change `y` (length n), so that the solution
+    /// jumps.
     ///
     /// # Errors
     ///
@@ -76,12 +79,13 @@ pub trait Ode {
 pub struct Delicate {
     /// The time.
     pub t: f64,
-    /// Factor ≥ 1 by which the error of a step over it may exceed the tolerance: smaller steps
-    /// would come closer to it and be less accurate. For the same reason, once error control has
-    /// failed within one step before it, steps up to it may exceed the tolerance as well.
+    /// Factor ≥ 1 by which the error of a step over the time may exceed the tolerance, because
+    /// smaller steps would come closer to it and be less accurate. For the same reason, if error
+    /// control has failed within one step before the time, steps up to it may exceed the tolerance
+    /// as well.
     pub slack: f64,
-    /// Least weight of a component in the norm of a step that may exceed the tolerance: rounding
-    /// does not become less where a component is near zero.
+    /// Smallest weight of a component in the norm of a step that may exceed the tolerance. It is
+    /// needed because rounding does not decrease where a component is near zero.
     pub least_scale: f64,
 }
 
@@ -92,20 +96,21 @@ pub struct StepInfo<'a> {
     pub t0: f64,
     /// Time at the end of the step.
     pub t: f64,
-    /// Time at which to evaluate f at the end of the step: `t`, except at a break time, at which it
-    /// is the neighbouring floating-point number within the step, so that f has its limit from this
-    /// side.
+    /// Time at which f must be evaluated at the end of the step. It is `t`, except at a break time:
+    /// there it is the neighbouring floating-point number within the step, so that f has its limit
+    /// from this side.
     pub t_rhs: f64,
-    /// Estimated local error in the weighted norm; at most 1, or the slack of a delicate time.
+    /// Estimated local error in the weighted norm; at most 1, or the slack of an ill-conditioned
+    /// time.
     pub error_norm: f64,
     /// Weights of the norm, `atol + rtol·max(|y0|, |y1|)` per component, length n.
     pub scale: &'a [f64],
 }
 
 impl StepInfo<'_> {
-    /// Weighted root mean square `√(1/n · Σ (d_i / scale_i)²)`: the norm in which the local error
-    /// must stay below 1. A projection whose correction is of the order 1 in this norm is as large
-    /// as the permitted error.
+    /// Returns the weighted root mean square `√(1/n · Σ (d_i / scale_i)²)`: the norm in which the
+    /// local error must stay below 1. A projection whose correction is of the order 1 in this norm
+    /// is as large as the permitted error.
     #[must_use]
     pub fn norm(&self, d: &[f64]) -> f64 {
         crate::control::weighted_rms(d, self.scale)
@@ -117,16 +122,17 @@ impl StepInfo<'_> {
 pub enum StepEnd {
     /// `y` was not changed.
     Unchanged,
-    /// `y` was changed and `dy` holds f at the new `y`.
+    /// `y` was changed and `dy` contains f at the new `y`.
     Projected {
-        /// Size of the change in the norm of [`StepInfo::norm`]; the largest one is kept in the
-        /// statistics.
+        /// Size of the change in the norm of [`StepInfo::norm`]. The statistics contain the largest
+        /// one.
         correction: f64,
-        /// Evaluations of f spent, usually 1; added to `Statistics::hook_evaluations`.
+        /// Number of evaluations of f in the hook, usually 1; it is added to
+        /// `Statistics::hook_evaluations`.
         evaluations: u64,
     },
-    /// The step is not reliable, for instance because the correction is large relative to the
-    /// permitted error; it is repeated with half the size.
+    /// The step is not reliable, for example because the correction is large relative to the
+    /// permitted error. It is repeated with half the size.
     Reject,
 }
 
@@ -138,7 +144,7 @@ pub struct Function<F> {
 }
 
 impl<F: FnMut(f64, &[f64], &mut [f64])> Function<F> {
-    /// `dim` components; `f` writes f(t, y) to its third argument.
+    /// Creates a problem with `dim` components; `f` writes f(t, y) to its third argument.
     pub fn new(dim: usize, f: F) -> Self {
         Self { dim, f }
     }
@@ -157,7 +163,7 @@ impl<F: FnMut(f64, &[f64], &mut [f64])> Ode for Function<F> {
     }
 }
 
-/// Evaluates f, counts, and turns values that are not finite into a [`Cause`].
+/// Evaluates f, counts the evaluation, and converts values that are not finite into a [`Cause`].
 #[inline]
 pub(crate) fn evaluate<O: Ode>(
     ode: &mut O,
@@ -171,7 +177,7 @@ pub(crate) fn evaluate<O: Ode>(
     finite(dy).map_err(|component| Cause::NonFinite { component })
 }
 
-/// `Err` with the first component that is not finite.
+/// Returns `Err` with the first component that is not finite.
 #[inline]
 pub(crate) fn finite(v: &[f64]) -> Result<(), usize> {
     v.iter().position(|x| !x.is_finite()).map_or(Ok(()), Err)

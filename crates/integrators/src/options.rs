@@ -3,8 +3,8 @@
 use crate::error::IntegrationError;
 use std::error::Error;
 
-/// Options of an integration. `Options::default()` is a good choice to begin with; fields are
-/// documented with their defaults.
+/// Options of an integration. `Options::default()` is a good initial choice; the documentation of
+/// each field states its default.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Permitted local error. Default: rtol = 1e-8, atol = 1e-10.
@@ -37,7 +37,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The default options with the same tolerances for all components.
+    /// Returns the default options with the same tolerances for all components.
     #[must_use]
     pub fn with_tolerance(rtol: f64, atol: f64) -> Self {
         Self {
@@ -47,18 +47,18 @@ impl Options {
     }
 }
 
-/// Permitted local error per step and component: `atol + rtol·max(|y0|, |y1|)`, as a root mean
-/// square.
+/// Permitted local error per step and component: `atol + rtol·max(|y0|, |y1|)`, combined as a root
+/// mean square.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Tolerance {
-    /// The same for all components. Both finite and ≥ 0, not both 0.
+    /// The same tolerances for all components. Both are finite and ≥ 0, and not both 0.
     Uniform {
         /// Relative part.
         rtol: f64,
         /// Absolute part, in the unit of y.
         atol: f64,
     },
-    /// One pair for each component, both of length n.
+    /// One pair of tolerances for each component; both lists have length n.
     PerComponent {
         /// Relative parts.
         rtol: Vec<f64>,
@@ -85,7 +85,7 @@ impl Tolerance {
         }
     }
 
-    /// Relative part for component `i`.
+    /// Returns the relative part for component `i`.
     pub(crate) fn rtol(&self, i: usize) -> f64 {
         match self {
             Self::Uniform { rtol, .. } => *rtol,
@@ -117,15 +117,15 @@ impl Tolerance {
 /// The first trial step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum InitialStep {
-    /// From the sizes of y, f and of the change of f over a small Euler step; costs one evaluation.
-    /// Always used after a break time.
+    /// The first step follows from the sizes of y, f and of the change of f over a small Euler
+    /// step. It costs one evaluation, and is always used after a break time.
     Automatic,
-    /// This size (> 0), whatever the direction of integration.
+    /// The first step has this size (> 0), for either direction of integration.
     Given(f64),
 }
 
 impl Options {
-    /// Checks everything that does not depend on the state.
+    /// Checks all options that do not depend on the state.
     pub(crate) fn check<E: Error + 'static>(&self, dim: usize) -> Result<(), IntegrationError<E>> {
         self.tolerance.check(dim)?;
         check_positive("max_step", self.max_step)?;

@@ -1,17 +1,17 @@
-//! A root in a bracket by the method ITP (interpolate, truncate, project), which never needs more
-//! than one evaluation more than bisection and converges faster than the secant method if the
+//! Computes a root in a bracket by the method ITP (interpolate, truncate, project). It needs at
+//! most one evaluation more than bisection, and converges faster than the secant method if the
 //! function is smooth.
 //!
 //! Source: I. F. D. Oliveira, R. H. C. Takahashi, An enhancement of the bisection method average
 //! performance preserving minmax optimality, ACM Trans. Math. Softw. 47 (2020) 5, DOI
 //! 10.1145/3423597; its constants κ1 = 0.2/(b − a), κ2 = 2, n0 = 1.
 
-/// One end of a bracket: an argument and the value there.
+/// One end of a bracket: an argument and its function value.
 pub(crate) type BracketEnd = (f64, f64);
 
-/// Shrinks the bracket from `near` to `far`, whose values have opposite signs or whose far value is
-/// zero, to a width of at most `width` (> 0), and returns its far end: its value is zero or has the
-/// sign of the original far value.
+/// Shrinks the bracket from `near` to `far` to a width of at most `width` (> 0). The values at its
+/// ends must have opposite signs, or the far value must be zero. The function returns the far end
+/// of the bracket. The value there is zero or has the sign of the original far value.
 ///
 /// # Errors
 ///
@@ -26,9 +26,9 @@ pub(crate) fn bracketed_root<E>(
     let direction = (b - a).signum();
     let length = (b - a).abs();
     let k1 = 0.2 / length;
-    // Number of bisections that reach the width, plus one that is allowed in addition.
+    // Number of bisections that reach the width, plus one additional permitted evaluation.
     let bisections = (length / width).log2().ceil().max(0.0) + 1.0;
-    // Largest distance from the middle that respects this bound.
+    // Largest distance from the middle that satisfies this bound.
     let mut reach = 0.5 * width * bisections.exp2();
     while f_b != 0.0 && (b - a).abs() > width {
         let (middle, half) = (0.5 * (a + b), 0.5 * (b - a).abs());
@@ -46,7 +46,8 @@ pub(crate) fn bracketed_root<E>(
         } else {
             middle - towards_middle * radius
         };
-        // Because of rounding, or values whose quotient overflows, the middle is used instead.
+        // If rounding, or values whose quotient overflows, put the point outside, the middle is
+        // used.
         let is_inside = (projected - a) * direction > 0.0 && (b - projected) * direction > 0.0;
         let x = if is_inside { projected } else { middle };
         if x == a || x == b {
@@ -94,7 +95,7 @@ mod tests {
                 let (x, count) = root(a, b, width, f);
                 assert!((x - exact).abs() <= 2.0 * width, "{i}: {x:?}");
                 assert!(f(x) == 0.0 || (f(x) > 0.0) == (f(b) > 0.0), "{i}: {x:?}");
-                // One more than bisection.
+                // The count is one more than for bisection.
                 assert!(count <= 52, "{i}: {count}");
             }
         }

@@ -1,7 +1,8 @@
 //! Rows at given output times, as accurate as the accurate dense output and independent of the step
 //! size.
 //!
-//! For use in observers, together with events and other work; [`crate::sample()`] also integrates.
+//! It is intended for observers, together with events and other tasks. The function
+//! [`crate::sample()`] also integrates.
 
 use crate::error::IntegrationError;
 use crate::interval::Interval;
@@ -13,11 +14,11 @@ use std::ops::ControlFlow;
 /// The output times.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OutputTimes {
-    /// t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly; dt > 0. A multiple of dt within 1e-9·dt of
-    /// `t_end` is replaced by it.
+    /// The times t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly, with dt > 0. A multiple of dt
+    /// within 1e-9·dt of `t_end` is replaced by `t_end`.
     Every(f64),
-    /// These times within the interval, including its ends, strictly in the direction of
-    /// integration.
+    /// These times within the interval, including its ends. They must be strictly monotonic in the
+    /// direction of integration.
     At(Vec<f64>),
 }
 
@@ -58,12 +59,12 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// The rows at `times` of an integration over `interval`.
+    /// Creates the rows at `times` of an integration over `interval`.
     ///
     /// # Errors
     ///
-    /// [`IntegrationError::InvalidOption`] for a bad output step,
-    /// [`IntegrationError::InvalidOutputTime`] for a bad list.
+    /// Returns [`IntegrationError::InvalidOption`] for an invalid output step, and
+    /// [`IntegrationError::InvalidOutputTime`] for an invalid list.
     pub fn new<E: std::error::Error + 'static>(
         times: OutputTimes,
         interval: &Interval<'_>,
@@ -77,8 +78,8 @@ impl Rows {
         })
     }
 
-    /// Calls `row` with the initial state if t0 is among the times. To be called before the
-    /// integration.
+    /// Calls `row` with the initial state if t0 is an output time. The caller must call this
+    /// function before the integration.
     pub fn start<O: Ode>(
         &mut self,
         ode: &mut O,
@@ -100,8 +101,8 @@ impl Rows {
     ///
     /// # Errors
     ///
-    /// [`IntegrationError::OutputFailed`] if an extra evaluation fails; the rows before it remain
-    /// valid.
+    /// Returns [`IntegrationError::OutputFailed`] if an extra evaluation fails. The previous rows
+    /// remain valid.
     pub fn emit<O: Ode>(
         &mut self,
         step: &mut Step<'_, O>,
@@ -110,7 +111,7 @@ impl Rows {
         self.emit_until(step.t1(), step, row)
     }
 
-    /// Like [`Rows::emit`], but not beyond `t_stop`, at which an event ends the motion.
+    /// Works like [`Rows::emit`], but not beyond `t_stop`, at which an event ends the motion.
     ///
     /// # Errors
     ///
@@ -178,7 +179,7 @@ impl OutputTimes {
         }
     }
 
-    /// Row number `index`, if there is one.
+    /// Returns the time of row number `index`, if the row exists.
     fn get(&self, index: u64, interval: &Interval<'_>) -> Option<f64> {
         match self {
             Self::At(times) => usize::try_from(index)
@@ -186,8 +187,8 @@ impl OutputTimes {
                 .and_then(|i| times.get(i))
                 .copied(),
             Self::Every(dt) => {
-                // A product, not a sum, so that rounding does not accumulate. Time number i counts
-                // if i·dt is below the length.
+                // The time is a product, not a sum, so that rounding does not accumulate. Time
+                // number i counts if i·dt is below the length.
                 let length = (interval.t_end - interval.t0).abs();
                 let before_end = |i: u64| length - i as f64 * dt > SAME_ROW * dt.min(length);
                 if index == 0 || before_end(index) {

@@ -1,4 +1,4 @@
-//! Integrates and passes on rows at given output times.
+//! Integrates, and passes on rows at given output times.
 
 use crate::drive::{check, integrate, refuse};
 use crate::error::Failure;
@@ -12,12 +12,12 @@ use std::ops::ControlFlow;
 /// Integrates like [`integrate`] and calls `row` at each of `times`, in order, with the problem,
 /// the time and the state.
 ///
-/// The state may be changed by `row` (for example projected), without effect on the integration.
-/// Within steps it comes from [`crate::Step::interpolate_accurately`]; at t0 it is `y0` as given.
+/// `row` may change the state (for example, project it) without effect on the integration. Within
+/// steps the state comes from [`crate::Step::interpolate_accurately`]; at t0 it is the given `y0`.
 ///
 /// # Errors
 ///
-/// Errors of [`integrate`], of [`Rows::new`] and of [`Rows::emit`]. All rows before are valid.
+/// Errors of [`integrate`], of [`Rows::new`] and of [`Rows::emit`]. All previous rows are valid.
 ///
 /// # Examples
 ///

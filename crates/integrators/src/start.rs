@@ -9,20 +9,21 @@ use crate::interval::Leg;
 use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
-/// Step of the exploration, or the estimate, if y or f is too small to give a scale; in units of t.
+/// Size of the exploratory step, or the estimate, if y or f is too small to give a scale; in units
+/// of t.
 const SMALL_STEP: f64 = 1e-6;
-/// Sums of squares and derivatives below this value give no scale.
+/// Limit for sums of squares and derivatives; smaller values give no scale.
 const NO_SCALE: f64 = 1e-10;
 const NO_DERIVATIVE: f64 = 1e-15;
 
-/// Scratch of length n for the exploration.
+/// Buffers of length n for the exploration.
 pub(crate) struct StartScratch<'a> {
     pub(crate) y: &'a mut [f64],
     pub(crate) f: &'a mut [f64],
 }
 
-/// Signed first step for a method of order `order` from (`leg.start`, `y0`) with f0 = f there; |h|
-/// ≤ `h_max`.
+/// Returns the signed first step for a method of order `order` from (`leg.start`, `y0`), where f0
+/// is the value of f there; |h| ≤ `h_max`.
 ///
 /// An explicit Euler step of 1 % of |y|/|f| measures the second derivative; then h is chosen so
 /// that `h^order · max(|f|, |f'|) = 0.01` in the norm with weights `scale`. If f cannot be

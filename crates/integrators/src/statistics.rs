@@ -2,7 +2,7 @@
 
 use std::ops::Add;
 
-/// Counts of one integration, complete also after a failure.
+/// Counts of one integration. They are also complete after a failure.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -10,16 +10,17 @@ pub struct Statistics {
     /// Evaluations of f for the steps, including starts, restarts at break times, stages and
     /// rejected trials.
     pub evaluations: u64,
-    /// Evaluations of f for dense output only.
+    /// Evaluations of f for dense output.
     pub output_evaluations: u64,
     /// Evaluations of f reported by [`crate::Ode::end_of_step`].
     pub hook_evaluations: u64,
     /// Evaluations of a Jacobian or of the matrices of a constrained problem; evaluations of f for
     /// differences are not counted in `evaluations`.
     pub jacobians: u64,
-    /// Factorisations for one step size: a real and a complex one (Radau IIA) count once.
+    /// Factorisations for one step size; a real and a complex factorisation (Radau IIA) count once.
     pub factorisations: u64,
-    /// Solutions of a linear system; a real and a complex one of the same iteration count once.
+    /// Solutions of a linear system; a real and a complex solution of the same iteration count
+    /// once.
     pub solves: u64,
     /// Iterations of Newton's method.
     pub newton_iterations: u64,
@@ -38,20 +39,20 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Number of rejected trials for any reason.
+    /// Returns the number of rejected trials for any reason.
     #[must_use]
     pub fn rejected(&self) -> u64 {
         self.rejected_by_error + self.rejected_by_failure + self.rejected_by_hook
     }
 
-    /// All evaluations of f: for steps, in the hook and for output.
+    /// Returns all evaluations of f: for steps, in the hook and for output.
     #[must_use]
     pub fn total_evaluations(&self) -> u64 {
         self.evaluations + self.hook_evaluations + self.output_evaluations
     }
 }
 
-/// Costs of two integrations, one after the other.
+/// Adds the costs of two successive integrations.
 impl Add for Statistics {
     type Output = Self;
 

@@ -1,4 +1,4 @@
-//! An accepted step as passed to the observer: both ends and the solution between them.
+//! An accepted step as passed to the observer: both ends, and the solution between them.
 
 use crate::error::Cause;
 use crate::method::{Dense, Ends};
@@ -11,7 +11,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum OutputError<E: Error + 'static> {
-    /// Dense output does not extrapolate.
+    /// The requested time is outside the step; dense output does not extrapolate.
     #[error("t = {t} lies outside the step from {t0} to {t1}")]
     OutsideStep {
         /// Requested time.
@@ -34,13 +34,13 @@ pub enum OutputError<E: Error + 'static> {
     Evaluation(#[source] Cause<E>),
 }
 
-/// An accepted step from (t0, y0) to (t1, y1), y1 after projection by the hook.
+/// An accepted step from (t0, y0) to (t1, y1); y1 is the state after projection by the hook.
 ///
-/// Both dense outputs give y0 at t0 and y1 at t1 bit for bit, have the derivatives f(t0, y0) and
-/// f(t1, y1) there, and are therefore continuously differentiable over all steps between two break
-/// times, with and without projection. (Those of [`Radau5`](crate::Radau5) are continuous, and
-/// their derivatives are right up to their error.) Between the ends they do not satisfy
-/// constraints: project rows before writing them.
+/// Both dense outputs give exactly y0 at t0 and y1 at t1. Their derivatives there are f(t0, y0) and
+/// f(t1, y1). Therefore they are continuously differentiable over all steps between two break
+/// times, with and without projection. (The outputs of [`Radau5`](crate::Radau5) are continuous,
+/// and their derivatives are correct up to their error.) Between the ends they do not satisfy
+/// constraints, so project rows before writing them.
 pub struct Step<'a, O: Ode> {
     ode: &'a mut O,
     dense: &'a mut dyn Dense<O>,
@@ -68,44 +68,44 @@ impl<'a, O: Ode> Step<'a, O> {
         }
     }
 
-    /// Time at the start.
+    /// Returns the time at the start.
     #[must_use]
     pub fn t0(&self) -> f64 {
         self.ends.trial.t
     }
 
-    /// Time at the end.
+    /// Returns the time at the end.
     #[must_use]
     pub fn t1(&self) -> f64 {
         self.ends.trial.t1
     }
 
-    /// State at the start.
+    /// Returns the state at the start.
     #[must_use]
     pub fn y0(&self) -> &'a [f64] {
         self.ends.y0
     }
 
-    /// State at the end, after projection.
+    /// Returns the state at the end, after projection.
     #[must_use]
     pub fn y1(&self) -> &'a [f64] {
         self.ends.y1
     }
 
-    /// Derivative at the start; at a break time the limit from within the step.
+    /// Returns the derivative at the start; at a break time the limit from within the step.
     #[must_use]
     pub fn f0(&self) -> &'a [f64] {
         self.ends.f0
     }
 
-    /// Derivative at the end, of the projected state; at a break time the limit from within the
-    /// step.
+    /// Returns the derivative at the end, of the projected state; at a break time the limit from
+    /// within the step.
     #[must_use]
     pub fn f1(&self) -> &'a [f64] {
         self.ends.f1
     }
 
-    /// Weighted norm of the estimated local error, at most 1.
+    /// Returns the weighted norm of the estimated local error, at most 1.
     #[must_use]
     pub fn error_norm(&self) -> f64 {
         self.error_norm
@@ -117,24 +117,25 @@ impl<'a, O: Ode> Step<'a, O> {
         self.statistics
     }
 
-    /// The problem, for computations by an observer.
+    /// Returns the problem, for computations by an observer.
     pub fn ode(&mut self) -> &mut O {
         self.ode
     }
 
-    /// Writes y(t) to `out` (length n) without evaluating f; less accurate than the steps, with the
-    /// order that each method states. For pictures and for locating events roughly.
+    /// Writes y(t) to `out` (length n) without evaluating f. The output is less accurate than the
+    /// steps, with the order that each method states. It is suitable for drawings and for locating
+    /// events approximately.
     ///
     /// # Errors
     ///
-    /// [`OutputError::OutsideStep`], [`OutputError::Length`].
+    /// [`OutputError::OutsideStep`], [`OutputError::Length`]: invalid arguments.
     pub fn interpolate(&self, t: f64, out: &mut [f64]) -> Result<(), OutputError<O::Error>> {
         self.check(t, out)?;
         self.write_cheaply(t, out);
         Ok(())
     }
 
-    /// Like [`Step::interpolate`], for a t known to be within the step.
+    /// Works like [`Step::interpolate`], for a t known to be within the step.
     pub(crate) fn write_cheaply(&self, t: f64, out: &mut [f64]) {
         match self.place(t) {
             Place::Start => out.copy_from_slice(self.ends.y0),
@@ -144,13 +145,13 @@ impl<'a, O: Ode> Step<'a, O> {
     }
 
     /// Writes y(t) to `out` (length n), with the same global order as the steps. The first call
-    /// within a step makes extra evaluations of f; further calls in the same step, and calls at its
-    /// ends, make none.
+    /// within a step makes extra evaluations of f. Further calls in the same step, and calls at its
+    /// ends, make no evaluations.
     ///
     /// # Errors
     ///
-    /// [`OutputError::OutsideStep`], [`OutputError::Length`]; [`OutputError::Evaluation`] if f
-    /// fails.
+    /// [`OutputError::OutsideStep`], [`OutputError::Length`]: invalid arguments.
+    /// [`OutputError::Evaluation`]: f fails.
     pub fn interpolate_accurately(
         &mut self,
         t: f64,
@@ -161,7 +162,7 @@ impl<'a, O: Ode> Step<'a, O> {
             .map_err(OutputError::Evaluation)
     }
 
-    /// Like [`Step::interpolate_accurately`], for a t known to be within the step.
+    /// Works like [`Step::interpolate_accurately`], for a t known to be within the step.
     pub(crate) fn write_accurately(
         &mut self,
         t: f64,

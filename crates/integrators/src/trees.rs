@@ -1,5 +1,5 @@
-//! Rooted trees and the order conditions of Butcher's theory, which use no table: with these the
-//! tables are tested.
+//! Rooted trees and the order conditions of Butcher's theory, which use no table. They serve to
+//! test the tables.
 //!
 //! A Runge–Kutta formula with weights b(θ) has order p if `Σ b_i(θ)·Φ_i(τ) = θ^|τ| / γ(τ)` for all
 //! rooted trees τ with at most p nodes. Source: Hairer, Nørsett, Wanner I, 2nd ed., II.2 and II.6.
@@ -31,7 +31,7 @@ impl Tree {
         product
     }
 
-    /// Φ_i for all stages.
+    /// Returns Φ_i for all stages.
     fn weights<const S: usize>(&self, a: &[[f64; S]; S]) -> [f64; S] {
         let mut phi = [1.0; S];
         for child in &self.0 {
@@ -44,7 +44,7 @@ impl Tree {
     }
 }
 
-/// All trees with `order` nodes: a root with subtrees of every composition of order − 1.
+/// Returns all trees with `order` nodes: a root with subtrees of every composition of order − 1.
 fn trees(order: i32) -> Vec<Tree> {
     fn forests(nodes: i32, largest: i32) -> Vec<Vec<Tree>> {
         if nodes == 0 {
@@ -75,8 +75,8 @@ fn dot<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// The defects of `weights` at θ in the conditions of one order, each with the symmetry of its
-/// tree.
+/// Returns the defects of `weights` at θ in the conditions of one order, each with the symmetry of
+/// its tree.
 fn defects<const S: usize>(
     a: &[[f64; S]; S],
     weights: &[f64; S],
@@ -92,7 +92,7 @@ fn defects<const S: usize>(
         .collect()
 }
 
-/// Largest violation of the conditions of one order.
+/// Computes the largest violation of the conditions of one order.
 pub(crate) fn violation<const S: usize>(
     a: &[[f64; S]; S],
     weights: &[f64; S],
@@ -103,7 +103,8 @@ pub(crate) fn violation<const S: usize>(
     defects.iter().map(|d| d.0.abs()).fold(0.0, f64::max)
 }
 
-/// Euclidean norm of the error coefficients of one order, each divided by the symmetry of its tree.
+/// Computes the Euclidean norm of the error coefficients of one order, each divided by the symmetry
+/// of its tree.
 pub(crate) fn error_size<const S: usize>(
     a: &[[f64; S]; S],
     weights: &[f64; S],

@@ -1,8 +1,9 @@
-//! The currency of comparison: a dense matrix of kernel results. Not a matrix for computing.
+//! The data type for comparisons: a dense matrix of kernel results. It is not used for other
+//! calculations.
 
 use joints::Ring;
 
-/// A dense matrix, row by row, of what a kernel computed or should have.
+/// A dense matrix, row by row, of computed or expected results of a kernel.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Block<T = f64> {
     rows: usize,
@@ -34,7 +35,7 @@ impl<T: Copy> Block<T> {
     /// These blocks, all with the same number of rows, side by side.
     ///
     /// # Panics
-    /// If the numbers of rows differ.
+    /// Panics if the numbers of rows differ.
     #[must_use]
     pub(crate) fn beside(blocks: &[Self]) -> Self {
         let rows = blocks.first().map_or(0, |b| b.rows);
@@ -53,7 +54,7 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// Its first `rows` rows; all of them if it has fewer.
+    /// The first `rows` rows; all of them if there are fewer.
     #[must_use]
     pub(crate) fn head(&self, rows: usize) -> Self {
         let rows = rows.min(self.rows);
@@ -79,7 +80,7 @@ impl<T: Copy> Block<T> {
     /// One row.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if there is no such row.
     #[must_use]
     pub(crate) fn row(&self, row: usize) -> &[T] {
         &self.entries[row * self.columns..][..self.columns]
@@ -88,7 +89,7 @@ impl<T: Copy> Block<T> {
     /// One entry.
     ///
     /// # Panics
-    /// If there is no such entry.
+    /// Panics if there is no such entry.
     #[must_use]
     pub(crate) fn get(&self, row: usize, column: usize) -> T {
         self.row(row)[column]
@@ -97,7 +98,7 @@ impl<T: Copy> Block<T> {
     /// Changes one entry.
     ///
     /// # Panics
-    /// If there is no such entry.
+    /// Panics if there is no such entry.
     pub(crate) fn set(&mut self, row: usize, column: usize, value: T) {
         assert!(column < self.columns, "column {column} of {}", self.columns);
         self.entries[row * self.columns + column] = value;
@@ -116,7 +117,7 @@ impl<T: Copy> Block<T> {
     /// Combines two blocks of the same shape entry by entry.
     ///
     /// # Panics
-    /// If the shapes differ.
+    /// Panics if the shapes differ.
     #[must_use]
     pub(crate) fn zip(&self, other: &Self, f: impl Fn(T, T) -> T) -> Self {
         let mut combined = self.clone();
@@ -124,10 +125,10 @@ impl<T: Copy> Block<T> {
         combined
     }
 
-    /// Combines each entry with that of a block of the same shape, in place.
+    /// Combines each entry with the same entry of a block of the same shape, in place.
     ///
     /// # Panics
-    /// If the shapes differ.
+    /// Panics if the shapes differ.
     pub(crate) fn update(&mut self, other: &Self, f: impl Fn(T, T) -> T) {
         assert_eq!(
             (self.rows, self.columns),
@@ -162,7 +163,7 @@ pub(crate) fn dot<T: Ring>(a: &[T], b: &[T]) -> T {
 }
 
 impl Block {
-    /// The largest magnitude of an entry; NaN if there is one.
+    /// The largest magnitude of an entry; NaN if an entry is NaN.
     #[must_use]
     pub(crate) fn largest(&self) -> f64 {
         largest(self.entries.iter().copied())
@@ -188,7 +189,7 @@ impl Block {
         Some((at / self.columns, at % self.columns))
     }
 
-    /// The largest difference of two entries; NaN if there is one, or if the shapes differ.
+    /// The largest difference of two entries; NaN if a difference is NaN, or if the shapes differ.
     #[must_use]
     pub(crate) fn difference(&self, other: &Self) -> f64 {
         if (self.rows, self.columns) == (other.rows, other.columns) {
@@ -200,7 +201,7 @@ impl Block {
     }
 }
 
-/// The largest magnitude; NaN if there is one.
+/// The largest magnitude; NaN if a value is NaN.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |m: f64, e| {
         if m.is_nan() || e.is_nan() {

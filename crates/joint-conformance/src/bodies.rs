@@ -1,5 +1,5 @@
-//! What the harness does with bodies of a space: draw them, move them, and write down forces on
-//! them. Velocities are plain numbers here, one for each degree of freedom.
+//! Operations of the harness on the bodies of a space: random poses, rigid motions, and the forces
+//! on bodies. Velocities are plain numbers here, one for each degree of freedom.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -20,23 +20,23 @@ pub trait Bodies: Space {
     #[doc(hidden)]
     fn draw(kind: Kind, base: f64, reach: f64, random: &mut Random) -> Self::Pose<f64>;
 
-    /// A pose in words.
+    /// Description of a pose.
     #[doc(hidden)]
     fn words(x: &Self::Pose<f64>) -> String;
 
-    /// The pose with the orientation of another.
+    /// The pose with the orientation of another pose.
     #[doc(hidden)]
     fn with_orientation(x: &Self::Pose<f64>, of: &Self::Pose<f64>) -> Self::Pose<f64>;
 
-    /// A point, or a vector that gives a direction.
+    /// A point, or a vector that defines a direction.
     #[doc(hidden)]
     fn argument(numbers: [f64; 3]) -> Argument;
 
-    /// The pose after moving with constant velocities for the time τ.
+    /// The pose after a motion with constant velocities for the time τ.
     #[doc(hidden)]
     fn moved<D: Number>(x: &Self::Pose<f64>, v: &[f64], tau: D) -> Self::Pose<D>;
 
-    /// A pose and velocities as they are after one rigid motion of everything, the same for all.
+    /// A pose after one rigid motion of the whole mechanism, which is the same for all bodies.
     #[doc(hidden)]
     fn carried(x: &Self::Pose<f64>) -> Self::Pose<f64>;
     #[doc(hidden)]
@@ -127,7 +127,8 @@ impl Bodies for Plane {
     }
 }
 
-/// A rigid motion: a turn by about 0.9 rad about an axis that is none of the frame, and a shift.
+/// A rigid motion: a rotation by about 0.9 rad about an axis that is not an axis of the frame, and
+/// a translation.
 fn carrier() -> space3::Pose {
     space3::Pose::new([0.7, -1.3, 0.4], [0.9, 0.2, -0.3, 0.25])
 }
@@ -146,7 +147,8 @@ impl Bodies for Space3 {
     fn draw(kind: Kind, base: f64, reach: f64, random: &mut Random) -> space3::Pose {
         let r = [base, -base, base].map(|base| base + random.within(reach));
         let quaternion = match kind {
-            // Quarter and half turns about the axes, and thirds about a diagonal.
+            // Rotations by a quarter or half a turn about the axes, and by a third of a turn about
+            // a diagonal.
             Kind::RightAngles => [
                 [1.0, 0.0, 0.0, 0.0],
                 [1.0, 1.0, 0.0, 0.0],
@@ -181,8 +183,8 @@ impl Bodies for Space3 {
         Argument::Triple(numbers)
     }
 
-    /// R·exp([ωτ]×) by the formula of Rodrigues; ω is constant in the body, so that the
-    /// acceleration of rotations is zero.
+    /// R·exp([ωτ]×) by Rodrigues' formula; ω is constant in the frame of the body, so that the
+    /// angular acceleration is zero.
     fn moved<D: Number>(x: &space3::Pose, v: &[f64], tau: D) -> space3::Pose<D> {
         let omega = [v[3], v[4], v[5]];
         let speed = omega.iter().map(|w| w * w).sum::<f64>().sqrt();
@@ -201,7 +203,7 @@ impl Bodies for Space3 {
                 D::from(d[k]) + sin * D::from(once[k]) + versine * D::from(twice[k])
             })
         };
-        // Column k of the result is R times the turned k-th axis.
+        // Column k of the result is R times the rotated k-th axis.
         let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(turned);
         let rot = std::array::from_fn(|row| {
             std::array::from_fn(|k| {
@@ -259,7 +261,8 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Axes for a parameter: along and across at random, or along the axes of the frame.
+/// Axes for a parameter: random directions along and across, or directions along the axes of the
+/// frame.
 pub(crate) fn axes(kind: Kind, random: &mut Random) -> Argument {
     if kind == Kind::RightAngles {
         let along = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]][random.below(3)];

@@ -1,5 +1,5 @@
-//! Cases: parameters, poses and motions drawn according to the specification of a definition,
-//! ordinary and awkward ones.
+//! Cases: random parameters, poses and motions according to the specification of a definition, both
+//! ordinary and special ones.
 
 use std::fmt;
 
@@ -10,10 +10,10 @@ use crate::bodies::{Bodies, axes};
 
 /// Number of ordinary cases of one check.
 pub const ORDINARY_CASES: usize = 1000;
-/// Number of awkward cases of one check, of each kind.
+/// Number of special cases of one check, of each kind.
 pub const AWKWARD_CASES: usize = 25;
-/// Motions of one case. A right-hand side of one row can vanish by chance for one motion, and its
-/// relative error then means nothing; several side by side have a size.
+/// Number of motions of one case. A right-hand side with one row can vanish by chance for one
+/// motion, and its relative error is then meaningless; several motions together avoid this.
 pub(crate) const MOTIONS: usize = 4;
 
 /// Coordinates of ordinary poses are within ± this number.
@@ -23,16 +23,16 @@ const REACH: f64 = 2.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// None: coordinates within ±2, angles within ±π.
+    /// No special property: coordinates within ±2, angles within ±π.
     Ordinary,
     /// All frames have the same orientation.
     ParallelFrames,
-    /// Angles are 0, ±π/2 or ±π, in space such or a third of a turn, and directions are along a
-    /// frame axis.
+    /// Angles are 0, ±π/2 or ±π, in space also a third of a turn, and directions are along an axis
+    /// of the frame.
     RightAngles,
     /// Angles differ from ±π by 1e-9.
     NearPi,
-    /// Angles of about ±1000; in space quaternions of about this length.
+    /// Angles of about ±1000; in space, quaternions with a length of about 1000.
     LargeAngles,
     /// Coordinates within ±1000.
     FarApart,
@@ -74,29 +74,29 @@ pub(crate) struct Motion {
 /// One case: all arguments of the kernels of a definition.
 #[derive(Clone, Debug)]
 pub(crate) struct Case<S: Bodies> {
-    /// Its number among the cases of the check.
+    /// Number of the case among the cases of the check.
     pub(crate) index: usize,
-    /// Its special property.
+    /// Special property of the case.
     pub(crate) kind: Kind,
     /// Values of the parameters.
     pub(crate) arguments: Vec<Argument>,
-    /// The assembled start, at which initial values are taken.
+    /// The assembled start, at which initial values are computed.
     pub(crate) start: Vec<S::Pose<f64>>,
     /// The poses at which kernels are evaluated.
     pub(crate) x: Vec<S::Pose<f64>>,
     /// The functions of time, as values with two derivatives.
     pub(crate) f: Vec<[f64; 3]>,
-    /// Whether the last function of time enters by its cosine and sine.
+    /// Whether the kernels use the cosine and sine of the last function of time.
     pub(crate) turning: bool,
-    /// What is given of the angles that count their turns.
+    /// The input values for the unwrapped angles.
     pub(crate) counted: Vec<f64>,
     pub(crate) motions: Vec<Motion>,
     pub(crate) spec: &'static Spec,
 }
 
 impl<S: Bodies> Case<S> {
-    /// All cases for a definition with so many rows; `turning` if its last function of time enters
-    /// by cosine and sine, `turns` angles that count their turns.
+    /// All cases for a definition with this number of rows; `turning` if the kernels use the cosine
+    /// and sine of its last function of time, `turns` unwrapped angles.
     pub(crate) fn all(
         seed: u64,
         spec: &'static Spec,
@@ -133,14 +133,14 @@ impl<S: Bodies> Case<S> {
         })
     }
 
-    /// Whether kernels are also compared with differences: in every fourth ordinary case, which is
-    /// the most expensive part of a check.
+    /// Whether kernels are also compared with finite differences. This is done in every fourth
+    /// ordinary case, because it is the most expensive part of a check.
     pub(crate) fn has_differences(&self) -> bool {
         self.kind == Kind::Ordinary && self.index.is_multiple_of(4)
     }
 
-    /// The case with an ordinary start, drawn anew, of a larger space with every attempt: a wheel
-    /// has to be above a plane that may be out of reach.
+    /// The case with a new ordinary start, from a larger region with every attempt: a wheel must be
+    /// above a plane that may be out of reach.
     pub(crate) fn with_another_start(&self, attempt: u64) -> Self {
         let mut random = Random(attempt ^ ((self.index as u64) << 32));
         let reach = REACH * (1.0 + attempt as f64 / 50.0);
@@ -150,7 +150,7 @@ impl<S: Bodies> Case<S> {
         }
     }
 
-    /// The case with all bodies moved as one rigid body: poses, start and motions.
+    /// The case after a rigid motion of all bodies: poses, start and motions.
     pub(crate) fn moved(&self) -> Self {
         let poses = |x: &[S::Pose<f64>]| x.iter().map(S::carried).collect();
         let twists = |v: &[f64]| -> Vec<f64> {
@@ -173,8 +173,8 @@ impl<S: Bodies> Case<S> {
         }
     }
 
-    /// The largest coordinate of poses, start and parameters, at least 1: round-off of 1 ε in it
-    /// moves Φ by this number times ‖C‖·ε.
+    /// The largest coordinate of poses, start and parameters, at least 1: a rounding error of 1 ε
+    /// in this coordinate changes Φ by this number times ‖C‖·ε.
     pub(crate) fn size(&self) -> f64 {
         let poses = self.x.iter().chain(&self.start).flat_map(|p| {
             let ([x, y, z], angle) = S::origin(p);
@@ -242,14 +242,15 @@ fn argument<S: Bodies>(parameter: &Parameter, kind: Kind, random: &mut Random) -
 
 fn number(unit: Unit, random: &mut Random) -> f64 {
     match unit {
-        // Less than the reach of poses: a body may have to be farther from a plane than this.
+        // The radius is smaller than the reach of poses, because the distance of a body from a
+        // plane may have to be larger than the radius.
         Unit::Radius => random.within(1.0).abs(),
         unit if unit.may_be_negative() => random.within(3.0),
         _ => random.within(5.0).abs(),
     }
 }
 
-/// As many numbers as a vector has components.
+/// As many random numbers as a vector has components.
 fn vector<S: Bodies>(reach: f64, random: &mut Random) -> [f64; 3] {
     let mut vector = [0.0; 3];
     vector[..S::DIM].fill_with(|| random.within(reach));

@@ -1,4 +1,5 @@
-//! One check for constraints and forces: all cases of a definition, and what holds in each.
+//! One check for constraints and forces: all cases of a definition, and the properties of each
+//! case.
 
 use joints::Space;
 use joints::spec::Shape;
@@ -54,14 +55,14 @@ pub(crate) fn check<S: Subject>(of: S, seed: u64) -> Result<(), Failure> {
     of.facts(&seen)
 }
 
-/// Share of the cases, at most, in which a law may have no value. Rotations are beyond 3 rad in a
-/// tenth of the ordinary ones, and half turns are among the awkward ones.
+/// Maximum share of the cases in which a force law may have no value. Rotations are beyond 3 rad in
+/// a tenth of the ordinary cases, and half turns are among the special cases.
 const MOST_UNDEFINED: f64 = 0.25;
 
-/// Starts tried for one case before its requirements count as never met.
+/// Number of starts that are tried for one case before its requirements count as impossible.
 const STARTS: u64 = 100;
 
-/// The definition made for a case, with a start where its requirements hold.
+/// The definition with the parameters of a case, at a start that satisfies its requirements.
 fn assembled<S: Subject>(
     of: S,
     case: &Case<S::Space>,
@@ -82,7 +83,7 @@ fn assembled<S: Subject>(
     for attempt in 0..STARTS {
         let definition = S::definition(&mut made);
         definition.initialise(&case.start);
-        // One number beyond the requirements: it must hold too.
+        // The index after the last requirement must also be satisfied.
         let mut all = 0..=spec.requirements.len();
         if all.all(|k| definition.requirement(k, &case.start)) {
             return Ok((made, case));
@@ -123,7 +124,7 @@ impl<S: Subject> Check<'_, S> {
         self.of.final_kernel(self.made, kernel, &state)
     }
 
-    /// The blocks of all motions, side by side.
+    /// The blocks of all motions, next to each other.
     pub(crate) fn each(&self, block: impl Fn(&Motion) -> Block) -> Block {
         Block::beside(&self.case.motions.iter().map(block).collect::<Vec<_>>())
     }
@@ -148,8 +149,8 @@ impl<S: Subject> Check<'_, S> {
             } = *derivative;
             let expected = self.each(|m| self.derivative::<O>(of, by, m).map(|e| sign * e));
             let found = self.each(|m| self.at(kernel, m).head(expected.rows()));
-            // Terms may cancel for every motion, as ω × ω in Γ of a ball about its own centre: what
-            // rounding leaves of them is compared with what is differentiated.
+            // Terms may cancel for every motion, such as ω × ω in Γ of a ball about its own centre.
+            // Then the remaining rounding error is compared with the differentiated terms.
             let oracle = if found.largest() == 0.0 {
                 oracle.with_floor(self.each(|m| self.at(of, m)).largest())
             } else {
@@ -179,7 +180,7 @@ impl<S: Subject> Check<'_, S> {
         }
     }
 
-    /// Norms are the same with all bodies moved as one.
+    /// Norms do not change if all bodies move as one rigid body.
     fn rigid_motion(&self) -> Result<(), Failure> {
         if self.case.kind != Kind::Ordinary || !is_internal(self.of) {
             return Ok(());
@@ -205,7 +206,7 @@ impl<S: Subject> Check<'_, S> {
         })
     }
 
-    /// Generalised forces on all slots add up to no force and no moment, each.
+    /// The generalised forces on all slots have no resultant force and no resultant moment.
     pub(crate) fn balance(&self, loads: &[&[f64]], floor: f64) -> Result<(), Failure> {
         let sums = loads.iter().map(|load| resultant::<S>(&self.case.x, load));
         let sums = Block::beside(&sums.collect::<Vec<_>>());
@@ -213,14 +214,14 @@ impl<S: Subject> Check<'_, S> {
         self.claim(Property::Balance, Oracle::identity(floor), &sums, &none)
     }
 
-    /// What a relative error of 1 in the coordinates does to Φ or Q and, the rows of C having a
-    /// size of about one length, to C.
+    /// Change of Φ or Q for a relative error of 1 in the coordinates. It is also the change of C,
+    /// because the rows of C have a size of about one length.
     pub(crate) fn scale(&self) -> f64 {
         let slope = self.at(S::SLOPE, &self.case.motions[0]);
         slope.largest().max(1.0) * self.case.size()
     }
 
-    /// Equality up to what an error of the coordinates can do.
+    /// Equality within the effect of an error of the coordinates.
     pub(crate) fn identity(
         &self,
         property: Property,
@@ -230,7 +231,7 @@ impl<S: Subject> Check<'_, S> {
         self.claim(property, Oracle::identity(self.scale()), found, expected)
     }
 
-    /// Decides a claim whose entries are named by the property.
+    /// Decides a claim; `property` determines the names of its entries.
     pub(crate) fn claim(
         &self,
         property: Property,
@@ -247,7 +248,7 @@ impl<S: Subject> Check<'_, S> {
         self.decide(&claim, |row, column| entry(self.of, property, row, column))
     }
 
-    /// Returns the worst entry if the claim does not hold, named by `entry`.
+    /// Returns the worst entry if the claim is false; `entry` names it.
     pub(crate) fn decide(
         &self,
         claim: &Claim<'_>,
@@ -263,7 +264,7 @@ impl<S: Subject> Check<'_, S> {
     }
 }
 
-/// Whether a definition relates bodies to each other, by what its spec says.
+/// Whether a definition relates bodies to each other, according to its specification.
 pub(crate) fn is_internal<S: Subject>(of: S) -> bool {
     let common = of.common();
     let on_ground =
@@ -286,7 +287,7 @@ pub(crate) fn n_dof<S: Subject>() -> usize {
     <S::Space as Space>::N_DOF
 }
 
-/// An entry of a property in words; blocks of several motions stand side by side.
+/// Description of an entry of a property; blocks of several motions are next to each other.
 pub(crate) fn entry<S: Subject>(of: S, property: Property, row: usize, column: usize) -> String {
     let n = of.columns();
     let row_name = |row: usize| match of.rows().get(row) {

@@ -1,4 +1,4 @@
-//! The kernels of a constraint, and the properties that constraints alone have.
+//! The kernels of a constraint, and the properties that only constraints have.
 
 mod data;
 mod identities;
@@ -18,7 +18,7 @@ use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, dense, sparse};
 use identities::phi_at_start;
 
-/// A definition of constraints as a subject of the harness.
+/// A constraint definition as the subject of a check.
 #[derive(Clone, Copy)]
 pub(crate) struct OfConstraint<S: Bodies> {
     spec: &'static ConstraintSpec,
@@ -45,7 +45,7 @@ impl<S: Bodies> OfConstraint<S> {
     }
 }
 
-/// Kernels of a constraint, and what is made of them.
+/// Kernels of a constraint, and quantities computed from them.
 #[derive(Clone, Copy)]
 pub(crate) enum Kernel {
     /// Φ, of the holonomic rows.
@@ -93,7 +93,7 @@ const OF_VELOCITIES: [Derivative<Kernel>; 5] = {
     ]
 };
 
-/// What was seen over all cases.
+/// Observations over all cases.
 #[derive(Default)]
 pub(crate) struct Seen {
     /// Rows of Φ that are not zero at every start.
@@ -241,7 +241,7 @@ impl<S: Bodies> Subject for OfConstraint<S> {
         OF_POSITIONS.iter().chain(&OF_VELOCITIES)
     }
 
-    /// Kernels write exactly the entries that are theirs.
+    /// Kernels write exactly their own entries.
     fn before(check: &Check<'_, Self>) -> Result<(), Failure> {
         let (k, spec) = (check.made.plain(), check.of.spec);
         let at = Along::Time.state(check.case, &check.case.motions[0], 0.0);

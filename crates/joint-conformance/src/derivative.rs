@@ -7,13 +7,13 @@ use crate::block::Block;
 use crate::kernels::KernelNumber;
 use crate::number::Dual;
 
-/// A block that depends on one number τ; its derivatives are wanted at τ = 0.
+/// A block that depends on one number τ; its derivatives are computed at τ = 0.
 pub(crate) trait Curve {
     /// The block at τ.
     fn at<D: KernelNumber>(&self, tau: D) -> Block<D>;
 }
 
-/// A way to differentiate.
+/// A method of differentiation.
 pub(crate) trait Differentiate {
     /// `d/dτ` at 0.
     fn first(curve: &impl Curve) -> Block;
@@ -21,7 +21,7 @@ pub(crate) trait Differentiate {
     fn second(curve: &impl Curve) -> Block;
 }
 
-/// By dual numbers: exact up to round-off.
+/// Dual numbers: exact up to rounding errors.
 pub(crate) struct DualNumbers;
 
 impl Differentiate for DualNumbers {
@@ -36,19 +36,21 @@ impl Differentiate for DualNumbers {
     }
 }
 
-/// By central differences over halved steps, extrapolated to step zero: the error of a central
-/// difference is a series in h², so each extrapolation removes one power. Of the whole table the
-/// value counts that is closest to both values it was made of.
+/// Central differences over halved steps, extrapolated to step zero. The error of a central
+/// difference is a series in h², so each extrapolation removes one power. The result is the value
+/// of the whole table that is closest to both values from which it was computed.
 pub(crate) struct Differences;
 
 /// The largest step, as a power of two: about a tenth of the sizes in ordinary cases.
 const LARGEST: i32 = -3;
 /// Number of steps of a first difference, down to 2⁻¹²: forces near a vanishing length need small
-/// ones.
+/// steps.
 const FIRST_STEPS: i32 = 10;
-/// Number of steps of a second difference, down to 2⁻⁷: round-off grows as 1/h², to at most 1e-11.
+/// Number of steps of a second difference, down to 2⁻⁷: the rounding error grows as 1/h², to at
+/// most 1e-11.
 const SECOND_STEPS: i32 = 5;
-/// Number of extrapolations per step: with more, round-off grows faster than truncation decreases.
+/// Number of extrapolations per step: with more, the rounding error grows faster than the
+/// truncation error decreases.
 const ORDERS: usize = 4;
 
 impl Differentiate for Differences {
@@ -116,7 +118,7 @@ mod tests {
         let (sin, cos) = 1f64.sin_cos();
         assert!((DualNumbers::first(&Sine).get(0, 0) - cos).abs() <= f64::EPSILON);
         assert!((DualNumbers::second(&Sine).get(0, 0) + sin).abs() <= f64::EPSILON);
-        // Round-off of a difference is about ε/h, of a second difference ε/h².
+        // The rounding error of a difference is about ε/h, of a second difference ε/h².
         assert!((Differences::first(&Sine).get(0, 0) - cos).abs() <= 1e-12);
         assert!((Differences::second(&Sine).get(0, 0) + sin).abs() <= 1e-11);
     }

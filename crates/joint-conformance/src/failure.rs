@@ -1,5 +1,5 @@
-//! The report of a check: the definition, the property, the entry, both values, and the case to
-//! reproduce it.
+//! The report of a check: the definition, the property, the entry, both values, and the case that
+//! reproduces the failure.
 
 use std::fmt;
 
@@ -11,11 +11,13 @@ use crate::block::Block;
 pub enum Property {
     /// Parameters drawn from the specification are accepted.
     Arguments,
-    /// The requirements hold at some start, and a requirement with a larger number always holds.
+    /// The requirements are satisfied at some start, and a requirement with a larger index is
+    /// always satisfied.
     Requirements,
     /// Entries of a pattern are within the block, occur once, and do not vanish in all cases.
     Pattern,
-    /// `c_constant` writes the constant entries and `c` the others; `b` writes only if rheonomic.
+    /// `c_constant` writes the constant entries and `c` the others; `b` writes only if the
+    /// constraint is rheonomic.
     Writes,
     /// `C = ∂Φ/∂x` along the degrees of freedom.
     C,
@@ -35,7 +37,7 @@ pub enum Property {
     DGammaDv,
     /// `∂(C·v − b)/∂x`
     DVelocityDx,
-    /// Cosine, sine and rate of counted angles are those of one angle that moves.
+    /// Cosine, sine and rate of an unwrapped angle belong to one moving angle.
     Turned,
     /// `data` returns the numbers in the specification, and `set_data` sets them.
     Data,
@@ -43,13 +45,14 @@ pub enum Property {
     DPhiDp,
     /// `∂(λᵀ·(C·a − Γ))/∂p`
     DResidualDp,
-    /// The programs of the rows compute what the kernels compute, bit for bit.
+    /// The programs of the rows compute the same results as the kernels, bit for bit.
     Programs,
-    /// The wrench is −C of the first body, moved to the place.
+    /// The wrench is −C of the first body, moved to the reference point.
     Wrench,
-    /// The law has a value at most poses.
+    /// The force law has a value at most poses.
     Defined,
-    /// The place is fixed in its body: the first one, or the carrier of wheels that others bear.
+    /// The reference point is fixed in its body: the first one, or the carrier of wheels that other
+    /// joints support.
     Place,
     /// The named component is the force along a unit vector, or the torque.
     Component,
@@ -58,10 +61,10 @@ pub enum Property {
     Power,
     /// Forces on the bodies add up to zero force and zero moment.
     Balance,
-    /// Moving all bodies as one rigid body leaves the norm of each block unchanged.
+    /// A rigid motion of all bodies does not change the norm of any block.
     RigidMotion,
-    /// Rows that store an initial value are zero at the start, and rows that restrict it are not
-    /// always.
+    /// Rows that store an initial value are zero at the start, and rows that restrict the start are
+    /// not always zero.
     Start,
     /// `∂Q/∂x`
     DqDx,
@@ -89,9 +92,9 @@ impl fmt::Display for Property {
             Self::DResidualDx => "d_residual_dx = ∂(C·a − Γ)/∂x",
             Self::DGammaDv => "d_gamma_dv = ∂Γ/∂v",
             Self::DVelocityDx => "d_velocity_dx = ∂(C·v − b)/∂x",
-            Self::Turned => "`turned` tells cosine, sine and rate of one angle that moves",
+            Self::Turned => "`turned` gives cosine, sine and rate of one angle that moves",
             Self::Data => {
-                "`data` tells the numbers that the facts name, and `set_data` puts numbers back"
+                "`data` gives the numbers that the facts name, and `set_data` puts numbers back"
             }
             Self::DPhiDp => "the slopes by the data are ∂(λᵀ·Φ)/∂p",
             Self::DResidualDp => "the slopes by the data are ∂(λᵀ·(C·a − Γ))/∂p",
@@ -147,7 +150,7 @@ pub struct Failure {
     pub scale: f64,
     /// The largest difference allowed, relative to the scale.
     pub tolerance: f64,
-    /// The case in words, if the property belongs to a single case.
+    /// Description of the case, if the property belongs to a single case.
     pub case: Option<String>,
 }
 
@@ -186,26 +189,27 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Against dual numbers and identities: both sides carry the round-off of some ten operations,
-/// about 1e-15, times up to 1e3 where coordinates or angles are that large.
+/// Tolerance for comparisons with dual numbers and identities. Both sides have the rounding error
+/// of some ten operations, about 1e-15, times up to 1e3 for coordinates or angles of this size.
 pub const DUAL_TOLERANCE: f64 = 1e-12;
 
-/// Against differences: the best step loses about a third of the digits of a first derivative, and
-/// extrapolation gives most of them back; second derivatives are the measure.
+/// Tolerance for comparisons with differences. The best step loses about a third of the digits of a
+/// first derivative, and extrapolation recovers most of them; second derivatives determine the
+/// tolerance.
 pub const DIFFERENCE_TOLERANCE: f64 = 1e-9;
 
-/// A way to a reference, and how far it is trusted.
+/// A method to compute a reference, with its accuracy.
 #[derive(Clone, Copy)]
 pub(crate) struct Oracle {
     pub(crate) reference: Reference,
     pub(crate) tolerance: f64,
-    /// What a difference is compared with where the largest entry is smaller: the size that the
-    /// terms had before they cancelled.
+    /// Smallest size with which a difference is compared: the size of the terms before they
+    /// cancelled.
     pub(crate) floor: f64,
 }
 
 impl Oracle {
-    /// A block that vanishes does so in every dual part, too, unless by terms that cancel.
+    /// If a block vanishes, every dual part vanishes, too, unless terms cancel.
     pub(crate) const DUAL_NUMBERS: Self = Self {
         reference: Reference::DualNumbers,
         tolerance: DUAL_TOLERANCE,
@@ -219,7 +223,7 @@ impl Oracle {
         floor: 1.0,
     };
 
-    /// The same with a floor that is at least this.
+    /// The same oracle with a floor that is at least this large.
     pub(crate) fn with_floor(self, floor: f64) -> Self {
         Self {
             floor: self.floor.max(floor),
@@ -247,7 +251,7 @@ pub(crate) struct Claim<'a> {
 }
 
 impl Claim<'_> {
-    /// Returns the worst entry if the claim does not hold, named by `entry`.
+    /// Returns the worst entry if the claim is false; `entry` names it.
     pub(crate) fn decide(
         &self,
         definition: &'static str,
@@ -281,8 +285,8 @@ impl Claim<'_> {
     }
 }
 
-/// A failure of a fact that is no comparison of blocks: `found` of something where `expected` was
-/// due.
+/// A failure of a fact that is not a comparison of blocks: `found` is the observed number,
+/// `expected` the required one.
 pub(crate) fn fact(
     definition: &'static str,
     property: Property,

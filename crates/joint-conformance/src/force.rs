@@ -1,4 +1,4 @@
-//! The kernels of a force, and the properties that forces alone have.
+//! The kernels of a force, and the properties that only forces have.
 
 use joints::spec::{ForceSpec, Spec};
 use joints::{Argument, ArgumentError, Definition, Force, ForceElement};
@@ -14,7 +14,7 @@ use crate::pattern::Pattern;
 use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, sparse};
 
-/// A definition of forces as a subject of the harness.
+/// A force definition as the subject of a check.
 #[derive(Clone, Copy)]
 pub(crate) struct OfForce<S: Bodies> {
     spec: &'static ForceSpec,
@@ -104,7 +104,7 @@ impl<S: Bodies> Subject for OfForce<S> {
         DERIVATIVES.iter()
     }
 
-    /// A law has no value where a rotation vector is near half a turn, and there only.
+    /// A force law has no value only if a rotation vector is near half a turn.
     fn is_defined(check: &Check<'_, Self>) -> bool {
         check.case.motions.iter().all(|motion| {
             let state = Along::Motion.state(check.case, motion, Traced::from(0.0));
@@ -146,8 +146,9 @@ impl<S: Bodies> OfForce<S> {
 }
 
 impl<S: Bodies> Check<'_, OfForce<S>> {
-    /// `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0` at rest. Away from rest a force may fall with a
-    /// velocity and still take energy: the side force of a tyre with its speed along.
+    /// `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0` at rest. In motion, a force may decrease with a
+    /// velocity and still dissipate energy; an example is the side force of a tyre as a function of
+    /// the longitudinal speed.
     fn dissipation(&self, m: &Motion) -> Result<(), Failure> {
         let rest = Motion {
             v: vec![0.0; m.v.len()],

@@ -9,19 +9,19 @@ use crate::number::{Dual, Number, Traced};
 
 /// A constraint of any definition.
 pub(crate) trait AnyConstraint<S: Bodies> {
-    /// Its kernels for plain numbers.
+    /// Kernels for plain numbers.
     fn plain(&self) -> &dyn ConstraintKernels<S>;
 
-    /// Its rows for dual numbers.
+    /// Rows for dual numbers.
     fn dual(&self) -> &dyn Element<Dual, S>;
 
-    /// Its reaction for dual numbers.
+    /// Reaction for dual numbers.
     fn dual_reaction(&self) -> &dyn Reaction<Dual, S>;
 
-    /// The same with these numbers in place of its own; see [`Definition::set_data`].
+    /// The same constraint with these numbers instead of its own; see [`Definition::set_data`].
     fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>>;
 
-    /// The definition of it.
+    /// The constraint as a definition.
     fn definition(&mut self) -> &mut dyn Definition<S>;
 }
 
@@ -51,16 +51,16 @@ impl<K: Constraint<S>, S: Bodies> AnyConstraint<S> for K {
 
 /// A force of any definition.
 pub(crate) trait AnyForce<S: Bodies> {
-    /// Its kernels for plain numbers.
+    /// Kernels for plain numbers.
     fn plain(&self) -> &dyn ForceElement<f64, S>;
 
-    /// Its kernels for dual numbers.
+    /// Kernels for dual numbers.
     fn dual(&self) -> &dyn ForceElement<Dual, S>;
 
-    /// Its kernels for numbers that tell where it has no value.
+    /// Kernels for numbers that record whether the force has no value.
     fn traced(&self) -> &dyn ForceElement<Traced, S>;
 
-    /// The definition of it.
+    /// The force as a definition.
     fn definition(&mut self) -> &mut dyn Definition<S>;
 }
 
@@ -84,13 +84,13 @@ impl<K: Force<S>, S: Bodies> AnyForce<S> for K {
 
 /// A number type in which all kernels are compiled.
 pub(crate) trait KernelNumber: Number + Scalar {
-    /// The rows of a constraint for it.
+    /// The rows of a constraint in this number type.
     fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S>;
 
-    /// The reaction of a constraint for it.
+    /// The reaction of a constraint in this number type.
     fn reaction_of<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Reaction<Self, S>;
 
-    /// The kernels of a force for it.
+    /// The kernels of a force in this number type.
     fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S>;
 }
 

@@ -2,10 +2,10 @@
 //!
 //! # What is compared
 //!
-//! A definition is checked by its type alone; parameters, poses, motions, multipliers and functions
-//! of time are drawn from what its spec says, reproducibly from a seed: [`ORDINARY_CASES`] ordinary
-//! cases, and [`AWKWARD_CASES`] of each awkward [`Kind`]. What is compared is the largest
-//! difference of a block of kernel results, relative to its largest entry.
+//! A definition is checked by its type alone. Parameters, poses, motions, multipliers and functions
+//! of time are random numbers according to the specification, reproducible from a seed:
+//! [`ORDINARY_CASES`] ordinary cases, and [`AWKWARD_CASES`] of each special [`Kind`]. The check
+//! compares the largest difference of a block of kernel results, relative to its largest entry.
 //!
 //! | block | reference, by dual numbers (1e-12) and, in every fourth ordinary case, by differences (1e-9) |
 //! | --- | --- |
@@ -14,15 +14,16 @@
 //! | Γ | −d²Φ/dτ² along (x + τv, t + τ), and −d(C·v − b)/dτ, which also holds for velocity rows |
 //! | ∂(Cᵀλ)/∂x, ∂(C·a − Γ)/∂x, ∂Γ/∂v, ∂Q/∂x, ∂Q/∂v | derivatives of the kernels above, including entries outside the patterns |
 //! | ∂(λᵀΦ)/∂p, ∂(λᵀ(C·a − Γ))/∂p | differences through `set_data`; the second by dual numbers from the first |
-//! | wrench, place | −C of the first body, moved; a point fixed in the first body, or in the carrier of wheels |
+//! | wrench, reference point | −C of the first body, moved; a point fixed in the first body, or in the carrier of wheels |
 //! | balance | forces and moments on all bodies add up to zero |
-//! | norms | unchanged when all bodies move as one |
+//! | norms | unchanged by a rigid motion of all bodies |
 //! | start | rows that store an initial value are zero at the start |
 //! | velocity terms of forces | never add energy |
 //!
-//! Balance and norms are expected of definitions that relate bodies to each other: those with two
-//! or more slots and without a line of the ground (balance of constraints: on position level, since
-//! velocities are against the ground). A joint against the ground takes the ground as a slot.
+//! Balance and norms are checked for definitions that relate bodies to each other: definitions with
+//! two or more slots and without a line of the ground. For constraints, the balance is checked at
+//! position level, because velocities are relative to the ground. A joint to the ground has the
+//! ground in a slot.
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -52,7 +53,7 @@ use constraint::OfConstraint;
 use force::OfForce;
 use joints::{Constraint, Force, Visitor, plane_constraints, plane_forces, space3};
 
-/// Checks a constraint definition and the drives of its measures.
+/// Checks a constraint definition and the drives of its joint coordinates.
 ///
 /// # Errors
 /// The first property that is violated.
@@ -73,7 +74,7 @@ pub fn check_force<F: Force<S>, S: Bodies>(seed: u64) -> Result<(), Failure> {
 /// Checks all definitions of the library.
 ///
 /// # Errors
-/// The first violated property of the first definition with one.
+/// The first violated property of the first definition that violates one.
 pub fn check_all(seed: u64) -> Result<(), Failure> {
     let mut checks = Checks::default();
     plane_constraints(&mut checks);
@@ -91,7 +92,7 @@ struct Checks(Vec<Box<Check>>);
 type Check = dyn Fn(u64) -> Result<(), Failure> + Sync;
 
 impl Checks {
-    /// Makes all checks up to the first failure, as many at once as there are processors.
+    /// Makes all checks up to the first failure, as many at the same time as there are processors.
     fn run(&self, seed: u64) -> Result<(), Failure> {
         let next = AtomicUsize::new(0);
         let (failed, failures) = (AtomicBool::new(false), Mutex::new(BTreeMap::new()));
@@ -113,7 +114,7 @@ impl Checks {
             }
             work();
         });
-        // Those before the first failure were begun before it, and have ended well.
+        // The checks before the first failure were started before it, and have succeeded.
         let failures = failures
             .into_inner()
             .unwrap_or_else(PoisonError::into_inner);

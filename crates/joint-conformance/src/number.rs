@@ -1,5 +1,5 @@
 //! Number types of the references: plain numbers for differences, dual numbers for exact
-//! derivatives, and numbers that tell where a law has no value.
+//! derivatives, and numbers that record where a force law has no value.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -7,7 +7,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use joints::{Real, Scalar};
 use num_dual::{Dual2_64, DualNum};
 
-/// A number that poses can be made of: cosine and sine come from the number itself.
+/// A number type for poses: it has its own cosine and sine.
 pub trait Number: Real {
     /// Sine and cosine.
     fn sin_cos(self) -> (Self, Self);
@@ -19,18 +19,18 @@ impl Number for f64 {
     }
 }
 
-/// A dual number of `num-dual` as a number of kernels, with its first and second derivative: one
-/// type for both, as each type compiles all kernels once more.
+/// A dual number of `num-dual` as a number of kernels, with its first and second derivative. One
+/// type is used for both, because each type compiles all kernels once more.
 #[derive(Clone, Copy)]
 pub(crate) struct Dual(pub(crate) Dual2_64);
 
 thread_local! {
-    /// Slopes of the numbers that a constraint stores, by their places.
+    /// Derivatives of the numbers that a constraint stores, by their indices.
     static SLOPES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 }
 
-/// What `ask` answers where the numbers that constraints store have these slopes, by their places;
-/// those of others are constant.
+/// The result of `ask` if the numbers stored by constraints have these derivatives, by their
+/// indices; all other numbers are constant.
 pub(crate) fn with_slopes<R>(slopes: Vec<f64>, ask: impl FnOnce() -> R) -> R {
     SLOPES.set(slopes);
     let answer = ask();
@@ -52,7 +52,7 @@ impl Number for Dual {
     }
 }
 
-/// As for plain numbers, root and reciprocal of zero are zero with derivatives zero.
+/// As for plain numbers, square root and reciprocal of zero are zero, with derivatives zero.
 impl Real for Dual {
     fn sqrt(self) -> Self {
         self.unless_zero(DualNum::sqrt)
@@ -62,8 +62,8 @@ impl Real for Dual {
         self.unless_zero(DualNum::recip)
     }
 
-    /// By Taylor's series about the real part, of which the difference from it keeps three terms at
-    /// most.
+    /// Uses the Taylor series about the real part; at most three terms of the difference from the
+    /// real part are nonzero.
     fn angle_over_sine(self, order: u8) -> Self {
         let c = self.0.re;
         let of = |more: u8| Self::from(rotation::angle_over_sine(c, order + more));
@@ -128,8 +128,8 @@ impl Neg for Dual {
     }
 }
 
-/// A number that remembers whether it was made of a rotation vector near half a turn, which has no
-/// value. What is not a number for another reason, such as 0/0, is not excused by it.
+/// A number that records whether it was computed from a rotation vector near half a turn, which has
+/// no value. A result that is NaN for another reason, such as 0/0, is not excused by this record.
 #[derive(Clone, Copy)]
 pub(crate) struct Traced {
     value: f64,

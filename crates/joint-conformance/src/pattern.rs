@@ -1,13 +1,13 @@
-//! Sparsity patterns: entries in range, each once, and each non-zero in some case.
+//! Sparsity patterns: entries are in range, occur once, and are nonzero in some case.
 
 use crate::block::Block;
 use crate::failure::{Failure, Property, fact};
 
-/// An entry counts as non-zero if it exceeds this fraction of its block; round-off of a sum that is
-/// identically zero is smaller.
+/// An entry counts as nonzero if it exceeds this fraction of its block; the rounding error of a sum
+/// that is identically zero is smaller.
 const ALIVE: f64 = 1e-10;
 
-/// Which entries of a pattern were seen different from zero.
+/// The entries of a pattern that were nonzero in some case.
 pub(crate) struct Pattern {
     block: &'static str,
     entries: Vec<[usize; 2]>,
@@ -18,7 +18,7 @@ impl Pattern {
     /// The pattern of a block of this shape.
     ///
     /// # Errors
-    /// If an entry is outside the block, or occurs twice.
+    /// Returns an error if an entry is outside the block, or occurs twice.
     pub(crate) fn new(
         definition: &'static str,
         block: &'static str,
@@ -47,7 +47,7 @@ impl Pattern {
         })
     }
 
-    /// Takes note of the entries of one block that are not zero.
+    /// Records the nonzero entries of one block.
     pub(crate) fn see(&mut self, block: &Block) {
         let least = ALIVE * block.largest();
         for (&[row, column], alive) in self.entries.iter().zip(&mut self.alive) {
@@ -55,7 +55,7 @@ impl Pattern {
         }
     }
 
-    /// No entry was zero in all cases.
+    /// Checks that no entry was zero in all cases.
     pub(crate) fn all_alive(&self, definition: &'static str) -> Result<(), Failure> {
         match self.alive.iter().position(|alive| !alive) {
             Some(k) => {

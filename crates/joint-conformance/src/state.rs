@@ -1,5 +1,5 @@
-//! What a kernel takes, and what of it moves while a derivative is taken: one degree of freedom of
-//! one body, time, or everything along the motion.
+//! The inputs of a kernel, and the part of them that moves while a derivative is computed: one
+//! degree of freedom of one body, time, or everything along the motion.
 
 use crate::bodies::Bodies;
 use crate::case::{Case, Motion};
@@ -8,17 +8,17 @@ use crate::number::Number;
 /// The curve through a state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Along {
-    /// The pose along one column of the block, all else fixed.
+    /// The pose along one column of the block; all other inputs are constant.
     Pose(usize),
-    /// The twist along one column of the block, everything else fixed.
+    /// The twist along one column of the block; all other inputs are constant.
     Twist(usize),
     /// Time, with fixed bodies: the functions of time advance.
     Time,
-    /// `x + τv` with v fixed, and the functions of time advance; acceleration terms are omitted.
+    /// `x + τv` with constant v, and the functions of time advance; acceleration terms are omitted.
     Motion,
 }
 
-/// What kernels take, at one point of a curve.
+/// The inputs of kernels, at one point of a curve.
 pub(crate) struct State<S: Bodies, D: Number> {
     pub(crate) x: Vec<S::Pose<D>>,
     /// Velocities and accelerations as numbers.

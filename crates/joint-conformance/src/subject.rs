@@ -1,4 +1,4 @@
-//! What the harness needs of a definition, be it a constraint or a force.
+//! The functions of a definition that the harness needs, for constraints and forces.
 
 use joints::spec::{Row, Spec};
 use joints::{Argument, ArgumentError, Definition, Ring};
@@ -11,54 +11,54 @@ use crate::kernels::KernelNumber;
 use crate::pattern::Pattern;
 use crate::state::State;
 
-/// A definition as the harness sees it: what its spec says, and how it is made. It is a value, not
-/// a type, so that the harness is compiled once for all definitions of a space.
+/// A definition as used by the harness: its specification and its constructor. It is a value, not a
+/// type, so that the harness is compiled once for all definitions of a space.
 pub(crate) trait Subject: Copy {
     /// The space of its bodies.
     type Space: Bodies;
     /// The definition with values for its parameters.
     type Made;
-    /// The names of its kernels, and of what is made of them.
+    /// Names of the kernels, and of quantities computed from them.
     type Kernel: Copy + 'static;
-    /// What has to be seen in some case, whichever.
+    /// Observations that are required in at least one case.
     type Seen: Default;
 
-    /// The kernel that says what an error of the coordinates does.
+    /// The kernel that determines the effect of an error of the coordinates.
     const SLOPE: Self::Kernel;
-    /// Kernels whose norm stays if all bodies are moved as one, with their names.
+    /// Kernels whose norm does not change if all bodies move as one rigid body, with their names.
     const INVARIANTS: &'static [(Self::Kernel, &'static str)];
 
-    /// What the specs of constraints and forces share.
+    /// The common part of the specifications of constraints and forces.
     fn common(self) -> &'static Spec;
 
-    /// Its rows, each with a multiplier; forces have none.
+    /// Rows, each with a multiplier; forces have no rows.
     fn rows(self) -> &'static [Row] {
         &[]
     }
 
-    /// Whether its last function of time enters by its cosine and sine.
+    /// Whether the kernels use the cosine and sine of the last function of time.
     fn turning(self) -> bool {
         false
     }
 
-    /// Number of angles that it is given with their turns.
+    /// Number of angles that the definition receives with their revolutions.
     fn turns(self) -> usize {
         0
     }
 
-    /// Columns of its blocks: the degrees of freedom of its slots.
+    /// Number of columns of the blocks: the degrees of freedom of the slots.
     fn columns(self) -> usize {
         <Self::Space as joints::Space>::N_DOF * self.common().slots.len()
     }
 
-    /// It with these values for its parameters.
+    /// The definition with these values for its parameters.
     fn make(self, arguments: &[Argument]) -> Result<Self::Made, ArgumentError>;
 
-    /// What is made, as any definition.
+    /// The constructed object as a definition.
     fn definition(made: &mut Self::Made) -> &mut dyn Definition<Self::Space>;
 
-    /// A kernel as a dense block. What the kernel leaves alone stays NaN, so that no comparison
-    /// passes over it.
+    /// A kernel as a dense block. Entries that the kernel does not write stay NaN, so that every
+    /// comparison detects them.
     fn kernel<D: KernelNumber>(
         self,
         made: &Self::Made,
@@ -66,8 +66,8 @@ pub(crate) trait Subject: Copy {
         at: &State<Self::Space, D>,
     ) -> Block<D>;
 
-    /// The same for plain numbers, also of kernels that are not differentiated themselves: their
-    /// code is then compiled for one number type.
+    /// A kernel for plain numbers, including kernels that are not differentiated: their code is
+    /// then compiled for one number type.
     fn final_kernel(
         self,
         made: &Self::Made,
@@ -80,7 +80,7 @@ pub(crate) trait Subject: Copy {
     /// Kernels with a pattern.
     ///
     /// # Errors
-    /// If a pattern has entries outside of its block, or an entry twice.
+    /// Returns an error if a pattern has entries outside of its block, or the same entry twice.
     fn patterns(self) -> Result<Vec<(Self::Kernel, Pattern)>, Failure>;
 
     /// Kernels that are derivatives of others.
@@ -91,37 +91,38 @@ pub(crate) trait Subject: Copy {
         true
     }
 
-    /// What must hold before kernels mean anything.
+    /// Checks that must succeed before kernels are evaluated.
     fn before(_check: &Check<'_, Self>) -> Result<(), Failure> {
         Ok(())
     }
 
-    /// What must hold besides derivatives, patterns and norms.
+    /// Properties in addition to derivatives, patterns and norms.
     fn properties(check: &Check<'_, Self>) -> Result<(), Failure>;
 
-    /// Takes note of one case.
+    /// Records one case.
     fn see(_check: &Check<'_, Self>, _seen: &mut Self::Seen) {}
 
-    /// Whether the spec agrees with what was seen in all cases.
+    /// Checks whether the specification agrees with the observations in all cases.
     fn facts(self, seen: &Self::Seen) -> Result<(), Failure>;
 }
 
 /// A kernel that is a derivative of another one.
 pub(crate) struct Derivative<K> {
-    /// What the definition lacks if the two differ.
+    /// The violated property if kernel and derivative differ.
     pub(crate) property: Property,
     /// The kernel.
     pub(crate) kernel: K,
-    /// Its sign: the kernel is this number times the derivative.
+    /// Sign: the kernel is this number times the derivative.
     pub(crate) sign: f64,
-    /// What is differentiated.
+    /// The differentiated kernel.
     pub(crate) of: K,
-    /// By what.
+    /// The variable of the derivative.
     pub(crate) by: By,
 }
 
 impl<K> Derivative<K> {
-    /// `kernel = sign · d of / d by` in the rows of `of`, else the definition lacks the property.
+    /// `kernel = sign · d of / d by` in the rows of `of`; otherwise the definition violates the
+    /// property.
     pub(crate) const fn new(property: Property, kernel: K, sign: f64, of: K, by: By) -> Self {
         Self {
             property,
@@ -133,29 +134,29 @@ impl<K> Derivative<K> {
     }
 }
 
-/// What a derivative is taken by.
+/// Variable of a derivative.
 #[derive(Clone, Copy)]
 pub(crate) enum By {
-    /// Each degree of freedom of the poses, side by side.
+    /// Each degree of freedom of the poses, next to each other.
     Poses,
-    /// Each degree of freedom of the twists, side by side.
+    /// Each degree of freedom of the twists, next to each other.
     Twists,
-    /// Time, bodies fixed.
+    /// Time, with constant poses.
     Time,
     /// τ of the motion `x + τv`, `t + τ`.
     Motion,
-    /// The same, the second derivative.
+    /// The second derivative with respect to τ of the motion.
     MotionTwice,
 }
 
-/// The column that a kernel of `n` numbers writes.
+/// The column that a kernel with `n` results writes.
 pub(crate) fn dense<T: Ring>(n: usize, write: impl FnOnce(&mut [T])) -> Block<T> {
     let mut out = vec![T::from(f64::NAN); n];
     write(&mut out);
     Block::column(out)
 }
 
-/// The block that a kernel writes by its pattern, zero elsewhere.
+/// The block that a kernel writes with its pattern; other entries are zero.
 pub(crate) fn sparse<T: Ring>(
     [rows, columns]: [usize; 2],
     pattern: &[[usize; 2]],

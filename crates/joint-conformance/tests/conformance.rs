@@ -1,4 +1,4 @@
-//! All properties of all definitions, and tests that the harness can fail.
+//! Checks all properties of all definitions, and tests that the harness detects faults.
 
 mod mutants;
 
@@ -18,7 +18,7 @@ fn every_definition_has_every_property() {
     }
 }
 
-/// Editors and `pfaff schema` show the purpose of each parameter.
+/// Editors and `pfaff schema` show the description of each parameter.
 #[test]
 fn every_parameter_is_described() {
     #[derive(Default)]
@@ -42,7 +42,7 @@ fn every_parameter_is_described() {
     for spec in specs.0 {
         for parameter in spec.parameters {
             let (doc, name) = (parameter.doc, parameter.name);
-            // The text does not repeat what the shape states.
+            // The text does not repeat information that the shape states.
             let is_sentence = doc.ends_with('.') && doc.starts_with(char::is_uppercase);
             assert!(
                 is_sentence && !doc.contains("(m"),

@@ -6,8 +6,7 @@ use proc_macro::TokenStream;
 /// Defines a constraint: its type, its specification and its kernels, as an implementation of
 /// `joints::Constraint`.
 ///
-/// The language is described in the crate `codegen`, an example is in the description of this
-/// crate.
+/// The crate `codegen` describes the language; the description of this crate contains an example.
 #[proc_macro]
 pub fn joint(call: TokenStream) -> TokenStream {
     items(Kind::Constraint, call)
@@ -16,7 +15,7 @@ pub fn joint(call: TokenStream) -> TokenStream {
 /// Defines a force: its type, its specification and its kernels, as an implementation of
 /// `joints::Force`.
 ///
-/// The language is described in the crate `codegen`.
+/// The crate `codegen` describes the language.
 #[proc_macro]
 pub fn force(call: TokenStream) -> TokenStream {
     items(Kind::Force, call)

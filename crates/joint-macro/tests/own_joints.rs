@@ -4,10 +4,11 @@
 #![deny(warnings)]
 
 mod pfaff {
-    //! A facade as its users see it: the crate `joints` under another path, the macro wrapped.
+    //! A facade from the view of its users: the crate `joints` under another path, with a wrapped
+    //! macro.
     pub(crate) use joints as kernels;
 
-    /// `joint!` with the path of the facade.
+    /// The macro `joint!` with the path of the facade.
     #[macro_export]
     macro_rules! facade_joint {
         ($($definition:tt)*) => {
@@ -61,10 +62,11 @@ fn equal_distance_by_hand() {
     ];
     let mut phi = [0.0];
     Element::phi(&joint, &x, &[], &mut phi);
-    // 5 − 13
+    // The expected value is 5 − 13.
     assert_eq!(phi, [-8.0]);
 
-    // d(a·a)/dr_i = −2a, d(−b·b)/dr_j = 2b, d(a·a − b·b)/dr_k = 2(a − b) = (8, 0); no rotations.
+    // The derivatives are d(a·a)/dr_i = −2a, d(−b·b)/dr_j = 2b, d(a·a − b·b)/dr_k = 2(a − b) = (8,
+    // 0); there are no rotations.
     let pattern: Vec<_> = EqualDistance::SPEC
         .c
         .iter()
@@ -76,7 +78,7 @@ fn equal_distance_by_hand() {
     Element::c(&joint, &x, &[], &mut c);
     assert_eq!(c, [-2.0, -4.0, -6.0, 4.0, 8.0, 0.0]);
 
-    // Γ = −2(ȧ·ȧ − ḃ·ḃ), ȧ = (2, 0), ḃ = (1, −1): −2(4 − 2).
+    // Γ = −2(ȧ·ȧ − ḃ·ḃ) with ȧ = (2, 0) and ḃ = (1, −1), that is −2(4 − 2).
     let mut gamma = [0.0];
     Element::gamma(&joint, &x, &v, &[], &mut gamma);
     assert_eq!(gamma, [-4.0]);
@@ -102,7 +104,7 @@ fn the_facade_path_is_used() {
     assert_eq!(phi, [1.0, -3.0]);
 }
 
-// Every parameter here has the name of something that generated code computes.
+// Every parameter here has the name of a value in the generated code.
 joint! { plane Awkward(i, s) {
     /// A point of body i has prescribed coordinates in body s; the names are chosen to collide.
     params {
@@ -152,8 +154,8 @@ fn names_that_collide_are_told_apart() {
         f_0: 13.0,
         f_0_t: 14.0,
     };
-    // Body i rotated by a right angle: its point is at r_i + (−20, 10), its n is (−1, 0), perp(n)
-    // is (0, −1).
+    // Body i is rotated by a right angle: its point is at r_i + (−20, 10), its n is (−1, 0), and
+    // perp(n) is (0, −1).
     let x = [
         Pose {
             x: 100.0,
@@ -167,7 +169,7 @@ fn names_that_collide_are_told_apart() {
     let f = [[0.25, 0.0, 0.0], [0.5, 0.0, 0.0]];
     let mut phi = [0.0; 2];
     Element::phi(&joint, &x, &f, &mut phi);
-    // lambda = (79, 208); −79 − (1 + 2 + … + 14) − 0.25 and −208 − 0.5.
+    // With lambda = (79, 208) the values are −79 − (1 + 2 + … + 14) − 0.25 and −208 − 0.5.
     assert_eq!(phi, [-184.25, -208.5]);
 }
 
@@ -190,12 +192,12 @@ fn names_of_arguments_hide_nothing() {
     Definition::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
     let mut phi = [0.0];
     Element::phi(&joint, &[Pose::new(3.0, 0.0, 0.5)], &[], &mut phi);
-    // out = 1, None = 2: 4 + 2 + 0.5 − 3·2
+    // With out = 1 and None = 2 the value is 4 + 2 + 0.5 − 3·2.
     assert_eq!(phi, [0.5]);
 }
 
-/// `v = lambda·x_0` is computed from other numbers, so it changes with them; out = 1, None = 2,
-/// dNone/dx_0 = −3.
+/// The value `v = lambda·x_0` is computed from other numbers, so it changes with them; out = 1,
+/// None = 2, dNone/dx_0 = −3.
 #[test]
 fn what_is_computed_from_other_numbers_changes_with_them() {
     let mut joint = Shadows::new(3.0);
@@ -208,14 +210,15 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     joint
         .slopes(&pose, &[], SlopedOutputs::Phi)
         .phi(&[10.0], &mut gradient);
-    // ∂/∂lambda = −x_0 = −2, ∂/∂x_0 = (2·2 + 1)·(−3) − 3 = −18
+    // The derivatives are ∂/∂lambda = −x_0 = −2 and ∂/∂x_0 = (2·2 + 1)·(−3) − 3 = −18.
     assert_eq!(gradient, [-20.0, -180.0]);
-    // C = (2·None + 1)·(2·out + 1) along x: its derivative by x_0 is 2·(−3)·3 + 5·(−2) = −28.
+    // C = (2·None + 1)·(2·out + 1) along x: its derivative with respect to x_0 is 2·(−3)·3 + 5·(−2)
+    // = −28.
     let slopes = joint.slopes(&pose, &[], SlopedOutputs::All(&[Twist::zero()]));
     slopes.residual(&[10.0], &[1.0, 0.0, 0.0], &mut gradient);
     assert_eq!(gradient, [0.0, -280.0]);
 
-    // Other numbers are returned again, and v = 5·4 is computed from them: 0 + 0 + 0.5 − 20.
+    // Changed numbers are returned unchanged, and v = 5·4 is computed from them: 0 + 0 + 0.5 − 20.
     Definition::set_data(&mut joint, &[5.0, 4.0]);
     let mut numbers = [0.0; 2];
     Definition::data(&joint, &mut numbers);
@@ -244,8 +247,8 @@ joint! { plane Scaled(i, j) {
     place: origin(i);
 } }
 
-/// square = (s_1/rest)·inverse/s_0 with inverse = 1/5 at the start, rest = 2 given, s = (4, 3):
-/// (3/2)·(1/5)/4.
+/// The square is (s_1/rest)·inverse/s_0 with inverse = 1/5 at the start, the given rest = 2, and s
+/// = (4, 3): (3/2)·(1/5)/4.
 #[test]
 fn quotients_of_data_have_their_derivatives() {
     use joints::spec::{DatumShape as S, Unit};
@@ -256,7 +259,7 @@ fn quotients_of_data_have_their_derivatives() {
     ];
     let mut joint = Scaled::from_arguments(&arguments).expect("the arguments are right");
     let start = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
-    // The constructor takes the values without their shapes; what is kept comes from the start.
+    // The constructor takes the values without their shapes; stored values come from the start.
     assert_eq!(Scaled::new(joint.line, [4.0, 3.0]).with_rest(2.0), joint);
     assert_ne!(Scaled::new(joint.line, [4.0, 3.0]), joint);
     Definition::initialise(&mut joint, &start);
@@ -282,8 +285,8 @@ fn quotients_of_data_have_their_derivatives() {
     joint
         .slopes(&x, &[], SlopedOutputs::Phi)
         .phi(&[1.0], &mut found);
-    // Φ = along·(p − start) + square/2: by the start −along, by along p − start, then square/2 by
-    // each factor.
+    // Φ = along·(p − start) + square/2: the derivative with respect to the start is −along, with
+    // respect to along p − start, then that of square/2 with respect to each factor.
     let half = 0.5 * 0.075;
     let expected = [
         0.0,
@@ -299,7 +302,7 @@ fn quotients_of_data_have_their_derivatives() {
         assert!((found - expected).abs() < 1e-15, "{found} {expected}");
     }
 
-    // A rest length that was given is kept when initial values are taken again.
+    // A rest length given by the user is retained when initial values are computed again.
     numbers[6] = 8.0;
     Definition::set_data(&mut joint, &numbers);
     Definition::initialise(&mut joint, &start);
@@ -308,14 +311,15 @@ fn quotients_of_data_have_their_derivatives() {
 }
 
 force! { plane Magnet(i, j) {
-    /// Attraction `strength/l²` between two origins; at the start they are apart, or there is none.
+    /// Attraction `strength/l²` between two origins; at the start the origins differ, or the
+    /// attraction is switched off.
     params { strength: Ratio, off: Ratio }
     let l = norm(origin(j) - origin(i));
     require "apart and nearer than ten, or switched off": (l > 0.0 || off == 1.0) && (l < 10.0 || off == 1.0);
     force: -(1.0 - off) * strength / (l * l) on l;
 } }
 
-/// At distance 5 along (3, 4): 100/25 = 4 N, on body j −4·(0.6, 0.8).
+/// At distance 5 along (3, 4) the force is 100/25 = 4 N, on body j −4·(0.6, 0.8).
 #[test]
 fn magnet_by_hand() {
     let magnet = Magnet {
@@ -327,7 +331,7 @@ fn magnet_by_hand() {
     assert_eq!(Magnet::SPEC.q, [0, 1, 3, 4]);
     ForceElement::q(&magnet, &x, &[Twist::zero(); 2], &[], &mut q);
     for (found, expected) in q.into_iter().zip([2.4, 3.2, -2.4, -3.2]) {
-        // Several roundings of numbers of order 1 to 100.
+        // The bound covers several roundings of numbers of order 1 to 100.
         assert!((found - expected).abs() < 1e-13, "{found} {expected}");
     }
 }
@@ -362,10 +366,10 @@ fn the_text_is_what_its_author_wrote() {
     assert!(text.ends_with("place: origin(k);\n} }"), "{text}");
 }
 
-// A joint in space: a pin in a slot of two walls, turning about a third direction.
+// A joint in space: a pin in a slot with two walls; the pin rotates about a third direction.
 joint! { space SlottedPin(i, j) {
-    /// Point `p` of body j keeps its distance from two walls of body i, and its axis stays along
-    /// the slot's.
+    /// Point `p` of body j has constant distances from two walls of body i, and its axis is always
+    /// parallel to that of the slot.
     params {
         s: Point in i,
         p: Point in j,
@@ -384,9 +388,9 @@ joint! { space SlottedPin(i, j) {
     place: point(i, s);
 } }
 
-/// Body i is turned by 90° about z, body j by 180°: u = (0, 1, 0), v = (−1, 0, 0), w = (0, 0, 1),
-/// and d = (−3, 2, 5) − (1, 1, 1). The third row is (u × w)·w = 0; the measure is 90°, 0 at the
-/// start.
+/// Body i is rotated by 90° about z, body j by 180°: u = (0, 1, 0), v = (−1, 0, 0), w = (0, 0, 1),
+/// and d = (−3, 2, 5) − (1, 1, 1). The third row is (u × w)·w = 0; the joint coordinate is 90°, 0
+/// at the start.
 #[test]
 fn a_joint_in_space_by_hand() {
     use joints::space3::{Axes, Pose};
@@ -410,7 +414,7 @@ fn a_joint_in_space_by_hand() {
     let mut turn = pin.turn_drive();
     turn.initialise(&[Pose::GROUND; 2]);
     let mut phi = [0.0];
-    // sin(90° − f) for f = 0, given by its cosine and sine.
+    // sin(90° − f) for f = 0, with f given by its cosine and sine.
     Element::phi(&turn, &x, &[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]], &mut phi);
     assert_eq!(phi, [1.0]);
     assert_eq!(SlottedPin::SPEC.measures.len(), 1);

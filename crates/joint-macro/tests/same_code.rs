@@ -1,6 +1,6 @@
-//! A macro in a user's crate computes the same as the code of the library: every definition of the
-//! library is passed to `joint!` or `force!` here, and specifications and kernels must agree with
-//! those of the crate `joints`, bit for bit.
+//! A macro in a user's crate computes the same results as the code of the library. Every definition
+//! of the library is passed to `joint!` or `force!` here, and specifications and kernels must agree
+//! with those of the crate `joints`, bit for bit.
 
 use joints::{
     Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, SlopedOutputs, Twist, Visitor,
@@ -54,7 +54,7 @@ fn own_forces<V: Visitor>(visitor: &mut V) {
 /// Number of poses for each definition.
 const POSES: u64 = 20;
 
-/// Specifications and values of definitions, in the order visited.
+/// Specifications and values of definitions, in the order in which they are visited.
 #[derive(Default)]
 struct Record {
     facts: Vec<String>,
@@ -115,7 +115,7 @@ fn compare(own: &Record, shipped: &Record) {
     assert_eq!(own.bits.len(), shipped.bits.len());
 }
 
-/// Numbers in [−2, 2) from a seed (SplitMix64).
+/// Pseudo-random numbers in [−2, 2) from a seed (SplitMix64).
 struct Numbers(u64);
 
 impl Numbers {
@@ -178,7 +178,7 @@ fn constraint_bits<K: Constraint>(seed: u64) -> Vec<u64> {
     let f: Vec<[f64; 3]> = spec.common.functions().map(|_| numbers.array()).collect();
     let lambda = numbers.array::<8>();
     let mut out = Vec::new();
-    // Kernels write the entries of their patterns; the rest of the buffer stays unchanged in both.
+    // Kernels write the entries of their patterns; the rest of the buffer is unchanged in both.
     let mut call = |kernel: &dyn Fn(&mut [f64])| {
         let mut values = [7.0; BUFFER];
         kernel(&mut values);

@@ -1,14 +1,15 @@
 force! { plane Bushing(i, j) {
-    /// Springs and dampers along the axes of body i and about the rotation between point `s_i` of body i and point `s_j` of body j, at rest
-    /// at the start. The force on body j acts at its own point; body i takes the opposite force through the same point.
+    /// Springs and dampers along the axes of body i and about the rotation between point `s_i` of
+    /// body i and point `s_j` of body j, without load at the start. The force on body j acts at its
+    /// own point; the opposite force acts on body i at the same point.
     params {
         /// End on body i.
         s_i: Point in i,
-        /// End on body j; the force on body i acts through this point, too.
+        /// End on body j; the force on body i acts at this point, too.
         s_j: Point in j,
-        /// Along x and y of the frame of body i, and about the relative rotation.
+        /// Stiffness along x and y of the frame of body i, and about the relative rotation.
         stiffness: [Stiffness, Stiffness, TorsionStiffness],
-        /// Along x and y of the frame of body i, and about the relative rotation.
+        /// Damping along x and y of the frame of body i, and about the relative rotation.
         damping: [Damping, Damping, TorsionDamping],
     }
     initial {

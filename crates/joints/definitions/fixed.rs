@@ -1,9 +1,10 @@
 joint! { plane Fixed(i, j) {
-    /// Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.
+    /// Point `s_j` of body j keeps its initial position in body i, and the relative angle keeps its
+    /// initial value.
     params {
-        /// The place on body i, at which the reaction is reported.
+        /// The point of body i at which the reaction is reported.
         s_i: Point in i,
-        /// The point of body j that keeps its place in body i.
+        /// The point of body j that keeps its position in body i.
         s_j: Point in j,
     }
     initial {

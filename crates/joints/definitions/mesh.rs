@@ -1,8 +1,10 @@
 joint! { plane Mesh(i, j, carrier) {
-    /// Teeth of two wheels whose centres `s_i` and `s_j` are borne on a carrier: at the pitch point P of the carrier both wheels have one
-    /// velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is
-    /// `n·(p_i − p_j) + cos α·(r_i·(φ_i − φ_carrier) + r_j·(φ_j − φ_carrier)) = const` with `r_i + r_j = a`, the distance of the centres, and
-    /// `r_j·ratio = −r_i`. The place of the reaction is the centre of wheel i; λ is the force of the teeth, along −n on wheel i.
+    /// Gear mesh of two wheels that rotate on a carrier about their centres `s_i` and `s_j`. At the
+    /// pitch point P of the carrier both wheels have the same velocity along the line of action n,
+    /// `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is
+    /// `n·(p_i − p_j) + cos α·(r_i·(φ_i − φ_carrier) + r_j·(φ_j − φ_carrier)) = const` with
+    /// `r_i + r_j = a`, the distance of the centres, and `r_j·ratio = −r_i`. The reference point of
+    /// the reaction is the centre of wheel i; λ is the force of the gear mesh, along −n on wheel i.
     params {
         /// Centre of wheel i.
         s_i: Point in i,
@@ -10,8 +12,8 @@ joint! { plane Mesh(i, j, carrier) {
         s_j: Point in j,
         /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.
         ratio: Ratio,
-        /// Angle by which the line of action is turned from the perpendicular of the centre line; 0 if it is not given. Its sign tells
-        /// the flanks that touch.
+        /// Angle of the line of action from the perpendicular of the centre line; 0 if it is not
+        /// given. Its sign selects the tooth flanks that touch.
         pressure_angle: Angle = 0.0,
     }
     points apart;

@@ -1,14 +1,14 @@
 joint! { plane RackAndPinion(i, j) {
     /// Rack i and pinion j roll on each other without slip:
-    /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. With a negative
-    /// radius it rolls on the other side of the rack. The place of the reaction is the point of the rack at which the
-    /// pinion's centre is at the start.
+    /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre
+    /// `s_j`. With a negative radius, the pinion rolls on the other side of the rack. The reference
+    /// point of the reaction is the point of the rack at which the pinion's centre is at the start.
     params {
         /// Centre of the pinion.
         s_j: Point in j,
         /// Direction of the rack.
         axis: Direction in i,
-        /// Radius of the pinion; negative: it rolls on the other side of the rack.
+        /// Radius of the pinion; if negative, the pinion rolls on the other side of the rack.
         radius: Length,
     }
     initial {

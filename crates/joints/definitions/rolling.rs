@@ -2,11 +2,13 @@ joint! { plane Rolling(i, j) {
     /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:
     /// `(R·d)·v_s − radius·ω_j = 0`.
     params {
-        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel.
+        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of
+        /// the wheel.
         s: Point in i,
         /// Direction of rolling.
         direction: Direction in i,
-        /// Radius of the spinner, not zero; negative: it turns the other way.
+        /// Radius of the spinner, not zero; if negative, the spinner rotates in the opposite
+        /// direction.
         radius: Length,
     }
     require "the radius is not zero": radius * radius > 0.0;

@@ -1,16 +1,17 @@
 force! { plane Tyre(i) {
-    /// Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with the velocities v_n of the
-    /// point along `normal` and v_t across it: the linear tyre, a side force C·α for a small slip angle α ≈ v_n/|v_t|
-    /// (H. B. Pacejka, Tire and Vehicle Dynamics, 2012, chapter 1), made regular at standstill, where it is a damper C/v_0. At
-    /// the speed v_t it is smaller by the share (v_0/v_t)²/2.
+    /// Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with
+    /// the velocities v_n of the point along `normal` and v_t across it. This is the linear tyre,
+    /// with a side force C·α for a small slip angle α ≈ v_n/|v_t| (H. B. Pacejka, Tire and Vehicle
+    /// Dynamics, 2012, chapter 1). It is made regular at standstill, where it is a damper C/v_0. At
+    /// the speed v_t the force is smaller than C·α by the share (v_0/v_t)²/2.
     params {
         /// The contact point.
         s: Point in i,
-        /// Direction across the tyre, along which it resists.
+        /// Direction across the tyre, along which the force acts.
         normal: Direction in i,
         /// Cornering stiffness C, side force per slip angle.
         stiffness: CorneringStiffness,
-        /// Speed v_0 below which the force fades; 0.1 m/s if it is not given.
+        /// Speed v_0 below which the force decreases; 0.1 m/s if it is not given.
         low_speed: Velocity = 0.1,
     }
     require "the low speed is not zero": low_speed != 0.0;

@@ -1,5 +1,5 @@
-//! Values for the parameters of a definition, checked against its [`Parameter`] list in one place,
-//! so that a kernel never receives a direction without length or a negative stiffness.
+//! Values for the parameters of a definition. They are checked against its [`Parameter`] list in
+//! one place, so that a kernel never receives a direction of length zero or a negative stiffness.
 
 use std::fmt;
 
@@ -14,7 +14,7 @@ pub enum Argument {
     Pair([f64; 2]),
     /// A point of space, or a vector that is converted to a direction.
     Triple([f64; 3]),
-    /// A vector along an axis of space, and one across it, if it matters.
+    /// A vector along an axis of space, and a vector across it, if it is needed.
     Axis([f64; 3], Option<[f64; 3]>),
     /// A point and a vector of space.
     Triples([[f64; 3]; 2]),
@@ -45,7 +45,7 @@ pub enum ArgumentError {
         /// Name of the parameter.
         parameter: &'static str,
     },
-    /// A value has another shape than the parameter.
+    /// The shape of a value differs from the shape of its parameter.
     Shape {
         /// Name of the parameter.
         parameter: &'static str,
@@ -72,16 +72,16 @@ pub enum ArgumentError {
     NoDirection {
         /// Name of the parameter.
         parameter: &'static str,
-        /// The vector that should give the direction.
+        /// The vector for the direction.
         vector: Vec<f64>,
     },
-    /// The direction across an axis lies along it.
+    /// The direction across an axis is parallel to the axis.
     NotAcross {
         /// Name of the parameter.
         parameter: &'static str,
         /// The vector along the axis.
         axis: [f64; 3],
-        /// The vector that should give a direction across it.
+        /// The vector for the direction across the axis.
         cross: [f64; 3],
     },
 }
@@ -147,13 +147,13 @@ impl fmt::Display for ArgumentError {
 
 impl std::error::Error for ArgumentError {}
 
-/// Numbers with commas.
+/// The numbers, separated by commas.
 fn listed(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
     numbers.join(", ")
 }
 
-/// Reads checked values one after the other; used by generated constructors.
+/// Reads checked values in sequence; used by generated constructors.
 pub struct Reader<'a> {
     parameters: &'static [Parameter],
     arguments: &'a [Argument],
@@ -197,7 +197,7 @@ impl<'a> Reader<'a> {
     /// Reads a point of the plane.
     ///
     /// # Errors
-    /// If it is missing, of another shape or not finite.
+    /// Returns an error if the value is missing, has a wrong shape or is not finite.
     pub fn point(&mut self) -> Result<[f64; 2], ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Pair(p) = argument else {
@@ -210,7 +210,7 @@ impl<'a> Reader<'a> {
     /// Reads a point of space.
     ///
     /// # Errors
-    /// If it is missing, of another shape or not finite.
+    /// Returns an error if the value is missing, has a wrong shape or is not finite.
     pub fn point3(&mut self) -> Result<[f64; 3], ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Triple(p) = argument else {
@@ -223,7 +223,8 @@ impl<'a> Reader<'a> {
     /// Reads a direction of the plane and normalises it.
     ///
     /// # Errors
-    /// If it is missing, of another shape, not finite or of length zero.
+    /// Returns an error if the value is missing, has a wrong shape, is not finite or has length
+    /// zero.
     pub fn direction(&mut self) -> Result<plane::Direction, ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Pair(v) = argument else {
@@ -236,7 +237,8 @@ impl<'a> Reader<'a> {
     /// Reads a direction of space and normalises it.
     ///
     /// # Errors
-    /// If it is missing, of another shape, not finite or of length zero.
+    /// Returns an error if the value is missing, has a wrong shape, is not finite or has length
+    /// zero.
     pub fn direction3(&mut self) -> Result<space3::Direction, ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Triple(v) = argument else {
@@ -246,12 +248,12 @@ impl<'a> Reader<'a> {
         space3::Direction::new(*v).ok_or_else(|| no_direction(parameter, v))
     }
 
-    /// Reads an axis with the directions across it. An optional one that is absent has the axes of
-    /// the frame.
+    /// Reads an axis with the directions across it. If an optional value is absent, the axes of the
+    /// frame are used.
     ///
     /// # Errors
-    /// If it is missing, of another shape, not finite, of length zero, or if the direction across
-    /// it lies along it.
+    /// Returns an error if the value is missing, has a wrong shape, is not finite or has length
+    /// zero, or if the direction across the axis is parallel to it.
     pub fn axes(&mut self) -> Result<space3::Axes, ArgumentError> {
         let (parameter, argument) = self.take();
         let (axis, cross) = match argument {
@@ -278,10 +280,12 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Reads a plane of the ground: a point and a normal. An optional one that is absent is z = 0.
+    /// Reads a plane of the ground: a point and a normal. If an optional value is absent, the plane
+    /// z = 0 is used.
     ///
     /// # Errors
-    /// If it is missing, of another shape, not finite, or the normal has length zero.
+    /// Returns an error if the value is missing, has a wrong shape or is not finite, or if the
+    /// normal has length zero.
     pub fn ground_plane(&mut self) -> Result<space3::GroundPlane, ArgumentError> {
         let (parameter, argument) = self.take();
         let [point, normal] = match argument {
@@ -297,7 +301,8 @@ impl<'a> Reader<'a> {
     /// Reads a line of the ground.
     ///
     /// # Errors
-    /// If it is missing, of another shape, not finite, or its points coincide.
+    /// Returns an error if the value is missing, has a wrong shape or is not finite, or if its
+    /// points coincide.
     pub fn line(&mut self) -> Result<Line, ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Pairs([a, b]) = argument else {
@@ -311,8 +316,8 @@ impl<'a> Reader<'a> {
     /// Reads `N` numbers.
     ///
     /// # Errors
-    /// If the value is missing, has another count, is not finite, or is negative although that is
-    /// not allowed.
+    /// Returns an error if the value is missing, has a wrong count, is not finite, or is negative
+    /// for a parameter that must not be negative.
     pub fn numbers<const N: usize>(&mut self) -> Result<[f64; N], ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Numbers(values) = argument else {
@@ -339,7 +344,7 @@ impl<'a> Reader<'a> {
     /// Reads one number that may be absent.
     ///
     /// # Errors
-    /// As [`Reader::numbers`], but not if it is missing.
+    /// Returns the same errors as [`Reader::numbers`], but without an error for a missing value.
     pub fn optional_number(&mut self) -> Result<Option<f64>, ArgumentError> {
         if self.arguments[self.next] == Argument::Absent {
             self.next += 1;
@@ -381,8 +386,9 @@ fn usable(parameter: &'static Parameter, values: &[f64]) -> Result<(), ArgumentE
 }
 
 /// The largest magnitude of a number that describes a mechanism, in its SI unit. Products of five
-/// such numbers are finite; above it, products in rows and in their rounding bounds overflow, and
-/// wrong verdicts were seen from 1e100 on. The observable universe has 1e27 m and 1e53 kg.
+/// such numbers are finite. Above this limit, products in rows and in their rounding bounds
+/// overflow, and wrong verdicts were observed from 1e100 on. The observable universe has 1e27 m and
+/// 1e53 kg.
 pub const LARGEST: f64 = 1e60;
 
 /// Whether a number may describe a mechanism: it is finite and not above [`LARGEST`].

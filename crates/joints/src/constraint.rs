@@ -1,10 +1,10 @@
 //! Constraints: the traits that a definition implements.
 //!
-//! A block has one row for each constraint row, and for each body slot as many columns as a body
-//! has velocities: x, y, rotation in the plane; x, y, z and three rotations in space. Slices `x`
-//! and `v` hold the poses and twists of the slots in order, `f` the values and derivatives `[f, ḟ,
-//! f̈]` of the functions of time. Output slices are overwritten. Sparse outputs follow the pattern
-//! of the [`ConstraintSpec`].
+//! A block has one row for each constraint row. For each body slot it has as many columns as a body
+//! has velocities: x, y, rotation in the plane; x, y, z and three rotations in space. The slices
+//! `x` and `v` contain the poses and twists of the slots in order, `f` the values and derivatives
+//! `[f, ḟ, f̈]` of the functions of time. Output slices are overwritten. Sparse outputs follow the
+//! pattern of the [`ConstraintSpec`].
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::element::{Element, Reaction};
@@ -16,7 +16,7 @@ use crate::spec::ConstraintSpec;
 use crate::visitor::Visitor;
 
 /// A constraint definition as a type: its specification, its constructor and its kernels in any
-/// number type. Implemented by generated code only.
+/// number type. Only generated code implements this trait.
 pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
     /// The specification of the definition.
     const SPEC: ConstraintSpec;
@@ -25,36 +25,37 @@ pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
     /// [`crate::Definition::initialise`].
     ///
     /// # Errors
-    /// If a value is missing, of another shape or out of range.
+    /// Returns an error if a value is missing, has a wrong shape or is out of range.
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError>;
 
-    /// Calls a visitor with the drives of the measures, in the order of the measures.
+    /// Calls a visitor with the drives of the joint coordinates, in the order of the `measures`.
     fn visit_drives<V: Visitor<S>>(_visitor: &mut V) {}
 
-    /// Its rows in a number type.
+    /// The rows in a number type.
     fn element<T: Scalar>(&self) -> &dyn Element<T, S>;
 
-    /// Its reaction in a number type.
+    /// The reaction in a number type.
     fn reaction<T: Real>(&self) -> &dyn Reaction<T, S>;
 }
 
 /// All kernels of a constraint as a trait object: rows and reaction in `f64`, their derivatives,
 /// and the rows in any other number type.
 ///
-/// The derivatives by poses and velocities are closed forms, except in definitions whose closed
-/// forms are long: those have the dual numbers of [`crate::slopes`].
+/// The derivatives with respect to poses and velocities are closed forms. Definitions with long
+/// closed forms use the dual numbers of [`crate::slopes`] instead.
 pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S> {
     /// The rows of all constraints of this kind, which run in any number type.
     fn programs(&self) -> &Programs;
 
-    /// Adds the numbers that the programs take of this constraint to `out`.
+    /// Adds the numbers of this constraint that the programs need to `out`.
     fn stored(&self, out: &mut Vec<f64>);
 
-    /// Tells the derivatives of these numbers by those of [`crate::Definition::data`], without
-    /// zeros: index among the former, index among the latter, value.
+    /// Passes the derivatives of these numbers with respect to the numbers of
+    /// [`crate::Definition::data`] to `entry`, without zeros: index of the stored number, index of
+    /// the datum, value.
     fn d_stored_dp(&self, entry: &mut dyn FnMut(usize, usize, f64));
 
-    /// Entries of `∂(Cᵀλ)/∂x`, by the degrees of freedom of the slots.
+    /// Entries of `∂(Cᵀλ)/∂x`, for the degrees of freedom of the slots.
     fn d_force_dx(&self, x: &[S::Pose<f64>], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
         slopes::d_force_dx::<S>(&of_kind(self), (x, f), lambda, out);
     }
@@ -87,7 +88,7 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
         slopes::d_velocity_dx::<S>(&of_kind(self), At { x, v: Some(v), f }, out);
     }
 
-    /// Derivatives of the rows by the numbers of [`crate::Definition::data`].
+    /// Derivatives of the rows with respect to the numbers of [`crate::Definition::data`].
     fn slopes(&self, x: &[S::Pose<f64>], f: &[[f64; 3]], of: SlopedOutputs<'_, S>) -> Slopes {
         let mut of_stored = Vec::new();
         self.d_stored_dp(&mut |place, number, slope| of_stored.push((place, number, slope)));

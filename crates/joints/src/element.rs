@@ -1,5 +1,5 @@
 //! The rows of a constraint and its reaction: the kernels that are compiled in several number
-//! types. Slices are those of [`crate::constraint`].
+//! types. [`crate::constraint`] describes the slices.
 
 use crate::definition::Definition;
 use crate::ring::{Real, Scalar};
@@ -14,31 +14,31 @@ pub trait Element<T: Scalar = f64, S: Space = Plane>: Definition<S> {
     /// Writes `Φ`, one value for each holonomic row.
     fn phi(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Writes the entries of the block of C that depend on parameters only; the others are not
-    /// changed.
+    /// Writes the entries of the block of C that depend only on parameters; the other entries do
+    /// not change.
     fn c_constant(&self, _out: &mut [T]) {}
 
     /// Writes the other entries of the block of C: `C = ∂Φ̇/∂v` or `Ψ`.
     fn c(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Writes `b = −Φt` or `−ψ`, one value for each row; nothing for scleronomic constraints, whose
-    /// b is zero.
+    /// Writes `b = −Φt` or `−ψ`, one value for each row. Scleronomic constraints write nothing,
+    /// because their b is zero.
     fn b(&self, _x: &[S::Pose<T>], _f: &[[T; 3]], _out: &mut [T]) {}
 
     /// Writes `Γ` of `C·a = Γ`, one value for each row.
     fn gamma(&self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Writes the coefficients of the named component of the reaction, `Σ out·λ`; nothing if there
-    /// is none.
+    /// Writes the coefficients of the named component of the reaction, `Σ out·λ`; writes nothing if
+    /// there is no such component.
     fn component(&self, _x: &[S::Pose<T>], _f: &[[T; 3]], _out: &mut [T]) {}
 }
 
 /// The reaction of a constraint in closed form, for one number type.
 pub trait Reaction<T: Real = f64, S: Space = Plane> {
-    /// Entries of the map `W` (components × rows) of the wrench on the first body, `W·λ` =
-    /// `[Fx, Fy, T]` or `[Fx, Fy, Fz, Tx, Ty, Tz]`, with the moment about the place.
+    /// Entries of the map `W` (components × rows) to the wrench on the first body, `W·λ` =
+    /// `[Fx, Fy, T]` or `[Fx, Fy, Fz, Tx, Ty, Tz]`, with the moment about the reference point.
     fn wrench(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// The point at which the reaction is reported, global components.
+    /// The reference point of the reaction, global components.
     fn place(&self, x: &[S::Pose<T>]) -> S::Vector<T>;
 }

@@ -1,7 +1,7 @@
 //! Forces: the traits that a definition implements.
 //!
-//! Each force is a law on relative coordinates: `Q = Σ law·∂coordinate/∂x`, so that internal forces
-//! balance by construction. The slices are those of [`crate::constraint`].
+//! Each force is a force law on relative coordinates: `Q = Σ law·∂coordinate/∂x`, so that internal
+//! forces balance by construction. [`crate::constraint`] describes the slices.
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::definition::Definition;
@@ -10,7 +10,7 @@ use crate::space::{Plane, Space};
 use crate::spec::ForceSpec;
 
 /// A force definition as a type: its specification, its constructor and its kernels in any number
-/// type. Implemented by generated code only.
+/// type. Only generated code implements this trait.
 pub trait Force<S: Space = Plane>: ForceElement<f64, S> + Clone + 'static {
     /// The specification of the definition.
     const SPEC: ForceSpec;
@@ -19,10 +19,10 @@ pub trait Force<S: Space = Plane>: ForceElement<f64, S> + Clone + 'static {
     /// [`Definition::initialise`].
     ///
     /// # Errors
-    /// If a value is missing, of another shape or out of range.
+    /// Returns an error if a value is missing, has a wrong shape or is out of range.
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError>;
 
-    /// Its kernels in a number type.
+    /// The kernels in a number type.
     fn element<T: Real>(&self) -> &dyn ForceElement<T, S>;
 }
 
@@ -31,7 +31,7 @@ pub trait ForceElement<T: Real = f64, S: Space = Plane>: Definition<S> {
     /// The specification of the definition.
     fn spec(&self) -> &'static ForceSpec;
 
-    /// Entries of Q, by the pattern of the spec.
+    /// Entries of Q, with the pattern of the specification.
     fn q(&self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
     /// Entries of `∂Q/∂x`.

@@ -4,19 +4,19 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`program`] | rows as programs that run in any number type |
+//! | [`program`] | constraint rows as programs that run in any number type |
 //! | [`ring`] | the number types of kernels |
 //! | [`recorded`] | a number type that records its operations |
-//! | [`slopes`] | derivatives by dual numbers |
-//! | [`space`] | the plane and space as types |
+//! | [`slopes`] | derivatives with dual numbers |
+//! | [`space`] | the plane and three-dimensional space as types |
 //! | [`plane`], [`space3`] | poses and twists of bodies, and directions fixed in them |
 //! | [`spec`] | specifications of definitions: rows, parameters, patterns, counts |
 //! | [`arguments`] | values for the parameters of a definition |
 //! | [`definition`] | the numbers stored by constraints and forces |
 //! | [`element`] | the kernels of constraints in several number types: rows and reaction |
-//! | [`constraint`] | a definition of constraints as a type, and all its kernels |
-//! | [`force`] | the same for forces |
-//! | [`visitor`] | all definitions, one after the other, with their types |
+//! | [`constraint`] | a constraint definition as a type, and all its kernels |
+//! | [`force`] | a force definition as a type, and its kernels |
+//! | [`visitor`] | iteration over all definitions with their types |
 //! | [`generated`] | one module for each file in `definitions/` |
 
 pub mod arguments;

@@ -1,4 +1,5 @@
-//! Planar bodies in kernels: poses and twists, never coordinates of a system.
+//! Planar bodies in kernels: their poses and twists. Kernels do not use the coordinates of the
+//! whole system.
 
 use crate::ring::Ring;
 
@@ -12,7 +13,7 @@ pub struct Pose<T = f64> {
     pub x: T,
     /// Global y of the frame's origin (m).
     pub y: T,
-    /// Angle of the frame relative to the global one (rad), not reduced to one revolution.
+    /// Angle of the frame relative to the global one (rad), with full revolutions.
     pub angle: T,
     /// cos(angle)
     pub cos: T,
@@ -30,7 +31,7 @@ impl Pose<f64> {
         sin: 0.0,
     };
 
-    /// Position and angle, with cosine and sine computed.
+    /// A pose with this position and angle; cosine and sine are computed.
     #[must_use]
     pub fn new(x: f64, y: f64, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
@@ -114,7 +115,7 @@ impl Direction {
     /// ```
     #[must_use]
     pub fn new(v: [f64; 2]) -> Option<Self> {
-        // Scaled first, so that no square overflows or underflows.
+        // The vector is scaled first, so that no square overflows or underflows.
         let size = v[0].abs().max(v[1].abs());
         if !(size > 0.0 && size.is_finite() && v[0].is_finite() && v[1].is_finite()) {
             return None;
@@ -125,7 +126,7 @@ impl Direction {
     }
 
     /// Sets components as returned by `Definition::data`, possibly with small changes, without
-    /// normalisation: a derivative with respect to one of them leaves the unit circle. For
+    /// normalisation: a derivative with respect to a component leaves the unit circle. For
     /// generated code.
     #[doc(hidden)]
     #[must_use]
@@ -133,7 +134,7 @@ impl Direction {
         Self(xy)
     }
 
-    /// Its components.
+    /// Components of the direction.
     #[must_use]
     pub fn xy(self) -> [f64; 2] {
         self.0

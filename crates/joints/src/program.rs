@@ -1,11 +1,12 @@
-//! The rows of a constraint as programs: lists of additions and multiplications, recorded once for
-//! each kind, that run in any number type.
+//! The rows of a constraint as programs: lists of additions and multiplications that run in any
+//! number type. They are recorded once for each kind of constraint.
 //!
-//! Motion runs the compiled kernels of `f64`. All else that asks for the rows, in doubled
-//! precision, by the sizes of their terms, with derivatives or as operations of generated code, is
-//! asked once a configuration: it runs these programs, so that no kernel is compiled for it.
+//! The motion uses the kernels compiled for `f64`. All other calculations need the rows only once a
+//! configuration: in double-double precision, with the sizes of their terms, with derivatives, or
+//! as operations of generated code. They run these programs, so that no kernel is compiled for
+//! them.
 //!
-//! A program is given numbers in one order: those that the constraint stores
+//! The numbers passed to a program have a fixed order: the numbers stored by the constraint
 //! ([`crate::ConstraintKernels::stored`]), the poses of the slots, the functions of time with two
 //! derivatives each, and the twists of the slots.
 
@@ -14,12 +15,12 @@ use crate::recorded::{Operation, RecordedNumber, record};
 use crate::ring::Ring;
 use crate::space::Space;
 
-/// A place among the values of a program.
+/// An index into the values of a program.
 fn place_of(k: usize) -> u32 {
     u32::try_from(k).unwrap_or(u32::MAX)
 }
 
-/// One operation on values that have places: those that are given, then one for each operation.
+/// One operation on indexed values: first the given values, then one value for each operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Step {
     Number(f64),
@@ -29,18 +30,18 @@ enum Step {
     Neg(u32),
 }
 
-/// One kernel as a polynomial in what it is given.
+/// One kernel as a polynomial in the given values.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Program {
     given: usize,
     steps: Vec<Step>,
-    /// Entries of the output that it writes, each with the place of its value.
+    /// Entries of the output that the program writes, each with the index of its value.
     written: Vec<(usize, u32)>,
 }
 
 impl Program {
-    /// The program of a tape that starts with as many inputs as are given. Entries of `out` that
-    /// are still `unwritten` are not those of the kernel.
+    /// The program of an operation list that starts with the given number of inputs. Entries of
+    /// `out` that are still `unwritten` do not belong to the kernel.
     fn new(
         given: usize,
         tape: &[Operation],
@@ -82,7 +83,7 @@ impl Program {
         program.without_idle_steps()
     }
 
-    /// The same without steps that no output needs.
+    /// The same program without steps that no output needs.
     fn without_idle_steps(self) -> Self {
         let mut needed = vec![false; self.steps.len()];
         let step_of = |place: u32| (place as usize).checked_sub(self.given);
@@ -130,7 +131,7 @@ impl Program {
         }
     }
 
-    /// Runs it on the numbers that it is given.
+    /// Runs the program on the given values.
     fn run<T: Ring>(&self, mut values: Vec<T>, out: &mut [T]) {
         assert_eq!(values.len(), self.given, "what a program is given");
         for step in &self.steps {
@@ -153,7 +154,7 @@ impl Program {
 /// The programs of one kind of constraint.
 #[derive(Clone, Debug)]
 pub struct Programs {
-    /// Number of values with derivatives that they take; more may be given.
+    /// Number of values with derivatives that the programs need; more may be given.
     jets: usize,
     phi: Program,
     c_constant: Program,
@@ -163,18 +164,18 @@ pub struct Programs {
     component: Program,
 }
 
-/// What a program is given of a pose: poses, functions of time, and twists if it depends on them.
+/// Inputs of a program: poses, functions of time, and twists if the program depends on them.
 type KernelInputs<'a, S, T> = (
     &'a [<S as Space>::Pose<T>],
     &'a [[T; 3]],
     &'a [<S as Space>::Twist<T>],
 );
 
-/// A kernel that is recorded.
+/// A kernel during its recording.
 type Write<'w, S> = &'w dyn Fn(KernelInputs<'_, S, RecordedNumber>, &mut [RecordedNumber]);
 
 impl Programs {
-    /// Records the kernels of a constraint that stores so many numbers.
+    /// Records the kernels of a constraint that stores this number of values.
     #[must_use]
     pub fn record<S: Space>(element: &impl Element<RecordedNumber, S>, stored: usize) -> Self {
         let spec = element.spec();
@@ -239,7 +240,7 @@ impl<T: Ring> Rows<'_, T> {
         self.run::<S>(&self.programs.phi, (x, f, &[]), out);
     }
 
-    /// The entries of C that depend on parameters only; the others are not changed.
+    /// The entries of C that depend only on parameters; the other entries do not change.
     pub fn c_constant<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.c_constant, (x, f, &[]), out);
     }
@@ -249,7 +250,7 @@ impl<T: Ring> Rows<'_, T> {
         self.run::<S>(&self.programs.c, (x, f, &[]), out);
     }
 
-    /// b; nothing for scleronomic constraints.
+    /// b; scleronomic constraints write nothing.
     pub fn b<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.b, (x, f, &[]), out);
     }
@@ -259,7 +260,7 @@ impl<T: Ring> Rows<'_, T> {
         self.run::<S>(&self.programs.gamma, (x, f, v), out);
     }
 
-    /// The coefficients of the named component; nothing if there is none.
+    /// The coefficients of the named component; nothing is written if there is no such component.
     pub fn component<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.component, (x, f, &[]), out);
     }
@@ -308,7 +309,7 @@ mod tests {
 
     #[test]
     fn steps_that_no_output_needs_are_left_out() {
-        // A product, a difference, a number and a sum.
+        // A product, a difference, a constant and a sum.
         assert_eq!(program().steps.len(), 4);
     }
 }

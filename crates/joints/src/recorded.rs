@@ -1,19 +1,19 @@
-//! A number type that records its operations: a kernel runs on it once and writes its operations,
-//! with the values of its parameters, to a tape, from which programs for one mechanism are
-//! generated. Nothing is differentiated or simplified here.
+//! A number type that records its operations. A kernel runs on it once and writes its operations,
+//! with the values of its parameters, to an operation list (`tape`), from which programs for one
+//! mechanism are generated. This module does not differentiate or simplify the operations.
 //!
-//! The tape is thread-local, because kernels only copy numbers.
+//! The operation list is thread-local, because kernels only copy numbers.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::ring::{Real, Scalar};
 
-/// Index of an operation on the tape of the present recording.
+/// Index of an operation in the operation list of the present recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordedNumber(usize);
 
-/// One operation of a tape; operands come before their uses.
+/// One operation of an operation list; operands come before their uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
     /// A constant.
@@ -34,7 +34,7 @@ pub enum Operation {
     Sqrt(RecordedNumber),
     /// `1/a`, or 0 if a is 0.
     RecipOrZero(RecordedNumber),
-    /// [`rotation::angle_over_sine`] of an order.
+    /// [`rotation::angle_over_sine`] of a given order.
     AngleOverSine(RecordedNumber, u8),
 }
 
@@ -68,7 +68,7 @@ impl RecordedNumber {
         Self::push(Operation::Input(k))
     }
 
-    /// Its index on the tape.
+    /// Index in the operation list.
     #[must_use]
     pub fn place(self) -> usize {
         self.0
@@ -88,7 +88,8 @@ impl From<f64> for RecordedNumber {
     }
 }
 
-/// What a constraint stores is an input: its rows are recorded for all constraints of its kind.
+/// Numbers stored by a constraint are inputs: its rows are recorded for all constraints of its
+/// kind.
 impl Scalar for RecordedNumber {
     fn stored(_: f64, place: usize) -> Self {
         Self::input(place)

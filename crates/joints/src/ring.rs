@@ -1,5 +1,5 @@
-//! Number types of kernels: `f64` for motion, numbers that record for all else, dual numbers for
-//! tests; programs run in rings.
+//! Number types of kernels: `f64` for motion, recording numbers for all other calculations, dual
+//! numbers for tests. Programs run in any ring.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -18,7 +18,7 @@ impl<T> Ring for T where
 
 /// A number type in which the rows of constraints are compiled.
 pub trait Scalar: Ring {
-    /// A number that a constraint stores, as its rows read it: the one at this place of
+    /// A stored number of a constraint, as its rows read it; `_place` is its index in
     /// [`crate::ConstraintKernels::stored`].
     #[must_use]
     fn stored(value: f64, _place: usize) -> Self {
@@ -39,7 +39,8 @@ pub trait Real: Ring + Div<Output = Self> {
     #[must_use]
     fn recip_or_zero(self) -> Self;
 
-    /// The derivative of an order by c, of θ/sin θ with c = cos θ, see [`angle_over_sine`].
+    /// The derivative of this order with respect to c, of θ/sin θ with c = cos θ, see
+    /// [`angle_over_sine`].
     #[must_use]
     fn angle_over_sine(self, order: u8) -> Self;
 }
@@ -59,9 +60,9 @@ impl Real for f64 {
 }
 
 /// The size of the terms that a polynomial adds: every operation is applied to absolute values, and
-/// differences become sums. A kernel on magnitudes gives for each of its results a bound on the
-/// terms that cancel in it; times the relative error of the data, this is a bound on the error of
-/// the result.
+/// differences become sums. A kernel with these numbers returns, for each result, a bound on the
+/// terms that cancel in it. This bound times the relative error of the data is a bound on the error
+/// of the result.
 ///
 /// ```
 /// use pfaff_joints::Magnitude;
@@ -72,7 +73,7 @@ impl Real for f64 {
 pub struct Magnitude(f64);
 
 impl Magnitude {
-    /// Its value, not negative.
+    /// The value, not negative.
     #[must_use]
     pub fn value(self) -> f64 {
         self.0

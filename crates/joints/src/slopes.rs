@@ -1,5 +1,6 @@
-//! Derivatives of the rows by dual numbers, through the programs of the kernels: by the numbers
-//! that a constraint stores, and by poses and velocities where no closed form is compiled.
+//! Derivatives of the rows with dual numbers, through the programs of the kernels: with respect to
+//! the numbers that a constraint stores, and with respect to poses and velocities if no closed form
+//! is compiled.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -7,7 +8,7 @@ use crate::program::Programs;
 use crate::space::Space;
 use crate::spec::{ConstraintSpec, Entry};
 
-/// Number of directions of one dual number: the freedoms of a body in space.
+/// Number of directions of one dual number: the degrees of freedom of a body in space.
 const LANES: usize = 6;
 
 /// A number with its derivatives along a few directions.
@@ -25,7 +26,7 @@ impl Dual {
         }
     }
 
-    /// A value of two numbers, with its derivatives by them.
+    /// A value that depends on two numbers, with its derivatives with respect to them.
     fn of(value: f64, [(x, by_x), (y, by_y)]: [(Self, f64); 2]) -> Self {
         Self::with(value, |k| by_x * x.slopes[k] + by_y * y.slopes[k])
     }
@@ -69,19 +70,19 @@ impl Neg for Dual {
     }
 }
 
-/// A constraint as its programs see it.
+/// The data of a constraint that its programs need.
 pub(crate) struct OfKind<'k> {
     pub(crate) spec: &'static ConstraintSpec,
     pub(crate) programs: &'k Programs,
-    /// The numbers that the programs take of it.
+    /// The numbers of the constraint that the programs need.
     pub(crate) stored: Vec<f64>,
 }
 
-/// What the rows depend on.
+/// The state on which the rows depend.
 #[derive(Clone, Copy)]
 pub(crate) struct At<'a, S: Space> {
     pub(crate) x: &'a [S::Pose<f64>],
-    /// Without twists there is no Γ.
+    /// Γ is computed only with twists.
     pub(crate) v: Option<&'a [S::Twist<f64>]>,
     pub(crate) f: &'a [[f64; 3]],
 }
@@ -118,7 +119,7 @@ impl DualInputs {
         self.v.chunks_exact(S::N_DOF).map(S::twist).collect()
     }
 
-    /// Lets the body of a slot move along each of its freedoms.
+    /// Adds the derivatives of the pose of a slot along each degree of freedom of its body.
     fn move_slot<S: Space>(&mut self, slot: usize, pose: &S::Pose<f64>) {
         let own = &mut self.x[S::N_POSE * slot..][..S::N_POSE];
         let mut rates = vec![0.0; S::N_POSE];
@@ -130,7 +131,7 @@ impl DualInputs {
         }
     }
 
-    /// Lets each velocity of the body of a slot change.
+    /// Adds the derivatives with respect to each velocity of the body of a slot.
     fn accelerate_slot<S: Space>(&mut self, slot: usize) {
         for (dof, v) in self.v[S::N_DOF * slot..][..S::N_DOF].iter_mut().enumerate() {
             v.slopes[dof] = 1.0;
@@ -138,12 +139,12 @@ impl DualInputs {
     }
 }
 
-/// Removes all slopes.
+/// Sets all derivatives to zero.
 fn still(numbers: &mut [Dual]) {
     numbers.iter_mut().for_each(|x| x.slopes = [0.0; LANES]);
 }
 
-/// Which kernel is differentiated, with the rows of the block in which its outputs are.
+/// The kernel to be differentiated, with the rows of the block that contain its outputs.
 enum Kernel<'a, S: Space> {
     /// Cᵀλ
     Force(&'a [f64]),
@@ -155,7 +156,8 @@ enum Kernel<'a, S: Space> {
     Gamma,
 }
 
-/// Entries of a derivative by the pose or, of Γ, by velocities, in the order of a pattern.
+/// Entries of a derivative with respect to the pose or, for Γ, with respect to velocities, in the
+/// order of a pattern.
 fn block<S: Space>(
     kind: &OfKind<'_>,
     at: At<'_, S>,
@@ -184,7 +186,7 @@ fn block<S: Space>(
         let (x, v) = (seeded.poses::<S>(), seeded.twists::<S>());
         let rows_of = kind.programs.of(&seeded.stored);
         let zero = Dual::from(0.0);
-        // Slopes of the rows, or of the columns of Cᵀλ.
+        // Derivatives of the rows, or of the columns of Cᵀλ.
         let mut sums = vec![[0.0; LANES]; rows.max(S::N_DOF * spec.common.slots.len())];
         let mut add = |to: usize, factor: f64, d: &Dual| {
             let slopes = sums[to].iter_mut().zip(d.slopes);
@@ -255,7 +257,7 @@ pub(crate) fn d_velocity_dx<S: Space>(kind: &OfKind<'_>, at: At<'_, S>, out: &mu
     block(kind, at, kind.spec.d_velocity_dx, &Kernel::Velocity, out);
 }
 
-/// Which outputs of the rows have slopes.
+/// The outputs of the rows that are differentiated.
 #[derive(Clone, Copy, Debug)]
 pub enum SlopedOutputs<'a, S: Space> {
     /// Φ.
@@ -266,9 +268,9 @@ pub enum SlopedOutputs<'a, S: Space> {
     All(&'a [S::Twist<f64>]),
 }
 
-/// Derivatives of Φ, C and Γ by each number p of [`crate::Definition::data`]. Values that are
-/// computed from other numbers change with them; values stored at the start do not: they are
-/// numbers of their own.
+/// Derivatives of Φ, C and Γ with respect to each number p of [`crate::Definition::data`]. Values
+/// that are computed from other numbers change with them. Values stored at the start do not change,
+/// because they are separate numbers.
 ///
 /// ```
 /// use pfaff_joints::generated::Distance;
@@ -288,11 +290,12 @@ pub enum SlopedOutputs<'a, S: Space> {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Slopes {
-    /// For each number, those of the holonomic rows of Φ; empty if not asked for, as the others.
+    /// Derivatives of the holonomic rows of Φ for each number; empty if not requested, like the
+    /// other fields.
     phi: Vec<f64>,
-    /// For each number, those of the entries of C.
+    /// Derivatives of the entries of C for each number.
     c: Vec<f64>,
-    /// For each number, those of the rows of Γ; empty without velocities.
+    /// Derivatives of the rows of Γ for each number; empty without velocities.
     gamma: Vec<f64>,
     entries: &'static [Entry],
     sizes: [usize; 3],

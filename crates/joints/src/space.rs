@@ -1,6 +1,7 @@
-//! The two spaces in which bodies move, as types: what a pose, a twist and a vector are.
+//! The two spaces in which bodies move, as types that define poses, twists and vectors.
 //!
-//! Kernels, their traits and their tests are generic over the space; a definition belongs to one.
+//! Kernels, their traits and their tests are generic over the space; each definition belongs to one
+//! space.
 
 use std::fmt::Debug;
 
@@ -19,20 +20,20 @@ pub trait Space: Copy + Debug + Send + Sync + 'static {
     type Pose<T: Ring>: Copy;
     /// Velocity of a body.
     type Twist<T: Ring>: Copy;
-    /// Number of numbers of a pose.
+    /// Number of values in a pose.
     const N_POSE: usize;
 
-    /// The pose of these numbers.
+    /// The pose with these values.
     fn pose<T: Ring>(numbers: &[T]) -> Self::Pose<T>;
 
-    /// Adds the numbers of a pose to `out`.
+    /// Adds the values of a pose to `out`.
     fn numbers_of_pose<T: Ring>(pose: &Self::Pose<T>, out: &mut Vec<T>);
 
-    /// Writes the rates of the numbers of a pose that moves at 1 m/s or 1 rad/s along one degree of
+    /// Writes the rates of the values of a pose that moves at 1 m/s or 1 rad/s along one degree of
     /// freedom.
     fn rates_of_pose(pose: &Self::Pose<f64>, dof: usize, out: &mut [f64]);
 
-    /// The twist of these velocities.
+    /// The twist with these velocities.
     fn twist<T: Ring>(velocities: &[T]) -> Self::Twist<T>;
 
     /// The velocities of a twist.
@@ -117,7 +118,7 @@ impl Space for Space3 {
             out[dof] = 1.0;
             return;
         };
-        // Along e_a the axes b and c, which follow it, turn into c and −b.
+        // During a rotation about e_a, the next axes b and c change at the rates c and −b.
         let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
         for (row, out) in pose.rot.iter().zip(out[3..].chunks_exact_mut(3)) {
             (out[b], out[c]) = (row[c], -row[b]);

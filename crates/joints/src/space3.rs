@@ -1,5 +1,5 @@
-//! Spatial bodies in kernels, never coordinates of a system: poses and twists, directions and axes
-//! as they are fixed in a body.
+//! Spatial bodies in kernels: poses and twists, and directions and axes that are fixed in a body.
+//! Kernels do not use the coordinates of the whole system.
 //!
 //! A body rotates by a matrix R, from its frame to the ground. Its angular velocity ω has
 //! components in the **frame of the body**: `Ṙ = R·[ω]×`. Velocities of origins have ground
@@ -29,7 +29,8 @@ impl Pose<f64> {
         rot: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     };
 
-    /// Position and quaternion (w, x, y, z), which need not have length one but must not be zero.
+    /// The pose with this position and this quaternion (w, x, y, z); the quaternion may have any
+    /// length except zero.
     ///
     /// ```
     /// use pfaff_joints::space3::Pose;
@@ -82,7 +83,7 @@ impl Pose<f64> {
 }
 
 /// |e|²·R of the quaternion e = (w, x, y, z), by rows: polynomials of second degree, so that the
-/// rotation is one for any length of e that is not zero.
+/// result is a rotation, times |e|², for any length of e except zero.
 #[must_use]
 pub fn rotation<T: Ring>([w, x, y, z]: [T; 4]) -> [[T; 3]; 3] {
     let twice = |a: T| a + a;
@@ -133,7 +134,7 @@ impl Direction {
     #[must_use]
     pub fn new(v: impl Into<[f64; 3]>) -> Option<Self> {
         let v = v.into();
-        // Scaled first, so that no square overflows or underflows.
+        // The vector is scaled first, so that no square overflows or underflows.
         let size = v.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         if !(size > 0.0 && size.is_finite() && v.iter().all(|x| x.is_finite())) {
             return None;
@@ -144,7 +145,7 @@ impl Direction {
     }
 
     /// Sets components as returned by `Definition::data`, possibly with small changes, without
-    /// normalisation: a derivative with respect to one of them leaves the unit sphere. For
+    /// normalisation: a derivative with respect to a component leaves the unit sphere. For
     /// generated code.
     #[doc(hidden)]
     #[must_use]
@@ -152,7 +153,7 @@ impl Direction {
         Self(xyz)
     }
 
-    /// Its components.
+    /// Components of the direction.
     #[must_use]
     pub fn xyz(self) -> [f64; 3] {
         self.0
@@ -160,25 +161,25 @@ impl Direction {
 }
 
 /// Three orthonormal directions u, v, w of a body, right-handed: w is the axis of a joint, u and v
-/// lie across it.
+/// are perpendicular to it.
 ///
-/// As data they are one quantity, which can only rotate: its three numbers are the components of a
-/// rotation vector in the frame of the body (rad), zero as they are.
+/// As data they are one quantity, which can only rotate. Its three numbers are the components of a
+/// rotation vector in the frame of the body (rad); they are zero for the stored axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes([[f64; 3]; 3]);
 
-/// Smallest sine of the angle between an axis and the direction across it: 1e-6 keeps ten digits of
-/// the directions across.
+/// Smallest sine of the angle between an axis and the direction across it: at 1e-6, the directions
+/// across keep ten digits.
 const LEAST_ANGLE: f64 = 1e-6;
 
 impl Axes {
     /// The axes of the frame.
     pub const FRAME: Self = Self([Direction::X.0, Direction::Y.0, Direction::Z.0]);
 
-    /// The axes with w along `axis` and u along `across`, as far as that is across the axis;
-    /// without it, u is the coordinate axis that lies least along w, made orthogonal to it. `None`
-    /// if `axis` has no direction, or `across` none of its own (its angle to the axis is below
-    /// 1e-6).
+    /// The axes with w along `axis` and u along the part of `across` that is perpendicular to the
+    /// axis. Without `across`, u is the coordinate axis with the smallest component along w, made
+    /// orthogonal to w. `None` if `axis` has length zero, or if the angle between `across` and the
+    /// axis is below 1e-6.
     ///
     /// ```
     /// use pfaff_joints::space3::Axes;
@@ -202,7 +203,8 @@ impl Axes {
         if dot(across, across).sqrt() < LEAST_ANGLE {
             return None;
         }
-        // Once more: the first time leaves a rounding relative to what was taken away.
+        // The second pass is needed because the first one leaves a rounding error relative to the
+        // part that it removes.
         let u = Direction::new(across)?.0;
         let along = dot(u, w);
         let u = Direction::new(std::array::from_fn(|k| u[k] - along * w[k]))?.0;
@@ -215,7 +217,7 @@ impl Axes {
         self.0
     }
 
-    /// The same axes as they stand in another body: each direction by `map`, which must be a
+    /// The same axes in the frame of another body; `map` converts each direction and must be a
     /// rotation.
     #[must_use]
     pub fn map(self, map: impl FnMut([f64; 3]) -> [f64; 3]) -> Self {
@@ -257,7 +259,8 @@ impl GroundPlane {
         along: Direction::X,
     };
 
-    /// The plane through a point across a vector; `None` if the vector is zero or not finite.
+    /// The plane through a point and perpendicular to a vector; `None` if the vector is zero or not
+    /// finite.
     #[must_use]
     pub fn new(point: impl Into<[f64; 3]>, normal: impl Into<[f64; 3]>) -> Option<Self> {
         let normal = Direction::new(normal)?;
@@ -270,7 +273,7 @@ impl GroundPlane {
     }
 
     /// Sets point and normal as returned by `Definition::data`, without normalisation, see
-    /// [`Direction::from_data`]; the direction along the plane stays.
+    /// [`Direction::from_data`]; the direction along the plane does not change.
     #[doc(hidden)]
     #[must_use]
     pub fn with_data(self, point: [f64; 3], normal: [f64; 3]) -> Self {
@@ -287,14 +290,14 @@ impl GroundPlane {
         self.point
     }
 
-    /// The unit vector across it.
+    /// The unit vector normal to the plane.
     #[must_use]
     pub fn normal(&self) -> Direction {
         self.normal
     }
 
-    /// A unit vector along it: the coordinate axis that lies least along the normal, made
-    /// orthogonal to it; x for the plane z = 0.
+    /// A unit vector in the plane: the coordinate axis with the smallest component along the
+    /// normal, made orthogonal to it; x for the plane z = 0.
     #[must_use]
     pub fn along(&self) -> Direction {
         self.along

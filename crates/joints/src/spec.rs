@@ -11,7 +11,7 @@ pub struct Spec {
     pub name: &'static str,
     /// Value of `type` in a scene file, for example `pin-in-slot`.
     pub scene_type: &'static str,
-    /// Several definitions may share a scene type and differ by the value of one key.
+    /// The key that distinguishes definitions with the same scene type, if there are several.
     pub variant: Option<Variant>,
     /// The definition's doc comment.
     pub doc: &'static str,
@@ -21,20 +21,21 @@ pub struct Spec {
     pub slots: &'static [&'static str],
     /// Parameters, in the order of their arguments.
     pub parameters: &'static [Parameter],
-    /// Whether a place in a scene is one common point (`at = [x, y]`) or one point for each point
+    /// Whether a scene gives one common reference point (`at = [x, y]`) or one point for each point
     /// parameter.
     pub points_apart: bool,
-    /// Whether its bodies, and its points and axes but for the last point, are those of two joints
-    /// that a scene names. The first two slots are wheels, each borne on the third by one of them:
-    /// the first point and the first axes in the third slot belong to the first bearing, the second
-    /// ones to the second, and the third point is the place.
+    /// Whether two joints that a scene names define the bodies, points and axes of the definition,
+    /// except the last point. The first two slots are wheels, and each of the joints supports one
+    /// of them on the body in the third slot. The first point and the first axes in the third slot
+    /// belong to the first bearing, the second ones to the second bearing. The third point is the
+    /// reference point.
     pub bearings: bool,
     /// Requirements on the assembled start, as text, in the order of `requirement`.
     pub requirements: &'static [&'static str],
 }
 
 impl Spec {
-    /// The slots of the bodies in whose frames its points are, in the order of its points.
+    /// The slots of the bodies in whose frames the points are given, in the order of the points.
     pub fn slots_of_points(&self) -> impl Iterator<Item = usize> + use<> {
         self.parameters.iter().filter_map(|p| match p.shape {
             Shape::Point { slot } => Some(slot),
@@ -42,7 +43,7 @@ impl Spec {
         })
     }
 
-    /// Units of the functions of time that the kernels take, in the order of `f`.
+    /// Units of the functions of time that the kernels use, in the order of `f`.
     pub fn functions(&self) -> impl Iterator<Item = (&'static str, Unit)> + use<> {
         self.parameters.iter().flat_map(|p| {
             let units = match p.shape {
@@ -57,9 +58,9 @@ impl Spec {
 /// The key that distinguishes definitions of one scene type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variant {
-    /// The key.
+    /// Name of the key.
     pub key: &'static str,
-    /// Its value for this definition.
+    /// Value of the key for this definition.
     pub value: &'static str,
     /// Whether this definition is selected if the key is not given.
     pub default: bool,
@@ -68,13 +69,14 @@ pub struct Variant {
 /// One parameter of a definition.
 #[derive(Clone, Copy, Debug)]
 pub struct Parameter {
-    /// Its name, which is its key in a scene file unless it is a point.
+    /// Name, which is the key in a scene file unless the parameter is a point.
     pub name: &'static str,
-    /// Kind of its value.
+    /// Kind of the value.
     pub shape: Shape,
-    /// Whether it may be omitted: then its value at the assembled start is used.
+    /// Whether the parameter may be omitted: then its value at the assembled start is used.
     pub optional: bool,
-    /// Its doc comment: its purpose in one sentence. Frame and unit follow from the shape.
+    /// Doc comment of the parameter: its purpose in one sentence. Frame and unit follow from the
+    /// shape.
     pub doc: &'static str,
 }
 
@@ -119,13 +121,13 @@ pub enum Shape {
     Axes {
         /// The slot.
         slot: usize,
-        /// The parameter, by its index, whose axes these are at the described start unless they
-        /// are given.
+        /// Index of the parameter to whose axes these are parallel at the described start, unless
+        /// they are given.
         like: Option<usize>,
     },
     /// A straight line of the ground through two points.
     GroundLine,
-    /// A plane of the ground: a point, and a vector across it.
+    /// A plane of the ground: a point, and a vector normal to it.
     GroundPlane,
     /// Numbers with their units; one number is written without brackets.
     Numbers(&'static [Unit]),
@@ -134,14 +136,14 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The shape in words, with as many coordinates as vectors have components.
+    /// Description of the shape, with as many coordinates as vectors have components.
     #[must_use]
     pub fn words(self, dim: usize) -> impl fmt::Display {
         ShapeWords { shape: self, dim }
     }
 }
 
-/// A shape in words.
+/// Description of a shape.
 struct ShapeWords {
     shape: Shape,
     dim: usize,
@@ -266,33 +268,33 @@ impl fmt::Display for Unit {
 /// Specification of a constraint definition.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstraintSpec {
-    /// The parts in common with forces.
+    /// The common parts of constraints and forces.
     pub common: Spec,
-    /// Joint, or drive of a measure of a joint.
+    /// Joint, or drive of a joint coordinate.
     pub role: Role,
-    /// Its rows: `Φ(q, t) = 0`, then `Ψ(q, t)·q̇ + ψ(q, t) = 0`.
+    /// Rows: `Φ(q, t) = 0`, then `Ψ(q, t)·q̇ + ψ(q, t) = 0`.
     pub rows: &'static [Row],
-    /// How many of its rows are holonomic: all, none or the first few.
+    /// Number of holonomic rows; they are the first rows.
     pub holonomic: usize,
-    /// Entries of its block of C that are not identically zero, row by row.
+    /// Entries of the block of C that are not identically zero, row by row.
     pub c: &'static [Entry],
-    /// Whether it depends on time explicitly, so that b is not identically zero.
+    /// Whether the constraint depends on time explicitly, so that b is not identically zero.
     pub rheonomic: bool,
     /// Entries (component, row) of the map from multipliers to the wrench on the first body that
     /// are not identically zero.
     pub wrench: &'static [[usize; 2]],
-    /// A named force component in addition to those of the wrench.
+    /// A named force component in addition to the components of the wrench.
     pub component: Option<&'static str>,
-    /// A note for readers of its reaction, without the name of the joint.
+    /// A note for readers of the reaction, without the name of the joint.
     pub note: Option<&'static str>,
     /// Relative coordinates that a drive may prescribe.
     pub measures: &'static [Measure],
-    /// Whether kernels take the cosine and the sine of the function of time in place of the
-    /// function itself, each with two derivatives: drives of angles in space.
+    /// Whether kernels use the cosine and the sine of the function of time instead of the function
+    /// itself, each with two derivatives: drives of angles in space.
     pub turning: bool,
-    /// Number of angles of space that its kernels are given with their full turns. After the
-    /// functions of time come three values for each: the angle since the start, its cosine and its
-    /// sine; their derivatives are not read.
+    /// Number of angles of space that the kernels receive with their full revolutions. Each has
+    /// three values after the functions of time: the angle since the start, its cosine and its
+    /// sine; their derivatives are not used.
     pub turns: usize,
     /// Pattern (row of the block, column of the block) of `∂(Cᵀλ)/∂x`.
     pub d_force_dx: &'static [[usize; 2]],
@@ -302,8 +304,8 @@ pub struct ConstraintSpec {
     pub d_gamma_dv: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂(C·v − b)/∂x`.
     pub d_velocity_dx: &'static [[usize; 2]],
-    /// The numbers that it stores: parameters, then values stored at the start. Each number that is
-    /// not computed from others belongs to exactly one datum.
+    /// The numbers that the constraint stores: parameters, followed by values stored at the start.
+    /// Each number that is not computed from others belongs to exactly one datum.
     pub data: &'static [Datum],
 }
 
@@ -317,14 +319,14 @@ impl ConstraintSpec {
         }
     }
 
-    /// Number of values with derivatives that its kernels take as `f`: functions of time, of which
-    /// one may enter by cosine and sine, and three for each counted angle.
+    /// Number of values with derivatives in the input `f` of the kernels: functions of time, of
+    /// which one may be replaced by its cosine and sine, and three for each unwrapped angle.
     #[must_use]
     pub fn n_jets(&self) -> usize {
         self.common.functions().count() + usize::from(self.turning) + 3 * self.turns
     }
 
-    /// Number of its nonholonomic rows, which follow the holonomic ones.
+    /// Number of nonholonomic rows, which follow the holonomic ones.
     #[must_use]
     pub const fn nonholonomic(&self) -> usize {
         self.rows.len() - self.holonomic
@@ -336,11 +338,11 @@ impl ConstraintSpec {
 pub struct Datum {
     /// Name of the parameter or of the stored value; `name[k]` for one number of a list.
     pub name: &'static str,
-    /// Kind of its numbers.
+    /// Kind of the numbers.
     pub shape: DatumShape,
-    /// Index of its first number among those of the constraint.
+    /// Index of the first number among the numbers of the constraint.
     pub first: usize,
-    /// Number of its numbers.
+    /// Count of the numbers.
     pub count: usize,
 }
 
@@ -356,7 +358,7 @@ impl Datum {
         }
     }
 
-    /// Indices of its numbers among those of the constraint.
+    /// Indices of the numbers among the numbers of the constraint.
     #[must_use]
     pub fn numbers(&self) -> Range<usize> {
         self.first..self.first + self.count
@@ -373,25 +375,26 @@ pub enum DatumShape {
         slot: usize,
     },
     /// Components of a unit vector in the frame of the body in this slot. Only changes
-    /// perpendicular to it are meaningful.
+    /// perpendicular to the vector are meaningful.
     Direction {
         /// The slot.
         slot: usize,
     },
-    /// Three numbers: the rotation vector of axes in the frame of the body in this slot (rad), zero
-    /// as they are.
+    /// Three numbers: the rotation vector of axes in the frame of the body in this slot (rad); they
+    /// are zero for the stored axes.
     Axes {
         /// The slot.
         slot: usize,
     },
-    /// Four numbers: x and y of the start of a line of the ground (m), and of its unit vector.
+    /// Four numbers: x and y of the start of a line of the ground (m), and of the unit vector of
+    /// the line.
     Line,
     /// Six numbers: a point of a plane of the ground (m), and its unit normal.
     Plane,
-    /// One number. An optional one that is not given has its value at the start.
+    /// One number. An optional number that is not given has its value at the start.
     Number(Unit),
-    /// One number stored at the start; an angle that is stored by its cosine and sine is 0 as it
-    /// is.
+    /// One number stored at the start; an angle that is stored by its cosine and sine has the value
+    /// 0 for the stored angle.
     Kept(Unit),
     /// Components, in the frame of the body in this slot, of a vector stored at the start (m).
     KeptVector {
@@ -405,16 +408,17 @@ pub enum DatumShape {
 pub enum Role {
     /// Connects bodies.
     Joint,
-    /// Prescribes a measure of a joint.
+    /// Prescribes a joint coordinate.
     Drive,
 }
 
 /// One row of a constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Its name within the joint.
+    /// Name of the row within the joint.
     pub name: &'static str,
-    /// Whether it restricts the start: a row that stores an initial value holds at any start.
+    /// Whether the row restricts the start: a row that stores an initial value is satisfied at any
+    /// start.
     pub restricts_start: bool,
 }
 
@@ -448,12 +452,12 @@ pub struct Entry {
     /// Degree of freedom of the body: 0 x, 1 y, 2 rotation in the plane; 0 x, 1 y, 2 z, 3 to 5
     /// rotations in space.
     pub dof: usize,
-    /// Whether it depends on parameters only.
+    /// Whether the entry depends only on parameters.
     pub constant: bool,
 }
 
 impl Entry {
-    /// An entry that depends on parameters only.
+    /// An entry that depends only on parameters.
     #[must_use]
     pub const fn constant(row: usize, slot: usize, dof: usize) -> Self {
         Self {
@@ -483,13 +487,13 @@ pub struct Measure {
     pub name: &'static str,
     /// Name of the definition of the driven rows.
     pub drive: &'static str,
-    /// Whether the rows of the joint keep it at its initial value, so that the driven rows take
-    /// their place.
+    /// Whether the rows of the joint keep the coordinate at its initial value, so that the driven
+    /// rows replace them.
     pub is_kept: bool,
 }
 
 impl Measure {
-    /// A measure and the definition of its drive.
+    /// A joint coordinate and the definition of its drive.
     #[must_use]
     pub const fn new(name: &'static str, drive: &'static str) -> Self {
         Self {
@@ -499,7 +503,8 @@ impl Measure {
         }
     }
 
-    /// A measure that the rows of the joint keep, and the definition of its drive.
+    /// A joint coordinate that the rows of the joint keep constant, and the definition of its
+    /// drive.
     #[must_use]
     pub const fn kept(name: &'static str, drive: &'static str) -> Self {
         Self {
@@ -514,17 +519,17 @@ impl Measure {
 pub struct ForceSpec {
     /// The parts in common with constraints.
     pub common: Spec,
-    /// Columns of its block of Q that are not identically zero.
+    /// Columns of the block of Q that are not identically zero.
     pub q: &'static [usize],
     /// Pattern (row, column of the block) of `∂Q/∂x`.
     pub dq_dx: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂Q/∂v`.
     pub dq_dv: &'static [[usize; 2]],
-    /// Whether it depends on velocities.
+    /// Whether the force depends on velocities.
     pub dissipative: bool,
-    /// Number of angles of space that it is given with their full turns, as
+    /// Number of angles of space that the force receives with their full revolutions, like
     /// [`ConstraintSpec::turns`].
     pub turns: usize,
-    /// Whether it depends on time explicitly.
+    /// Whether the force depends on time explicitly.
     pub rheonomic: bool,
 }

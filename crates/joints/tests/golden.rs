@@ -1,6 +1,6 @@
-//! Φ, velocity rows and forces compared with tables computed by hand, one file for each definition
-//! in `tests/golden`, for space in its folder `space`: no derivative detects a wrong sign, a wrong
-//! axis or a missing row.
+//! Φ, velocity rows and forces compared with tables computed by hand. There is one file for each
+//! definition in `tests/golden`, and for space in its folder `space`. No derivative detects a wrong
+//! sign, a wrong axis or a missing row.
 //!
 //! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the derivation of the
 //! numbers is in its comments.
@@ -16,7 +16,7 @@ use table::{Golden, Tabled, read};
 /// Smallest number of poses that determine Φ, a velocity row or a force.
 const POSES: usize = 3;
 
-/// Numbers in the tables are of the order of 100 at most and pass through about ten roundings.
+/// Numbers in the tables are at most of the order of 100 and result from about ten roundings.
 const TOLERANCE: f64 = 1e-13;
 
 #[test]
@@ -136,7 +136,7 @@ fn constraint<K: Constraint<S>, S: Tabled>(golden: &Golden, place: &str) {
     compare(golden.place.as_ref(), point.as_ref(), place, "the place");
 }
 
-/// Cosine and sine of an angle, each with two derivatives.
+/// Returns cosine and sine of an angle, each with two derivatives.
 fn turn([f, f_t, f_tt]: [f64; 3]) -> [[f64; 3]; 2] {
     let (sin, cos) = f.sin_cos();
     [

@@ -67,7 +67,7 @@ fn check(found: &Analysis, n: usize) -> Result<(), String> {
     Ok(())
 }
 
-/// The most memory that the process has used (MB), where the system tells.
+/// The most memory that the process has used (MB), if the system reports it.
 fn memory() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

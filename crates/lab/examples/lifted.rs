@@ -1,5 +1,5 @@
-//! Scenes of the plane beside the same ones lifted into space: how long a run takes in both, and
-//! how far the bodies are apart at its end.
+//! Scenes of the plane compared with the same scenes lifted into space: how long a run takes in
+//! both, and how far the bodies are apart at its end.
 //!
 //! Scenes of which a joint cannot be lifted are left out, and forces are taken away on both sides.
 //!

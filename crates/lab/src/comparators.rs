@@ -1,12 +1,12 @@
 //! Other methods to compute a motion: formulations as right-hand sides over [`model::System`], and
-//! two methods with their own steppers.
+//! two methods with their own steps.
 //!
-//! Each is short, dense and without monitors. The rank is that of the start and is never determined
-//! again.
+//! Each method is short, uses dense matrices and has no monitors. The rank is the rank at the start
+//! and is never computed again.
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`mod@equations`] | the differential equation, with Baumgarte's terms or projection |
+//! | [`mod@equations`] | the differential equation, with Baumgarte stabilisation or projection |
 //! | `kept_rows`, `null_space`, `minimum_norm`, `proximal` | accelerations from the saddle equations |
 //! | `stepping` | the loop of steps for `gbs` and `generalized_alpha` |
 //! | `way` | the combination of formulation, method, and treatment of drift |
@@ -35,25 +35,25 @@ pub use proximal::{Proximal, Tuning};
 pub use run::{Row, Run, run, run_within};
 pub use way::{Comparator, Drift, Formulation, Method};
 
-/// `M·a + Cᵀ·λ = f`, `C·a = γ` at one instant, M = diag(mass).
+/// The saddle equations `M·a + Cᵀ·λ = f`, `C·a = γ` at one instant, with M = diag(mass).
 #[derive(Clone, Copy, Debug)]
 pub struct Saddle<'a> {
-    /// All rows, m × n.
+    /// All rows of C, m × n.
     pub c: &'a Matrix,
     /// Diagonal of M, n.
     pub mass: &'a [f64],
-    /// Forces, n.
+    /// Applied forces, n.
     pub force: &'a [f64],
     /// Right-hand side of all rows, m.
     pub gamma: &'a [f64],
 }
 
-/// Solves these equations although C has dependent rows.
+/// A solver of these equations for a matrix C with dependent rows.
 pub trait Solver {
     /// Writes accelerations (n) and multipliers of all rows (m).
     ///
     /// # Errors
-    /// If the equations have no unique solution.
+    /// Returns an error if the equations have no unique solution.
     fn solve(&mut self, at: &Saddle<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Fault>;
 }
 
@@ -61,13 +61,13 @@ pub trait Solver {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
-    /// The equations of the kept rows have no solution.
+    /// The equations of the independent rows have no solution.
     #[error(transparent)]
     Saddle(#[from] SaddleError),
     /// Rows that were independent at the start became dependent.
     #[error("the constraints have lost their rank {rank} of the start")]
     RankLost {
-        /// The rank of the start.
+        /// The rank at the start.
         rank: usize,
     },
     /// A motion that the constraints allow moves no mass.
@@ -91,7 +91,7 @@ pub enum Fault {
         /// Time (s).
         time: f64,
     },
-    /// Too many steps.
+    /// The run needs too many steps.
     #[error("at t = {time} s there have been {steps} steps")]
     TooManySteps {
         /// Time (s).
@@ -116,7 +116,7 @@ pub enum Fault {
     },
 }
 
-/// `Σ x·y`.
+/// The scalar product `Σ x·y`.
 fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }

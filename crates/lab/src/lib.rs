@@ -4,8 +4,8 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`comparators`] | other formulations of redundancy and other methods, to compare those of pfaff with |
-//! | [`mod@work_precision`] | the comparators in the table of pfaff's methods, and the cases of the suite |
+//! | [`comparators`] | other formulations of redundancy and other methods, for comparison with pfaff |
+//! | [`mod@work_precision`] | the comparators in the table of the methods of pfaff, and the cases of the suite |
 //! | [`fuzz`] | random, damaged and degenerate scenes, tested for consistency and by exact arithmetic |
 //! | [`stress`] | stiff and extreme cases, each with its known answer |
 //! | [`mechanisms`] | mechanisms that cases and tests use |

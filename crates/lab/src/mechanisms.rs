@@ -8,7 +8,7 @@ pub mod space;
 use joints::{Pose, Revolute};
 use model::{Body, BodyRef, Joint};
 
-/// The pose of a body or the ground at the described start.
+/// Returns the pose of a body or the ground at the described start.
 fn pose(bodies: &[Body], body: BodyRef) -> Pose {
     match body {
         BodyRef::Ground => Pose::GROUND,
@@ -16,13 +16,13 @@ fn pose(bodies: &[Body], body: BodyRef) -> Pose {
     }
 }
 
-/// A revolute joint at a global point of the described start.
+/// Returns a revolute joint at a global point of the described start.
 pub fn revolute(name: &str, bodies: &[Body], pair: [BodyRef; 2], at: [f64; 2]) -> Joint {
     let [s_i, s_j] = pair.map(|b| pose(bodies, b).to_local(at));
     Joint::new(name, &pair, Revolute { s_i, s_j })
 }
 
-/// A uniform rod between two points.
+/// Returns a uniform rod between two points.
 pub fn rod(name: &str, mass: f64, from: [f64; 2], to: [f64; 2]) -> Body {
     let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
     Body {

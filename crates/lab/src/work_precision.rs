@@ -1,5 +1,5 @@
-//! Error versus run time: the comparators as rivals of the methods of pfaff, and cases of the suite
-//! as scenes with a known motion.
+//! Compares error and run time: the comparators as rivals of the methods of pfaff, and cases of the
+//! suite as scenes with a known motion.
 
 use std::time::Duration;
 
@@ -14,8 +14,8 @@ use suite::{Case, Quantity};
 
 use crate::comparators::{Comparator, Drift, Fault, Formulation, Method, run_within};
 
-/// The combinations that are compared with those of pfaff: every method on kept rows with
-/// projection, and with one of the methods every formulation and every treatment of drift.
+/// Returns the combinations that are compared with those of pfaff: every method on independent rows
+/// with projection, and with one of the methods every formulation and every treatment of drift.
 #[must_use]
 pub fn ways() -> Vec<Comparator> {
     let way = |formulation, method, drift| Comparator {
@@ -27,15 +27,15 @@ pub fn ways() -> Vec<Comparator> {
     let own = [Method::Gbs, Method::GeneralizedAlpha].map(|m| way(kept, m, projected));
     let others = Formulation::ALL.map(|f| way(f, Method::Dop853, projected));
     let pulled = way(kept, Method::Dop853, Drift::BAUMGARTE);
-    // Kept rows with the same method are already a curve of pfaff.
+    // Independent rows with the same method are already a curve of pfaff.
     let others = others.into_iter().filter(|w| w.formulation != kept);
     own.into_iter().chain(others).chain([pulled]).collect()
 }
 
-/// A case of the suite, with the known values of its motion.
+/// Returns a case of the suite, with the known values of its motion.
 ///
 /// # Errors
-/// As [`Study::read`].
+/// Returns the errors of [`Study::read`].
 pub fn of_case(case: &Case) -> Result<Subject, StudyError> {
     let registry = Registry::standard();
     let study = Study::read(case.name, case.scene, &registry, &RunOptions::default())?;
@@ -60,7 +60,7 @@ pub fn of_case(case: &Case) -> Result<Subject, StudyError> {
     Subject::known(study, case.title, reference)
 }
 
-/// The name of a quantity of the suite in a mechanism.
+/// Returns the name of a quantity of the suite in a mechanism.
 fn named(quantity: Quantity) -> (Kind, &'static str) {
     match quantity {
         Quantity::X => (Kind::Position, "x"),

@@ -1,6 +1,6 @@
 //! `DdMatrix`: a dense, row-major matrix of double-double numbers, for residuals and certificates.
 //!
-//! A constraint matrix evaluated in double-double at a point polished in double-double has singular
+//! A constraint matrix that is evaluated in double-double at a refined configuration has singular
 //! values of about 1e-30 if they are exactly zero. Factorisations are made in `f64` and corrected
 //! by residuals of this type.
 
@@ -26,13 +26,13 @@ pub struct DdMatrix {
 }
 
 impl DdMatrix {
-    /// All entries zero.
+    /// Returns a matrix with zero entries.
     #[must_use]
     pub fn zeros(nrows: usize, ncols: usize) -> Self {
         Self::from_fn(nrows, ncols, |_, _| Dd::ZERO)
     }
 
-    /// Entry (i, j) is `f(i, j)`; called row by row.
+    /// Returns a matrix with the entries (i, j) = `f(i, j)`; the function is called row by row.
     pub fn from_fn(nrows: usize, ncols: usize, mut f: impl FnMut(usize, usize) -> Dd) -> Self {
         let mut data = Vec::with_capacity(nrows * ncols);
         for i in 0..nrows {
@@ -43,41 +43,41 @@ impl DdMatrix {
         Self { nrows, ncols, data }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     #[must_use]
     pub fn nrows(&self) -> usize {
         self.nrows
     }
 
-    /// Number of columns.
+    /// Returns the number of columns.
     #[must_use]
     pub fn ncols(&self) -> usize {
         self.ncols
     }
 
-    /// Row `i` as a slice of length `ncols`.
+    /// Returns row `i` as a slice of length `ncols`.
     ///
     /// # Panics
-    /// If `i` is not below `nrows`.
+    /// Panics if `i` is not below `nrows`.
     #[must_use]
     pub fn row(&self, i: usize) -> &[Dd] {
         assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
         &self.data[i * self.ncols..(i + 1) * self.ncols]
     }
 
-    /// Row `i`, writable.
+    /// Returns row `i` as a mutable slice.
     ///
     /// # Panics
-    /// If `i` is not below `nrows`.
+    /// Panics if `i` is not below `nrows`.
     pub fn row_mut(&mut self, i: usize) -> &mut [Dd] {
         assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
         &mut self.data[i * self.ncols..(i + 1) * self.ncols]
     }
 
-    /// The rows named by `rows`, in that order.
+    /// Returns the rows with the indices `rows`, in that order.
     ///
     /// # Panics
-    /// If an index is not below `nrows`.
+    /// Panics if an index is not below `nrows`.
     #[must_use]
     pub fn select_rows(&self, rows: &[usize]) -> Self {
         Self {
@@ -87,7 +87,7 @@ impl DdMatrix {
         }
     }
 
-    /// The entries rounded to `f64`.
+    /// Returns the entries rounded to `f64`.
     #[must_use]
     pub fn hi(&self) -> Matrix {
         let mut hi = Matrix::zeros(self.nrows, self.ncols);
@@ -97,10 +97,10 @@ impl DdMatrix {
         hi
     }
 
-    /// `D_r·C·D_c`, exact unless an entry leaves the range.
+    /// Returns `D_r·C·D_c`, which is exact unless an entry leaves the range.
     ///
     /// # Panics
-    /// If the scaling has another shape.
+    /// Panics if the scaling has another shape.
     #[must_use]
     pub fn scaled(&self, scaling: &Scaling) -> Self {
         assert_eq!(
@@ -116,7 +116,7 @@ impl DdMatrix {
         Self { data, ..*self }
     }
 
-    /// All entries times 2^exponent.
+    /// Returns all entries times 2^exponent.
     #[must_use]
     pub fn times_power(&self, exponent: i32) -> Self {
         Self {

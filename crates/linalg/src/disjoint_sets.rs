@@ -1,6 +1,6 @@
-//! Disjoint sets of numbers that are joined two at a time.
+//! Disjoint sets of numbers, which can be merged in pairs.
 
-/// The numbers below `n` in disjoint sets, at first each alone.
+/// The numbers below `n` in disjoint sets. Initially, each number is a separate set.
 ///
 /// ```
 /// use pfaff_linalg::DisjointSets;
@@ -11,7 +11,7 @@
 /// ```
 ///
 /// Source: R. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22 (1975)
-/// 215–225; ways are halved here, and the smaller number leads.
+/// 215–225; here the paths are halved, and the smaller number is the representative.
 #[derive(Clone, Debug)]
 pub struct DisjointSets {
     /// A smaller number of the same set, or the number itself if it is the first of its set.
@@ -19,7 +19,7 @@ pub struct DisjointSets {
 }
 
 impl DisjointSets {
-    /// As many sets as numbers.
+    /// Creates as many sets as numbers.
     #[must_use]
     pub fn new(n: usize) -> Self {
         Self {
@@ -27,16 +27,16 @@ impl DisjointSets {
         }
     }
 
-    /// Makes one set of those of two numbers.
+    /// Merges the sets of two numbers.
     ///
     /// # Panics
-    /// If one of them is not below `n`.
+    /// Panics if one of them is not below `n`.
     pub fn join(&mut self, a: usize, b: usize) {
         let [a, b] = [a, b].map(|k| self.first(k));
         self.leader[a.max(b)] = a.min(b);
     }
 
-    /// The first number of the set of `k`, with shorter ways to it from now on.
+    /// Returns the first number of the set of `k`, and shortens the path to it.
     pub(crate) fn first(&mut self, mut k: usize) -> usize {
         while self.leader[k] != k {
             self.leader[k] = self.leader[self.leader[k]];
@@ -45,7 +45,7 @@ impl DisjointSets {
         k
     }
 
-    /// The sets, each ascending, ordered by their first numbers.
+    /// Returns the sets, each ascending, ordered by their first numbers.
     #[must_use]
     pub fn sets(mut self) -> Vec<Vec<usize>> {
         let mut sets = vec![Vec::new(); self.leader.len()];
@@ -61,7 +61,7 @@ impl DisjointSets {
 mod tests {
     use super::*;
 
-    /// Against reachability in the graph of the joined pairs, vertex by vertex.
+    /// Compares with reachability in the graph of the joined pairs, vertex by vertex.
     #[test]
     fn sets_are_what_is_reachable() {
         const N: usize = 60;

@@ -1,14 +1,15 @@
 //! Double-double numbers: an unevaluated sum `hi + lo` of two `f64`, about 32 digits.
 //!
-//! For residuals and certificates: a singular value that is zero falls from 1e-16 to 1e-32 when it
-//! is computed again in this format, one that is merely small does not change. This is not a
-//! general number type: no transcendental functions, no formatting of all digits.
+//! The format is used for residuals and certificates. A singular value that is exactly zero
+//! decreases from 1e-16 to 1e-32 if it is recomputed in this format. A small nonzero singular value
+//! does not change. This is not a general number type: it has no transcendental functions, and no
+//! formatting of all digits.
 //!
 //! Products are split after Dekker instead of using `f64::mul_add`. Both are exact, so both give
-//! the same bits on every platform; but on x86-64 without the FMA target feature `mul_add` is a
-//! call into a software routine, some twenty times slower. The disadvantage is a smaller range: the
-//! low part is correct only if the operands of a product are below 2⁹⁹⁶ in absolute value and the
-//! product is above 2⁻⁹⁶⁷.
+//! the same bits on every platform. However, on x86-64 without the FMA target feature `mul_add` is
+//! a call into a software routine, some twenty times slower. The disadvantage is a smaller range:
+//! the low part is correct only if the operands of a product are below 2⁹⁹⁶ in absolute value and
+//! the product is above 2⁻⁹⁶⁷.
 //!
 //! Sources: T. J. Dekker, A floating-point technique for extending the available precision, Numer.
 //! Math. 18 (1971) 224–242; M. Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error bounds
@@ -35,7 +36,7 @@ pub struct Dd {
     lo: f64,
 }
 
-/// `a + b = s + e` exactly, with s the rounded sum; any order of sizes (Knuth).
+/// Computes `a + b = s + e` exactly, with s the rounded sum, for any order of sizes (Knuth).
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     let b_part = s - a;
@@ -43,7 +44,8 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, (a - a_part) + (b - b_part))
 }
 
-/// `a·b = p + e` exactly, with p the rounded product, within the range stated in the module docs.
+/// Computes `a·b = p + e` exactly, with p the rounded product, within the range stated in the
+/// module docs.
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
     let (a_hi, a_lo) = split(a);
@@ -52,13 +54,13 @@ pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     (p, e)
 }
 
-/// `a + b = s + e` exactly if `|a| ≥ |b|` or a = 0 (Dekker).
+/// Computes `a + b = s + e` exactly if `|a| ≥ |b|` or a = 0 (Dekker).
 fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let s = a + b;
     (s, b - (s - a))
 }
 
-/// Two halves of at most 26 bits each (Veltkamp).
+/// Splits a number into two halves of at most 26 bits each (Veltkamp).
 fn split(a: f64) -> (f64, f64) {
     const FACTOR: f64 = 134_217_729.0; // 2²⁷ + 1
     let t = FACTOR * a;
@@ -67,45 +69,45 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 impl Dd {
-    /// Zero.
+    /// The number zero.
     pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
-    /// One.
+    /// The number one.
     pub const ONE: Self = Self { hi: 1.0, lo: 0.0 };
     /// Bound on the relative rounding error of one operation: 2⁻¹⁰².
     pub const EPSILON: f64 = 1.972_152_263_052_53e-31;
 
-    /// The exact sum of two numbers.
+    /// Returns the exact sum of two numbers.
     pub fn from_sum(a: f64, b: f64) -> Self {
         Self::from_pair(two_sum(a, b))
     }
 
-    /// The exact product of two numbers.
+    /// Returns the exact product of two numbers.
     pub fn from_product(a: f64, b: f64) -> Self {
         Self::from_pair(two_product(a, b))
     }
 
-    /// Leading part: the value rounded to `f64`.
+    /// Returns the leading part: the value rounded to `f64`.
     pub fn hi(self) -> f64 {
         self.hi
     }
 
-    /// Trailing part, at most half a unit in the last place of `hi`.
+    /// Returns the trailing part, at most half a unit in the last place of `hi`.
     pub fn lo(self) -> f64 {
         self.lo
     }
 
-    /// The value rounded to `f64`.
+    /// Returns the value rounded to `f64`.
     pub fn to_f64(self) -> f64 {
         self.hi
     }
 
-    /// |x|.
+    /// Returns |x|.
     #[must_use]
     pub fn abs(self) -> Self {
         if self.hi < 0.0 { -self } else { self }
     }
 
-    /// √x; NaN for negative numbers.
+    /// Returns √x; NaN for negative numbers.
     #[must_use]
     pub fn sqrt(self) -> Self {
         if self.hi <= 0.0 || !self.hi.is_finite() {
@@ -117,7 +119,7 @@ impl Dd {
         Self::from_pair(fast_two_sum(root, left.hi / (2.0 * root)))
     }
 
-    /// `x·2^e`, exact unless a part leaves the range of normal numbers.
+    /// Returns `x·2^e`, exact unless a part leaves the range of normal numbers.
     #[must_use]
     pub fn scaled(self, e: i32) -> Self {
         Self::from_pair((scale(self.hi, e), scale(self.lo, e)))
@@ -148,7 +150,8 @@ impl Neg for Dd {
 impl Add for Dd {
     type Output = Self;
 
-    /// Accurate even under cancellation: `AccurateDWPlusDW`, algorithm 6 of Joldes et al.
+    /// Computes the sum with an algorithm that is accurate even under cancellation:
+    /// `AccurateDWPlusDW`, algorithm 6 of Joldes et al.
     fn add(self, y: Self) -> Self {
         let (s_hi, s_lo) = two_sum(self.hi, y.hi);
         let (t_hi, t_lo) = two_sum(self.lo, y.lo);
@@ -168,7 +171,7 @@ impl Sub for Dd {
 impl Mul for Dd {
     type Output = Self;
 
-    /// `DWTimesDW1`, algorithm 10 of Joldes et al.
+    /// Computes the product by `DWTimesDW1`, algorithm 10 of Joldes et al.
     fn mul(self, y: Self) -> Self {
         let (p, e) = two_product(self.hi, y.hi);
         let cross = self.hi * y.lo + self.lo * y.hi;
@@ -179,7 +182,7 @@ impl Mul for Dd {
 impl Mul<f64> for Dd {
     type Output = Self;
 
-    /// `DWTimesFP2`, algorithm 8 of Joldes et al.
+    /// Computes the product by `DWTimesFP2`, algorithm 8 of Joldes et al.
     fn mul(self, y: f64) -> Self {
         let (p, e) = two_product(self.hi, y);
         Self::from_pair(fast_two_sum(p, e + self.lo * y))
@@ -189,7 +192,7 @@ impl Mul<f64> for Dd {
 impl Div for Dd {
     type Output = Self;
 
-    /// Long division with three quotient digits of 53 bits, the last one for rounding.
+    /// Divides by long division with three quotient digits of 53 bits, the last one for rounding.
     fn div(self, y: Self) -> Self {
         let q_1 = self.hi / y.hi;
         if !q_1.is_finite() {

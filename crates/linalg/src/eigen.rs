@@ -1,10 +1,11 @@
 //! Eigenvalues and eigenvectors of square matrices without symmetry, from the real Schur form.
 //!
-//! Rows and columns are balanced by powers of two first, so that the units of states do not matter:
-//! B. N. Parlett, C. Reinsch, Balancing a matrix for calculation of eigenvalues and eigenvectors,
-//! Numer. Math. 13 (1969) 293–304. Their sizes are lengths, with the diagonal: sums of sizes
-//! without it spoil matrices of Hessenberg form (R. James, J. Langou, B. R. Lowery, On matrix
-//! balancing and eigenvector computation, arXiv:1401.5766, 2014).
+//! Rows and columns are first balanced by powers of two, so that the units of states have no
+//! influence: B. N. Parlett, C. Reinsch, Balancing a matrix for calculation of eigenvalues and
+//! eigenvectors, Numer. Math. 13 (1969) 293–304. The size of a row is its length, including the
+//! diagonal. Sums of sizes without the diagonal would be unsuitable for matrices of Hessenberg form
+//! (R. James, J. Langou, B. R. Lowery, On matrix balancing and eigenvector computation,
+//! arXiv:1401.5766, 2014).
 
 mod francis;
 mod vectors;
@@ -25,9 +26,9 @@ pub struct Eigenpair {
     pub vector: Vec<[f64; 2]>,
 }
 
-/// All eigenvalues of a square matrix with finite entries, with their multiplicity: by their real
-/// parts, the largest first, then by their imaginary parts. `None` if the iteration does not
-/// converge, or an entry is not finite.
+/// Returns all eigenvalues of a square matrix with finite entries, repeated by their multiplicity.
+/// They are sorted by real parts, the largest first, then by imaginary parts. Returns `None` if the
+/// iteration does not converge, or if an entry is not finite.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, eigenpairs};
@@ -39,7 +40,7 @@ pub struct Eigenpair {
 /// ```
 ///
 /// # Panics
-/// If the matrix is not square.
+/// Panics if the matrix is not square.
 #[must_use]
 pub fn eigenpairs(a: &Matrix) -> Option<Vec<Eigenpair>> {
     let n = a.nrows();
@@ -51,13 +52,14 @@ pub fn eigenpairs(a: &Matrix) -> Option<Vec<Eigenpair>> {
         return Some(Vec::new());
     }
     let (mut balanced, exponents) = balanced(a);
-    // Entries of about one: their squares and products neither overflow nor vanish.
+    // The entries are scaled to about one, so that their squares and products neither overflow nor
+    // vanish.
     let unit = powers::unit_exponent(balanced.as_slice());
     let entries = balanced.as_mut_slice().iter_mut();
     entries.for_each(|x| *x = powers::scale(*x, unit));
     let form = RealSchur::of(balanced)?;
     let pair = |(value, vector): (Complex, Vec<Complex>)| {
-        // The largest entry decides the unit, so that the length of the vector is finite.
+        // The largest entry determines the unit, so that the length of the vector is finite.
         let scaled = vector.iter().zip(&exponents);
         let exponent = |(z, e): (&Complex, &i32)| {
             let size = powers::exponent(z[0].abs().max(z[1].abs()))?;
@@ -86,17 +88,18 @@ pub fn eigenpairs(a: &Matrix) -> Option<Vec<Eigenpair>> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ZeroEigenvalue {
-    /// How many eigenvalues are zero.
+    /// Number of eigenvalues that are zero.
     pub multiplicity: usize,
-    /// Size of the largest Jordan block that belongs to it: a change of the matrix by ε times its
-    /// norm changes its eigenvalues by up to about `ε^(1/index)` times the norm.
+    /// Size of the largest Jordan block of the eigenvalue zero. If the matrix changes by ε times
+    /// its norm, its eigenvalues change by up to about `ε^(1/index)` times the norm.
     pub index: usize,
 }
 
-/// The eigenvalue zero of a square matrix whose entries are known to `tolerance`, without the
-/// eigenvalues, which rounding spreads in a circle around it: null spaces are split off one after
-/// the other until none is left (V. N. Kublanovskaya, On a method of solving the complete
-/// eigenvalue problem for a degenerate matrix, USSR Comput. Math. Math. Phys. 6 (1966) 1–14).
+/// Analyses the eigenvalue zero of a square matrix whose entries have the accuracy `tolerance`. The
+/// computed eigenvalues are not used, because rounding spreads them in a circle around zero. The
+/// method splits off null spaces one after the other until no null space remains (V. N.
+/// Kublanovskaya, On a method of solving the complete eigenvalue problem for a degenerate matrix,
+/// USSR Comput. Math. Math. Phys. 6 (1966) 1–14).
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, zero_eigenvalue};
@@ -107,7 +110,7 @@ pub struct ZeroEigenvalue {
 /// ```
 ///
 /// # Panics
-/// If the matrix is not square.
+/// Panics if the matrix is not square.
 #[must_use]
 pub fn zero_eigenvalue(a: &Matrix, tolerance: f64) -> ZeroEigenvalue {
     assert_eq!(a.nrows(), a.ncols(), "a square matrix");
@@ -116,7 +119,7 @@ pub fn zero_eigenvalue(a: &Matrix, tolerance: f64) -> ZeroEigenvalue {
     while rest.nrows() > 0 {
         let n = rest.nrows();
         let rows = PivotedQr::of_rows(rest.clone());
-        // NaN is no rank.
+        // NaN does not count for the rank.
         let rank = rows
             .r_diagonal()
             .take_while(|r| r.abs() > tolerance)
@@ -126,14 +129,14 @@ pub fn zero_eigenvalue(a: &Matrix, tolerance: f64) -> ZeroEigenvalue {
         }
         zero.multiplicity += n - rank;
         zero.index += 1;
-        // Rows span what the null space leaves: Qᵀ·A·Q has the other eigenvalues.
+        // The rows span the complement of the null space: Qᵀ·A·Q has the other eigenvalues.
         let q = rows.q_columns(0..rank);
         rest = q.transpose().product(&rest.product(&q));
     }
     zero
 }
 
-/// `D⁻¹·A·D` with rows and columns of similar size, and the exponents of D.
+/// Returns `D⁻¹·A·D` with rows and columns of similar size, and the exponents of D.
 fn balanced(a: &Matrix) -> (Matrix, Vec<i32>) {
     let n = a.nrows();
     let mut a = a.clone();

@@ -2,8 +2,8 @@
 //!
 //! Rank decisions compare singular values, which depend on units: metres and radians, 1e-8 m and
 //! 1e8 m. Equilibration replaces C by `D_r·C·D_c` with all row and column maxima near one. The
-//! factors are powers of two, so scaling is exact and the rank does not change. It is not meant for
-//! solving: the condition number is not considered.
+//! factors are powers of two, so scaling is exact and the rank does not change. It is not intended
+//! for solving linear systems: the condition number is not considered.
 //!
 //! Source of the iteration: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms
 //! in matrices, RAL-TR-2001-034 (2001), with the maximum norm.
@@ -14,7 +14,7 @@ use crate::{Matrix, SparseMatrix};
 
 /// The diagonal matrices `D_r = diag(2^rows)` and `D_c = diag(2^cols)` of an equilibration.
 ///
-/// Exponents instead of factors, so that the scaling is exact by construction.
+/// Exponents are stored in place of factors, so that the scaling is exact by construction.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Scaling {
@@ -24,9 +24,10 @@ pub struct Scaling {
     pub cols: Vec<i32>,
 }
 
-/// The Ruiz scaling of `c`: in `D_r·C·D_c` the largest entry of each row and column is in [½, 4),
-/// unless the pattern of zeros forbids it (then rows and columns are as balanced as the sweeps
-/// get them). Rows and columns of zeros keep the factor 1. Non-finite entries are ignored.
+/// Returns the Ruiz scaling of `c`. In `D_r·C·D_c` the largest entry of each row and column is in
+/// [½, 4), unless the pattern of zeros makes this impossible. In that case, rows and columns are
+/// balanced as far as the sweeps permit. Rows and columns of zeros keep the factor 1. Non-finite
+/// entries are ignored.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, equilibrate};
@@ -39,8 +40,8 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
     ruiz((m, n), dense_exponents(c))
 }
 
-/// Like [`equilibrate`], with one factor for each block of rows and each block of columns: the
-/// choice of axes of a body or of a joint must not affect the scaling of its components.
+/// Works like [`equilibrate`], with one factor for each block of rows and each block of columns:
+/// the choice of axes of a body or of a joint must not affect the scaling of its components.
 /// `row_blocks` and `col_blocks` number the block of each row and column from 0.
 ///
 /// ```
@@ -52,7 +53,7 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
 /// ```
 ///
 /// # Panics
-/// If the number of blocks differs from that of rows or columns.
+/// Panics if the number of blocks differs from that of rows or columns.
 pub fn equilibrate_blocks(c: &Matrix, row_blocks: &[usize], col_blocks: &[usize]) -> Scaling {
     assert_eq!(
         (c.nrows(), c.ncols()),
@@ -70,7 +71,7 @@ pub fn equilibrate_blocks(c: &Matrix, row_blocks: &[usize], col_blocks: &[usize]
     }
 }
 
-/// Like [`equilibrate`], for a sparse matrix.
+/// Works like [`equilibrate`], for a sparse matrix.
 pub fn equilibrate_sparse(c: &SparseMatrix) -> Scaling {
     let entries = (0..c.nrows()).flat_map(|i| {
         c.entries(i)
@@ -79,7 +80,7 @@ pub fn equilibrate_sparse(c: &SparseMatrix) -> Scaling {
     ruiz((c.nrows(), c.ncols()), entries)
 }
 
-/// Row, column and exponent of the non-zero entries.
+/// Returns the row, column and exponent of the non-zero entries.
 fn dense_exponents(c: &Matrix) -> impl Iterator<Item = (usize, usize, i32)> + '_ {
     (0..c.nrows()).flat_map(|i| {
         let row = c.row(i).iter().enumerate();
@@ -98,7 +99,7 @@ fn ruiz((m, n): (usize, usize), entries: impl Iterator<Item = (usize, usize, i32
         col_top.fill(None);
         for &(i, j, e) in &entries {
             let top = Some(e + scaling.rows[i] + scaling.cols[j]);
-            // `None` is less than any exponent.
+            // The value `None` is less than any exponent.
             row_top[i] = top.max(row_top[i]);
             col_top[j] = top.max(col_top[j]);
         }
@@ -124,7 +125,7 @@ fn half_step(exponents: &mut [i32], top: &[Option<i32>]) -> bool {
 }
 
 impl Scaling {
-    /// The scaling of an m×n matrix with all factors 1.
+    /// Returns the scaling of an m×n matrix with all factors 1.
     pub fn identity(m: usize, n: usize) -> Self {
         Self {
             rows: vec![0; m],
@@ -132,27 +133,27 @@ impl Scaling {
         }
     }
 
-    /// `D_r·C·D_c`.
+    /// Returns `D_r·C·D_c`.
     ///
     /// # Panics
-    /// If the shape of `c` differs from that of the scaling.
+    /// Panics if the shape of `c` differs from that of the scaling.
     pub fn apply(&self, c: &Matrix) -> Matrix {
         self.map(c, 1)
     }
 
-    /// `D_r·C·D_c` of a sparse matrix.
+    /// Returns `D_r·C·D_c` of a sparse matrix.
     ///
     /// # Panics
-    /// If the shape of `c` differs from that of the scaling.
+    /// Panics if the shape of `c` differs from that of the scaling.
     pub fn apply_sparse(&self, c: &SparseMatrix) -> SparseMatrix {
         self.check(c.nrows(), c.ncols());
         c.map(|i, j, c_ij| scale(c_ij, self.rows[i] + self.cols[j]))
     }
 
-    /// `D_r⁻¹·C·D_c⁻¹`, the inverse of [`Scaling::apply`].
+    /// Returns `D_r⁻¹·C·D_c⁻¹`, the inverse of [`Scaling::apply`].
     ///
     /// # Panics
-    /// If the shape of `c` differs from that of the scaling.
+    /// Panics if the shape of `c` differs from that of the scaling.
     pub fn undo(&self, c: &Matrix) -> Matrix {
         self.map(c, -1)
     }
@@ -181,10 +182,10 @@ impl Scaling {
         );
     }
 
-    /// Row factor `2^rows[i]`.
+    /// Returns the row factor `2^rows[i]`.
     ///
     /// # Panics
-    /// If `i` is not below m.
+    /// Panics if `i` is not below m.
     pub fn row_factor(&self, i: usize) -> f64 {
         scale(1.0, self.rows[i])
     }

@@ -1,5 +1,6 @@
-//! Singular vectors of small matrices, by one-sided Jacobi rotations: blocks between null spaces, a
-//! few rows and columns. Not used as evidence for ranks (`singular_values`).
+//! Singular vectors of small matrices by one-sided Jacobi rotations. The matrices are blocks
+//! between null spaces, with a few rows and columns. The results are not used as evidence for
+//! ranks; `singular_values` computes this evidence.
 //!
 //! Source: M. R. Hestenes, Inversion of matrices by biorthogonalization and related results, J.
 //! SIAM 6 (1958) 51–90.
@@ -8,8 +9,8 @@ use crate::limits::{JACOBI_SWEEPS, ORTHOGONAL};
 use crate::{Matrix, kernels};
 
 /// `A = U·diag(σ)·Vᵀ` of an m×n matrix with k = min(m, n): left singular vectors in the columns of
-/// U (m×k), right ones in those of V (n×k), σ largest first. Where σ = 0 the columns of U, or of V
-/// if A is wide, are zero.
+/// U (m×k), right singular vectors in the columns of V (n×k), σ largest first. If σ = 0, the column
+/// of U, or of V if A is wide, is zero.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SmallSvd {
@@ -21,7 +22,7 @@ pub struct SmallSvd {
     pub v: Matrix,
 }
 
-/// Singular values and vectors of a small matrix of finite entries.
+/// Computes the singular values and vectors of a small matrix of finite entries.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, small_svd};
@@ -73,8 +74,8 @@ pub struct SymmetricEigen {
     pub vectors: Matrix,
 }
 
-/// Eigenvalues and eigenvectors of a small symmetric matrix A of finite entries, from the singular
-/// values of `A + ‖A‖·I`: to roundings of ‖A‖.
+/// Returns eigenvalues and eigenvectors of a small symmetric matrix A of finite entries, from the
+/// singular values of `A + ‖A‖·I`. They are accurate to roundings of ‖A‖.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, symmetric_eigen};
@@ -83,7 +84,7 @@ pub struct SymmetricEigen {
 /// ```
 ///
 /// # Panics
-/// If A is not square.
+/// Panics if A is not square.
 #[must_use]
 pub fn symmetric_eigen(a: &Matrix) -> SymmetricEigen {
     let n = a.nrows();
@@ -139,7 +140,7 @@ mod tests {
         }
     }
 
-    /// Indefinite and singular: A·W = W·diag(λ), WᵀW = I.
+    /// An indefinite and singular matrix: A·W = W·diag(λ), WᵀW = I.
     #[test]
     fn eigenvectors_of_symmetric_matrices_are_put_back() {
         let given = [5.0, 1e-3, 0.0, 0.0, -2.0];
@@ -167,7 +168,8 @@ mod tests {
         assert!((svd.sigma[1] / (1e-12 * 2f64.sqrt()) - 1.0).abs() < 1e-14);
     }
 
-    /// AᵀA = [1 c; c 1 + c²]: σ = √(1 + c²/4) ± c/2. The columns are orthogonal to 256 roundings.
+    /// For AᵀA = [1 c; c 1 + c²], σ = √(1 + c²/4) ± c/2. The columns are orthogonal to 256
+    /// roundings.
     #[test]
     fn nearly_orthogonal_columns_are_turned_too() {
         let c = 256.0 * f64::EPSILON;

@@ -1,12 +1,12 @@
-//! The inner loops of this crate: dot product, `y += s·x` for one x or two, and a norm that neither
-//! overflows nor underflows.
+//! The inner loops of this crate: dot product, `y += s·x` for one or two vectors x, and a norm that
+//! neither overflows nor underflows.
 //!
-//! Slices only, and a fixed order of summation, so that the same input gives the same bits on every
-//! platform. For the same reason `mul_add` is not used.
+//! The functions use only slices and a fixed order of summation, so that the same input gives the
+//! same bits on every platform. For the same reason they do not use `mul_add`.
 
 use crate::limits::SQUARE_MIN;
 
-/// `xᵀ·y` over the shorter length, summed in four interleaved partial sums.
+/// Returns `xᵀ·y` over the shorter length, summed in four interleaved partial sums.
 #[must_use]
 pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len().min(y.len());
@@ -25,21 +25,21 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     sum
 }
 
-/// `y ← y + s·x` over the shorter length.
+/// Computes `y ← y + s·x` over the shorter length.
 pub fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
     for (a, b) in x.iter().zip(y) {
         *b += s * a;
     }
 }
 
-/// `z ← z + s·x + t·y` over the shortest length.
+/// Computes `z ← z + s·x + t·y` over the shortest length.
 pub fn axpy_both([s, t]: [f64; 2], [x, y]: [&[f64]; 2], z: &mut [f64]) {
     for ((a, b), c) in x.iter().zip(y).zip(z) {
         *c += s * a + t * b;
     }
 }
 
-/// Euclidean norm, also for entries whose squares overflow or underflow.
+/// Returns the Euclidean norm, also for entries whose squares overflow or underflow.
 #[must_use]
 pub fn norm(x: &[f64]) -> f64 {
     let sum = dot(x, x);
@@ -54,7 +54,7 @@ pub fn norm(x: &[f64]) -> f64 {
     largest * sum.sqrt()
 }
 
-/// Largest absolute entry, 0 for an empty slice; NaN entries are ignored.
+/// Returns the largest absolute entry, or 0 for an empty slice; NaN entries are ignored.
 #[must_use]
 pub fn max_abs(x: &[f64]) -> f64 {
     let larger = |largest: f64, a: f64| if a.abs() > largest { a.abs() } else { largest };
@@ -70,8 +70,8 @@ pub fn max_abs(x: &[f64]) -> f64 {
         .fold(0.0, |largest, &a| larger(largest, a))
 }
 
-/// Smallest and largest entry, without branches: `[∞, −∞]` for an empty slice; NaN entries are
-/// ignored.
+/// Returns the smallest and the largest entry, without branches. The result is `[∞, −∞]` for an
+/// empty slice; NaN entries are ignored.
 #[must_use]
 pub fn extremes(x: &[f64]) -> [f64; 2] {
     let smaller = |a: f64, b: f64| if b < a { b } else { a };
@@ -95,7 +95,8 @@ pub fn extremes(x: &[f64]) -> [f64; 2] {
     ]
 }
 
-/// Whether all entries are finite, without branches: x·0 is NaN exactly for NaN and infinities.
+/// Returns whether all entries are finite, without branches: x·0 is NaN exactly for NaN and
+/// infinities.
 #[must_use]
 pub fn all_finite(x: &[f64]) -> bool {
     let (x4, rest) = x.as_chunks::<4>();
@@ -153,7 +154,8 @@ mod tests {
     #[test]
     fn norm_survives_the_ends_of_the_range() {
         assert_eq!(norm(&[0.0, 0.0]), 0.0);
-        // Squares underflow, have lost digits, are ordinary, are almost too large, overflow.
+        // The squares of these sizes underflow, lose digits, are ordinary, are almost too large, or
+        // overflow.
         for size in [1e-300, 1e-200, 1e-160, 1.0, 1e153, 1e200, 1e300] {
             let ratio = norm(&[3.0 * size, 4.0 * size]) / (5.0 * size);
             assert!(

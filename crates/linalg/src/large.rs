@@ -1,16 +1,16 @@
 //! Singular values of large matrices with faer. No other file uses faer.
 //!
-//! faer is used for nothing else: up to some 150 rows our own pivoted QR is as fast, saddle solves
-//! of that size are called for every evaluation and must not allocate, and row choices should not
-//! depend on a feature. Singular values are only compared with limits well above the rounding error
-//! of both routines (tested below), so decisions are the same with and without faer. The functions
-//! are deliberately not generic: faer is compiled here only.
+//! faer is used only for this purpose. Up to about 150 rows our own pivoted QR is as fast. Saddle
+//! solves of that size are called for every evaluation and must not allocate memory, and row
+//! choices should not depend on a feature. Singular values are only compared with limits well above
+//! the rounding error of both routines (tested below), so decisions are the same with and without
+//! faer. The functions are deliberately not generic: faer is compiled here only.
 
 use faer::MatRef;
 
 use crate::Matrix;
 
-/// Singular values, largest first; `None` if the iteration of faer did not converge.
+/// Computes the singular values, largest first; `None` if the iteration of faer did not converge.
 pub(crate) fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
     let view = MatRef::from_row_major_slice(a.as_slice(), a.nrows(), a.ncols());
     let mut sigma = view.singular_values().ok()?;

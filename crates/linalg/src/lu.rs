@@ -1,10 +1,11 @@
 //! LU factorisation of small square matrices with partial pivoting, for the linear systems of
-//! implicit methods. It does not determine ranks: it detects only pivots that are exactly zero or
+//! implicit methods. It does not determine ranks, and detects only pivots that are exactly zero or
 //! not finite.
 
 use crate::kernels::{axpy, dot};
 
-/// `P·A = L·U` of an n×n matrix. Storage is allocated once; `factor` and `solve` do not allocate.
+/// Factorisation `P·A = L·U` of an n×n matrix. Storage is allocated once; `factor` and `solve` do
+/// not allocate memory.
 ///
 /// ```
 /// use pfaff_linalg::Lu;
@@ -25,7 +26,7 @@ pub struct Lu {
     permutation: Vec<usize>,
     /// Sign of P.
     parity: f64,
-    /// Scratch of `solve`.
+    /// Buffer of `solve`.
     right: Vec<f64>,
 }
 
@@ -33,7 +34,7 @@ pub struct Lu {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Determinant {
-    /// +1, −1, or 0.
+    /// Sign: +1, −1, or 0.
     pub sign: f64,
     /// Natural logarithm of the absolute value, −∞ for zero.
     pub log: f64,
@@ -46,7 +47,7 @@ impl Determinant {
         log: f64::NEG_INFINITY,
     };
 
-    /// The value as a number.
+    /// Returns the value as a number.
     pub fn value(self) -> f64 {
         self.sign * self.log.exp()
     }
@@ -79,8 +80,8 @@ impl Lu {
         lu
     }
 
-    /// Changes the order to n, which must be at most that of [`Lu::new`] to avoid an allocation;
-    /// call `factor` before anything else.
+    /// Changes the order to n. It must be at most the order of [`Lu::new`] to avoid an allocation.
+    /// The caller must call `factor` before any other method.
     pub(crate) fn resize(&mut self, n: usize) {
         self.n = n;
         self.factors.resize(n * n, 0.0);
@@ -91,7 +92,7 @@ impl Lu {
     /// Factors the matrix with entries `entry(i, j)`.
     ///
     /// # Errors
-    /// [`SingularPivot`]; then there are no factors, and the result of `solve` has no meaning.
+    /// [`SingularPivot`]: there are no factors, and the result of `solve` is meaningless.
     pub fn factor(
         &mut self,
         mut entry: impl FnMut(usize, usize) -> f64,
@@ -127,7 +128,7 @@ impl Lu {
         Ok(())
     }
 
-    /// The determinant of the last factored matrix.
+    /// Returns the determinant of the last factored matrix.
     ///
     /// ```
     /// let a = [[0.0, 2.0], [4.0, 1.0]];
@@ -148,10 +149,10 @@ impl Lu {
         })
     }
 
-    /// `x ← A⁻¹·x`.
+    /// Computes `x ← A⁻¹·x`.
     ///
     /// # Panics
-    /// If `x` is shorter than n.
+    /// Panics if `x` is shorter than n.
     pub fn solve(&mut self, x: &mut [f64]) {
         let (n, y) = (self.n, &mut self.right);
         for (i, &row) in self.permutation.iter().enumerate() {

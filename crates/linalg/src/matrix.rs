@@ -1,8 +1,8 @@
 //! `Matrix`: a simple dense, row-major matrix of `f64`.
 //!
 //! A constraint matrix C is m×n with one contiguous row per constraint; the algorithms of this
-//! crate pivot, drop or keep *rows*, so rows are contiguous. It has no operators, no views and no
-//! decompositions.
+//! crate pivot, drop or keep *rows*, so rows are contiguous. The type has no operators, no views
+//! and no decompositions.
 
 use std::ops::{Index, IndexMut};
 
@@ -40,12 +40,12 @@ pub struct ShapeError {
     pub nrows: usize,
     /// Requested number of columns.
     pub ncols: usize,
-    /// Number of values given.
+    /// Number of given values.
     pub found: usize,
 }
 
 impl Matrix {
-    /// A matrix of zeros.
+    /// Returns a matrix of zeros.
     pub fn zeros(nrows: usize, ncols: usize) -> Self {
         Self {
             nrows,
@@ -54,12 +54,12 @@ impl Matrix {
         }
     }
 
-    /// The n×n identity.
+    /// Returns the n×n identity.
     pub fn identity(n: usize) -> Self {
         Self::from_fn(n, n, |i, j| f64::from(u8::from(i == j)))
     }
 
-    /// Entry (i, j) is `f(i, j)`; called row by row.
+    /// Returns the matrix with entries (i, j) = `f(i, j)`; the function is called row by row.
     pub fn from_fn(nrows: usize, ncols: usize, mut f: impl FnMut(usize, usize) -> f64) -> Self {
         let mut data = Vec::with_capacity(nrows * ncols);
         for i in 0..nrows {
@@ -68,7 +68,7 @@ impl Matrix {
         Self { nrows, ncols, data }
     }
 
-    /// From rows of equal length.
+    /// Creates a matrix from rows of equal length.
     pub fn from_rows<const N: usize>(rows: &[[f64; N]]) -> Self {
         Self {
             nrows: rows.len(),
@@ -80,7 +80,7 @@ impl Matrix {
     /// Takes ownership of row-major values.
     ///
     /// # Errors
-    /// [`ShapeError`] unless `data.len() == nrows * ncols`.
+    /// Returns [`ShapeError`] unless `data.len() == nrows * ncols`.
     pub fn from_vec(nrows: usize, ncols: usize, data: Vec<f64>) -> Result<Self, ShapeError> {
         if nrows.checked_mul(ncols) == Some(data.len()) {
             Ok(Self { nrows, ncols, data })
@@ -93,40 +93,40 @@ impl Matrix {
         }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn nrows(&self) -> usize {
         self.nrows
     }
 
-    /// Number of columns.
+    /// Returns the number of columns.
     pub fn ncols(&self) -> usize {
         self.ncols
     }
 
-    /// Row `i` as a slice of length `ncols`.
+    /// Returns row `i` as a slice of length `ncols`.
     ///
     /// # Panics
-    /// If `i` is not below `nrows`.
+    /// Panics if `i` is not below `nrows`.
     pub fn row(&self, i: usize) -> &[f64] {
         assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
         &self.data[i * self.ncols..(i + 1) * self.ncols]
     }
 
-    /// Row `i`, writable.
+    /// Returns row `i` as a mutable slice.
     ///
     /// # Panics
-    /// If `i` is not below `nrows`.
+    /// Panics if `i` is not below `nrows`.
     pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
         assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
         &mut self.data[i * self.ncols..(i + 1) * self.ncols]
     }
 
-    /// All values, row by row.
+    /// Returns all values, row by row.
     pub fn as_slice(&self) -> &[f64] {
         &self.data
     }
 
-    /// All values, row by row, writable.
+    /// Returns all values, row by row, as a mutable slice.
     pub fn as_mut_slice(&mut self) -> &mut [f64] {
         &mut self.data
     }
@@ -134,7 +134,7 @@ impl Matrix {
     /// Exchanges two rows.
     ///
     /// # Panics
-    /// If an index is not below `nrows`.
+    /// Panics if an index is not below `nrows`.
     pub fn swap_rows(&mut self, i: usize, j: usize) {
         if i != j {
             let (low, high) = self.two_rows_mut(i.min(j), i.max(j));
@@ -142,7 +142,7 @@ impl Matrix {
         }
     }
 
-    /// Two rows at once, `i < j`.
+    /// Returns two rows as mutable slices, `i < j`.
     pub(crate) fn two_rows_mut(&mut self, i: usize, j: usize) -> (&mut [f64], &mut [f64]) {
         debug_assert!(i < j, "rows {i} and {j}");
         let n = self.ncols;
@@ -150,7 +150,7 @@ impl Matrix {
         (&mut head[i * n..(i + 1) * n], &mut tail[..n])
     }
 
-    /// Aᵀ.
+    /// Returns the transpose Aᵀ.
     pub fn transpose(&self) -> Self {
         let mut transposed = Self::zeros(self.ncols, self.nrows);
         for i in 0..self.nrows {
@@ -161,10 +161,10 @@ impl Matrix {
         transposed
     }
 
-    /// A·B.
+    /// Returns the product A·B.
     ///
     /// # Panics
-    /// If the inner dimensions differ.
+    /// Panics if the inner dimensions differ.
     pub fn product(&self, b: &Self) -> Self {
         assert_eq!(
             self.ncols, b.nrows,
@@ -180,10 +180,10 @@ impl Matrix {
         out
     }
 
-    /// A·x; allocates.
+    /// Returns A·x. The function allocates memory.
     ///
     /// # Panics
-    /// If the length of `x` is not `ncols`.
+    /// Panics if the length of `x` is not `ncols`.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
         assert_eq!(self.ncols, x.len(), "A·x with {} columns", self.ncols);
         (0..self.nrows)
@@ -191,10 +191,10 @@ impl Matrix {
             .collect()
     }
 
-    /// Aᵀ·y; allocates.
+    /// Returns Aᵀ·y. The function allocates memory.
     ///
     /// # Panics
-    /// If the length of `y` is not `nrows`.
+    /// Panics if the length of `y` is not `nrows`.
     pub fn transpose_times(&self, y: &[f64]) -> Vec<f64> {
         assert_eq!(self.nrows, y.len(), "Aᵀ·y with {} rows", self.nrows);
         let mut out = vec![0.0; self.ncols];
@@ -204,10 +204,10 @@ impl Matrix {
         out
     }
 
-    /// The rows named by `rows`, in that order.
+    /// Returns the rows with the indices `rows`, in that order.
     ///
     /// # Panics
-    /// If an index is not below `nrows`.
+    /// Panics if an index is not below `nrows`.
     pub fn select_rows(&self, rows: &[usize]) -> Self {
         let mut data = Vec::with_capacity(rows.len() * self.ncols);
         for &i in rows {
@@ -220,7 +220,7 @@ impl Matrix {
         }
     }
 
-    /// Largest absolute entry, 0 for an empty matrix.
+    /// Returns the largest absolute entry, or 0 for an empty matrix.
     pub fn max_abs(&self) -> f64 {
         kernels::max_abs(&self.data)
     }
@@ -230,14 +230,14 @@ impl Matrix {
         kernels::norm(&self.data)
     }
 
-    /// Position and value of the first entry that is NaN or infinite.
+    /// Returns the position and value of the first entry that is NaN or infinite.
     pub fn first_non_finite(&self) -> Option<(usize, usize, f64)> {
         let at = self.data.iter().position(|a| !a.is_finite())?;
         Some((at / self.ncols, at % self.ncols, self.data[at]))
     }
 }
 
-/// A list of rows.
+/// A matrix is serialised as a list of rows.
 #[cfg(feature = "serde")]
 impl serde::Serialize for Matrix {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

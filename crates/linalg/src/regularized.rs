@@ -1,8 +1,9 @@
-//! One damped least-squares correction towards `res + J·dq = 0`, for rows that may be redundant or
-//! contradict each other.
+//! Computes a damped least-squares correction towards `res + J·dq = 0`, for rows that may be
+//! redundant or contradict each other.
 //!
-//! Only for assembling a start far from the constraint manifold, where the rank is not known. On
-//! the manifold use the kept rows and `KeptRowSaddle`, which preserves the order of the integrator.
+//! It is only for the assembly of a start far from the constraint manifold, where the rank is not
+//! known. On the manifold, use the kept rows and `KeptRowSaddle`, which preserves the order of the
+//! integrator.
 
 use crate::{Matrix, PivotedQr, powers};
 
@@ -15,29 +16,29 @@ pub enum StepError {
     Length {
         /// Name of the argument.
         argument: &'static str,
-        /// Its length.
+        /// Length of the argument.
         found: usize,
         /// The length it must have.
         expected: usize,
     },
-    /// A NaN or infinite entry.
+    /// An entry is NaN or infinite.
     #[error("{argument} contains the value {value} at {index}, need finite numbers")]
     NonFinite {
         /// Name of the argument.
         argument: &'static str,
         /// Index of the entry, row-major for J.
         index: usize,
-        /// Its value.
+        /// Value of the entry.
         value: f64,
     },
-    /// A weight or μ below zero.
+    /// A weight or μ is negative.
     #[error("{argument} contains {value:.3e} at {index}, need numbers that are not negative")]
     Negative {
         /// Name of the argument.
         argument: &'static str,
         /// Index of the entry.
         index: usize,
-        /// Its value.
+        /// Value of the weight or of μ.
         value: f64,
     },
     /// Without damping, dependent rows have no unique correction.
@@ -48,7 +49,7 @@ pub enum StepError {
     Dependent {
         /// Row of J.
         row: usize,
-        /// Its pivot.
+        /// Pivot of the row.
         pivot: f64,
         /// The largest pivot.
         largest: f64,
@@ -57,21 +58,22 @@ pub enum StepError {
     },
 }
 
-/// The W-weighted correction `dq = W·Jᵀ·(J·W·Jᵀ + μ·S⁻²)⁻¹·(−res)`; allocates.
+/// Returns the W-weighted correction `dq = W·Jᵀ·(J·W·Jᵀ + μ·S⁻²)⁻¹·(−res)`. The function allocates
+/// memory.
 ///
 /// S is the power-of-two row scaling that brings the largest entry of each row of `J·√W` into [1,
-/// 2), so μ is relative to numbers near one, whatever the units of the rows. dq minimises
-/// `μ·dqᵀ·W⁻¹·dq + ‖S·(J·dq + res)‖²`: small corrections, with contradictions distributed among the
-/// rows.
+/// 2), so μ is relative to numbers near one for all units of the rows. dq minimises
+/// `μ·dqᵀ·W⁻¹·dq + ‖S·(J·dq + res)‖²`. Corrections are small, and contradictions are distributed
+/// among the rows.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
 /// | `j` | m×n | Jacobian of the residual, any rank, m may exceed n |
 /// | `residual` | m | res |
-/// | `weights` | n | diagonal of W ≥ 0; a coordinate with a large weight moves easily, one with weight 0 is held |
+/// | `weights` | n | diagonal of W ≥ 0; a coordinate with a large weight moves easily, one with weight 0 is fixed |
 /// | `mu` | – | damping ≥ 0; 1e-12 … 1e-2. With 0 the rows must be independent |
 ///
-/// Computed from a QR factorisation of `[S·J·√W, √μ·I]ᵀ`, so `J·W·Jᵀ` is never formed.
+/// The function uses a QR factorisation of `[S·J·√W, √μ·I]ᵀ`, so `J·W·Jᵀ` is never formed.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, least_squares_step};
@@ -98,9 +100,9 @@ pub fn least_squares_step(
 /// The factors of [`least_squares_step`], for any number of residuals.
 #[derive(Debug, Clone)]
 pub struct DampedRows {
-    /// Of `[S·J·√W, √μ·I]ᵀ`; without damping nothing stands beside J.
+    /// Factors of `[S·J·√W, √μ·I]ᵀ`; without damping, only J is factored.
     qr: PivotedQr,
-    /// √W
+    /// Square root √W.
     root: Vec<f64>,
     /// Exponents of S.
     scaling: Vec<i32>,
@@ -110,7 +112,7 @@ impl DampedRows {
     /// Factors J with the weights and the damping of [`least_squares_step`].
     ///
     /// # Errors
-    /// As [`least_squares_step`].
+    /// Same errors as [`least_squares_step`].
     pub fn new(j: &Matrix, weights: &[f64], mu: f64) -> Result<Self, StepError> {
         let (m, n) = (j.nrows(), j.ncols());
         check("weights", weights, n)?;
@@ -154,7 +156,7 @@ impl DampedRows {
         Ok(Self { qr, root, scaling })
     }
 
-    /// The correction for a residual.
+    /// Returns the correction for a residual.
     ///
     /// # Errors
     /// [`StepError::Length`], [`StepError::NonFinite`]: bad input.
@@ -209,7 +211,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// Compared with the normal equations in nalgebra, which are well conditioned for μ = 1e-2.
+        /// Compares with the normal equations in nalgebra, which are well conditioned for μ = 1e-2.
         #[test]
         fn agrees_with_the_normal_equations(
             m in 1..9_usize, n in 1..9_usize,

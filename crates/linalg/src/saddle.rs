@@ -5,22 +5,22 @@
 //! | C  0  | | λ | = | γ |     M = diag(m) ≥ 0 (n), C of full row rank (r×n)
 //! ```
 //!
-//! Sparse LU of the tall Cᵀ, with pivots among the large entries of a row that spare the others,
-//! gives a null space basis N of C, the reduced mass `Nᵀ·M·N` (order k = n − r) is factored by
-//! Cholesky (as L·D·Lᵀ), and λ is computed with the same LU. M is never inverted, so masses may be
-//! zero as long as M is positive definite on ker C. Work and storage grow with the entries of C and
-//! of its factors, times k.
+//! Sparse LU of the tall Cᵀ gives a null space basis N of C. Its pivots are large entries of a row
+//! that cause little work for the other rows. The reduced mass `Nᵀ·M·N` (order k = n − r) is
+//! factored by Cholesky (as L·D·Lᵀ), and λ is computed with the same LU. M is never inverted, so
+//! masses may be zero as long as M is positive definite on ker C. Work and storage grow with the
+//! entries of C and of its factors, times k.
 //!
-//! This runs for every evaluation of a right-hand side: after the first factorisation, which plans
-//! the order of elimination, `factor` and `solve` do not allocate once storage for the entries of
-//! the factors is there. The rows must not be redundant: choose the kept ones with `decide` first
-//! (crate `rank`); no rank is decided here.
+//! The solver runs for every evaluation of a right-hand side. The first factorisation plans the
+//! order of elimination. After that, `factor` and `solve` do not allocate memory once storage for
+//! the entries of the factors exists. The rows must not be redundant: choose the kept rows with
+//! `decide` first (crate `rank`). This module decides no rank.
 //!
-//! Masses that differ by many powers of ten are called graded. For graded masses the pivot is the
-//! entry of the lightest coordinate among those that are not much smaller than the largest. So the
-//! heavy coordinates are free, `Nᵀ·M·N` contains mainly their masses, and λ comes from the
-//! equations of light bodies, in which no large inertia cancels. [`KeptRowSaddle::solve_refined`]
-//! removes the remaining rounding.
+//! Masses that differ by many powers of ten are called graded. For graded masses, the pivot is the
+//! entry of the lightest coordinate among the entries that are not much smaller than the largest.
+//! Therefore the heavy coordinates are free, `Nᵀ·M·N` contains mainly their masses, and λ comes
+//! from the equations of light bodies, in which no large inertia cancels.
+//! [`KeptRowSaddle::solve_refined`] removes the remaining rounding.
 //!
 //! The algebra, with `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower trapezoidal and y = P·a:
 //! `C·a = γ ⇔ Lᵀ·y = U⁻ᵀ·γ`, `N = Pᵀ·[−L₁⁻ᵀ·L₂ᵀ; I]`, `(NᵀMN)·z = Nᵀ·(f − M·a_p)`,
@@ -69,15 +69,15 @@ pub use refine::Refinement;
 pub struct KeptRowSaddle {
     lu: TallLu,
     free: FreeMotions,
-    /// The spread of the masses if the caller knows it.
+    /// The spread of the masses if the caller has passed it.
     known_spread: Option<f64>,
     mass_spread: f64,
     is_graded: bool,
     is_factored: bool,
-    /// Scratch of `bordered`: Nᵀ·B, k×k, and its factors.
+    /// Buffer of `bordered`: Nᵀ·B, k×k, and its factors.
     product: Vec<f64>,
     border: Lu,
-    /// Scratch of `solve`: f − M·a, n.
+    /// Buffer of `solve`: f − M·a, n values.
     g: Vec<f64>,
 }
 
@@ -85,7 +85,7 @@ impl KeptRowSaddle {
     /// Allocates storage for n coordinates and r rows.
     ///
     /// # Errors
-    /// [`SaddleError::TooManyRows`] if r > n.
+    /// Returns [`SaddleError::TooManyRows`] if r > n.
     pub fn new(n: usize, r: usize) -> Result<Self, SaddleError> {
         if r > n {
             return Err(SaddleError::TooManyRows { n, r });
@@ -93,8 +93,8 @@ impl KeptRowSaddle {
         Self::with_columns(n, &vec![Vec::from_iter(0..n); r])
     }
 
-    /// Storage for n coordinates and rows that have entries in these columns only, each once. The
-    /// values of a row are those in its columns.
+    /// Allocates storage for n coordinates and rows that have entries only in these columns. Each
+    /// column is listed once for a row. The values of a row are those in its columns.
     ///
     /// ```
     /// use pfaff_linalg::KeptRowSaddle;
@@ -108,8 +108,8 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// [`SaddleError::TooManyRows`] if r > n, [`SaddleError::Column`] for a column that is not
-    /// below n.
+    /// Returns [`SaddleError::TooManyRows`] if r > n, and [`SaddleError::Column`] for a column that
+    /// is not below n.
     pub fn with_columns(n: usize, columns: &[Vec<usize>]) -> Result<Self, SaddleError> {
         let r = columns.len();
         if r > n {
@@ -133,8 +133,8 @@ impl KeptRowSaddle {
         })
     }
 
-    /// The same for masses of this spread, instead of that of the numbers given, of which units are
-    /// a part.
+    /// Sets the spread of the masses. It replaces the spread of the given numbers, which depends on
+    /// units.
     #[must_use]
     pub fn graded_by(self, mass_spread: f64) -> Self {
         Self {
@@ -143,8 +143,8 @@ impl KeptRowSaddle {
         }
     }
 
-    /// Memory of a solver for these rows (bytes), in the order that their values plan, whatever
-    /// coordinates are chosen.
+    /// Returns the memory of a solver for these rows (bytes), in the order that their values plan,
+    /// for any choice of coordinates.
     #[must_use]
     pub fn bytes(c: &SparseMatrix) -> usize {
         let k = c.ncols().saturating_sub(c.nrows());
@@ -160,53 +160,54 @@ impl KeptRowSaddle {
         entries * (size_of::<f64>() + size_of::<u32>()) + numbers * size_of::<f64>()
     }
 
-    /// Number of coordinates n.
+    /// Returns the number of coordinates n.
     pub fn n_coordinates(&self) -> usize {
         self.lu.n
     }
 
-    /// Number of constraint rows r.
+    /// Returns the number of constraint rows r.
     pub fn n_rows(&self) -> usize {
         self.lu.n_rows()
     }
 
-    /// Number of rows skipped by the last factorisation, see [`KeptRowSaddle::factor_above`].
+    /// Returns the number of rows skipped by the last factorisation, see
+    /// [`KeptRowSaddle::factor_above`].
     pub fn n_left_out(&self) -> usize {
         self.lu.n_rows() - self.lu.r
     }
 
-    /// Whether the last factorisation uses row `k`.
+    /// Returns whether the last factorisation uses row `k`.
     pub fn uses(&self, k: usize) -> bool {
         self.lu.uses(k)
     }
 
-    /// Whether the masses of the last factorisation are graded, so that light coordinates are
-    /// solved for: if [`mass_spread`] is at least [`GRADED_MASSES`], or at least a thousandth of it
-    /// and some masses are zero.
+    /// Returns whether the masses of the last factorisation are graded, so that light coordinates
+    /// become pivots. This is the case if [`mass_spread`] is at least [`GRADED_MASSES`], or at
+    /// least a thousandth of it if some masses are zero.
     pub fn is_graded(&self) -> bool {
         self.is_graded
     }
 
-    /// Whether a plain solution with the last factorisation may have fewer digits than
-    /// [`KeptRowSaddle::solve_refined`]: if [`mass_spread`] is at least [`GRADED_MASSES`], or if
-    /// less than 1e-3 of a reduced mass remained after elimination.
+    /// Returns whether a plain solution with the last factorisation may have fewer digits than
+    /// [`KeptRowSaddle::solve_refined`]. This is the case if [`mass_spread`] is at least
+    /// [`GRADED_MASSES`], or if less than 1e-3 of a reduced mass remained after elimination.
     pub fn wants_refinement(&self) -> bool {
         self.mass_spread >= GRADED_MASSES || self.free.mass_ratio < CANCELLED
     }
 
-    /// Smallest share of a row that the rows before it leave in the last factorisation, the
-    /// largest entry left by the largest entry at first, including skipped rows; infinite for
-    /// r = 0. It indicates near-singular configurations: it changes smoothly
-    /// along a motion except when the pivot order changes, and tends to zero as the kept rows
-    /// become dependent.
+    /// Returns the smallest share of a row that is independent of the previous rows in the last
+    /// factorisation. It is the largest remaining entry divided by the largest initial entry,
+    /// including skipped rows, and infinite for r = 0. It indicates near-singular configurations.
+    /// Along a motion it changes smoothly, except when the pivot order changes, and approaches zero
+    /// as the kept rows become dependent.
     pub fn pivot_ratio(&self) -> f64 {
         self.lu.pivot_ratio
     }
 }
 
-/// The largest mass divided by the smallest non-zero mass; 1 if no mass is positive.
+/// Returns the largest mass divided by the smallest non-zero mass, or 1 if no mass is positive.
 ///
-/// Moments of inertia are used in kg·m²: lengths far from a metre increase it as well.
+/// Moments of inertia are used in kg·m², so lengths far from a metre also increase the spread.
 ///
 /// ```
 /// assert_eq!(pfaff_linalg::mass_spread(&[8.0, 0.0, 2.0]), 4.0);

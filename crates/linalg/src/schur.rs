@@ -6,15 +6,16 @@
 //! | C  0  | | λ | = | γ |        S = C·M⁻¹·Cᵀ,        M = diag(m) > 0 (n), C of full row rank (r×n), sparse
 //! ```
 //!
-//! S is symmetric and positive definite, so no pivot has to be searched for: the order of
-//! elimination, and with it the place of every entry of L, is chosen once from the bodies alone.
-//! Each evaluation is then arithmetic on small dense fronts. The work grows with the square of the
-//! width of the graph of bodies: linearly for chains and ladders, as n^1.5 for lattices.
+//! S is symmetric and positive definite, so a pivot search is not needed. The order of elimination,
+//! and with it the position of every entry of L, is chosen once from the bodies alone. Each
+//! evaluation then performs arithmetic on small dense fronts. The work grows with the square of the
+//! width of the graph of bodies: linearly for chains and ladders, and as n^1.5 for lattices.
 //!
-//! The disadvantages: S has the square of the condition number of C, and masses must not vanish. So
-//! every solution is checked with the rows, and residuals are corrected with the same factors; rows
-//! that are dependent for an instant are skipped. For small systems, zero masses and masses of many
-//! powers of ten use [`KeptRowSaddle`](crate::KeptRowSaddle).
+//! The method has two disadvantages: S has the square of the condition number of C, and masses must
+//! not vanish. Therefore every solution is checked with the rows, and residuals are corrected with
+//! the same factors. Rows that are dependent for an instant are skipped. For small systems, zero
+//! masses, and masses that differ by many powers of ten, use
+//! [`KeptRowSaddle`](crate::KeptRowSaddle).
 //!
 //! Sources: range space method, M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle
 //! point problems, Acta Numerica 14 (2005) 1–137, section 5; multifrontal elimination, I. S. Duff,
@@ -34,7 +35,7 @@ use tiles::{Lane, SIDE, Tile, triangle};
 
 /// Solver of the saddle equations for n coordinates and r independent, sparse constraint rows. All
 /// storage is allocated in [`SchurSaddle::new`]; factorisations and solutions do not allocate
-/// unless they fail.
+/// memory unless they fail.
 ///
 /// ```
 /// use pfaff_linalg::{SchurSaddle, SchurStructure, SparseMatrix};
@@ -61,25 +62,25 @@ pub struct SchurSaddle {
 struct LdlFactors {
     /// Columns of L of each front, one after the other, with zeros in place of unit diagonals.
     l: Vec<Tile>,
-    /// 1/D of each place in the order of elimination, 0 for a skipped row and for no row.
+    /// 1/D at each position in the order of elimination; 0 for a skipped row and for padding.
     inverse: Vec<Lane>,
-    /// S_kk of each place, and a lane for no row.
+    /// S_kk at each position, and a group for padding.
     diagonal: Vec<Lane>,
-    /// What is left of each row usually, in units of the smallest; 1 if that is not known.
+    /// Usual independent share of each row, in units of the smallest one; 1 if it is not known.
     usual: Vec<Lane>,
-    /// What the pivots are compared with: diagonal · usual.
+    /// Reference values for the pivots: diagonal · usual.
     compared: Vec<Lane>,
-    /// Masses m, NaN if they are not known, and their inverses, n each.
+    /// Masses m (NaN if they are not known) and their inverses, n values each.
     mass: Vec<f64>,
     inverse_mass: Vec<f64>,
     pivot_ratio: f64,
     n_left_out: usize,
 }
 
-/// C by elements, and scratch of a factorisation.
+/// C by elements, and buffers of a factorisation.
 #[derive(Clone, Debug)]
 struct Assembly {
-    /// Values of C, element by element. Those that do not belong to an entry stay zero.
+    /// Values of C, element by element. Values without an entry stay zero.
     values: Vec<Lane>,
     /// The present front.
     front: Vec<Tile>,
@@ -87,17 +88,18 @@ struct Assembly {
     waiting: Vec<Tile>,
 }
 
-/// Scratch of a solution.
+/// Buffers of a solution.
 #[derive(Clone, Debug)]
 struct SolutionScratch {
-    /// A right-hand side and its solution in the order of elimination, sizes of the terms of each
-    /// row, and of what all solutions have added to its multiplier; each has a lane for no row.
+    /// A right-hand side and its solution in the order of elimination, the sizes of the terms of
+    /// each row, and the sizes of all contributions to its multiplier. Each list has a group of
+    /// four for padding.
     x: Vec<Lane>,
     size: Vec<Lane>,
     added: Vec<Lane>,
-    /// Lanes of one front or element, and their sizes.
+    /// Groups of four values of one front or element, and their sizes.
     local: Vec<[Lane; 2]>,
-    /// `M⁻¹·f`, and sizes of the terms of a, n each.
+    /// `M⁻¹·f`, and sizes of the terms of a, n values each.
     free: Vec<f64>,
     terms: Vec<f64>,
 }
@@ -140,26 +142,27 @@ impl SchurSaddle {
         }
     }
 
-    /// The structure of the matrix and its factors.
+    /// Returns the structure of the matrix and its factors.
     #[must_use]
     pub fn structure(&self) -> &SchurStructure {
         &self.structure
     }
 
-    /// Smallest fraction of a row, in the metric of the inverse masses, that the rows eliminated
-    /// before it do not imply: small near singular configurations, infinite without rows.
+    /// Returns the smallest fraction of a row, in the metric of the inverse masses, that is
+    /// independent of the rows eliminated before. It is small near singular configurations, and
+    /// infinite without rows.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
         self.factors.pivot_ratio
     }
 
-    /// Number of rows skipped by the last factorisation.
+    /// Returns the number of rows skipped by the last factorisation.
     #[must_use]
     pub fn n_left_out(&self) -> usize {
         self.factors.n_left_out
     }
 
-    /// Whether the last factorisation uses row k.
+    /// Returns whether the last factorisation uses row k.
     #[must_use]
     pub fn uses(&self, k: usize) -> bool {
         self.factors.inverse.as_flattened()[self.structure.rows.place[k]] != 0.0

@@ -1,10 +1,9 @@
 //! Singular values, as evidence for rank decisions.
 //!
 //! Householder reflections from both sides make a matrix bidiagonal, and Givens rotations with
-//! Wilkinson's shift make it diagonal; only the values are computed. Errors are a small multiple of
-//! `eps·σ₁`, relative to which decisions are made. Singular vectors are not computed: null spaces
-//! come from the row basis. Matrices of several hundred rows are passed to faer if that feature is
-//! on.
+//! Wilkinson's shift make it diagonal. Errors are a small multiple of `eps·σ₁`, which is the
+//! reference of decisions. Singular vectors are not computed, because null spaces come from the row
+//! basis. Matrices of several hundred rows are passed to faer if that feature is enabled.
 //!
 //! Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. (2013), §8.6. If the rotations
 //! do not converge, which has never been observed, one-sided Jacobi rotations are used: Z. Drmač,
@@ -16,9 +15,10 @@ use crate::{Matrix, PivotedQr, kernels, powers, qr};
 
 mod diagonal;
 
-/// All `min(m, n)` singular values of `a`, largest first, to a small multiple of `eps·σ₁`.
+/// Returns all `min(m, n)` singular values of `a`, largest first. They are accurate to a small
+/// multiple of `eps·σ₁`.
 ///
-/// Entries must be finite; otherwise the values have no meaning (but their number is the same).
+/// Entries must be finite; otherwise the values are meaningless (but their number is the same).
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, singular_values};
@@ -36,7 +36,7 @@ pub fn singular_values(a: &Matrix) -> Vec<f64> {
     own(a)
 }
 
-/// [`singular_values`] with our own kernels at every size.
+/// Works like [`singular_values`], with our own kernels for every size.
 pub(crate) fn own(a: &Matrix) -> Vec<f64> {
     let e = powers::unit_exponent(a.as_slice());
     let mut scaled = if a.nrows() < a.ncols() {
@@ -60,7 +60,7 @@ pub(crate) fn own(a: &Matrix) -> Vec<f64> {
     sigma
 }
 
-/// Diagonal and superdiagonal of `Uᵀ·A·V` for an m×n matrix, m ≥ n.
+/// Returns diagonal and superdiagonal of `Uᵀ·A·V` for an m×n matrix, m ≥ n.
 fn bidiagonal(mut a: Matrix) -> (Vec<f64>, Vec<f64>) {
     let (m, n) = (a.nrows(), a.ncols());
     let (mut d, mut f) = (vec![0.0; n], vec![0.0; n.saturating_sub(1)]);
@@ -75,7 +75,7 @@ fn bidiagonal(mut a: Matrix) -> (Vec<f64>, Vec<f64>) {
         if k + 1 == n {
             break;
         }
-        // τ·vᵀ·A, row by row.
+        // Computes τ·vᵀ·A, row by row.
         let image = &mut image[k + 1..];
         image.copy_from_slice(&a.row(k)[k + 1..]);
         for (v, i) in column[1..].iter().zip(k + 1..m) {
@@ -86,7 +86,7 @@ fn bidiagonal(mut a: Matrix) -> (Vec<f64>, Vec<f64>) {
         kernels::axpy(-tau, image, &mut a.row_mut(k)[k + 1..]);
         let right = qr::reflect(&mut a.row_mut(k)[k + 1..]);
         f[k] = a[(k, k + 1)];
-        // Both reflections of a row at once.
+        // Applies both reflections of a row in one pass.
         let along = image[0] + kernels::dot(&a.row(k)[k + 2..], &image[1..]);
         for (v, i) in column[1..].iter().zip(k + 1..m) {
             let (u, row) = a.two_rows_mut(k, i);
@@ -109,8 +109,9 @@ fn upper(d: &[f64], f: &[f64]) -> Matrix {
     })
 }
 
-/// Singular values of a matrix with entries near one by one-sided Jacobi rotations on the rows of R
-/// from a pivoted QR: slower, but they cannot fail, and small values have small errors too.
+/// Computes singular values of a matrix with entries near one by one-sided Jacobi rotations on the
+/// rows of R from a pivoted QR. The method is slower, but cannot fail, and small values also have
+/// small errors.
 pub(crate) fn by_jacobi(a: Matrix) -> Vec<f64> {
     // The second QR makes a wide R square and closer to a diagonal, which reduces the number of
     // sweeps.
@@ -122,10 +123,10 @@ pub(crate) fn by_jacobi(a: Matrix) -> Vec<f64> {
     sigma
 }
 
-/// Rotates pairs of rows until all are orthogonal to working precision.
+/// Rotates pairs of rows until all rows are orthogonal to working precision.
 fn orthogonalise_rows(r: &mut Matrix) {
     let n = r.nrows();
-    // The rounding error of a dot product; below it no rotation is needed.
+    // The tolerance is the rounding error of a dot product; below it no rotation is needed.
     let tolerance = f64::EPSILON * r.ncols() as f64;
     let mut squares = vec![0.0; n];
     for _ in 0..JACOBI_SWEEPS {
@@ -146,7 +147,7 @@ fn orthogonalise_rows(r: &mut Matrix) {
                 }
                 rotated = true;
                 let zeta = (b - a) / (2.0 * g);
-                // If ζ² overflows, t = 0, a rotation too small to matter.
+                // If ζ² overflows, t = 0, which corresponds to a negligible rotation.
                 let t = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
                 let c = 1.0 / (1.0 + t * t).sqrt();
                 let s = c * t;
@@ -173,8 +174,8 @@ mod tests {
 
     #[test]
     fn hilbert_of_order_three() {
-        // Eigenvalues of the Hilbert matrix H₃ (symmetric, so also singular values); digits from
-        // the roots of λ³ − (23/15)λ² + (127/720)λ − 1/2160.
+        // The eigenvalues of the Hilbert matrix H₃ (symmetric, so also its singular values) are the
+        // roots of λ³ − (23/15)λ² + (127/720)λ − 1/2160.
         let h = Matrix::from_fn(3, 3, |i, j| 1.0 / (i + j + 1) as f64);
         let sigma = singular_values(&h);
         let product = sigma[0] * sigma[1] * sigma[2] * 2160.0;
@@ -188,7 +189,7 @@ mod tests {
 
     #[test]
     fn graded_values_are_known_to_rounding_of_the_largest() {
-        // diag(1, 1e-10, 1e-20)·rotation: exact singular values are the diagonal.
+        // For diag(1, 1e-10, 1e-20)·rotation, the exact singular values are the diagonal.
         let (s, c) = 0.3_f64.sin_cos();
         let a = Matrix::from_rows(&[[c, s, 0.0], [-1e-10 * s, 1e-10 * c, 0.0], [0.0, 0.0, 1e-20]]);
         for (sigma, exact) in singular_values(&a).iter().zip([1.0, 1e-10, 1e-20]) {
@@ -199,8 +200,8 @@ mod tests {
         }
     }
 
-    /// [1 1; 0 1] has the golden ratio and its inverse. Squares of the small rows are 1e-149, their
-    /// products 1e-298: still numbers of full precision.
+    /// The singular values of [1 1; 0 1] are the golden ratio and its inverse. Squares of the small
+    /// rows are 1e-149 and their products 1e-298, which are still numbers of full precision.
     #[test]
     fn rotations_keep_the_digits_of_rows_whose_squares_are_tiny() {
         let (size, golden) = (5e-75, (1.0 + 5f64.sqrt()) / 2.0);
@@ -212,7 +213,7 @@ mod tests {
 
     #[test]
     fn zeros_on_the_diagonal_cut_the_matrix() {
-        // Jordan blocks with eigenvalue 0: singular values 1, and one 0 for each block.
+        // Jordan blocks with eigenvalue 0 have singular values 1, and one 0 for each block.
         let jordan = |cuts: &[usize]| {
             Matrix::from_fn(7, 7, |i, j| {
                 f64::from(u8::from(j == i + 1 && !cuts.contains(&j)))
@@ -223,7 +224,7 @@ mod tests {
             let expected = (0..7).map(|k| f64::from(u8::from(k < 7 - zeros)));
             assert!(sigma.iter().copied().eq(expected), "{sigma:?}");
         }
-        // A zero inside, at the end and at the beginning of a full bidiagonal.
+        // The zero is inside, at the end and at the beginning of a full bidiagonal matrix.
         for zero in [0, 2, 5] {
             let a = Matrix::from_fn(6, 6, |i, j| match j.checked_sub(i) {
                 Some(0) if i == zero => 0.0,

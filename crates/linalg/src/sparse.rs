@@ -1,4 +1,4 @@
-//! Sparse matrices by rows, and orders of elimination that keep them sparse.
+//! Sparse matrices by rows, and elimination orders that preserve their sparsity.
 
 mod matrix;
 mod order;

@@ -1,5 +1,5 @@
-//! The saddle solvers allocate only when they are created, and at their first rows, by which the
-//! order of elimination is chosen.
+//! The saddle solvers allocate only when they are created, and at their first rows, which determine
+//! the order of elimination.
 
 use pfaff_linalg::{KeptRowSaddle, Matrix, Refinement};
 

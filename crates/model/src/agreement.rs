@@ -1,14 +1,15 @@
-//! When rows are violated: one measure for positions, velocities and accelerations.
+//! Defines when rows are violated, with one criterion for positions, velocities and accelerations.
 //!
-//! Let z combine rows to zero, `zᵀ·C = 0`: one dropped row and the kept rows that imply it. For the
-//! intended mechanism the sum of their residuals `zᵀ·Φ`, `zᵀ·(C·v − b)`, `zᵀ·(C·a − Γ)` is zero.
-//! The sum of a mechanism as stored is known to the rounding of the terms that are added in these
-//! rows, whichever way the axes point ([`Scales::terms`]), and to what data within a stated
-//! tolerance change ([`crate::explained`]). What is more than that is a violation.
+//! Let z be a dependency of rows, `zᵀ·C = 0`, between one dropped row and the kept rows that imply
+//! it. For the intended mechanism, the sum of their residuals `zᵀ·Φ`, `zᵀ·(C·v − b)`,
+//! `zᵀ·(C·a − Γ)` is zero. For the stored mechanism, the accuracy of this sum has two limits. One
+//! is the rounding of the terms that are added in these rows, for any direction of the axes
+//! ([`Scales::terms`]). The other is the change by data within a stated tolerance
+//! ([`crate::explained`]). A larger sum is a violation.
 //!
-//! Terms are never those that happen to be present: a body that moves along a row has no velocity
-//! across it, but the direction of the row is known to a rounding, and so is the velocity across
-//! it.
+//! The terms are not only the nonzero terms of the current state. A body that moves along a row has
+//! no velocity across it. However, the direction of the row has a rounding error, and so has the
+//! velocity across it.
 
 use crate::data::{Data, DataBlock, explained};
 use crate::mechanism::Mechanism;
@@ -19,16 +20,16 @@ use crate::system::{Scratch, System};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ConstraintLevel {
-    /// Φ = 0
+    /// The constraint equations Φ = 0.
     Position,
-    /// C·v = b
+    /// The velocity equations C·v = b.
     Velocity,
-    /// C·a = Γ
+    /// The acceleration equations C·a = Γ.
     Acceleration,
 }
 
 impl ConstraintLevel {
-    /// Unit of a row, for lengths or for angles.
+    /// Returns the unit of a row, for lengths or for angles.
     #[must_use]
     pub fn unit(self, angular: bool) -> &'static str {
         match (self, angular) {
@@ -52,7 +53,7 @@ impl std::fmt::Display for ConstraintLevel {
     }
 }
 
-/// A level, and the motion at the state that is compared.
+/// A level, and the motion at the compared state.
 #[derive(Clone, Copy, Debug)]
 pub struct Level<'a> {
     /// The level.
@@ -63,18 +64,19 @@ pub struct Level<'a> {
     a: Option<&'a [f64]>,
     /// The fastest rate in the mechanism (1/s): rotations, and translations divided by its size.
     rate: f64,
-    /// The largest acceleration (1/s²), in the same measure.
+    /// The largest acceleration (1/s²): angular accelerations, and translations divided by the
+    /// size.
     acceleration: f64,
     /// Size of the mechanism (m).
     size: f64,
 }
 
-/// Rates up to so many roundings of a second are rest (1/s): bodies move by less than a hundred
-/// roundings of their places in a second.
+/// Rates up to this value (1/s) count as rest: bodies move by less than a hundred roundings of
+/// their positions in a second.
 const REST: f64 = 100.0 * f64::EPSILON;
 
 impl<'a> Level<'a> {
-    /// Positions.
+    /// Creates the level of positions.
     #[must_use]
     pub fn positions() -> Self {
         Self {
@@ -87,7 +89,7 @@ impl<'a> Level<'a> {
         }
     }
 
-    /// Velocities v (n_v) of a mechanism of this size (m).
+    /// Creates the level of velocities v (n_v), for a mechanism of this size (m).
     #[must_use]
     pub fn velocities(mechanism: &Mechanism, size: f64, v: &'a [f64]) -> Self {
         Self {
@@ -120,14 +122,15 @@ impl<'a> Level<'a> {
     }
 }
 
-/// Whether velocities v (n_v) of a mechanism of this size (m) are rest: bodies move by less than a
-/// hundred roundings of their places in a second. What is left of them has no direction.
+/// Returns whether velocities v (n_v) of a mechanism of this size (m) count as rest. Bodies at rest
+/// move by less than a hundred roundings of their positions in a second. Such velocities have no
+/// direction.
 #[must_use]
 pub fn is_at_rest(mechanism: &Mechanism, size: f64, v: &[f64]) -> bool {
     fastest(mechanism, size, v) <= REST
 }
 
-/// The largest |v_j|, translations divided by the size.
+/// Returns the largest |v_j|, translations divided by the size.
 fn fastest(mechanism: &Mechanism, size: f64, v: &[f64]) -> f64 {
     let space = mechanism.space();
     let rates = v.iter().enumerate();
@@ -135,8 +138,8 @@ fn fastest(mechanism: &Mechanism, size: f64, v: &[f64]) -> f64 {
 }
 
 impl Scales<'_> {
-    /// Size of the terms that are added in row `i` at a level, for any orientation of the bodies:
-    /// the residual of the row is known to the rounding of these.
+    /// Returns the size of the terms that are added in row `i` at a level, for any orientation of
+    /// the bodies. The accuracy of the residual of the row is the rounding of these terms.
     ///
     /// | level | terms |
     /// | --- | --- |
@@ -144,12 +147,12 @@ impl Scales<'_> {
     /// | velocity | `ω·Σ c_ij·l_j + \|b_i\|`, and the prescribed values |
     /// | acceleration | `(α + ω_i·ω)·Σ c_ij·l_j + \|Γ_i\|`, and the prescribed values |
     ///
-    /// c_ij are the bounds of [`Scales::entry_bounds`], coordinates count at least as in
-    /// [`Scales::position`], ω and α are the fastest rate and the largest acceleration of the
-    /// mechanism, ω_i is the fastest rate of the bodies of the row, and l_j is the size of the
+    /// c_ij are the bounds of [`Scales::entry_bounds`]. Coordinates count at least as in
+    /// [`Scales::position`]. ω and α are the fastest rate and the largest acceleration of the
+    /// mechanism. ω_i is the fastest rate of the bodies of the row, and l_j is the size of the
     /// mechanism for translations and 1 for rotations. All velocities are computed together, so
-    /// each is known to the rounding of the fastest. Needs C at the pose of the scratch; b for
-    /// velocities, Γ for accelerations.
+    /// each has the rounding error of the fastest. The scratch must contain C at its configuration,
+    /// b for velocities, and Γ for accelerations.
     #[must_use]
     pub fn terms(self, i: usize, level: &Level<'_>) -> f64 {
         let given = match level.of {
@@ -164,8 +167,8 @@ impl Scales<'_> {
         rate * self.extent(i, level.size) + given.abs() + self.prescribed(i)
     }
 
-    /// The residual of row `i` at a level that is rest: what is left of velocities that are zero to
-    /// rounding.
+    /// Returns the residual of row `i` at a level that counts as rest: the rounding of velocities
+    /// that are zero.
     #[must_use]
     pub fn rest(self, i: usize, level: &Level<'_>) -> f64 {
         let rate = match level.of {
@@ -176,7 +179,7 @@ impl Scales<'_> {
         rate * self.bounded_position(i)
     }
 
-    /// The fastest rate of the bodies of row `i` (1/s).
+    /// Returns the fastest rate of the bodies of row `i` (1/s).
     fn rate(self, i: usize, level: &Level<'_>) -> f64 {
         let space = self.mechanism.space();
         let columns = self.mechanism.layout().row(self.s, i);
@@ -185,7 +188,7 @@ impl Scales<'_> {
         })
     }
 
-    /// The change of row `i` if the mechanism moves by its size (m) in any direction.
+    /// Returns the change of row `i` if the mechanism moves by its size (m) in any direction.
     #[must_use]
     pub fn extent(self, i: usize, size: f64) -> f64 {
         let space = self.mechanism.space();
@@ -203,11 +206,12 @@ impl Scales<'_> {
 }
 
 impl Data<'_> {
-    /// What data within their stated tolerances explain of the sum of the residuals of rows with
-    /// weights z (m + h) at a level: [`explained`] of its gradient, which is written to `gradient`
-    /// ([`Data::count`] values). Zero if no tolerance is stated; infinite for accelerations that
-    /// are not known. `blocks` are those of [`Data::blocks`]. Needs the poses of the scratch, and
-    /// for accelerations the twist.
+    /// Returns the part of the weighted sum of row residuals at a level that data within their
+    /// stated tolerances explain. The weights are z (m + h). The result is [`explained`] of the
+    /// gradient of this sum, which is written to `gradient` ([`Data::count`] values). It is zero if
+    /// no tolerance is stated, and infinite for accelerations that are not known. `blocks` are
+    /// those of [`Data::blocks`]. The scratch must contain the configuration, and for accelerations
+    /// also the velocities.
     #[must_use]
     pub fn explained(
         self,

@@ -1,6 +1,6 @@
-//! The arms of bodies: the distances of their joints from their centres of mass. Places are
-//! differences of rounded numbers, so an arm that is shorter than what places are known to counts
-//! as zero: it would be the unit of length of its body.
+//! The arms of bodies: the distances of their joints from their centres of mass. Positions are
+//! differences of rounded numbers, so an arm that is shorter than the accuracy of the positions
+//! counts as zero. Otherwise this arm would be the unit of length of its body.
 
 use crate::element::PlacedConstraint;
 use crate::group::ConstraintId;
@@ -10,9 +10,10 @@ use crate::size::size_of;
 use crate::space::{difference, norm};
 use crate::system::{Scratch, System};
 
-/// The longest arm of each body at the pose of the scratch (m), never zero. A body with all joints
-/// at its centre takes the arms of its neighbours; if these have none either, like shafts with
-/// gears, the size of the mechanism is used. Needs C.
+/// Returns the longest arm of each body at the configuration of the scratch (m), never zero. A body
+/// with all joints at its centre takes the arms of its neighbours. If these have no arms, either
+/// (for example shafts with gears), the function uses the size of the mechanism. The scratch must
+/// contain C.
 pub(crate) fn longest_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let own = own_arms(mechanism, s);
     let mut of_neighbours = vec![0.0_f64; own.len()];
@@ -34,8 +35,8 @@ pub(crate) fn longest_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
         .collect()
 }
 
-/// The distance of the farthest joint of any kind from the centre of each body at the pose of the
-/// scratch (m); zero if all are there.
+/// Returns the distance of the farthest joint of any kind from the centre of each body at the
+/// configuration of the scratch (m). It is zero if all joints are at the centre.
 pub(crate) fn farthest_joints(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let mut arms = vec![0.0_f64; mechanism.bodies().len()];
     for (k, constraint) in mechanism.elements.constraints.iter().enumerate() {
@@ -51,7 +52,7 @@ pub(crate) fn farthest_joints(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     arms
 }
 
-/// The longest arm of each body; zero if its joints are at its centre.
+/// Returns the longest arm of each body; zero if its joints are at its centre.
 fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let layout = mechanism.layout();
     let mut arms = vec![0.0_f64; mechanism.bodies().len()];
@@ -83,8 +84,9 @@ fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     arms
 }
 
-/// The largest length that is added or subtracted in the places of a joint (m): its points in its
-/// bodies, the positions of these, and the places of their centres of mass in their frames.
+/// Returns the largest length that is added or subtracted to compute the reference point of a joint
+/// (m): its points in its bodies, the positions of these bodies, and the positions of their centres
+/// of mass in their frames.
 fn farthest(mechanism: &Mechanism, s: &Scratch, c: &PlacedConstraint) -> f64 {
     let points = c.kernels().points().into_iter().map(|point| norm(&point));
     let of_body = |k: usize| {

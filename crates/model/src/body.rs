@@ -1,12 +1,12 @@
-//! Bodies as described, in the plane and in space, and how joints refer to them.
+//! Descriptions of bodies in the plane and in space, and references of joints to them.
 
 use crate::principal::Principal;
 
 /// A rigid body with its state at the start. The origin of its frame is its centre of mass, unless
-/// `centre` says otherwise.
+/// `centre` specifies another point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
-    /// Its name.
+    /// Name of the body.
     pub name: String,
     /// Mass (kg), ≥ 0.
     pub mass: f64,
@@ -15,23 +15,23 @@ pub struct Body {
     /// The centre of mass in its frame (m). Points of joints and forces are relative to the centre
     /// of mass: see [`Body::from_centre`] and [`crate::Description::local`].
     pub centre: [f64; 2],
-    /// Position of the origin of its frame (m).
+    /// Position of the origin of the body frame (m).
     pub position: [f64; 2],
     /// Angle (rad).
     pub angle: f64,
-    /// Velocity of the origin of its frame (m/s). `None`: it follows from the given velocities and
-    /// the prescribed motions, with the least kinetic energy.
+    /// Velocity of the origin of the body frame (m/s). If it is `None`, it follows from the given
+    /// velocities and the prescribed motions, with the least kinetic energy.
     pub velocity: Option<[f64; 2]>,
-    /// Angular velocity (rad/s). `None`: it follows in the same way.
+    /// Angular velocity (rad/s). If it is `None`, it is determined like the velocity.
     pub angular_velocity: Option<f64>,
-    /// Tolerance of points and directions in its frame (m; directions: divided by the size of the
-    /// mechanism); takes precedence over that of the scene.
+    /// Tolerance of points and directions in its frame (m). For directions, it is divided by the
+    /// size of the mechanism. It takes precedence over the tolerance of the scene.
     pub tolerance: Option<f64>,
 }
 
 impl Body {
-    /// A body with this mass (kg) and moment of inertia about the centre of mass (kg·m²), at the
-    /// origin, with velocities not given.
+    /// Returns a body with this mass (kg) and moment of inertia about the centre of mass (kg·m²),
+    /// at the origin, with unspecified velocities.
     #[must_use]
     pub fn new(name: &str, mass: f64, inertia: f64) -> Self {
         Self {
@@ -44,35 +44,37 @@ impl Body {
 }
 
 /// A rigid body in space with its state at the start. The origin of its frame is its centre of
-/// mass, unless `centre` says otherwise.
+/// mass, unless `centre` specifies another point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpatialBody {
-    /// Its name.
+    /// Name of the body.
     pub name: String,
     /// Mass (kg), ≥ 0.
     pub mass: f64,
-    /// Inertia about the centre of mass in the axes of its frame (kg·m²), symmetric. Off the
-    /// diagonal are the entries of the matrix, −∫xy dm.
+    /// Inertia about the centre of mass in the axes of its frame (kg·m²), symmetric. The
+    /// off-diagonal entries are those of the matrix, −∫xy dm.
     pub inertia: [[f64; 3]; 3],
     /// The centre of mass in its frame (m). Points of joints and forces are relative to it.
     pub centre: [f64; 3],
-    /// Position of the origin of its frame (m).
+    /// Position of the origin of the body frame (m).
     pub position: [f64; 3],
-    /// Orientation of its frame: a quaternion (w, x, y, z) of any length but zero, body to ground.
+    /// Orientation of its frame from body to ground: a quaternion (w, x, y, z) of any nonzero
+    /// length.
     pub orientation: [f64; 4],
-    /// Velocity of the origin of its frame (m/s), ground axes. `None`: it follows from the given
-    /// velocities and the prescribed motions, with the least kinetic energy.
+    /// Velocity of the origin of its frame (m/s), in ground axes. If it is `None`, it follows from
+    /// the given velocities and the prescribed motions, with the least kinetic energy.
     pub velocity: Option<[f64; 3]>,
-    /// Angular velocity (rad/s), ground axes. `None`: it follows in the same way.
+    /// Angular velocity (rad/s), in ground axes. If it is `None`, it is determined like the
+    /// velocity.
     pub angular_velocity: Option<[f64; 3]>,
-    /// Tolerance of points and directions in its frame (m; directions: divided by the size of the
-    /// mechanism); takes precedence over that of the scene.
+    /// Tolerance of points and directions in its frame (m). For directions, it is divided by the
+    /// size of the mechanism. It takes precedence over the tolerance of the scene.
     pub tolerance: Option<f64>,
 }
 
 impl SpatialBody {
-    /// A body with this mass (kg) and inertia about the centre of mass (kg·m²), at the origin, not
-    /// turned, with velocities not given.
+    /// Returns a body with this mass (kg) and inertia about the centre of mass (kg·m²), at the
+    /// origin, not rotated, with unspecified velocities.
     #[must_use]
     pub fn new(name: &str, mass: f64, inertia: impl Into<[[f64; 3]; 3]>) -> Self {
         Self {
@@ -92,19 +94,19 @@ impl SpatialBody {
 /// A body of a mechanism, as described.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyRecord {
-    /// Its name.
+    /// Name of the body.
     pub name: String,
     /// Mass (kg).
     pub mass: f64,
-    /// Tolerance of points and directions in its frame (m), if stated.
+    /// Tolerance of points and directions in the body frame (m), if stated.
     pub tolerance: Option<f64>,
-    /// The rest, in its space.
+    /// Further properties, which depend on the space.
     pub described: DescribedBody,
-    /// Its principal axes, if they are not those of its frame.
+    /// Principal axes of the body, if they differ from the axes of its frame.
     pub principal: Option<Principal>,
 }
 
-/// What describes a body in its space.
+/// Description of a body in the plane or in space.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DescribedBody {
     /// In the plane.
@@ -120,14 +122,14 @@ pub enum FramePose {
     Plane {
         /// Origin of the frame (m).
         position: [f64; 2],
-        /// Its angle (rad).
+        /// Angle of the body (rad).
         angle: f64,
     },
     /// In space.
     Space3 {
         /// Origin of the frame (m).
         position: [f64; 3],
-        /// A quaternion (w, x, y, z) of any length but zero, body to ground.
+        /// Orientation from body to ground: a quaternion (w, x, y, z) of any nonzero length.
         orientation: [f64; 4],
     },
 }
@@ -166,13 +168,13 @@ impl From<DescribedBody> for BodyRecord {
 }
 
 impl BodyRecord {
-    /// Whether the origin of its frame is its centre of mass.
+    /// Returns whether the origin of its frame is its centre of mass.
     #[must_use]
     pub fn is_centred(&self) -> bool {
         self.centre() == [0.0; 3]
     }
 
-    /// The centre of mass in its frame (m).
+    /// Returns the centre of mass in its frame (m).
     #[must_use]
     pub fn centre(&self) -> [f64; 3] {
         match &self.described {
@@ -181,8 +183,8 @@ impl BodyRecord {
         }
     }
 
-    /// A point of its frame relative to its centre of mass (m), in the axes of its coordinates:
-    /// those of its frame, or its principal axes.
+    /// Returns a point of its frame relative to its centre of mass (m), in the axes of its
+    /// coordinates. These are the axes of its frame, or its principal axes.
     #[must_use]
     pub fn from_centre(&self, point: [f64; 3]) -> [f64; 3] {
         let centre = self.centre();
@@ -190,7 +192,7 @@ impl BodyRecord {
         self.principal.as_ref().map_or(arm, |own| own.own(arm))
     }
 
-    /// The numbers of a field, by its name in messages.
+    /// Returns the numbers of a field, by its name in messages.
     #[must_use]
     pub fn numbers(&self, field: &str) -> Vec<f64> {
         match (field, &self.described) {
@@ -211,7 +213,7 @@ impl BodyRecord {
         }
     }
 
-    /// The body with its frame elsewhere; `None` for a pose of another space.
+    /// Returns the body with another position of its frame; `None` for a pose of another space.
     #[must_use]
     pub fn at(&self, frame: &FramePose) -> Option<Self> {
         let described = match (&self.described, *frame) {
@@ -241,7 +243,7 @@ impl BodyRecord {
         })
     }
 
-    /// Whether the description gives a velocity of its frame.
+    /// Returns whether the description gives a velocity of its frame.
     #[must_use]
     pub fn has_velocity(&self) -> bool {
         match &self.described {
@@ -262,7 +264,7 @@ pub enum BodyRef {
 }
 
 impl BodyRef {
-    /// Its index in the list; `None` for the ground.
+    /// Returns the index in the list; `None` for the ground.
     #[must_use]
     pub fn moving(self) -> Option<usize> {
         match self {
@@ -273,13 +275,14 @@ impl BodyRef {
 }
 
 impl Body {
-    /// Whether the origin of its frame is its centre of mass.
+    /// Returns whether the origin of its frame is its centre of mass.
     #[must_use]
     pub fn is_centred(&self) -> bool {
         self.centre == [0.0; 2]
     }
 
-    /// A point of its frame relative to its centre of mass (m), as joints and forces take it.
+    /// Converts a point of its frame to a point relative to its centre of mass (m), which joints
+    /// and forces require.
     ///
     /// ```
     /// let rod = pfaff_model::Body { centre: [0.5, 0.0], ..pfaff_model::Body::new("rod", 1.0, 0.1) };

@@ -1,5 +1,15 @@
-//! Forces that call a function of the caller: of the laws of drives, and of wrenches on bodies,
-//! values alone are known. Nothing that needs derivatives works with them.
+//! Forces that call a function of the caller: laws of drives, and wrenches on bodies. The function
+//! returns only values, so methods that need derivatives do not support these forces.
+//!
+//! The derivatives of a mechanism with such a force cannot be computed, so each user of derivatives
+//! must return an error or leave its result undecided. Differences of function values are not used,
+//! because a controller may have corners, noise or an internal state, and differences of such
+//! values are wrong without a warning.
+//!
+//! A plan does not split such a mechanism and uses an explicit method, because the functions belong
+//! to the thread and the time of the caller. If a function does not return a finite value, the
+//! simulation ends at the stage that called it. A shorter step does not help, and the function may
+//! have raised an exception.
 
 mod kernels;
 
@@ -9,30 +19,30 @@ use std::sync::Arc;
 
 use crate::law::UndefinedValue;
 
-/// Why a called function has no value; its message ends the run.
+/// Reason why a called function has no value; its message is the error of the simulation.
 pub type CallError = Box<dyn Error + Send + Sync>;
 
-/// What the force of a drive depends on.
+/// Arguments of the force of a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DriveState {
     /// Time (s).
     pub time: f64,
-    /// The measure (m or rad).
+    /// The joint coordinate (m or rad).
     pub measure: f64,
-    /// Its rate (m/s or rad/s).
+    /// Rate of the joint coordinate (m/s or rad/s).
     pub rate: f64,
 }
 
-/// The state of a body, of its centre of mass, in ground axes.
+/// The state of the centre of mass of a body, in ground axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BodyState {
     /// Time (s).
     pub time: f64,
-    /// Place of the centre of mass (m).
+    /// Position of the centre of mass (m).
     pub position: [f64; 3],
-    /// From the frame of the body to ground axes, by rows.
+    /// Rotation matrix from the frame of the body to ground axes, by rows.
     pub rotation: [[f64; 3]; 3],
     /// Angle in the plane (rad), not reduced to one revolution; 0 in space.
     pub angle: f64,
@@ -42,8 +52,8 @@ pub struct BodyState {
     pub angular_velocity: [f64; 3],
 }
 
-/// A force through the centre of mass of a body, and a torque, in ground axes. In the plane the
-/// components out of it do nothing.
+/// A force through the centre of mass of a body, and a torque, in ground axes. In the plane,
+/// components out of the plane have no effect.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wrench {
     /// Force (N).
@@ -52,7 +62,7 @@ pub struct Wrench {
     pub torque: [f64; 3],
 }
 
-/// A function that is called. It is equal to its copies only.
+/// A callback function. It is equal only to its own copies.
 pub(crate) struct CalledFunction<I, O>(Arc<Callback<I, O>>);
 
 type Callback<I, O> = dyn Fn(&I) -> Result<O, CallError> + Send + Sync;
@@ -88,7 +98,7 @@ fn failed(why: &CallError) -> UndefinedValue {
 }
 
 impl CalledFunction<DriveState, f64> {
-    /// Its value for measure, rate and time.
+    /// Returns the value for joint coordinate, rate and time.
     pub(crate) fn value(&self, [measure, rate, time]: [f64; 3]) -> Result<f64, UndefinedValue> {
         if !(measure.is_finite() && rate.is_finite()) {
             return Err(UndefinedValue::Input);
@@ -105,19 +115,19 @@ impl CalledFunction<DriveState, f64> {
     }
 }
 
-/// A wrench on one body by a function of its state.
+/// A wrench on one body that is a function of its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CalledWrench(CalledFunction<BodyState, Wrench>);
 
 impl CalledWrench {
-    /// The wrench that a function returns, under the conditions of [`crate::Law::called`].
+    /// Creates a wrench from a function, under the conditions of [`crate::Law::called`].
     pub fn new(
         function: impl Fn(&BodyState) -> Result<Wrench, CallError> + Send + Sync + 'static,
     ) -> Self {
         Self(CalledFunction::new(function))
     }
 
-    /// Force and torque in ground axes.
+    /// Returns the force and torque in ground axes.
     fn value(&self, state: &BodyState) -> Result<Wrench, UndefinedValue> {
         let [r, v, omega] = [state.position, state.velocity, state.angular_velocity];
         if !r.iter().chain(&v).chain(&omega).all(|x| x.is_finite()) {

@@ -1,9 +1,11 @@
-//! Stable codes of errors and warnings, and what each of them means: one page, `codes/codes.md`,
-//! which the command `pfaff explain` and the book show. A code is never used again for something
-//! else. Each enum of errors gives its codes in `code()`, by a `match` over all variants.
+//! Stable codes of errors and warnings and their meanings. They are defined on one page,
+//! `codes/codes.md`, which the command `pfaff explain` and the book print. A code is never reused
+//! for another meaning. Each enum of errors gives its codes in `code()`, by a `match` over all
+//! variants.
 //!
-//! Below 100 the command and its files, from 100 the text of a scene, from 200 its start and its
-//! rank, from 300 questions, from 400 runs, from 500 sweeps, from 600 files that are imported.
+//! Codes below 100 concern the command and its files. Codes from 100 concern the text of a scene,
+//! from 200 its start and its rank, from 300 requests, from 400 simulations, from 500 sweeps, and
+//! from 600 imported files.
 
 mod entry;
 
@@ -13,7 +15,7 @@ use serde::{Serialize, Serializer};
 
 pub use entry::{Entry, Example, entries};
 
-/// The page with all codes, as the book has it.
+/// The page with all codes, in the form that the book uses.
 pub const PAGE: &str = include_str!("codes/codes.md");
 
 /// Whether a number has a heading on the page, as in `## P0123`.
@@ -39,10 +41,11 @@ const IS_CODE: [bool; 1000] = {
 pub struct Code(u16);
 
 impl Code {
-    /// A code of the page. In a `const` block a code that is missing there does not compile.
+    /// Returns a code of the page. In a `const` block, a code that is missing on the page does not
+    /// compile.
     ///
     /// # Panics
-    /// If the page has no such code.
+    /// Panics if the page has no such code.
     #[must_use]
     pub const fn new(number: u16) -> Self {
         assert!(
@@ -52,7 +55,7 @@ impl Code {
         Self(number)
     }
 
-    /// The entry of a text such as `P0123` or `123`.
+    /// Returns the entry of a text such as `P0123` or `123`.
     #[must_use]
     pub fn find(text: &str) -> Option<&'static Entry> {
         let digits = text.trim_start_matches(['P', 'p']);

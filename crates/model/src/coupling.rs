@@ -1,15 +1,17 @@
-//! Couplings: a measure of one joint follows a measure of another by a polynomial, as the wheels of
-//! a gear train, a rack, or a cam of few terms.
+//! Couplings: a coordinate of one joint is a polynomial of a coordinate of another joint. Examples
+//! are the wheels of a gear train, a rack, or a cam with few terms.
 //!
-//! A drive states its measure by the row measure − initial measure − motion, or for an angle in
-//! space by the sine of what is left of the angle ([`joints::spec::ConstraintSpec::turning`]). A
-//! coupling has the kernels of two drives, x and y their measures since the start, and the row `y −
-//! (ratio·x + c₂·x² + …) = 0`.
+//! The row of a drive is coordinate − initial coordinate − motion. For an angle in space, it is the
+//! sine of the remaining angle ([`joints::spec::ConstraintSpec::turning`]). A coupling has the
+//! kernels of two drives and the row `y − (ratio·x + c₂·x² + …) = 0`, where x and y are the joint
+//! coordinates since the start.
 //!
-//! Its multiplier is its load: the force or torque along y, as that of a drive of y. Its reaction
-//! is that of this drive: on the first body of the joint of y, at the place of that joint. It is
-//! not the total on a body: a body that both joints share has the load along x, too, and the two
-//! may cancel.
+//! Its multiplier is its load: the force or torque along y, like the load of a drive of y. Its
+//! reaction is that of this drive: on the first body of the joint of y, at the reference point of
+//! that joint. It is not the total load on a body. On a body that both joints share, the load along
+//! x acts as well, and the two loads may cancel.
+//!
+//! A coupling uses the kernels of these two drives, so it needs no definition of its own.
 
 mod element;
 mod error;
@@ -31,25 +33,26 @@ use side::Side;
 pub use crate::element::{AttachedConstraint, AttachedMeasure};
 pub use error::CouplingError;
 
-/// Name of the datum with the initial value of a measure that has a row of its own.
+/// Name of the datum with the initial value of a joint coordinate that has its own row.
 const OF_ROW: &str = "measure_0";
 
-/// A coupling of two measures.
+/// A coupling of two joint coordinates.
 #[derive(Clone)]
 struct Coupling<S: BodySpace> {
-    /// The measure x, and y that follows it.
+    /// The coordinate x, and the coordinate y that follows it.
     sides: [Side<S>; 2],
     law: Polynomial,
     facts: &'static facts::CouplingFacts,
-    /// Its rows for all that does not move, recorded when first asked for.
+    /// Operation lists of its rows for everything that does not move, recorded on the first
+    /// request.
     programs: OnceLock<Arc<Programs>>,
 }
 
-/// The constraint by which the second measure follows the first: their changes since the start
-/// satisfy `y = Σ coefficients[k]·xᵏ⁺¹`.
+/// Returns the constraint by which the second joint coordinate follows the first: their changes
+/// since the start satisfy `y = Σ coefficients[k]·xᵏ⁺¹`.
 ///
 /// # Errors
-/// - [`CouplingError::Measure`]: a measure has no row of its own.
+/// - [`CouplingError::Measure`]: a joint coordinate does not have its own row.
 /// - [`CouplingError::Coefficients`]: a coefficient is not finite, or all are zero.
 #[allow(private_bounds)]
 pub(crate) fn couple<S: Kinematics>(
@@ -63,7 +66,8 @@ pub(crate) fn couple<S: Kinematics>(
     let mut slots = Vec::new();
     for (own, drive) in &measures {
         let spec = drive.spec();
-        // A kept measure has no initial value of its own: its drive has the rows of the joint.
+        // A kept coordinate has no separate initial value, because its drive has the rows of the
+        // joint.
         let has_own_row = spec.data.iter().any(|datum| datum.name == OF_ROW);
         let is_single = has_own_row && spec.rows.len() == 1 && own.len() == 2;
         if !is_single || spec.common.slots.len() != 2 || spec.common.functions().count() != 1 {

@@ -1,8 +1,8 @@
 //! The numbers that constraints store, as points, directions and single numbers, and the
 //! derivatives of rows with respect to them.
 //!
-//! How a pose follows a change of the data, and the effect of a change on a rank, is computed in
-//! `solvability`.
+//! The crate `solvability` computes how a configuration follows a change of the data, and the
+//! effect of a change on a rank.
 
 mod displaced;
 mod gradients;
@@ -23,33 +23,33 @@ use crate::tolerance::Tolerance;
 pub use gradients::DataGradients;
 pub use slopes::DataSlopes;
 
-/// A point, a direction or a single number of a constraint, whose components change together.
+/// A point, a direction or a single number of a constraint. Its components change together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataBlock {
     /// The joint or drive, as index of the groups of the layout.
     pub group: usize,
     /// Name of the parameter, or of the value kept from the start.
     pub name: &'static str,
-    /// Indices of its numbers among all numbers of the mechanism: as many as a vector has
-    /// components for a point or a direction, three for axes, otherwise one.
+    /// Indices of its numbers among all numbers of the mechanism. A point or a direction has as
+    /// many numbers as a vector has components, axes have three, and other data have one.
     pub numbers: Range<usize>,
-    /// Unit of its changes.
+    /// Unit of changes of this block.
     pub unit: DataUnit,
-    /// For a direction: how its change is measured.
+    /// Constraint on the changes, if the block is a direction.
     across: Option<Across>,
     /// The largest number with which it is combined (in its unit); its rounding is proportional to
-    /// this.
+    /// this number.
     pub scale: f64,
     /// The tolerance stated for it (in its unit) by its joint, its body or the scene.
     pub tolerance: Option<f64>,
 }
 
-/// The changes of a direction, which keep its length.
+/// The changes of a direction that keep its length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Across {
-    /// In the plane: along this unit vector.
+    /// Changes in the plane, along this unit vector.
     Along([f64; 2]),
-    /// In space: across this unit vector.
+    /// Changes in space, perpendicular to this unit vector.
     Normal([f64; 3]),
 }
 
@@ -74,8 +74,8 @@ pub enum DataUnit {
 }
 
 impl DataBlock {
-    /// Its part of a gradient with respect to all numbers, as a vector over its own change; unused
-    /// components are zero.
+    /// Returns the part of a gradient with respect to all numbers that belongs to this block, as a
+    /// vector; unused components are zero.
     #[must_use]
     pub fn part(&self, gradient: &[f64]) -> [f64; 3] {
         let own = &gradient[self.numbers.clone()];
@@ -92,22 +92,22 @@ impl DataBlock {
         }
     }
 
-    /// The largest change of a value with this gradient, if the datum moves by `moved`.
+    /// Returns the largest change of a value with this gradient, if the datum moves by `moved`.
     #[must_use]
     pub fn change(&self, gradient: &[f64], moved: f64) -> f64 {
         let [x, y, z] = self.part(gradient);
         x.hypot(y).hypot(z) * moved
     }
 
-    /// Its uncertainty: the stated tolerance, or its rounding.
+    /// Returns the uncertainty of the block: the stated tolerance, or its rounding.
     #[must_use]
     pub fn known_to(&self) -> f64 {
         self.tolerance.unwrap_or(ROUNDING * self.scale)
     }
 }
 
-/// What data within their stated tolerances explain of a value with this gradient with respect to
-/// all numbers: [`SHARED`] times the sum of the largest changes.
+/// Returns the part of a value with this gradient that data within their stated tolerances explain:
+/// [`SHARED`] times the sum of the largest changes. The gradient is with respect to all numbers.
 #[must_use]
 pub fn explained(blocks: &[DataBlock], gradient: &[f64]) -> f64 {
     let change = |b: &DataBlock| b.change(gradient, b.tolerance.unwrap_or(0.0));
@@ -130,7 +130,7 @@ impl ForceDerivatives {
     /// Adds the gradient of `λᵀ·C·v` with respect to the pose to `out`; both have n_v values.
     ///
     /// # Panics
-    /// If a slice is too short.
+    /// Panics if a slice is too short.
     pub fn add_power(&self, v: &[f64], out: &mut [f64]) {
         for &(i, j, d) in &self.0 {
             out[j] += d * v[i];
@@ -139,7 +139,7 @@ impl ForceDerivatives {
 }
 
 impl Mechanism {
-    /// The numbers stored by its constraints.
+    /// Returns the numbers stored by its constraints.
     #[must_use]
     pub fn data(&self) -> Data<'_> {
         Data(self)
@@ -147,7 +147,7 @@ impl Mechanism {
 }
 
 impl<'m> Data<'m> {
-    /// The constraints, each with the places of its numbers among all.
+    /// Returns the constraints, each with the indices of its numbers among all numbers.
     fn numbered(self) -> impl Iterator<Item = (&'m PlacedConstraint, Range<usize>)> {
         let mut first = 0;
         self.0.elements.constraints.iter().map(move |c| {
@@ -157,19 +157,19 @@ impl<'m> Data<'m> {
         })
     }
 
-    /// Whether a tolerance is stated for any number.
+    /// Returns whether a tolerance is stated for any number.
     pub(crate) fn has_tolerances(self) -> bool {
         self.0.has_tolerances()
     }
 
-    /// Number of values stored by all constraints.
+    /// Returns the number of values stored by all constraints.
     #[must_use]
     pub fn count(self) -> usize {
         self.numbered().last().map_or(0, |(_, numbers)| numbers.end)
     }
 
-    /// All points, directions and numbers of the constraints, at the poses of the scratch;
-    /// allocates.
+    /// Returns all points, directions and numbers of the constraints, at the configuration of the
+    /// scratch. The function allocates memory.
     #[must_use]
     pub fn blocks(self, s: &Scratch) -> Vec<DataBlock> {
         let mut blocks = Vec::new();
@@ -233,8 +233,8 @@ impl<'m> Data<'m> {
         blocks
     }
 
-    /// The largest change of `λᵀ·Φ` if each datum moves by the value that `moved` returns; `lambda`
-    /// has at least m values.
+    /// Returns the largest change of `λᵀ·Φ` if each datum moves by the value that `moved` returns;
+    /// `lambda` has at least m values.
     #[must_use]
     pub fn phi_change(
         self,
@@ -255,7 +255,7 @@ impl<'m> Data<'m> {
         self.each_force_derivative(s, lambda, |i, j, d| out[j] += d * v[i]);
     }
 
-    /// The derivatives of the forces `Cᵀ·λ` with respect to the pose, for `λᵀ·C·v` at many
+    /// Returns the derivatives of the forces `Cᵀ·λ` with respect to the pose, for `λᵀ·C·v` at many
     /// velocities.
     #[must_use]
     pub fn force_derivatives(self, s: &Scratch, lambda: &[f64]) -> ForceDerivatives {
@@ -293,8 +293,8 @@ impl<'m> Data<'m> {
         }
     }
 
-    /// The largest length with which the points of a constraint are combined (m): their own
-    /// coordinates, the arms of its bodies, and the positions of these.
+    /// Returns the largest length with which the points of a constraint are combined (m): their own
+    /// coordinates, the arms of its bodies, and the positions of these bodies.
     fn length_scale(self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
         let points = c.spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];
@@ -318,10 +318,10 @@ impl<'m> Data<'m> {
     }
 }
 
-/// The uncertainty of data of this shape in a constraint, in their unit, in a mechanism of this
-/// size (m). Lengths: the tolerance stated for the constraint, or else for a marker at the point,
-/// or else for the body in whose frame they are, or else for the scene. Angles: the angle tolerance
-/// of the scene, or else that length divided by the size.
+/// Returns the uncertainty of data of this shape in a constraint, in their unit, in a mechanism of
+/// this size (m). The length tolerance is that of the constraint, or otherwise that of a marker at
+/// the point, of the body in whose frame the data are, or of the scene. The angle tolerance is that
+/// of the scene, or otherwise the length tolerance divided by the size.
 fn tolerance_of(
     mechanism: &Mechanism,
     c: &PlacedConstraint,

@@ -1,5 +1,5 @@
-//! A mechanism as plain data: the result of reading a scene, or written directly by a program.
-//! Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
+//! A mechanism as plain data: the result of reading a scene, or created directly by a program. This
+//! module checks nothing; [`crate::Mechanism::build`] checks everything once.
 
 use joints::spec::{ConstraintSpec, Unit};
 use joints::{Constraint, Plane, Space3};
@@ -15,8 +15,8 @@ use crate::tolerance::Tolerance;
 
 /// A mechanism before it is assembled.
 ///
-/// Its lists may be read and changed directly; [`Description::body`] and similar methods add one
-/// item with one name.
+/// The lists may be read and changed directly. [`Description::body`] and similar methods add one
+/// named item.
 ///
 /// ```
 /// use joints::Revolute;
@@ -37,9 +37,9 @@ use crate::tolerance::Tolerance;
 /// ```
 #[derive(Clone)]
 pub struct MechanismDescription<S: BodySpace> {
-    /// Its name.
+    /// Name of the mechanism.
     pub name: String,
-    /// Acceleration of free fall (m/s²).
+    /// Acceleration due to gravity (m/s²).
     pub gravity: S::Vector<f64>,
     /// Bodies; their order is that of the coordinates.
     pub bodies: Vec<S::Body>,
@@ -49,7 +49,7 @@ pub struct MechanismDescription<S: BodySpace> {
     pub drives: Vec<Drive<S>>,
     /// Forces.
     pub forces: Vec<Force<S>>,
-    /// Tolerance of the numbers, unless one is stated for their joint or body.
+    /// Tolerance of the data, unless a tolerance is stated for their joint or body.
     pub tolerance: Tolerance,
     /// Markers and measures.
     pub observed: Observables,
@@ -95,7 +95,7 @@ impl<S: BodySpace> Default for MechanismDescription<S> {
 }
 
 impl<S: BodySpace> MechanismDescription<S> {
-    /// A description without bodies.
+    /// Returns a description without bodies.
     #[must_use]
     pub fn new(name: &str) -> Self {
         Self {
@@ -110,8 +110,8 @@ impl<S: BodySpace> MechanismDescription<S> {
         BodyRef::Body(self.bodies.len() - 1)
     }
 
-    /// Adds a joint, with points in the frames of its bodies. If the joint depends on time, its
-    /// functions are to be added to the result.
+    /// Adds a joint, with points in the frames of its bodies. If the joint depends on time, the
+    /// caller must add its functions to the result.
     pub fn joint(
         &mut self,
         name: &str,
@@ -121,7 +121,7 @@ impl<S: BodySpace> MechanismDescription<S> {
         self.joints.push_mut(Joint::new(name, bodies, element))
     }
 
-    /// Adds a drive: its measure follows f(t) − f(0).
+    /// Adds a drive, whose joint coordinate changes by f(t) − f(0).
     pub fn drive(
         &mut self,
         name: &str,
@@ -138,8 +138,8 @@ impl<S: BodySpace> MechanismDescription<S> {
         });
     }
 
-    /// Adds a force, with points in the frames of its bodies. If the force depends on time, its
-    /// functions are to be added to the result.
+    /// Adds a force, with points in the frames of its bodies. If the force depends on time, the
+    /// caller must add its functions to the result.
     pub fn force(
         &mut self,
         name: &str,
@@ -154,8 +154,8 @@ impl<S: BodySpace> MechanismDescription<S> {
         })
     }
 
-    /// Adds a drive that applies a force (N) or torque (N·m) along its measure, by a law of the
-    /// measure, its rate and time, in place of a motion.
+    /// Adds a drive that applies a force (N) or torque (N·m) along its joint coordinate. A force
+    /// law of the coordinate, its rate and time replaces the prescribed motion.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -194,7 +194,7 @@ impl<S: BodySpace> MechanismDescription<S> {
         Ok(())
     }
 
-    /// Adds a force and a torque on a body by a function that is called with the state of the body.
+    /// Adds a force and a torque on a body. A callback computes them from the state of the body.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism, System, Wrench};
@@ -226,10 +226,10 @@ impl<S: BodySpace> MechanismDescription<S> {
         });
     }
 
-    /// Replaces the law of a drive; the measure stays what it is.
+    /// Replaces the force law of a drive; the joint coordinate does not change.
     ///
     /// # Errors
-    /// There is no drive by a law of this name.
+    /// Returns an error if no drive of this name has a force law.
     pub fn set_law(&mut self, drive: &str, law: &Law) -> Result<(), SetLawError> {
         let name = || drive.to_owned();
         let found = self.forces.iter_mut().find(|force| force.name == drive);
@@ -254,15 +254,16 @@ impl<S: BodySpace> MechanismDescription<S> {
         })
     }
 
-    /// Its bodies as those of a mechanism.
+    /// Returns the bodies in the form that a mechanism stores.
     #[must_use]
     pub fn records(&self) -> Vec<BodyRecord> {
         let described = self.bodies.iter().cloned().map(Into::<DescribedBody>::into);
         described.map(BodyRecord::from).collect()
     }
 
-    /// A global point (m) relative to the centre of mass of a body as described, as joints and
-    /// forces take it; for the ground, and for a body that does not exist, the point itself.
+    /// Returns a global point (m) relative to the centre of mass of a body in its described pose,
+    /// which joints and forces require. For the ground, and for a body that does not exist, it
+    /// returns the point itself.
     #[must_use]
     pub fn local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| self.bodies.get(at));
@@ -270,11 +271,11 @@ impl<S: BodySpace> MechanismDescription<S> {
     }
 }
 
-/// Reason why a law has no place.
+/// Reason why a force law cannot be assigned.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SetLawError {
-    /// There is no such drive.
+    /// The drive does not exist.
     #[error("there is no drive `{name}`")]
     Unknown {
         /// The name.
@@ -291,10 +292,10 @@ pub enum SetLawError {
         /// "force" or "torque".
         load: &'static str,
     },
-    /// The name is that of a force of another kind.
+    /// The name belongs to a force of another kind.
     #[error("`{name}` is a force, not a drive by a law")]
     Force {
-        /// The force.
+        /// Name of the force.
         name: String,
     },
 }
@@ -346,7 +347,7 @@ macro_rules! either {
 }
 
 impl AnyDescription {
-    /// Its space.
+    /// Returns the space of the description.
     #[must_use]
     pub fn space(&self) -> SpaceKind {
         match self {
@@ -355,13 +356,13 @@ impl AnyDescription {
         }
     }
 
-    /// Its name.
+    /// Returns the name.
     #[must_use]
     pub fn name(&self) -> &str {
         either!(self, d => &d.name)
     }
 
-    /// Tolerance of its numbers, unless one is stated for their joint or body.
+    /// Returns the tolerance of the data, unless a tolerance is stated for their joint or body.
     #[must_use]
     pub fn tolerance(&self) -> Tolerance {
         either!(self, d => d.tolerance)
@@ -372,13 +373,13 @@ impl AnyDescription {
         either!(self, d => d.tolerance = tolerance);
     }
 
-    /// Its bodies.
+    /// Returns the bodies.
     #[must_use]
     pub fn bodies(&self) -> Vec<BodyRecord> {
         either!(self, d => d.records())
     }
 
-    /// Names and descriptions of its joints.
+    /// Returns the names and descriptions of the joints.
     pub fn joints(&self) -> impl Iterator<Item = (&str, &'static ConstraintSpec)> {
         let named: Vec<_> = either!(self, d => d
             .joints
@@ -388,7 +389,7 @@ impl AnyDescription {
         named.into_iter()
     }
 
-    /// Names and descriptions of its drives.
+    /// Returns the names and descriptions of the drives.
     pub fn drives(&self) -> impl Iterator<Item = (&str, &'static ConstraintSpec)> {
         let named: Vec<_> = either!(self, d => d
             .drives
@@ -398,7 +399,7 @@ impl AnyDescription {
         named.into_iter()
     }
 
-    /// The motions that its drives prescribe.
+    /// Returns the prescribed motions of its drives.
     pub fn motions(&self) -> impl Iterator<Item = Motion<'_>> {
         let all: Vec<Motion> = either!(self, d => d
             .drives
@@ -413,7 +414,7 @@ impl AnyDescription {
         all.into_iter()
     }
 
-    /// Names of its drives by laws, springs on measures among them.
+    /// Returns the names of its drives with force laws, including springs on joint coordinates.
     pub fn laws(&self) -> impl Iterator<Item = &str> {
         let named: Vec<_> = either!(self, d => d
             .forces
@@ -424,15 +425,15 @@ impl AnyDescription {
         named.into_iter()
     }
 
-    /// Replaces the law of a drive; the measure stays what it is.
+    /// Replaces the force law of a drive; the joint coordinate does not change.
     ///
     /// # Errors
-    /// There is no drive by a law of this name.
+    /// Returns an error if no drive of this name has a force law.
     pub fn set_law(&mut self, drive: &str, law: &Law) -> Result<(), SetLawError> {
         either!(self, d => d.set_law(drive, law))
     }
 
-    /// Adds a force and a torque on a body by a function that is called with the state of the body.
+    /// Adds a force and a torque on a body. A callback computes them from the state of the body.
     pub fn called_force(
         &mut self,
         name: &str,
@@ -442,7 +443,7 @@ impl AnyDescription {
         either!(self, d => d.called_force(name, body, function));
     }
 
-    /// Names and bodies of its joints, drives and forces.
+    /// Returns the names and bodies of its joints, drives and forces.
     pub fn connections(&self) -> impl Iterator<Item = (&str, &[BodyRef])> {
         let all: Vec<(&str, &[BodyRef])> = either!(self, d => {
             let joints = d.joints.iter().map(|x| (x.name.as_str(), x.bodies.as_slice()));
@@ -453,13 +454,13 @@ impl AnyDescription {
         all.into_iter()
     }
 
-    /// Number of its forces.
+    /// Returns the number of forces.
     #[must_use]
     pub fn n_forces(&self) -> usize {
         either!(self, d => d.forces.len())
     }
 
-    /// The description, if it is one of the plane.
+    /// Returns the description, if it is planar.
     #[must_use]
     pub fn plane(&self) -> Option<&Description> {
         match self {
@@ -468,7 +469,7 @@ impl AnyDescription {
         }
     }
 
-    /// The same to be changed.
+    /// Returns the description as a mutable reference, if it is planar.
     pub fn plane_mut(&mut self) -> Option<&mut Description> {
         match self {
             Self::Plane(d) => Some(d),
@@ -482,32 +483,33 @@ impl AnyDescription {
 pub struct Motion<'d> {
     /// The name of the drive.
     pub name: &'d str,
-    /// The bodies of its joint.
+    /// The bodies of the driven joint.
     pub bodies: &'d [BodyRef],
     /// The definition of the drive.
     pub spec: &'static ConstraintSpec,
-    /// The change of its measure.
+    /// The change of the joint coordinate.
     pub of_time: &'d Function,
 }
 
 /// A joint between bodies.
 #[derive(Clone)]
 pub struct Joint<S: BodySpace = Plane> {
-    /// Its name.
+    /// Name of the joint.
     pub name: String,
     /// One body for each slot of the definition.
     pub bodies: Vec<BodyRef>,
-    /// Its definition with parameters.
+    /// Definition of the joint with parameters.
     pub element: Box<dyn ConstraintKernels<S>>,
-    /// Its functions of time, in the order of the definition.
+    /// Functions of time, in the order of the definition.
     pub functions: Vec<Function>,
-    /// Tolerance of its points, directions and numbers (m; angles: divided by the size of the
-    /// mechanism); takes precedence over those of its bodies and of the scene.
+    /// Tolerance of the points, directions and numbers of the joint (m). For angles, it is
+    /// divided by the size of the mechanism. It takes precedence over the tolerances of the bodies
+    /// and of the scene.
     pub tolerance: Option<f64>,
 }
 
 impl<S: BodySpace> Joint<S> {
-    /// A joint that does not depend on time.
+    /// Returns a joint that does not depend on time.
     pub fn new(
         name: &str,
         bodies: &[BodyRef],
@@ -523,31 +525,31 @@ impl<S: BodySpace> Joint<S> {
     }
 }
 
-/// A prescribed relative motion: measure − initial measure − (f(t) − f(0)) = 0.
+/// A prescribed relative motion: coordinate − initial coordinate − (f(t) − f(0)) = 0.
 #[derive(Clone)]
 pub struct Drive<S: BodySpace = Plane> {
-    /// Its name.
+    /// Name of the drive.
     pub name: String,
     /// One body for each slot of the joint's definition.
     pub bodies: Vec<BodyRef>,
-    /// The element that drives one measure of the joint, with the parameters of the joint.
+    /// The element that drives one coordinate of the joint, with the parameters of the joint.
     pub element: Box<dyn ConstraintKernels<S>>,
     /// The function f.
     pub motion: Function,
-    /// Tolerance of its points, directions and numbers (m): that of the driven joint.
+    /// Tolerance of its points, directions and numbers (m), equal to that of the driven joint.
     pub tolerance: Option<f64>,
 }
 
 /// An applied force.
 #[derive(Clone)]
 pub struct Force<S: BodySpace = Plane> {
-    /// Its name.
+    /// Name of the force.
     pub name: String,
     /// One body for each slot of the definition.
     pub bodies: Vec<BodyRef>,
-    /// Its definition with parameters.
+    /// Definition of the force with parameters.
     pub element: Box<dyn ForceKernels<S>>,
-    /// Its functions of time, in the order of the definition.
+    /// Functions of time, in the order of the definition.
     pub functions: Vec<Function>,
 }
 

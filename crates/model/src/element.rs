@@ -1,9 +1,9 @@
 //! Elements in a mechanism: the kernels of joints, drives and forces with the poses and velocities
 //! of their bodies.
 //!
-//! This is the only place that knows in which form kernels take poses and velocities. The rest of
-//! the crate asks a [`PlacedConstraint`] or a [`PlacedForce`], with [`Slots`], and asks [`Bodies`]
-//! where a body is; an element with kernels of another form is added here.
+//! Only this module depends on the form in which kernels take poses and velocities. The rest of the
+//! crate evaluates a [`PlacedConstraint`] or a [`PlacedForce`] with [`Slots`], and reads poses of
+//! bodies from [`Bodies`]. Elements with kernels of another form must be added in this module.
 
 mod bodies;
 mod constraint;

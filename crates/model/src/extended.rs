@@ -1,10 +1,11 @@
-//! Constraints in double-double at a configuration polished beyond `f64`, from which a certificate
-//! of the rank is computed.
+//! Constraints in double-double at a configuration that is refined beyond `f64`. They are used for
+//! a certificate of the rank.
 //!
 //! At a configuration stored in `f64`, a singular value that is exactly zero is computed as about
-//! 1e-16, like one that is only very small. Here Φ is reduced to 1e-32 in the kept rows; then an
-//! exact zero decreases to 1e-32 as well, while a misalignment of the data stays the same. This is
-//! not for motion: it allocates and is a hundred times slower than the kernels in `f64`.
+//! 1e-16, like one that is only very small. This module reduces Φ to 1e-32 in the kept rows. An
+//! exact zero then decreases to 1e-32 as well, but a misalignment of the data does not change. The
+//! method is not suitable for simulations: it allocates memory and is a hundred times slower than
+//! the kernels in `f64`.
 
 use linalg::{DampedRows, Dd, DdMatrix, StepError};
 
@@ -22,23 +23,24 @@ pub struct PolishedConfiguration {
     pub t: f64,
     /// Coordinates, n_q.
     pub q: Vec<Dd>,
-    /// Φ, m values: rounding in the kept rows; in the others the residuals that the data allow.
+    /// Φ, m values: rounding in the kept rows, and in the others the residuals that the data
+    /// permit.
     pub phi: Vec<Dd>,
     /// C, (m+h) × n_v.
     pub c: DdMatrix,
 }
 
-/// Largest number of corrections. Each gains the digits of a factorisation in `f64`, or fewer near
-/// a singular configuration.
+/// Largest number of corrections. Each correction gains the digits of a factorisation in `f64`, or
+/// fewer near a singular configuration.
 const CORRECTIONS: usize = 6;
 
 /// A residual below this many roundings of double-double needs no further correction.
 const ROUNDINGS: f64 = 16.0;
 
 impl PolishedConfiguration {
-    /// Polishes the coordinates q, which satisfy Φ = 0 to `f64`, in the rows `kept` of Φ, which are
-    /// independent. Each correction is the smallest possible. The iteration ends when corrections
-    /// no longer become smaller, or would move a body farther than a stated tolerance allows.
+    /// Refines the coordinates q, which satisfy Φ = 0 to `f64`, in the independent rows `kept` of
+    /// Φ. Each correction is the smallest possible one. The iteration ends when corrections no
+    /// longer become smaller, or would move a body farther than a stated tolerance allows.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -46,7 +48,7 @@ impl PolishedConfiguration {
     /// | `kept` | ≤ m | independent holonomic rows, from 0; rows that do not exist are ignored |
     ///
     /// # Errors
-    /// If the kept rows are dependent or an entry is not finite.
+    /// Returns an error if the kept rows are dependent or an entry is not finite.
     pub fn at(mechanism: &Mechanism, t: f64, q: &[f64], kept: &[usize]) -> Result<Self, StepError> {
         let m = mechanism.layout().m;
         let kept: Vec<usize> = kept.iter().copied().filter(|&i| i < m).collect();
@@ -58,8 +60,8 @@ impl PolishedConfiguration {
             .iter()
             .map(|&i| mechanism.scales(&s).position(i))
             .collect();
-        // Corrections are small relative to the mechanism; if rotations were counted in radians
-        // only, large bodies would be rotated first.
+        // Corrections are small relative to the mechanism. If rotations had the unit radian only,
+        // large bodies would be rotated first.
         let rotation = scene_size(mechanism, q).powi(-2);
         let weights: Vec<f64> = (0..mechanism.layout().n_v)
             .map(|j| {
@@ -107,7 +109,7 @@ impl PolishedConfiguration {
     }
 }
 
-/// Φ in double-double, m values.
+/// Returns Φ in double-double, m values.
 fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
     let mut phi = vec![Dd::ZERO; mechanism.layout().m];
     let at = arguments(mechanism, t, q);
@@ -117,7 +119,7 @@ fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
     phi
 }
 
-/// C in double-double.
+/// Returns C in double-double.
 fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
     let (layout, elements) = (mechanism.layout(), &mechanism.elements);
     let at = arguments(mechanism, t, q);
@@ -138,7 +140,7 @@ fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
     dense
 }
 
-/// Poses of the bodies, and values of the functions of time.
+/// Returns the poses of the bodies, and values of the functions of time.
 fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> ExtendedSlots {
     let given = mechanism.elements.given.iter();
     let jet = |given: &KernelInput| given.function().map(|f| f.extended_jet(t));
@@ -150,8 +152,8 @@ fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> ExtendedSlots {
     }
 }
 
-/// Gives the kernels their counted angles: those of the rounded coordinates, whose cosine and sine
-/// are known to all digits. Kernels add what is left of the angle.
+/// Sets the unwrapped angles of the kernels to those of the rounded coordinates, whose cosine and
+/// sine are known to all digits. Kernels add the remaining part of the angle.
 fn counted_angles(mechanism: &Mechanism, t: f64, q: &[Dd], jets: &mut [[Dd; 3]]) {
     if mechanism.layout().turns == 0 {
         return;

@@ -1,9 +1,9 @@
-//! Frames of bodies whose origin is not the centre of mass: the only place where positions and
-//! velocities of a description become those of the equations, and back.
+//! Frames of bodies whose origin is not the centre of mass. Only this module converts positions and
+//! velocities of a description to those of the equations, and back.
 //!
-//! The equations are about centres of mass: q = (r, φ), and points of joints relative to them. A
-//! description, and everything that is written, is about the origin o of the body's frame, with
-//! c = [`Body::centre`]: `r = o + R·c`, `ṙ = ȯ + ω × R·c`.
+//! The equations use centres of mass: q = (r, φ), and points of joints relative to them.
+//! Descriptions and outputs use the origin o of the body frame, with c = [`Body::centre`]:
+//! `r = o + R·c`, `ṙ = ȯ + ω × R·c`.
 
 use crate::body::{Body, BodyRecord, BodyRef, DescribedBody};
 use crate::element::{Bodies, angle_at, axes_at, turned_at};
@@ -12,10 +12,10 @@ use crate::observed::{Marker, Measure, MeasureKind, Observables};
 use crate::space::{SpaceKind, cross, difference, norm, normalised, quaternion_product};
 use crate::system::System;
 
-/// Position and velocity of a point of a body, or of its frame; ground axes.
+/// Position and velocity of a point of a body, or of its frame, in ground axes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameState {
-    /// The space of its mechanism.
+    /// The space of the mechanism.
     pub space: SpaceKind,
     /// Position (m).
     pub place: [f64; 3],
@@ -25,12 +25,12 @@ pub struct FrameState {
     pub velocity: [f64; 3],
     /// Angular velocity (rad/s).
     pub omega: [f64; 3],
-    /// Orientation in space, as the coordinates have it.
+    /// Orientation in space, as stored in the coordinates.
     pub quaternion: [f64; 4],
 }
 
 impl FrameState {
-    /// The frame of the ground.
+    /// Returns the frame of the ground.
     fn of_ground(space: SpaceKind) -> Self {
         Self {
             space,
@@ -39,7 +39,7 @@ impl FrameState {
         }
     }
 
-    /// A vector of the ground in the axes of the frame.
+    /// Returns a vector of the ground in the axes of the frame.
     fn own(&self, d: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = d;
         if self.space == SpaceKind::Space3 {
@@ -51,8 +51,9 @@ impl FrameState {
         [cos * x + sin * y, cos * y - sin * x, z]
     }
 
-    /// How far another state is away (m), and by what angle its axes are turned against these
-    /// (rad): in the plane with full turns, in space by no more than half a turn.
+    /// Returns the distance of another state (m), and the angle of its axes relative to the axes of
+    /// this state (rad). In the plane the angle includes full revolutions; in space it is at most
+    /// half a revolution.
     ///
     /// ```
     /// use pfaff_model::{FrameState, SpaceKind};
@@ -78,7 +79,8 @@ impl FrameState {
         [distance, 2.0 * norm(&[x, y, z]).atan2(w.abs())]
     }
 
-    /// Its orientation as a quaternion, in the plane about its normal.
+    /// Returns the orientation as a quaternion; in the plane, the rotation is about the normal of
+    /// the plane.
     fn orientation(&self) -> [f64; 4] {
         if self.space == SpaceKind::Space3 {
             return self.quaternion;
@@ -87,7 +89,7 @@ impl FrameState {
         [cos, 0.0, 0.0, sin]
     }
 
-    /// Its numbers, in the order of [`SpaceKind::columns`].
+    /// Returns the numbers, in the order of [`SpaceKind::columns`].
     pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
         let ([x, y, z], [vx, vy, vz]) = (self.place, self.velocity);
         let ([w, e1, e2, e3], [wx, wy, wz]) = (self.quaternion, self.omega);
@@ -103,14 +105,14 @@ impl FrameState {
 }
 
 impl Mechanism {
-    /// The frames of its bodies, its markers and its measures.
+    /// Returns the frames of its bodies, its markers and its measures.
     #[must_use]
     pub fn frames(&self) -> Frames<'_> {
         Frames(self)
     }
 
-    /// Coordinates and velocities as described, not corrected; velocities that are not given are
-    /// zero.
+    /// Returns the coordinates and velocities as described, without correction. Velocities that are
+    /// not given are zero.
     #[must_use]
     pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
         let mut q = vec![0.0; self.layout().n_q];
@@ -124,25 +126,26 @@ impl Mechanism {
     }
 }
 
-/// What a scene says of bodies and places, and what is written of them, by a mechanism at its
-/// centres of mass.
+/// Conversion between a mechanism, whose equations use centres of mass, and the description and
+/// output of bodies and points.
 #[derive(Clone, Copy)]
 pub struct Frames<'m>(&'m Mechanism);
 
 impl<'m> Frames<'m> {
-    /// The markers and measures; a part of a mechanism has its markers with a tolerance only.
+    /// Returns the markers and measures. A part of a mechanism contains only its markers with a
+    /// tolerance.
     #[must_use]
     pub fn observed(self) -> &'m Observables {
         &self.0.observed
     }
 
-    /// A vector in the axes of the coordinates of a body, such as its points in
-    /// [`Mechanism::points`] and [`Bodies::to_local`], in the axes of its frame. These are the same
-    /// unless the body has products of inertia: then its coordinates are those of its principal
-    /// axes.
+    /// Transforms a vector from the axes of the coordinates of a body, such as its points in
+    /// [`Mechanism::points`] and [`Bodies::to_local`], to the axes of its frame. The two systems
+    /// are equal unless the body has products of inertia: then its coordinates refer to its
+    /// principal axes.
     ///
     /// # Panics
-    /// If there is no such body.
+    /// Panics if the body does not exist.
     #[must_use]
     pub fn vector(self, body: BodyRef, own: [f64; 3]) -> [f64; 3] {
         let record = body.moving().map(|k| &self.0.bodies()[k]);
@@ -150,10 +153,11 @@ impl<'m> Frames<'m> {
         principal.map_or(own, |of| of.to_frame(own))
     }
 
-    /// The poses at q of all bodies, at their centres of mass, with the axes of their frames.
+    /// Returns the poses of all bodies at q: the positions of their centres of mass, with the axes
+    /// of their frames.
     ///
     /// # Panics
-    /// If q is not that of the mechanism.
+    /// Panics if q has the wrong length.
     #[must_use]
     pub fn poses(self, q: &[f64]) -> Bodies {
         let space = self.0.space();
@@ -168,8 +172,9 @@ impl<'m> Frames<'m> {
         Bodies::at(space, &told)
     }
 
-    /// The origin and the axes of the frame of a body at q and v: what is written of it. For a body
-    /// whose frame is at its centre of mass these are its coordinates and velocities, bit for bit.
+    /// Returns the origin and the axes of the frame of a body at q and v, as they are written to
+    /// outputs. For a body whose frame is at its centre of mass, these equal its coordinates and
+    /// velocities bit for bit.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism};
@@ -184,16 +189,16 @@ impl<'m> Frames<'m> {
     /// ```
     ///
     /// # Panics
-    /// If there is no such body, or q and v are not those of the mechanism.
+    /// Panics if the body does not exist, or if q or v has the wrong length.
     #[must_use]
     pub fn body(self, body: usize, q: &[f64], v: &[f64]) -> FrameState {
         self.point(body, [0.0; 3], q, v)
     }
 
-    /// A point of the frame of a body at q and v.
+    /// Returns the state of a point of the frame of a body at q and v.
     ///
     /// # Panics
-    /// As [`Self::body`].
+    /// Panics under the same conditions as [`Self::body`].
     #[must_use]
     pub fn point(self, body: usize, point: [f64; 3], q: &[f64], v: &[f64]) -> FrameState {
         let space = self.0.space();
@@ -228,8 +233,9 @@ impl<'m> Frames<'m> {
         state
     }
 
-    /// Velocities that the description gives, n_v, at the configuration q: of the centres of mass,
-    /// with given velocities of frames that turn with the given angular velocity.
+    /// Returns the velocities that the description gives, n_v values, at the configuration q. They
+    /// refer to the centres of mass and follow from the given velocities of frames and the given
+    /// angular velocity.
     #[must_use]
     pub fn given_velocities(self, q: &[f64]) -> Vec<Option<f64>> {
         let space = self.0.space();
@@ -254,7 +260,7 @@ impl<'m> Frames<'m> {
                     let turned = cross(omega, arm);
                     std::array::from_fn(|k| v[k] + turned[k])
                 };
-                // Without a rotation the frame is at the centre of mass: the build sees to it.
+                // Without a rotation, the frame is at the centre of mass: the build ensures this.
                 let velocity = b.velocity.map(|v| match b.angular_velocity {
                     Some(omega) if arm != [0.0; 3] => carried(v, omega),
                     _ => v,
@@ -270,10 +276,11 @@ impl<'m> Frames<'m> {
         self.0.bodies().iter().enumerate().flat_map(of).collect()
     }
 
-    /// State of a marker at q and v. Its angle, or its orientation, is that of its axes.
+    /// Returns the state of a marker at q and v. Its angle, or its orientation, is that of its
+    /// axes.
     ///
     /// # Panics
-    /// If there is no such marker, or q and v are not those of the mechanism.
+    /// Panics if the marker does not exist, or if q or v has the wrong length.
     #[must_use]
     pub fn marker(self, marker: usize, q: &[f64], v: &[f64]) -> FrameState {
         let Marker {
@@ -301,7 +308,7 @@ impl<'m> Frames<'m> {
         }
     }
 
-    /// Value of a measure at q and v.
+    /// Returns the value of a measure at q and v.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Marker, Measure, MeasureKind, Mechanism};
@@ -321,7 +328,7 @@ impl<'m> Frames<'m> {
     /// ```
     ///
     /// # Panics
-    /// If there is no such measure, or q and v are not those of the mechanism.
+    /// Panics if the measure does not exist, or if q or v has the wrong length.
     #[must_use]
     pub fn measure(self, measure: usize, q: &[f64], v: &[f64]) -> f64 {
         let Measure { kind, between, .. } = self.0.observed.measures[measure];
@@ -334,7 +341,7 @@ impl<'m> Frames<'m> {
     }
 }
 
-/// Value of a measure from the states of both markers.
+/// Returns the value of a measure from the states of both markers.
 fn value(kind: MeasureKind, first: &FrameState, second: &FrameState) -> f64 {
     let d = difference(second.place, first.place);
     let turned = difference(second.omega, first.omega);

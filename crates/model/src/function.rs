@@ -1,5 +1,5 @@
 //! Functions of time, with their first two derivatives and the times at which a derivative jumps.
-//! Nothing else in the crates depends on time.
+//! In the crates, only these functions depend explicitly on time.
 
 mod lines;
 mod parts;
@@ -64,17 +64,17 @@ pub enum FunctionError {
         /// The number.
         value: f64,
     },
-    /// A step that ends at or before its beginning.
+    /// The end time of a step is not after its start time.
     #[error("step {step} runs from t = {from} to t = {to}; `to` must be later than `from`")]
     EmptyStep {
         /// Number of the step, from 1.
         step: usize,
-        /// Its first time.
+        /// Start time of the step.
         from: f64,
-        /// Its last time.
+        /// End time of the step.
         to: f64,
     },
-    /// A table with too few points.
+    /// A table has too few points.
     #[error("a table needs at least 2 points, found {found}")]
     ShortTable {
         /// Number of points.
@@ -88,7 +88,7 @@ pub enum FunctionError {
         /// Number of values.
         values: usize,
     },
-    /// Times that are not increasing.
+    /// The times are not increasing.
     #[error("times must grow: times[{index}] = {later} follows {earlier}")]
     NotIncreasing {
         /// Index of the later time, from 0.
@@ -101,7 +101,7 @@ pub enum FunctionError {
 }
 
 impl FunctionError {
-    /// Its code; see [`crate::codes`].
+    /// Returns the error code; see [`crate::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -113,42 +113,42 @@ impl FunctionError {
 }
 
 impl Function {
-    /// The constant function.
+    /// Returns the constant function.
     ///
     /// # Errors
-    /// If it is not usable ([`LARGEST`]).
+    /// Returns an error if the value is not finite, or above [`LARGEST`].
     pub fn constant(value: f64) -> Result<Self, FunctionError> {
         Self::polynomial(&[value])
     }
 
-    /// The time itself, which laws of drives take.
+    /// Returns the time itself, as an argument for laws of drives.
     #[must_use]
     pub fn time() -> Self {
         Self(TimeLaw::Polynomial(vec![0.0, 1.0]))
     }
 
-    /// `rate·t`
+    /// Returns Returns `rate·t`..
     ///
     /// # Errors
-    /// If the rate is not usable ([`LARGEST`]).
+    /// Returns an error if the rate is not finite, or above [`LARGEST`].
     pub fn constant_rate(rate: f64) -> Result<Self, FunctionError> {
         usable("rate", &[rate])?;
         Self::polynomial(&[0.0, rate])
     }
 
-    /// `Σ coefficients[k]·tᵏ`
+    /// Returns Returns `Σ coefficients[k]·tᵏ`..
     ///
     /// # Errors
-    /// If a coefficient is not finite, or above [`LARGEST`].
+    /// Returns an error if a coefficient is not finite, or above [`LARGEST`].
     pub fn polynomial(coefficients: &[f64]) -> Result<Self, FunctionError> {
         usable("coefficients", coefficients)?;
         Ok(Self(TimeLaw::Polynomial(coefficients.to_vec())))
     }
 
-    /// `amplitude·sin(omega·t + phase) + offset`
+    /// Returns Returns `amplitude·sin(omega·t + phase) + offset`..
     ///
     /// # Errors
-    /// If a number is not usable.
+    /// Returns an error if a number is not finite, or above [`LARGEST`].
     pub fn harmonic(
         amplitude: f64,
         omega: f64,
@@ -167,11 +167,12 @@ impl Function {
         }))
     }
 
-    /// The value `start`, followed by smooth steps `[from, to, by]`: between its times each adds
-    /// `by·(10s³ − 15s⁴ + 6s⁵)`.
+    /// Returns the value `start`, followed by smooth steps `[from, to, by]`. Between its two times,
+    /// each step adds `by·(10s³ − 15s⁴ + 6s⁵)`.
     ///
     /// # Errors
-    /// If a number is not usable or a step has no duration.
+    /// Returns an error if a number is not finite or above [`LARGEST`], or if a step has no
+    /// duration.
     pub fn steps(start: f64, steps: &[[f64; 3]]) -> Result<Self, FunctionError> {
         usable("start", &[start])?;
         for (k, &[from, to, by]) in steps.iter().enumerate() {
@@ -193,17 +194,20 @@ impl Function {
         Ok(Self(TimeLaw::Steps { start, steps }))
     }
 
-    /// The natural cubic spline through a table, continued as a straight line on both sides.
+    /// Returns the natural cubic spline through a table, which continues as a straight line on both
+    /// sides.
     ///
     /// # Errors
-    /// If there are fewer than two points, times are not increasing, or a number is not usable.
+    /// Returns an error if there are fewer than two points, if times are not increasing, or if a
+    /// number is not finite or above [`LARGEST`].
     pub fn table(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later > earlier)?;
         Ok(Self(TimeLaw::Table(Spline::natural(times, values))))
     }
 
-    /// The piecewise linear function through a table; the outer lines are continued on both sides.
-    /// If two points have the same time, the value jumps there; at other points the rate jumps.
+    /// Returns the piecewise linear function through a table. The outer lines continue on both
+    /// sides. If two points have the same time, the value jumps there; at other points the rate
+    /// jumps.
     ///
     /// ```
     /// use pfaff_model::Function;
@@ -214,8 +218,9 @@ impl Function {
     /// ```
     ///
     /// # Errors
-    /// If there are fewer than two points, times decrease, more than two are equal, the first or
-    /// last two are equal, or a number is not usable.
+    /// Returns an error if there are fewer than two points, if times decrease, or if more than two
+    /// times are equal. It also returns an error if the first or last two times are equal, or if a
+    /// number is not finite or above [`LARGEST`].
     pub fn lines(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later >= earlier)?;
         let last = times.len() - 1;
@@ -232,7 +237,7 @@ impl Function {
         Ok(Self(TimeLaw::Lines(Lines::new(times, values))))
     }
 
-    /// `[f(t), ḟ(t), f̈(t)]`
+    /// Returns `[f(t), ḟ(t), f̈(t)]`.
     #[must_use]
     pub fn jet(&self, t: f64) -> [f64; 3] {
         match &self.0 {
@@ -264,7 +269,7 @@ impl Function {
         }
     }
 
-    /// Whether it has the same value at all times.
+    /// Returns whether it has the same value at all times.
     ///
     /// ```
     /// use pfaff_model::Function;
@@ -284,12 +289,12 @@ impl Function {
         }
     }
 
-    /// The constant function with its value at t.
+    /// Returns the constant function with its value at t.
     pub(crate) fn held_at(&self, t: f64) -> Self {
         Self(TimeLaw::Polynomial(vec![self.jet(t)[0]]))
     }
 
-    /// Times at which the function or a derivative jumps, ascending.
+    /// Times at which the function or a derivative jumps, in ascending order.
     #[must_use]
     pub fn break_times(&self) -> Vec<f64> {
         let mut times = match &self.0 {
@@ -323,7 +328,7 @@ impl Step {
     }
 }
 
-/// Points of a table, checked for the order of their times.
+/// Returns the points of a table, checked for the order of their times.
 fn points(
     times: &[f64],
     values: &[f64],
@@ -361,8 +366,8 @@ fn usable(name: &'static str, values: &[f64]) -> Result<(), FunctionError> {
 mod tests {
     use super::*;
 
-    /// Central differences of a smooth function, step 1e-4: error about 1e-8 of the third
-    /// derivative.
+    /// Limit for central differences of a smooth function with step 1e-4, whose error is about 1e-8
+    /// of the third derivative.
     const DIFFERENCE: f64 = 1e-6;
 
     #[test]

@@ -1,6 +1,6 @@
 //! Joints and drives with their rows: names, sizes, and the components of their reactions.
 
-use joints::spec::{ConstraintSpec, Entry};
+use joints::spec::{ConstraintSpec, Datum, DatumShape, Entry};
 
 use crate::body::BodyRef;
 use crate::coupling;
@@ -24,25 +24,40 @@ pub enum ConstraintKind {
 /// A joint or drive with its rows.
 #[derive(Clone, Debug)]
 pub struct ConstraintGroup {
-    /// The space of its mechanism.
+    /// The space of the mechanism.
     pub space: SpaceKind,
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
     /// Joint or drive.
     pub kind: ConstraintKind,
-    /// Description of its definition.
+    /// Description of the definition.
     pub spec: &'static ConstraintSpec,
-    /// Its bodies.
+    /// Bodies of the joint or drive.
     pub bodies: Vec<BodyRef>,
-    /// Its rows of C.
+    /// Rows of C of the joint or drive.
     pub rows: RowRanges,
 }
 
 impl ConstraintGroup {
-    /// Whether it only prescribes a motion: a drive, which is listed separately from the joints.
+    /// Returns whether the constraint only prescribes a motion: a drive, which is listed separately
+    /// from the joints.
     #[must_use]
     pub fn is_drive(&self) -> bool {
         self.kind == ConstraintKind::Drive
+    }
+
+    /// Returns the slot of the body that contains a point of its data, if it is the only point
+    /// there.
+    #[must_use]
+    pub fn slot_of_point(&self, name: &str) -> Option<usize> {
+        let slot_of = |datum: &Datum| match datum.shape {
+            DatumShape::Point { slot } => Some(slot),
+            _ => None,
+        };
+        let data = self.spec.data.iter();
+        let slot = data.clone().find(|d| d.name == name).and_then(slot_of)?;
+        let points = data.filter(|d| slot_of(d) == Some(slot)).count();
+        (points == 1).then_some(slot)
     }
 
     /// Components of the reaction that are not identically zero, as indices of
@@ -55,7 +70,7 @@ impl ConstraintGroup {
             .collect()
     }
 
-    /// The named component that is reported in addition to force and torque: the load of a
+    /// Returns the named component that is reported in addition to force and torque: the load of a
     /// coupling. It acts on up to four bodies, and force and torque are those on one of them.
     #[must_use]
     pub fn own_load(&self) -> Option<&'static str> {
@@ -63,16 +78,16 @@ impl ConstraintGroup {
         named.filter(|_| self.spec.common.scene_type == coupling::TYPE)
     }
 
-    /// The names of its components that are reported: those that are not identically zero, and the
-    /// named one where they may not contain it.
+    /// Returns the names of its reported components: those that are not identically zero, and the
+    /// named component if they do not contain it.
     pub fn component_names(&self) -> impl Iterator<Item = &'static str> + use<> {
         let names = self.space.components();
         let own = self.components().into_iter().map(|c| names[c]);
         own.chain(self.own_load())
     }
 
-    /// Entries (component, row) of the map from multipliers to the reaction that are not
-    /// identically zero, sorted.
+    /// Returns the entries (component, row) of the map from multipliers to the reaction that are
+    /// not identically zero, sorted.
     #[must_use]
     pub fn wrench_entries(&self) -> Vec<[usize; 2]> {
         let mut entries = self.spec.wrench.to_vec();
@@ -89,7 +104,7 @@ impl ConstraintGroup {
         entries
     }
 
-    /// Whether a row of this joint or drive has a force in its reaction.
+    /// Returns whether a row of this joint or drive has a force in its reaction.
     #[must_use]
     pub fn pushes(&self, row: usize) -> bool {
         let entries = self.wrench_entries();
@@ -98,7 +113,7 @@ impl ConstraintGroup {
             .any(|[component, at]| *at == row && self.space.forces().contains(component))
     }
 
-    /// Whether the first body takes other slots, too.
+    /// Returns whether the first body also occupies other slots.
     pub(crate) fn repeats_first_body(&self) -> bool {
         let [first, others @ ..] = &self.bodies[..] else {
             return false;
@@ -106,8 +121,8 @@ impl ConstraintGroup {
         others.contains(first)
     }
 
-    /// Entries of the block of C, with their places in it, of other slots that the first body
-    /// takes, too.
+    /// Returns the entries of the block of C, with their indices in it, for other slots that the
+    /// first body occupies.
     pub(crate) fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
         let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
         self.spec
@@ -118,7 +133,7 @@ impl ConstraintGroup {
     }
 }
 
-/// Kind of velocity that belongs to a column of C.
+/// Kind of the velocity of a column of C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ColumnKind {
     /// A velocity in m/s; the generalised force is a force.

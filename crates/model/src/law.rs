@@ -1,8 +1,8 @@
-//! Laws of drives: a force or torque as a function of a measure, its rate and time. A law is a
-//! small program that is evaluated without allocation, with its derivatives, or a function of the
-//! caller, of which values alone are known.
+//! Force laws of drives: a force or torque as a function of a joint coordinate, its rate and time.
+//! A law is either a small program, evaluated with its derivatives and without allocation, or a
+//! function of the caller, which returns only values.
 //!
-//! Not here: how a law is written in a scene, and what its units are.
+//! This module does not define the syntax and the units of a law in a scene.
 
 mod drive;
 mod error;
@@ -22,11 +22,11 @@ use crate::called::{CallError, CalledFunction, DriveState};
 use number::{Slope, Smooth};
 use program::Program;
 
-/// A force or torque as a function of a measure, its rate and time.
+/// A force or torque as a function of a joint coordinate, its rate and time.
 ///
-/// A law of [operations](Law::new) has derivatives; of a [called](Law::called) function values
-/// alone are known, so that nothing that needs derivatives works with it: implicit methods,
-/// linearisation, a search for rest. Each of them refuses it by name.
+/// A law of [operations](Law::new) has derivatives. A [called](Law::called) function returns only
+/// values. Methods that need derivatives (implicit methods, linearisation, search for an
+/// equilibrium) therefore reject it with an error that names it.
 ///
 /// ```
 /// use pfaff_model::law::{Join, Law, Operation};
@@ -45,33 +45,36 @@ use program::Program;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
     form: Form,
-    /// Whether the measure is counted from the start.
+    /// Whether the joint coordinate is counted from the start.
     pub(crate) since_start: bool,
 }
 
-/// How a law is evaluated.
+/// Form in which a law is evaluated.
 #[derive(Clone, Debug, PartialEq)]
 enum Form {
     Program(Program),
     Called(CalledFunction<DriveState, f64>),
 }
 
-/// The force of a drive by a law, and what it depends on.
+/// The force of a force-law drive, and its arguments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveForce {
-    /// The measure (m or rad).
+    /// The joint coordinate (m or rad).
     pub measure: f64,
-    /// Its rate (m/s or rad/s).
+    /// Rate of the joint coordinate (m/s or rad/s).
     pub rate: f64,
-    /// Force (N) or torque (N·m) along the measure: on the second body, opposite on the first.
+    /// Force (N) or torque (N·m) along the joint coordinate: it acts on the second body, and its
+    /// opposite on the first.
     pub force: Result<f64, UndefinedValue>,
 }
 
 impl Law {
-    /// A law from its operations in the order of their work: operands come before their operation.
+    /// Creates a law from its operations in the order of evaluation: operands precede their
+    /// operation.
     ///
     /// # Errors
-    /// If they do not leave one number, or need more than 64 at a time.
+    /// Returns an error if the operations do not produce exactly one number, or need more than 64
+    /// numbers at a time.
     pub fn new(operations: &[Operation]) -> Result<Self, LawError> {
         Ok(Self {
             form: Form::Program(Program::new(operations)?),
@@ -79,11 +82,13 @@ impl Law {
         })
     }
 
-    /// A law that calls a function, which returns the force (N) or torque (N·m), or an error.
+    /// Creates a law that calls a function, which returns the force (N) or torque (N·m), or an
+    /// error.
     ///
-    /// The function is called at stages of an integrator, at rows of output, and again where a step
-    /// is made anew: not in the order of time, and several times for one instant. It has to return
-    /// the same for the same state. What is not finite, and an error, ends a run by name.
+    /// The function is called at stages of an integrator, at rows of output, and again if a step is
+    /// repeated. The calls are not in chronological order, and there may be several calls for one
+    /// instant. The function must return the same value for the same state. A value that is not
+    /// finite, or an error, ends the simulation with an error that names the force.
     ///
     /// ```
     /// use pfaff_model::Law;
@@ -102,13 +107,13 @@ impl Law {
         }
     }
 
-    /// Whether it calls a function.
+    /// Returns whether it calls a function.
     #[must_use]
     pub fn is_called(&self) -> bool {
         matches!(self.form, Form::Called(_))
     }
 
-    /// The same law of the change of the measure since the assembled start.
+    /// Returns the law of the change of the joint coordinate since the assembled start.
     #[must_use]
     pub fn since_start(self) -> Self {
         Self {
@@ -117,25 +122,28 @@ impl Law {
         }
     }
 
-    /// The force (N) or torque (N·m); does not allocate, unless a called function does.
+    /// Returns the force (N) or torque (N·m). It does not allocate memory, unless a called function
+    /// does.
     ///
     /// # Errors
-    /// If it has no finite value.
+    /// Returns an error if the force has no finite value.
     pub fn value(&self, measure: f64, rate: f64, t: f64) -> Result<f64, UndefinedValue> {
         self.force([measure, rate, t])
     }
 
-    /// The force or torque with its derivatives by the measure and by its rate; does not allocate.
-    /// A derivative that has no finite value is 0: it only guides implicit methods.
+    /// Returns the force or torque with its derivatives with respect to the joint coordinate and
+    /// its rate. It does not allocate memory. A derivative without a finite value is returned as 0,
+    /// because it only guides implicit methods.
     ///
     /// # Errors
-    /// If the force has no finite value, and [`UndefinedValue::ValueAlone`]: it calls a function.
+    /// Returns an error if the force has no finite value, and [`UndefinedValue::ValueAlone`] if the
+    /// law calls a function.
     pub fn slopes(&self, measure: f64, rate: f64, t: f64) -> Result<[f64; 3], UndefinedValue> {
         let Slope { value, by } = self.slope([measure, rate, t])?;
         Ok([value, by[0], by[1]])
     }
 
-    /// The value for measure, rate and time.
+    /// Returns the value for joint coordinate, rate and time.
     fn force<T: Smooth>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
         match &self.form {
             Form::Program(program) => program.evaluate(inputs),

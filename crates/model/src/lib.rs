@@ -19,29 +19,29 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`function`] | functions of time with their derivatives and break times |
-//! | [`registry`] | definitions by their scene type |
+//! | [`registry`] | definitions of joints and forces, indexed by their scene type |
 //! | [`description`] | bodies, joints, drives and forces as plain data |
 //! | [`frame`] | frames whose origin is not the centre of mass, and states of points |
-//! | `data` | points, directions and numbers of constraints, and how rows change with them |
-//! | [`coupling`] | measures of joints that follow one another |
-//! | [`law`] | forces of drives as functions of a measure and its rate |
+//! | `data` | points, directions and numbers of constraints, and derivatives of rows |
+//! | [`coupling`] | couplings between joint coordinates |
+//! | [`law`] | force laws: forces of drives as functions of a joint coordinate and its rate |
 //! | [`mechanism`] | the assembled equations |
 //! | `element` | kernels with the poses and velocities of their bodies |
 //! | [`system`] | the interface of the equations for solvers |
 //! | [`extended`] | constraints in double-double, for certificates |
-//! | [`record`] | the equations as operations, for generators of code |
+//! | [`record`] | the equations as operation lists, for code generators |
 //! | `group` | joints and drives with their rows |
 //! | `size` | the length scale of a mechanism |
-//! | `scale` | the sizes with which residuals are compared |
+//! | `scale` | reference sizes for residuals |
 //! | `tolerance` | stated tolerances of the data |
 //! | `uncertainty` | the uncertainty of the entries of C |
-//! | [`space`] | coordinates of bodies, and how a configuration moves along velocities |
-//! | [`start`] | a consistent start |
+//! | [`space`] | coordinates of bodies, and motion of a configuration along velocities |
+//! | [`start`] | consistent initial coordinates and velocities |
 //! | `principal` | principal axes of bodies with products of inertia |
 //! | `observed` | markers, and measures between them |
 //! | `vectors` | poses, vectors and tensors of `nalgebra` for bodies in space |
 //! | `called` | forces that call a function of the caller |
-//! | [`reaction`] | multipliers to forces and torques |
+//! | [`reaction`] | forces and torques of reactions, computed from multipliers |
 
 mod agreement;
 mod arms;
@@ -93,7 +93,7 @@ pub use mechanism::{
     AppliedForce, AppliedForces, BuildError, Buildable, CalledForce, Derivatives, Mechanism, Part,
     Places, Push, Sparse, UndefinedForce, Work,
 };
-/// The version whose poses, vectors and tensors bodies in space take.
+/// The version of `nalgebra` for the poses, vectors and tensors of bodies in space.
 pub use nalgebra;
 pub use observed::{Marker, Measure, MeasureKind, Observables};
 pub use principal::Principal;

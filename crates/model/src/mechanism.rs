@@ -1,5 +1,5 @@
-//! The assembled mechanism: elements in a list, each with its bodies, rows and entries. Building
-//! checks everything that can be wrong; a built mechanism has no invalid state.
+//! The assembled mechanism: a list of elements, each with its bodies, rows and entries. The build
+//! checks everything that can be wrong, so a built mechanism has no invalid state.
 
 mod build;
 mod build_error;
@@ -36,7 +36,7 @@ pub use part::{Part, Places};
 pub use time_function::{FunctionForm, TimeFunction};
 pub use work::Work;
 
-/// A mechanism in the plane: bodies, constraints, forces, and the equations formed from them.
+/// A mechanism: bodies, constraints, forces, and the equations that follow from them.
 ///
 /// ```
 /// use joints::Revolute;
@@ -85,8 +85,9 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// The same mechanism whose functions of time keep the values that they have at t: drives are
-    /// held there, and given forces stay as they are. Laws of drives may still depend on the time.
+    /// Returns the mechanism with functions of time that keep their values at t. Drives are locked
+    /// at these values, and prescribed forces are constant. Force laws of drives may still depend
+    /// on time.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -119,11 +120,11 @@ impl Mechanism {
 }
 
 impl Mechanism {
-    /// Whether functions of time in the rows of a joint or drive prescribe a motion. A drive with a
-    /// constant function is a lock, and so is a rate that is always zero.
+    /// Returns whether functions of time in the rows of a joint or drive prescribe a motion. A
+    /// drive with a constant function is a lock, and so is a rate that is always zero.
     ///
     /// # Panics
-    /// If the joint or drive does not exist.
+    /// Panics if the joint or drive does not exist.
     #[must_use]
     pub fn prescribes_motion(&self, ConstraintId(group): ConstraintId) -> bool {
         let constraint = &self.elements.constraints[group];
@@ -134,20 +135,20 @@ impl Mechanism {
             .any(|of| !of.function.is_constant() || (gives_rate && of.function.jet(0.0)[0] != 0.0))
     }
 
-    /// Its name.
+    /// Returns the name.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The space in which its bodies move.
+    /// Returns the space in which its bodies move.
     #[must_use]
     pub fn space(&self) -> SpaceKind {
         self.layout.space
     }
 
-    /// The same mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), before its
-    /// start is assembled.
+    /// Returns the mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), before
+    /// its start is assembled.
     #[cfg(feature = "unit-circle")]
     #[must_use]
     pub fn on_unit_circle(mut self) -> Self {
@@ -156,30 +157,32 @@ impl Mechanism {
         self
     }
 
-    /// Tolerance of its numbers, unless one is stated for their joint or body.
+    /// Returns the tolerance of the data, unless a tolerance is stated for their joint or body.
     #[must_use]
     pub fn tolerance(&self) -> Tolerance {
         self.tolerance
     }
 
-    /// Its bodies, as described.
+    /// Returns the descriptions of the bodies.
     #[must_use]
     pub fn bodies(&self) -> &[BodyRecord] {
         &self.bodies
     }
 
-    /// The coordinates of the bodies among those of a configuration: all but the counted angles.
+    /// Returns the coordinates of the bodies in those of a configuration: all except the unwrapped
+    /// angles.
     pub fn of_bodies<'q, T>(&self, q: &'q [T]) -> &'q [T] {
         &q[..self.layout.angles().start.min(q.len())]
     }
 
-    /// The same to be changed.
+    /// Returns the coordinates of the bodies as a mutable slice.
     pub fn of_bodies_mut<'q, T>(&self, q: &'q mut [T]) -> &'q mut [T] {
         let n = self.layout.angles().start.min(q.len());
         &mut q[..n]
     }
 
-    /// The displacement (n_v) that moves the configuration `from` to q; allocates.
+    /// Returns the displacement (n_v) that moves the configuration `from` to q. The function
+    /// allocates memory.
     #[must_use]
     pub fn difference_of(&self, q: &[f64], from: &[f64]) -> Vec<f64> {
         let mut d = vec![0.0; self.layout.n_v];
@@ -187,38 +190,38 @@ impl Mechanism {
         d
     }
 
-    /// Copies the freedoms of these columns of C from another configuration, exactly, and all
-    /// counted angles.
+    /// Copies the freedoms of these columns of C from another configuration exactly, and all
+    /// unwrapped angles.
     pub fn take(&self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         self.space().take(q, from, columns);
         let first = self.layout.angles().start;
         q[first..].copy_from_slice(&from[first..]);
     }
 
-    /// The column of C along which two configurations differ most, and the difference: lengths as a
-    /// fraction of `size`, angles in radians.
+    /// Returns the column of C along which two configurations differ most, and the difference:
+    /// lengths as a fraction of `size`, angles in radians.
     #[must_use]
     pub fn largest_difference(&self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let space = self.space();
         space.largest_difference(self.of_bodies(a), self.of_bodies(b), size)
     }
 
-    /// Kinetic energy at velocities v (J).
+    /// Returns the kinetic energy at velocities v (J).
     #[must_use]
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
         self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
     }
 
-    /// Rate of kinetic energy and potential of the weight at velocities v and accelerations a (W):
-    /// `vᵀ·(M·a − weight)`. On the constraints it is the power of drives and applied forces,
-    /// because `M·a − Q = −Cᵀ·λ` and `C·v = b`.
+    /// Returns the rate of the kinetic energy and the potential energy of the weight at velocities
+    /// v and accelerations a (W): `vᵀ·(M·a − weight)`. If the constraints are satisfied, it is the
+    /// power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and `C·v = b`.
     #[must_use]
     pub fn energy_rate(&self, v: &[f64], a: &[f64]) -> f64 {
         let terms = self.mass.iter().zip(a).zip(self.weight.iter().zip(v));
         terms.map(|((m, a), (w, v))| (m * a - w) * v).sum()
     }
 
-    /// Names of the body and of its coordinate that change with a column of C.
+    /// Returns the names of the body and of its coordinate that change with a column of C.
     #[must_use]
     pub fn coordinate(&self, column: usize) -> (&str, &'static str) {
         let (space, body) = (self.space(), self.space().body_of(column));
@@ -226,7 +229,7 @@ impl Mechanism {
         (&self.bodies[body].name, direction)
     }
 
-    /// Names of the body and of the coordinate for an entry of q.
+    /// Returns the names of the body and of the coordinate for an entry of q.
     #[must_use]
     pub fn coordinate_name(&self, k: usize) -> (&str, &'static str) {
         let n = self.space().n_q();
@@ -240,13 +243,13 @@ impl Mechanism {
         }
     }
 
-    /// Generalised forces of gravity, n_v.
+    /// Returns the generalised forces of gravity, n_v values.
     #[must_use]
     pub fn weight(&self) -> &[f64] {
         &self.weight
     }
 
-    /// Potential energy of the weight (J).
+    /// Returns the potential energy of the weight (J).
     #[must_use]
     pub fn potential_energy(&self, q: &[f64]) -> f64 {
         let space = self.space();
@@ -259,15 +262,15 @@ impl Mechanism {
         weights.zip(q.chunks_exact(space.n_q())).map(of_body).sum()
     }
 
-    /// Longest arm of a body in the initial configuration (m): its position is accurate to about
-    /// the rounding of this, wherever it is.
+    /// Returns the longest arm of a body in the initial configuration (m). The position of the body
+    /// is accurate to about the rounding of this arm, even near the origin.
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
     }
 
-    /// Whether a length in a body (m), such as the distance of a joint from its centre, is more
-    /// than the rounding of its longest arm.
+    /// Returns whether a length in a body (m), such as the distance of a joint from its centre,
+    /// exceeds the rounding of the longest arm.
     #[must_use]
     pub fn is_length(&self, body: usize, length: f64) -> bool {
         are_apart(length, self.reach(body))

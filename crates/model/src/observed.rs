@@ -1,31 +1,31 @@
-//! Markers and measures: places by name, and quantities between them, read off a motion. They
-//! restrict nothing, and are evaluated by [`crate::frame`] where somebody asks.
+//! Markers and measures: named points, and quantities between them, for the output of a motion.
+//! They do not constrain the mechanism, and [`crate::frame`] evaluates them on request.
 
 use crate::body::{BodyRecord, BodyRef};
 use crate::space::SpaceKind;
 
-/// A place of a body by name.
+/// A named point of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marker {
-    /// Its name.
+    /// Name of the marker.
     pub name: String,
-    /// Its body.
+    /// Body of the marker.
     pub body: BodyRef,
-    /// In the frame of the body (m); in the plane z = 0.
+    /// Position in the frame of the body (m); in the plane z = 0.
     pub point: [f64; 3],
-    /// In the plane, the angle of its axes in the frame of the body (rad); `None`: they are those
-    /// of the body, and nobody asks for their angle.
+    /// In the plane, the angle of its axes in the frame of the body (rad). `None` means that its
+    /// axes are those of the body, and its angle is not used.
     pub angle: Option<f64>,
     /// In space, the orientation of its axes in the frame of the body: a quaternion (w, x, y, z) of
-    /// any length but zero; `None`: they are those of the body.
+    /// any nonzero length. `None` means that its axes are those of the body.
     pub orientation: Option<[f64; 4]>,
-    /// Tolerance of its point (m), also as a point of joints; takes precedence over those of its
-    /// body and of the scene.
+    /// Tolerance of its point (m), also if joints use this point. It takes precedence over the
+    /// tolerances of its body and of the scene.
     pub tolerance: Option<f64>,
 }
 
 impl Marker {
-    /// Its axes x, y and z in the frame of its body.
+    /// Returns the axes x, y and z in the frame of its body.
     ///
     /// ```
     /// use pfaff_model::{BodyRef, Marker};
@@ -42,7 +42,7 @@ impl Marker {
         [0, 1, 2].map(|axis| pose.direction_to_global(unit(axis)))
     }
 
-    /// A marker with the axes of its body, at this point of its frame (m).
+    /// Returns a marker with the axes of its body, at this point of its frame (m).
     #[must_use]
     pub fn new(name: &str, body: BodyRef, point: [f64; 3]) -> Self {
         Self {
@@ -55,8 +55,8 @@ impl Marker {
         }
     }
 
-    /// Its place relative to the centre of mass of its body, one of `bodies` (m), as joints and
-    /// forces take it.
+    /// Returns the position relative to the centre of mass of its body, one of `bodies` (m), which
+    /// joints and forces require.
     #[must_use]
     pub fn from_centre(&self, bodies: &[BodyRecord]) -> [f64; 3] {
         let own = self.body.moving().and_then(|at| bodies.get(at));
@@ -67,31 +67,31 @@ impl Marker {
 /// A quantity between two markers, the second relative to the first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Measure {
-    /// Its name.
+    /// Name of the measure.
     pub name: String,
-    /// What is measured.
+    /// Kind of the measured quantity.
     pub kind: MeasureKind,
-    /// Indices of two markers; `None` is the ground.
+    /// Indices of two markers; `None` stands for the ground.
     pub between: [Option<usize>; 2],
 }
 
-/// What is measured, with p = Rᵀ·(r₂ − r₁) the place of the second marker in the axes of the first,
-/// in the plane at angles θ.
+/// Kind of the measured quantity. Here p = Rᵀ·(r₂ − r₁) is the position of the second marker in the
+/// axes of the first; in the plane the markers have the angles θ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeasureKind {
-    /// |p| (m)
+    /// Distance |p| (m).
     Distance,
-    /// θ₂ − θ₁ (rad), not reduced to one revolution; in the plane.
+    /// Angle θ₂ − θ₁ (rad), not reduced to one revolution; in the plane.
     Angle,
-    /// p_x (m)
+    /// Component p_x (m).
     X,
-    /// p_y (m)
+    /// Component p_y (m).
     Y,
-    /// p_z (m), in space
+    /// Component p_z (m), in space.
     Z,
-    /// |ṗ| (m/s)
+    /// Speed |ṗ| (m/s).
     Speed,
-    /// θ̇₂ − θ̇₁ (rad/s), in space |ω₂ − ω₁|
+    /// Angular velocity θ̇₂ − θ̇₁ (rad/s); in space |ω₂ − ω₁|.
     AngularVelocity,
 }
 
@@ -107,7 +107,7 @@ impl MeasureKind {
         Self::AngularVelocity,
     ];
 
-    /// Whether there is such a measure in a space.
+    /// Returns whether this measure exists in a space.
     #[must_use]
     pub fn exists_in(self, space: SpaceKind) -> bool {
         match self {
@@ -117,7 +117,7 @@ impl MeasureKind {
         }
     }
 
-    /// Its name in scenes.
+    /// Returns the name in scenes.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -131,7 +131,7 @@ impl MeasureKind {
         }
     }
 
-    /// Its unit.
+    /// Returns the unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -146,9 +146,9 @@ impl MeasureKind {
 /// The markers and measures of a mechanism.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observables {
-    /// Its markers.
+    /// Markers of the mechanism.
     pub markers: Vec<Marker>,
-    /// Its measures.
+    /// Measures of the mechanism.
     pub measures: Vec<Measure>,
 }
 
@@ -157,8 +157,8 @@ impl Observables {
         self.markers.iter().any(|marker| marker.tolerance.is_some())
     }
 
-    /// The stated tolerance of a point of a body, given relative to its centre of mass, if a marker
-    /// with a tolerance is there.
+    /// Returns the stated tolerance of a point of a body, given relative to its centre of mass, if
+    /// a marker with a tolerance is at this point.
     pub(crate) fn tolerance_at(
         &self,
         bodies: &[BodyRecord],
@@ -173,8 +173,8 @@ impl Observables {
         here.next()?.tolerance
     }
 
-    /// The markers with a tolerance on some bodies, renamed as there; without measures. The other
-    /// markers play no part in the equations.
+    /// Returns the markers with a tolerance on some bodies, with the references that `here`
+    /// returns, and without measures. The other markers have no influence on the equations.
     pub(crate) fn stated_for(&self, here: impl Fn(&BodyRef) -> Option<BodyRef>) -> Self {
         let stated = self.markers.iter().filter(|m| m.tolerance.is_some());
         let own = stated.filter_map(|marker| {

@@ -1,9 +1,9 @@
 //! Principal axes of bodies in space.
 //!
-//! The equations are in principal axes, where M is diagonal and constant: coordinates, velocities,
-//! points and directions of a body with products of inertia are written in them when a description
-//! is built, and what is told of a body is written in the axes of its frame again
-//! ([`crate::frame`]). Where the given tensor is diagonal nothing is turned and nothing is rounded.
+//! The equations use principal axes, in which M is diagonal and constant. The build transforms
+//! coordinates, velocities, points and directions of a body with products of inertia to these axes.
+//! Outputs of the body are transformed back to the axes of its frame ([`crate::frame`]). If the
+//! given tensor is diagonal, there is no rotation and no rounding.
 
 use joints::Ring;
 use joints::space3::Pose;
@@ -11,19 +11,20 @@ use nalgebra::{Matrix3, Rotation3, UnitQuaternion};
 
 use crate::space::quaternion_product;
 
-/// Principal axes of a body that are not those of its frame.
+/// Principal axes of a body that differ from the axes of its frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Principal {
     /// Principal moments (kg·m²).
     pub(crate) moments: [f64; 3],
     /// Columns are the axes, in the frame of the body.
     axes: [[f64; 3]; 3],
-    /// The same rotation, from these axes to those of the frame (w, x, y, z).
+    /// The rotation from these axes to the axes of the frame as a quaternion (w, x, y, z).
     quaternion: [f64; 4],
 }
 
 impl Principal {
-    /// Those of a tensor in the axes of a frame; `None` if they are the axes of its frame.
+    /// Returns the principal axes of a tensor in the axes of a frame; `None` if they are the axes
+    /// of this frame.
     pub(crate) fn of(inertia: &[[f64; 3]; 3]) -> Option<Self> {
         let [[_, xy, xz], [_, _, yz], _] = *inertia;
         let numbers = inertia.as_flattened();
@@ -37,7 +38,8 @@ impl Principal {
         }
         let rotation = Rotation3::from_matrix_unchecked(axes);
         let q = UnitQuaternion::from_rotation_matrix(&rotation);
-        // The axes of the quaternion, so that both are one rotation to the last bit that matters.
+        // The axes are those of the quaternion, so that both represent the same rotation to
+        // rounding.
         let quaternion = [q.w, q.i, q.j, q.k];
         Some(Self {
             moments: eigen.eigenvalues.into(),
@@ -46,23 +48,23 @@ impl Principal {
         })
     }
 
-    /// The rotation from these axes to those of the frame (w, x, y, z).
+    /// Returns the rotation from these axes to those of the frame (w, x, y, z).
     #[must_use]
     pub fn quaternion(&self) -> [f64; 4] {
         self.quaternion
     }
 
-    /// A vector of the frame in the principal axes.
+    /// Transforms a vector from the frame to the principal axes.
     pub(crate) fn own<T: Ring>(&self, v: [T; 3]) -> [T; 3] {
         std::array::from_fn(|k| sum_of([0, 1, 2].map(|row| T::from(self.axes[row][k]) * v[row])))
     }
 
-    /// A vector of the principal axes in the frame.
+    /// Transforms a vector from the principal axes to the frame.
     pub(crate) fn to_frame<T: Ring>(&self, own: [T; 3]) -> [T; 3] {
         std::array::from_fn(|row| sum_of([0, 1, 2].map(|k| T::from(self.axes[row][k]) * own[k])))
     }
 
-    /// The axes of the frame, each a vector of something, from those of the principal axes.
+    /// Returns the axes of the frame as vectors, computed from the principal axes as vectors.
     pub(crate) fn framed(&self, own: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let axis = |row: usize| {
             std::array::from_fn(|k| (0..3).map(|j| self.axes[row][j] * own[j][k]).sum())
@@ -70,18 +72,18 @@ impl Principal {
         [0, 1, 2].map(axis)
     }
 
-    /// The orientation of the principal axes of a body whose frame has this one.
+    /// Returns the orientation of the principal axes of a body, given the orientation of its frame.
     pub(crate) fn turned(&self, frame: [f64; 4]) -> [f64; 4] {
         quaternion_product(frame, self.quaternion)
     }
 
-    /// The orientation of the frame of a body whose principal axes have this one.
+    /// Returns the orientation of the frame of a body, given the orientation of its principal axes.
     pub(crate) fn turned_back(&self, own: [f64; 4]) -> [f64; 4] {
         let [w, x, y, z] = self.quaternion;
         quaternion_product(own, [w, -x, -y, -z])
     }
 
-    /// The rotation vector that turns vectors of the frame into [`Self::own`].
+    /// Returns the rotation vector of the transformation of vectors by [`Self::own`].
     pub(crate) fn rotation_vector(&self) -> [f64; 3] {
         let [w, x, y, z] = self.quaternion;
         let q = nalgebra::Quaternion::new(w, -x, -y, -z);

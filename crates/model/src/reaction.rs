@@ -1,9 +1,9 @@
-//! From multipliers to reactions: force and torque on the first body of the joint, at the place of
-//! the joint.
+//! Computes reactions from multipliers: force and torque on the first body of the joint, at the
+//! reference point of the joint.
 //!
 //! The reaction is the total effect of the joint on that body, so that M·a − Q of the body is the
-//! sum of its reactions. If the first body has several slots, like the ground that is also the
-//! carrier of a gear, their parts are added.
+//! sum of its reactions. If the first body occupies several slots, for example if the ground is
+//! also the carrier of a gear, the loads of these slots are added.
 
 use joints::Direction;
 use linalg::Matrix;
@@ -19,14 +19,15 @@ pub use crate::group::{ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind
 
 /// A row counts as vanishing on rigid motions below this fraction of its terms, which allows for
 /// the rounding of common points far from the origin. Rows above it are assumed to act against the
-/// ground, which is the cautious choice.
+/// ground, which is the safe assumption.
 const ROUNDING: f64 = 1e-10;
 
-/// The axes of the ground. The second is that of a body turned by zero, with the sign of its zero.
+/// The axes of the ground. The second is that of a body with rotation angle zero, including the
+/// sign of its zero.
 const GROUND_AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [-0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// A reaction: force and torque about the place, ground axes, on the first body. In the plane the
-/// force has no z component, and the torque no other.
+/// A reaction on the first body: force, and torque about the reference point, in ground axes. In
+/// the plane, the force has no z component, and the torque has only a z component.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reaction {
     /// Force (N).
@@ -38,7 +39,7 @@ pub struct Reaction {
 }
 
 impl Reaction {
-    /// A reaction with these components, in the order of [`SpaceKind::components`].
+    /// Returns a reaction with these components, in the order of [`SpaceKind::components`].
     #[must_use]
     pub fn new(space: SpaceKind, components: &[f64], component: Option<f64>) -> Self {
         let mut reaction = Self {
@@ -60,7 +61,7 @@ impl Reaction {
         }
     }
 
-    /// Its components, in the order of [`SpaceKind::components`].
+    /// Returns the components, in the order of [`SpaceKind::components`].
     ///
     /// ```
     /// use pfaff_model::{Reaction, SpaceKind};
@@ -74,7 +75,7 @@ impl Reaction {
     }
 }
 
-/// Unit vectors of axes, ground axes: as many as the space has.
+/// Unit vectors of axes in ground components; their number is the dimension of the space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Axes {
@@ -90,14 +91,14 @@ impl std::ops::Deref for Axes {
     }
 }
 
-/// Computes the reactions of a mechanism at the poses of a scratch.
+/// Computes the reactions of a mechanism at the configuration of a scratch.
 ///
-/// Methods panic if the mechanism has no such joint or drive.
+/// Methods panic if the joint or drive does not exist.
 #[derive(Clone, Copy)]
 pub struct Reactions<'a> {
     mechanism: &'a Mechanism,
     s: &'a Scratch,
-    /// In place of the one of the mechanism.
+    /// A constraint that replaces the one of the mechanism.
     other: Option<&'a ConstraintCopy>,
 }
 
@@ -109,18 +110,19 @@ pub struct ConstraintCopy {
 }
 
 impl ConstraintCopy {
-    /// Changes its numbers, in the order of [`crate::data::Data::numbers`], also those that it has
-    /// taken from the start. Axes turn by their rotation vector from where they are.
+    /// Changes its numbers, in the order of [`crate::data::Data::numbers`], including the numbers
+    /// that it has taken from the start. Axes rotate from their current position by their rotation
+    /// vector.
     ///
     /// # Panics
-    /// If there are fewer numbers than it stores.
+    /// Panics if there are fewer numbers than the constraint stores.
     pub fn set_numbers(&mut self, own: &[f64]) {
         self.placed.set_data(own);
     }
 }
 
 impl Mechanism {
-    /// Its reactions at the poses of the scratch.
+    /// Returns the reactions at the configuration of the scratch.
     #[must_use]
     pub fn reactions<'a>(&'a self, s: &'a Scratch) -> Reactions<'a> {
         Reactions {
@@ -130,7 +132,8 @@ impl Mechanism {
         }
     }
 
-    /// A copy of a joint or drive; allocates. Panics if there is no such joint or drive.
+    /// Returns a copy of a joint or drive, and panics if it does not exist. The function allocates
+    /// memory.
     #[must_use]
     pub fn copy_of(&self, id: ConstraintId) -> ConstraintCopy {
         ConstraintCopy {
@@ -156,7 +159,7 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// The reactions with a copy of a joint or drive of the mechanism in its place.
+    /// Returns the reactions after a joint or drive of the mechanism is replaced by a copy.
     #[must_use]
     pub fn with(self, other: &'a ConstraintCopy) -> Self {
         Self {
@@ -165,20 +168,20 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// The space of the mechanism.
+    /// Returns the space of the mechanism.
     #[must_use]
     pub fn space(self) -> SpaceKind {
         self.layout().space
     }
 
-    /// The point where the reaction of a joint or drive is reported (m), ground axes.
+    /// Returns the reference point of the reaction of a joint or drive (m), in ground axes.
     #[must_use]
     pub fn place(self, id: ConstraintId) -> [f64; 3] {
         self.constraint(id).place(&self.s.slots)
     }
 
-    /// The map `W` (components × rows) with `[F, T] = W·λ`, in the order of
-    /// [`SpaceKind::components`]; allocates.
+    /// Returns the map `W` (components × rows) with `[F, T] = W·λ`, in the order of
+    /// [`SpaceKind::components`]. The function allocates memory.
     #[must_use]
     pub fn wrench_map(self, id: ConstraintId) -> Matrix {
         let rows = self.group(id).rows.len();
@@ -189,7 +192,7 @@ impl<'a> Reactions<'a> {
         map
     }
 
-    /// Visits the terms of this map: component, row and value. `block` is storage.
+    /// Visits the terms of this map: component, row and value. `block` is a buffer.
     fn visit_wrench(
         self,
         id: ConstraintId,
@@ -206,7 +209,8 @@ impl<'a> Reactions<'a> {
         if !group.repeats_first_body() {
             return;
         }
-        // −Cᵀ of the other slots that the first body takes, moved from its origin to the place.
+        // Adds −Cᵀ of the other slots that the first body occupies, transferred from its origin to
+        // the reference point.
         block.clear();
         block.resize(group.spec.c.len(), 0.0);
         c.kernels().c_constant(block);
@@ -228,7 +232,7 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// Like [`Self::wrench_map`], with the torque about a point (m, ground axes):
+    /// Works like [`Self::wrench_map`], with the torque about a point (m, ground axes):
     /// `T + (place − about) × F`.
     #[must_use]
     pub fn wrench_map_about(self, id: ConstraintId, about: [f64; 3]) -> Matrix {
@@ -240,9 +244,10 @@ impl<'a> Reactions<'a> {
         map
     }
 
-    /// The map (components × m + h) from all multipliers to the total of the reactions on one body,
-    /// `−Cᵀ·λ`: force, and torque about a point (m, ground axes). Returns `None` if there is no
-    /// such body. Needs C at the pose of the scratch; allocates.
+    /// Returns the map (components × m + h) from all multipliers to the total of the reactions on
+    /// one body, `−Cᵀ·λ`: force, and torque about a point (m, ground axes). Returns `None` if the
+    /// body does not exist. The scratch must contain C at its configuration. The function allocates
+    /// memory.
     #[must_use]
     pub fn body_wrench_map(self, body: usize, about: [f64; 3]) -> Option<Matrix> {
         if body >= self.s.bodies.len() {
@@ -262,8 +267,8 @@ impl<'a> Reactions<'a> {
         Some(map)
     }
 
-    /// The components of a force and a torque in ground axes to which a column of C belongs, with
-    /// its share in each: the rotations of a spatial body are about its own axes.
+    /// Visits the components of force and torque in ground axes for a column of C, with the share
+    /// of the column in each. The rotations of a spatial body are about its own axes.
     fn visit_ground(self, column: usize, mut visit: impl FnMut(usize, f64)) {
         let space = self.layout().space;
         let dof = space.dof_of(column);
@@ -276,9 +281,9 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// The axes in which a reaction is expressed. The first axis of [`Frame::Edge`] has the sign
-    /// for which the named component of the definition, or else the multiplier, is positive.
-    /// Returns `None` if the reaction has no such frame.
+    /// Returns the axes in which a reaction is expressed. The first axis of [`Frame::Edge`] has the
+    /// sign for which the named component of the definition, or otherwise the multiplier, is
+    /// positive. Returns `None` if the reaction has no such frame.
     #[must_use]
     pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<Axes> {
         let axes = match (frame, self.group(id).bodies.first()) {
@@ -301,7 +306,7 @@ impl<'a> Reactions<'a> {
         Some(Axes { axes, count })
     }
 
-    /// The axes of the frame of a body, in ground axes.
+    /// Returns the axes of the frame of a body, in ground axes.
     fn frame_axes(self, body: BodyRef) -> [[f64; 3]; 3] {
         let Some(k) = body.moving() else {
             return GROUND_AXES;
@@ -311,8 +316,9 @@ impl<'a> Reactions<'a> {
         principal.map_or(own, |of| of.framed(own))
     }
 
-    /// The direction in the plane of the only row of a joint or drive that has a force. Across a
-    /// direction in space there is no other that is one of its kind, so there it is none.
+    /// Returns the direction in the plane of the only row of a joint or drive with a force. In
+    /// space, a direction does not define a unique perpendicular direction, so the result is
+    /// `None`.
     fn push(self, id: ConstraintId) -> Option<[f64; 2]> {
         let group = self.group(id);
         if group.space.n_translations() > 2 {
@@ -327,13 +333,14 @@ impl<'a> Reactions<'a> {
             .and_then(|name| self.component_coefficients(id, name));
         let sign = named.map_or(1.0, |coefficients| coefficients[row].signum());
         let push = Direction::new([map[(0, row)], map[(1, row)]])?.xy();
-        // A zero has no sign.
+        // The addition removes the sign of zero.
         Some(push.map(|x| sign * x + 0.0))
     }
 
-    /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or
-    /// drive: one of [`SpaceKind::components`], or the named component of its definition. Returns
-    /// `None` if it has no such component; allocates.
+    /// Returns the coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of
+    /// the joint or drive. The component is one of [`SpaceKind::components`], or the named
+    /// component of its definition. Returns `None` if the component does not exist. The function
+    /// allocates memory.
     #[must_use]
     pub fn component_coefficients(self, id: ConstraintId, name: &str) -> Option<Vec<f64>> {
         if let Some(k) = self.layout().space.component(name) {
@@ -347,15 +354,15 @@ impl<'a> Reactions<'a> {
         })
     }
 
-    /// The reaction of a joint or drive for multipliers λ (all rows); allocates. Panics if λ is too
-    /// short.
+    /// Returns the reaction of a joint or drive for multipliers λ (all rows). The function panics
+    /// if λ is too short. It allocates memory.
     #[must_use]
     pub fn reaction(self, id: ConstraintId, lambda: &[f64]) -> Reaction {
         self.reaction_in(&mut Vec::new(), id, lambda)
     }
 
-    /// The same with storage that may serve again: from the second reaction of this size on,
-    /// nothing is allocated.
+    /// Works like [`Self::reaction`], with a reusable buffer. After the first reaction of this
+    /// size, the function does not allocate memory.
     #[must_use]
     pub fn reaction_in(self, block: &mut Vec<f64>, id: ConstraintId, lambda: &[f64]) -> Reaction {
         let (group, c) = (self.group(id), self.constraint(id));
@@ -365,7 +372,7 @@ impl<'a> Reactions<'a> {
             Some(lambda) => *lambda,
             None => late[own - early.len()],
         };
-        // Of multipliers that there are not, no component is known.
+        // If multipliers are not known (NaN), the components are not known, either.
         let nothing = |lambda: &[f64]| lambda.iter().map(|l| l * 0.0).sum::<f64>();
         let none = nothing(early) + nothing(late) + 0.0;
         let space = group.space;
@@ -384,14 +391,15 @@ impl<'a> Reactions<'a> {
         wrench
     }
 
-    /// Whether a joint or drive acts against the ground: one of its rows does not vanish if all
-    /// bodies move as one rigid body. This does not follow from the list of its bodies: an absolute
-    /// velocity refers to the ground without listing it. Needs C at the pose of the scratch.
+    /// Returns whether a joint or drive acts against the ground: one of its rows does not vanish if
+    /// all bodies move as one rigid body. The list of its bodies does not show this, because an
+    /// absolute velocity refers to the ground without listing it. The scratch must contain C at its
+    /// configuration.
     #[must_use]
     pub fn acts_on_ground(self, id: ConstraintId) -> bool {
         let (space, place) = (self.layout().space, self.place(id));
         // The velocity along a column of C in one of the rigid motions: along the axes, and about
-        // them at the place of the joint.
+        // the axes through the reference point of the joint.
         let velocity = |motion: usize, column: usize| {
             let dof = space.dof_of(column);
             if space.torques().contains(&motion) && space.forces().contains(&dof) {

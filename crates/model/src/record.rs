@@ -1,11 +1,11 @@
-//! The equations of a mechanism as operations: every kernel runs once on numbers that record the
-//! operations applied to them. The result is valid for this mechanism with its parameters and
-//! initial values only; generators of code for one scene start from it.
+//! The equations of a mechanism as operation lists. Every kernel runs once on numbers that record
+//! their operations. The result is valid only for this mechanism with its parameters and initial
+//! values. Code generators for one scene use it as input.
 //!
-//! Every number of the mechanism stands at its own place of the recording, whether another one is
-//! equal to it or not. Two mechanisms of the same [shape](RecordedEquations::shape) have the same
-//! operations in the same order, so they differ in the numbers at some places only, and one of
-//! these is what the other has at the same place.
+//! Every number of the mechanism has its own index in the recording, even if another number is
+//! equal to it. Two mechanisms of the same [shape](RecordedEquations::shape) have the same
+//! operations in the same order. They differ only in some numbers, and corresponding numbers have
+//! the same index.
 
 mod shape;
 
@@ -21,13 +21,14 @@ use crate::system::System;
 /// The equations of one mechanism as operations on inputs.
 #[derive(Clone, Debug)]
 pub struct RecordedEquations {
-    /// All operations, then the numbers beside the equations; results are indices of it.
+    /// All operations, then the numbers in addition to the equations. Results are indices of this
+    /// list.
     pub tape: Vec<Operation>,
     /// Meaning of each input.
     pub inputs: Vec<Input>,
     /// Φ, m values.
     pub phi: Vec<RecordedNumber>,
-    /// C by rows, m + h: column and value; entries at the same place are to be added.
+    /// C by rows, m + h: column and value. Entries at the same position must be added.
     pub c: Vec<Vec<(usize, RecordedNumber)>>,
     /// b, m + h values.
     pub b: Vec<RecordedNumber>,
@@ -37,25 +38,26 @@ pub struct RecordedEquations {
     pub force: Vec<RecordedNumber>,
     /// q̇ = T(q)·v, n_q values.
     pub rate: Vec<RecordedNumber>,
-    /// The generalised forces of gravity that Q begins with, n_v numbers.
+    /// The generalised forces of gravity that are the first terms of Q, n_v numbers.
     pub weight: Vec<RecordedNumber>,
-    /// The numbers beside the equations.
+    /// The numbers in addition to the equations.
     pub beside: Beside,
     /// Form and kind of each function of time.
     kinds: Vec<(FunctionForm, &'static str)>,
-    /// The joints, drives and forces, each with the first place of its operations, ascending.
+    /// The joints, drives and forces, each with the index of its first operation, ascending.
     pub owners: Vec<(usize, String)>,
 }
 
-/// The numbers of a mechanism beside its equations: masses, principal axes, functions of time.
+/// The numbers of a mechanism in addition to its equations: masses, principal axes, functions of
+/// time.
 #[derive(Clone, Debug)]
 pub struct Beside {
-    /// The place of the first of them in the recording.
+    /// The index of the first of these numbers in the recording.
     pub first: usize,
     /// The diagonal of M, n_v numbers.
     pub mass: Vec<RecordedNumber>,
-    /// In space: the quaternion (w, x, y, z) from the principal axes of each body to those of its
-    /// frame, if they are not the same.
+    /// In space: the quaternion (w, x, y, z) from the principal axes of each body to the axes of
+    /// its frame, if they differ.
     pub principal: Vec<Option<[RecordedNumber; 4]>>,
     /// The numbers of each function of time, in the order of [`TimeFunction::numbers`].
     pub functions: Vec<Vec<RecordedNumber>>,
@@ -74,7 +76,8 @@ struct Results {
 }
 
 impl Mechanism {
-    /// The functions of time of its joints, drives and forces, as its kernels take them.
+    /// Returns the functions of time of its joints, drives and forces, in the form that its kernels
+    /// use.
     pub fn functions(&self) -> impl Iterator<Item = &TimeFunction> {
         self.elements.functions()
     }
@@ -96,7 +99,7 @@ impl RecordedEquations {
     /// ```
     ///
     /// # Panics
-    /// If the mechanism is neither in [`SpaceKind::Plane`] nor in [`SpaceKind::Space3`].
+    /// Panics if the space is neither [`SpaceKind::Plane`] nor [`SpaceKind::Space3`].
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
         let space = mechanism.space();
@@ -144,7 +147,7 @@ impl RecordedEquations {
         }
     }
 
-    /// The number at a place, if one stands there.
+    /// Returns the number at an index, if the operation at this index is a number.
     #[must_use]
     pub fn number(&self, place: usize) -> Option<f64> {
         match self.tape.get(place) {

@@ -1,5 +1,5 @@
-//! Definitions by their scene type, so that a reader of scenes can build joints and forces without
-//! knowing them.
+//! Definitions by their scene type. With them, a reader of scenes can build joints and forces
+//! without a dependency on their types.
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
 use joints::{Argument, ArgumentError, Constraint, Force, Plane, Space3, Visitor, space3};
@@ -14,37 +14,37 @@ pub type BuildConstraint<S = Plane> =
 /// Builds a force from the values of its parameters.
 pub type BuildForce<S = Plane> = fn(&[Argument]) -> Result<Box<dyn ForceKernels<S>>, ArgumentError>;
 
-/// Builds a force along a measure from the values of the parameters of its joint.
+/// Builds a force along a joint coordinate from the values of the parameters of its joint.
 pub type BuildLaw<S = Plane> = fn(&[Argument], Law) -> Result<Box<dyn ForceKernels<S>>, LawError>;
 
 /// A constraint definition.
 #[derive(Clone, Debug)]
 pub struct ConstraintDefinition<S: BodySpace = Plane> {
-    /// Its description.
+    /// Description of the definition.
     pub spec: &'static ConstraintSpec,
-    /// Its constructor.
+    /// Constructor of the constraint.
     pub build: BuildConstraint<S>,
-    /// The drives of its measures, in the same order.
+    /// The drives of its joint coordinates, in the same order.
     pub drives: Vec<DriveDefinition<S>>,
 }
 
-/// The drive of a measure. It has the arguments of its joint and one function of time.
+/// The drive of a joint coordinate. It has the arguments of its joint and one function of time.
 #[derive(Clone, Debug)]
 pub struct DriveDefinition<S: BodySpace = Plane> {
-    /// Its description.
+    /// Description of the definition.
     pub spec: &'static ConstraintSpec,
-    /// Its constructor.
+    /// Constructor of the drive.
     pub build: BuildConstraint<S>,
-    /// Constructor of a law in place of the motion: a force with one function, the time.
+    /// Constructor of a force law in place of the motion: a force with one function, the time.
     pub law: BuildLaw<S>,
 }
 
 /// A force definition.
 #[derive(Clone, Debug)]
 pub struct ForceDefinition<S: BodySpace = Plane> {
-    /// Its description.
+    /// Description of the definition.
     pub spec: &'static ForceSpec,
-    /// Its constructor.
+    /// Constructor of the force.
     pub build: BuildForce<S>,
 }
 
@@ -65,8 +65,8 @@ impl<S: BodySpace> Default for Definitions<S> {
 }
 
 impl<S: BodySpace> Definitions<S> {
-    /// Constraints of a scene type. Several may share a type and differ in a key or in the number
-    /// of bodies.
+    /// Constraints of a scene type. Several definitions may share a type and differ in a key or in
+    /// the number of bodies.
     pub fn constraints<'a>(
         &'a self,
         scene_type: &'a str,
@@ -76,7 +76,7 @@ impl<S: BodySpace> Definitions<S> {
             .filter(move |d| d.spec.common.scene_type == scene_type)
     }
 
-    /// Forces of a scene type.
+    /// Returns the forces of a scene type.
     pub fn forces<'a>(
         &'a self,
         scene_type: &'a str,
@@ -115,13 +115,13 @@ pub struct Registry {
 }
 
 impl Registry {
-    /// A registry without definitions.
+    /// Returns a registry without definitions.
     #[must_use]
     pub fn empty() -> Self {
         Self::default()
     }
 
-    /// All definitions of the library.
+    /// Returns all definitions of the library.
     #[must_use]
     pub fn standard() -> Self {
         let mut registry = Self::empty();
@@ -132,19 +132,19 @@ impl Registry {
         registry
     }
 
-    /// Those of the plane.
+    /// Returns the definitions of the plane.
     #[must_use]
     pub fn plane(&self) -> &Definitions<Plane> {
         &self.plane
     }
 
-    /// Those of space.
+    /// Returns the definitions of space.
     #[must_use]
     pub fn space(&self) -> &Definitions<Space3> {
         &self.space
     }
 
-    /// Adds a constraint definition of the plane with the drives of its measures.
+    /// Adds a constraint definition of the plane with the drives of its joint coordinates.
     pub fn add_constraint<K: Constraint>(&mut self) {
         self.plane.constraint::<K>();
     }
@@ -154,7 +154,7 @@ impl Registry {
         self.plane.force::<K>();
     }
 
-    /// Adds a constraint definition of space with the drives of its measures.
+    /// Adds a constraint definition of space with the drives of its joint coordinates.
     pub fn add_spatial_constraint<K: Constraint<Space3>>(&mut self) {
         self.space.constraint::<K>();
     }
@@ -191,7 +191,7 @@ impl<S: BodySpace> Visitor<S> for Definitions<S> {
         });
     }
 
-    /// Drives are added with their constraint.
+    /// The drives are added together with their constraint.
     fn drive<K: Constraint<S>>(&mut self) {}
 
     fn force<K: Force<S>>(&mut self) {

@@ -1,6 +1,6 @@
-//! Rows of C of one joint or drive: some among the holonomic rows, which come first, and some among
-//! the nonholonomic ones. Values of its rows in the order of its definition are these, one range
-//! after the other.
+//! Rows of C of one joint or drive. Some are among the holonomic rows, which come first, and some
+//! among the nonholonomic rows. Values of its rows in the order of its definition are the values of
+//! these two ranges, one after the other.
 
 use std::fmt;
 use std::iter::Chain;
@@ -24,32 +24,32 @@ pub struct RowRanges {
 }
 
 impl RowRanges {
-    /// Number of rows.
+    /// Returns the number of rows.
     #[inline]
     #[must_use]
     pub fn len(&self) -> usize {
         self.holonomic.len() + self.nonholonomic.len()
     }
 
-    /// Whether there are none.
+    /// Returns whether there are no rows.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.holonomic.is_empty() && self.nonholonomic.is_empty()
     }
 
-    /// The rows, ascending.
+    /// Returns the rows, ascending.
     #[inline]
     pub fn iter(&self) -> Chain<Range<usize>, Range<usize>> {
         self.holonomic.clone().chain(self.nonholonomic.clone())
     }
 
-    /// Whether a row of C is one of them.
+    /// Returns whether a row of C belongs to these rows.
     #[must_use]
     pub fn contains(&self, row: usize) -> bool {
         self.holonomic.contains(&row) || self.nonholonomic.contains(&row)
     }
 
-    /// The row of C of row `own` of the definition.
+    /// Returns the row of C for row `own` of the definition.
     #[inline]
     #[must_use]
     pub fn row(&self, own: usize) -> usize {
@@ -59,7 +59,8 @@ impl RowRanges {
         }
     }
 
-    /// The row of the definition that is this row of C; `None` if it is not one of these.
+    /// Returns the row of the definition for this row of C; `None` if it does not belong to these
+    /// rows.
     #[must_use]
     pub fn own(&self, row: usize) -> Option<usize> {
         if self.holonomic.contains(&row) {
@@ -70,7 +71,7 @@ impl RowRanges {
         }
     }
 
-    /// The rows as one range, if they follow each other in C.
+    /// Returns the rows as one range, if they follow each other in C.
     #[inline]
     fn adjacent(&self) -> Option<Range<usize>> {
         if self.nonholonomic.is_empty() {
@@ -83,11 +84,11 @@ impl RowRanges {
         }
     }
 
-    /// Of values for all rows of C those of these rows; copied to `storage` only if the rows do not
-    /// follow each other.
+    /// Returns the values of these rows, selected from the values of all rows of C. They are copied
+    /// to `storage` only if the rows are not adjacent.
     ///
     /// # Panics
-    /// If `all` is too short.
+    /// Panics if `all` is too short.
     #[inline]
     pub fn of<'a, T: Copy>(&self, all: &'a [T], storage: &'a mut Vec<T>) -> &'a [T] {
         match self.adjacent() {
@@ -100,11 +101,10 @@ impl RowRanges {
         }
     }
 
-    /// Lets `write` write the values of these rows, in place unless the rows do not follow each
-    /// other.
+    /// Calls `write` to write the values of these rows, in place if the rows are adjacent.
     ///
     /// # Panics
-    /// If `all` is too short.
+    /// Panics if `all` is too short.
     #[inline]
     pub(crate) fn write<T: Copy>(
         &self,

@@ -1,5 +1,5 @@
-//! Sizes with which residuals are compared. Each row has a size of its own, computed from the terms
-//! that cancel in it, so that nothing depends on units, on the size of a mechanism or on its
+//! Reference sizes for residuals. Each row has its own size, computed from the terms that cancel in
+//! it. The comparison therefore does not depend on units, on the size of a mechanism or on its
 //! position.
 
 use std::ops::Range;
@@ -11,8 +11,8 @@ use crate::mechanism::Mechanism;
 use crate::space::norm;
 use crate::system::{Scratch, System};
 
-/// Sizes with which residuals of a mechanism are compared, at the pose of a scratch. Positions need
-/// C in the scratch, velocities C and b, accelerations C and Γ.
+/// Reference sizes for residuals of a mechanism, at the configuration of a scratch. The scratch
+/// must contain C for positions, C and b for velocities, and C and Γ for accelerations.
 #[derive(Clone, Copy)]
 pub struct Scales<'a> {
     pub(crate) mechanism: &'a Mechanism,
@@ -20,7 +20,7 @@ pub struct Scales<'a> {
 }
 
 impl Mechanism {
-    /// The sizes with which its residuals are compared at the pose of the scratch.
+    /// Returns the reference sizes for its residuals at the configuration of the scratch.
     #[must_use]
     pub fn scales<'a>(&'a self, s: &'a Scratch) -> Scales<'a> {
         Scales { mechanism: self, s }
@@ -28,9 +28,10 @@ impl Mechanism {
 }
 
 impl Scales<'_> {
-    /// Size of the terms of row `i` of Φ at the pose of the scratch: `Σ |C_ij|·|q_j|`. An angle
-    /// counts as at least one radian, because arms rotate with it, and a position as at least the
-    /// longest arm of its body, because it is accurate to the rounding of the arms. Needs C.
+    /// Returns the size of the terms of row `i` of Φ at the configuration of the scratch:
+    /// `Σ |C_ij|·|q_j|`. An angle counts as at least one radian, because arms rotate with it. A
+    /// position counts as at least the longest arm of its body, because it is accurate to the
+    /// rounding of the arms. The scratch must contain C.
     #[must_use]
     pub fn position(self, i: usize) -> f64 {
         let counted = self.counted(i);
@@ -38,7 +39,8 @@ impl Scales<'_> {
         self.mechanism.layout().row(self.s, i).map(term).sum()
     }
 
-    /// Size of the coordinate of column j of C; `counted` is the largest counted angle of its row.
+    /// Returns the size of the coordinate of column j of C; `counted` is the largest unwrapped
+    /// angle of its row.
     pub(crate) fn coordinate(self, j: usize, counted: f64) -> f64 {
         let space = self.mechanism.space();
         let at = self.s.bodies.position(space.body_of(j), space.dof_of(j));
@@ -47,8 +49,8 @@ impl Scales<'_> {
         if at > least { at } else { least }
     }
 
-    /// The largest counted angle of the joint or drive of a row (rad): its digits are those of all
-    /// its turns.
+    /// Returns the largest unwrapped angle of the joint or drive of a row (rad): its rounding is
+    /// that of all revolutions.
     pub(crate) fn counted(self, i: usize) -> f64 {
         let owner = self.mechanism.layout().owners.get(i);
         let of_row = owner.map(|id| &self.mechanism.elements.constraints[id.0]);
@@ -60,9 +62,10 @@ impl Scales<'_> {
         angles.fold(0.0, |most, of| most.max(of[0][0].abs()))
     }
 
-    /// Bounds on the entries of row `i` of C for any orientation of the bodies: column and bound. A
-    /// force on a body has the same size in all directions, and an arm is no longer than the
-    /// longest arm of the body. Needs C at the pose of the scratch; allocates.
+    /// Returns bounds on the entries of row `i` of C for any orientation of the bodies: column and
+    /// bound. A force on a body has the same size in all directions, and an arm is no longer than
+    /// the longest arm of the body. The scratch must contain C at its configuration. The function
+    /// allocates memory.
     #[must_use]
     pub fn entry_bounds(self, i: usize) -> Vec<(usize, f64)> {
         let mut bounds = Vec::new();
@@ -95,8 +98,9 @@ impl Scales<'_> {
         }
     }
 
-    /// Writes the size of the coordinate of each column of C, n_v: with [`Scales::entry_bounds`] of
-    /// a row it gives the size of the terms of this row of Φ, as in [`Scales::position`].
+    /// Writes the size of the coordinate of each column of C, n_v values. Together with
+    /// [`Scales::entry_bounds`] of a row, it gives the size of the terms of this row of Φ, as in
+    /// [`Scales::position`].
     pub fn of_coordinates(mechanism: &Mechanism, q: &[f64], sizes: &mut [f64]) {
         let space = mechanism.space();
         for (j, size) in sizes.iter_mut().enumerate() {
@@ -104,7 +108,8 @@ impl Scales<'_> {
         }
     }
 
-    /// Size of the terms of row `i` of `C·v − b`. Needs C and b at the pose of the scratch.
+    /// Returns the size of the terms of row `i` of `C·v − b`. The scratch must contain C and b at
+    /// its configuration.
     #[must_use]
     pub fn velocity(self, i: usize, v: &[f64]) -> f64 {
         let terms = self
@@ -115,18 +120,20 @@ impl Scales<'_> {
         terms.sum::<f64>() + self.s.b[i].abs()
     }
 
-    /// Size of the terms of row `i` of `C·v − b` for any orientation of the bodies: a row that
-    /// happens to be perpendicular to the motion is accurate to the rounding of these terms, not of
-    /// its present ones. Needs C and b at the pose of the scratch; allocates.
+    /// Returns the size of the terms of row `i` of `C·v − b` for any orientation of the bodies. A
+    /// row that is perpendicular to the motion at this instant is accurate to the rounding of these
+    /// terms, and not of its present terms. The scratch must contain C and b at its configuration.
+    /// The function allocates memory.
     #[must_use]
     pub fn bounded_velocity(self, i: usize, v: &[f64]) -> f64 {
         let bounds = self.entry_bounds(i).into_iter();
         bounds.map(|(j, c)| c * v[j].abs()).sum::<f64>() + self.s.b[i].abs()
     }
 
-    /// Size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and the contributions of
-    /// the centripetal terms of its bodies, `|C_ij|·(|v_j|·ω + size·ω²)` for translations and
-    /// `|C_ij|·ω²` for rotations, with the largest |ω| of the row. Needs C and Γ.
+    /// Returns the size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and the
+    /// contributions of the centripetal terms of its bodies. These are `|C_ij|·(|v_j|·ω + size·ω²)`
+    /// for translations and `|C_ij|·ω²` for rotations, with the largest |ω| of the row. The scratch
+    /// must contain C and Γ.
     #[must_use]
     pub fn acceleration(self, i: usize, v: &[f64], size: f64) -> f64 {
         let row = || self.mechanism.layout().row(self.s, i);
@@ -144,8 +151,9 @@ impl Scales<'_> {
         row().map(term).sum::<f64>() + self.s.gamma[i].abs()
     }
 
-    /// Size of the values that functions of time prescribe in row `i` at the time of the scratch:
-    /// the sum of `|f| + |ḟ| + |f̈|`. A rate that is rounding relative to it counts as zero.
+    /// Returns the size of the values that functions of time prescribe in row `i` at the time of
+    /// the scratch: the sum of `|f| + |ḟ| + |f̈|`. A rate that is rounding relative to this size
+    /// counts as zero.
     #[must_use]
     pub fn prescribed(self, i: usize) -> f64 {
         let mechanism = self.mechanism;
@@ -155,10 +163,10 @@ impl Scales<'_> {
         jets.iter().flatten().map(|x| x.abs()).sum()
     }
 
-    /// Scaling of the columns of a dimensionless C by the arms of the bodies: one unit for all
-    /// lengths, and for the rotation of each body the distance of its farthest joint, if it has one
-    /// that is more than rounding. Unlike an equilibration it does not depend on the directions of
-    /// joints. Needs the poses of the scratch.
+    /// Returns the scaling of the columns of a dimensionless C by the arms of the bodies. There is
+    /// one unit for all lengths. For the rotation of each body it is the distance of its farthest
+    /// joint, if this distance exceeds rounding. Unlike an equilibration, the scaling does not
+    /// depend on the directions of joints. The scratch must contain the configuration.
     #[must_use]
     pub fn felt_scaling(self, size: f64) -> Scaling {
         let layout = self.mechanism.layout();
@@ -173,9 +181,10 @@ impl Scales<'_> {
         scaling
     }
 
-    /// Bound on the error of the entries of a dimensionless C at a configuration: the largest
+    /// Returns a bound on the error of the entries of a dimensionless C at a configuration: the
+    /// largest
     /// |Φ_i| of these rows, and at least the rounding of its terms, relative to the change of row
-    /// `i` if the mechanism moves by its own size. Needs Φ and C.
+    /// `i` if the mechanism moves by its own size. The scratch must contain Φ and C.
     #[must_use]
     pub fn relative_residual(self, size: f64, rows: impl IntoIterator<Item = usize>) -> f64 {
         let of_row = |i: usize| {
@@ -185,7 +194,8 @@ impl Scales<'_> {
         rows.into_iter().map(of_row).fold(0.0, f64::max)
     }
 
-    /// `x` relative to the change of row `i` if the mechanism moves by its own size. Needs C.
+    /// Returns the value `x` relative to the change of row `i` if the mechanism moves by its own
+    /// size. The scratch must contain C.
     #[must_use]
     pub fn relative_to_reach(self, i: usize, size: f64, x: f64) -> f64 {
         let space = self.mechanism.space();
@@ -195,7 +205,7 @@ impl Scales<'_> {
     }
 }
 
-/// Smallest size of a coordinate in the terms of a row.
+/// Returns the smallest size of a coordinate in the terms of a row.
 fn least(mechanism: &Mechanism, j: usize) -> f64 {
     let space = mechanism.space();
     if space.is_rotation(j) {

@@ -1,12 +1,19 @@
-//! Spaces: how the pose of a body follows from its coordinates, and how a configuration moves along
-//! velocities.
+//! Spaces define how the pose of a body follows from its coordinates, and how a configuration moves
+//! along velocities.
 //!
 //! Coordinates and velocities are different: a body has n_q coordinates and n_v velocities, and no
 //! code outside this module adds a velocity to a coordinate. A configuration is moved by
 //! [`Space::displace`] and compared by [`Space::difference`], both in the directions of velocities:
 //! `(x, y)` along the axes of the ground, then the rotation.
 //!
-//! Constraints and their kernels use poses and twists only.
+//! Constraints and their kernels use only poses and twists.
+//!
+//! Therefore C has n_v columns by construction, and no joint depends on Euler parameters. Verdicts
+//! use the C of twists, not columns of quaternions.
+//!
+//! In space a body has the coordinates r and a quaternion of any length, and the velocities ṙ and
+//! ω. The components of ω are along the principal axes of the body, so M is diagonal. The
+//! gyroscopic torque is part of Q.
 
 mod number;
 mod plane;
@@ -37,12 +44,13 @@ pub enum Frame {
     Global,
     /// The axes of the first body of the joint; global for the ground.
     FirstBody,
-    /// The axes u, v and w of a joint in space, fixed in its first body: w along its axis, or
-    /// across its plane. Joints without an axis, and joints in the plane, do not have this frame.
+    /// The axes u, v and w of a joint in space, fixed in its first body: w is along its axis, or
+    /// normal to its plane. Joints without an axis, and joints in the plane, do not have this
+    /// frame.
     Joint,
-    /// The only direction in which the joint can transmit a force, followed by the direction
-    /// rotated by +90°: normal and along for a knife edge, across and along the axis for a slot.
-    /// Joints with no row, or several rows, that have a force do not have this frame.
+    /// The only direction in which the joint can transmit a force, followed by this direction
+    /// rotated by +90°: normal and tangent for a knife edge, across and along the axis for a slot.
+    /// Joints without a row with a force, or with several such rows, do not have this frame.
     Edge,
 }
 
@@ -55,12 +63,12 @@ impl Frame {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SpaceKind {
-    /// [`Plane`]
+    /// The plane, [`Plane`].
     #[default]
     Plane,
-    /// [`Space3`]
+    /// Three-dimensional space, [`Space3`].
     Space3,
-    /// [`UnitCircle`]
+    /// The plane with unit-circle coordinates, [`UnitCircle`].
     #[cfg(feature = "unit-circle")]
     UnitCircle,
 }
@@ -87,7 +95,8 @@ macro_rules! in_space {
 }
 pub(crate) use in_space;
 
-/// The same for the spaces whose bodies have planar poses; the second expression is that of space.
+/// Evaluates an expression for the spaces whose bodies have planar poses; the second expression is
+/// for space.
 macro_rules! in_plane {
     ($kind:expr, $space:ident => $body:expr, $other:expr) => {
         match $kind {
@@ -107,80 +116,80 @@ macro_rules! in_plane {
 pub(crate) use in_plane;
 
 impl SpaceKind {
-    /// Number of coordinates of a body.
+    /// Returns the number of coordinates of a body.
     #[must_use]
     pub fn n_q(self) -> usize {
         in_space!(self, S => S::N_Q)
     }
 
-    /// Number of velocities of a body, translations first: its columns of C, and the components of
-    /// a force and a torque on it.
+    /// Returns the number of velocities of a body, translations first: its columns of C, and the
+    /// components of a force and a torque on it.
     #[must_use]
     pub fn n_v(self) -> usize {
         in_space!(self, S => S::N_V)
     }
 
-    /// Number of these velocities that are translations, and components of a force.
+    /// Returns the number of these velocities that are translations, and components of a force.
     #[must_use]
     pub fn n_translations(self) -> usize {
         in_space!(self, S => S::N_TRANSLATIONS)
     }
 
-    /// Number of these velocities that are rotations, and components of a torque.
+    /// Returns the number of these velocities that are rotations, and components of a torque.
     #[must_use]
     pub fn n_rotations(self) -> usize {
         in_space!(self, S => S::N_V - S::N_TRANSLATIONS)
     }
 
     /// The body that moves with a column of C.
-    // The divisors are constants of each space: this is asked entry by entry.
+    // The divisors are constants of each space, because this function is called entry by entry.
     #[must_use]
     pub fn body_of(self, column: usize) -> usize {
         in_space!(self, S => column / S::N_V)
     }
 
-    /// The freedom of this body, below [`Self::n_v`].
+    /// Returns the freedom of this body, below [`Self::n_v`].
     #[must_use]
     pub fn dof_of(self, column: usize) -> usize {
         in_space!(self, S => column % S::N_V)
     }
 
-    /// Whether a column of C is that of a rotation.
+    /// Returns whether a column of C is that of a rotation.
     #[must_use]
     pub fn is_rotation(self, column: usize) -> bool {
         in_space!(self, S => column % S::N_V >= S::N_TRANSLATIONS)
     }
 
-    /// Columns of C of a body.
+    /// Returns the columns of C of a body.
     #[must_use]
     pub fn columns_of(self, body: usize) -> Range<usize> {
         let n = self.n_v();
         n * body..n * (body + 1)
     }
 
-    /// Columns of C of the translations of a body.
+    /// Returns the columns of C of the translations of a body.
     #[must_use]
     pub fn translations_of(self, body: usize) -> Range<usize> {
         let first = self.n_v() * body;
         first..first + self.n_translations()
     }
 
-    /// Columns of C of the rotations of a body.
+    /// Returns the columns of C of the rotations of a body.
     #[must_use]
     pub fn rotations_of(self, body: usize) -> Range<usize> {
         let first = self.n_v() * body;
         first + self.n_translations()..first + self.n_v()
     }
 
-    /// Unit of motions along a column of C: `size` for lengths, one radian for angles.
+    /// Returns the unit of motions along a column of C: `size` for lengths, one radian for angles.
     #[must_use]
     pub fn unit(self, column: usize, size: f64) -> f64 {
         if self.is_rotation(column) { 1.0 } else { size }
     }
 
-    /// Scales quaternions among coordinates q whose length is not allowed to length one, and their
-    /// rates with them; returns how many. The motion does not change: a rotation depends on the
-    /// direction of its quaternion alone.
+    /// Scales quaternions in the coordinates q to length one if their length is outside the allowed
+    /// range, and scales their rates with them. Returns the number of scaled quaternions. The
+    /// motion does not change, because a rotation depends only on the direction of its quaternion.
     ///
     /// ```
     /// let (mut q, mut qd) = ([0.0; 7], [0.0; 7]);
@@ -205,8 +214,8 @@ impl SpaceKind {
         count
     }
 
-    /// The angle (rad) that a row of angles misses by this residual: rows in space are products of
-    /// directions, sines of what is left of an angle.
+    /// Returns the error of the angle (rad) for this residual of a row of angles. Rows in space are
+    /// products of directions, which equal sines of the remaining angle.
     #[must_use]
     pub(crate) fn angle_of_row(self, residual: f64) -> f64 {
         match self {
@@ -215,7 +224,7 @@ impl SpaceKind {
         }
     }
 
-    /// Names of the numbers that are written of a frame: its place and orientation, then its
+    /// Returns the names of the output numbers of a frame: its position and orientation, then its
     /// velocities.
     ///
     /// ```
@@ -230,25 +239,25 @@ impl SpaceKind {
         in_space!(self, S => S::COLUMNS)
     }
 
-    /// Names of the velocities of a body.
+    /// Returns the names of the velocities of a body.
     #[must_use]
     pub fn velocities(self) -> &'static [&'static str] {
         in_space!(self, S => &S::COLUMNS[S::COLUMNS.len() - S::N_V..])
     }
 
-    /// Names of the directions in which a body moves with its velocities.
+    /// Returns the names of the directions in which a body moves with its velocities.
     #[must_use]
     pub fn directions(self) -> &'static [&'static str] {
         in_space!(self, S => S::DIRECTIONS)
     }
 
-    /// Names of the components of a force and a torque.
+    /// Returns the names of the components of a force and a torque.
     #[must_use]
     pub fn components(self) -> &'static [&'static str] {
         in_space!(self, S => S::COMPONENTS)
     }
 
-    /// Names of the components of a force and a torque in the axes of a frame.
+    /// Returns the names of the components of a force and a torque in the axes of a frame.
     #[must_use]
     pub fn components_in(self, frame: Frame) -> &'static [&'static str] {
         in_space!(self, S => match frame {
@@ -259,7 +268,7 @@ impl SpaceKind {
         })
     }
 
-    /// The component of this name in the axes of the ground.
+    /// Returns the component of this name in the axes of the ground.
     #[must_use]
     pub fn component(self, name: &str) -> Option<usize> {
         self.components()
@@ -267,8 +276,8 @@ impl SpaceKind {
             .position(|component| *component == name)
     }
 
-    /// The axis of the ground, 0 for x to 2 for z, along or about which a component of a force or a
-    /// torque acts.
+    /// Returns the axis of the ground, 0 for x to 2 for z, along or about which a component of a
+    /// force or a torque acts.
     #[must_use]
     pub fn axis_of(self, component: usize) -> usize {
         if component < self.n_translations() {
@@ -278,9 +287,10 @@ impl SpaceKind {
         }
     }
 
-    /// The velocities of a body in one of the [`Self::n_v`] rigid motions: along an axis of the
-    /// ground at 1 m/s, or about one, at this arm from it, at 1 rad/s. `axes` are those of the
-    /// body, in ground components: angular velocities in space are in these axes.
+    /// Returns the velocities of a body in one of the [`Self::n_v`] rigid motions: along an axis of
+    /// the ground at 1 m/s, or about an axis of the ground, at this arm from it, at 1 rad/s. `axes`
+    /// are the axes of the body in ground components. Angular velocities in space are given in
+    /// these axes.
     ///
     /// ```
     /// let plane = pfaff_model::SpaceKind::Plane;
@@ -305,26 +315,26 @@ impl SpaceKind {
         v
     }
 
-    /// The components of a force among [`Self::components`].
+    /// Returns the components of a force among [`Self::components`].
     #[must_use]
     pub fn forces(self) -> Range<usize> {
         0..self.n_translations()
     }
 
-    /// The components of a torque among [`Self::components`].
+    /// Returns the components of a torque among [`Self::components`].
     #[must_use]
     pub fn torques(self) -> Range<usize> {
         self.n_translations()..self.n_v()
     }
 
-    /// Indices of the coordinates of a body in q.
+    /// Returns the indices of the coordinates of a body in q.
     #[must_use]
     pub fn coordinates(self, body: usize) -> Range<usize> {
         let n = self.n_q();
         n * body..n * (body + 1)
     }
 
-    /// q̇ = T(q)·v of all bodies.
+    /// Computes q̇ = T(q)·v of all bodies.
     pub(crate) fn rate<T: Ring>(self, q: &[T], v: &[T], qd: &mut [T]) {
         in_space!(self, S => {
             let bodies = q.chunks_exact(S::N_Q).zip(v.chunks_exact(S::N_V));
@@ -343,7 +353,7 @@ impl SpaceKind {
         });
     }
 
-    /// A copy of q, moved by `factor` times d; allocates.
+    /// Returns a copy of q, moved by `factor` times d. The function allocates memory.
     #[must_use]
     pub fn displaced(self, q: &[f64], factor: f64, d: &[f64]) -> Vec<f64> {
         let mut moved = q.to_vec();
@@ -352,7 +362,7 @@ impl SpaceKind {
         moved
     }
 
-    /// The displacement (n_v) that moves the configuration `from` to q.
+    /// Computes the displacement (n_v) that moves the configuration `from` to q.
     pub(crate) fn difference(self, q: &[f64], from: &[f64], d: &mut [f64]) {
         in_space!(self, S => {
             let bodies = q.chunks_exact(S::N_Q).zip(from.chunks_exact(S::N_Q));
@@ -362,8 +372,8 @@ impl SpaceKind {
         });
     }
 
-    /// The column of C along which two configurations differ most, and the difference: lengths as a
-    /// fraction of `size`, angles in radians.
+    /// Returns the column of C along which two configurations differ most, and the difference:
+    /// lengths as a fraction of `size`, angles in radians.
     #[must_use]
     pub(crate) fn largest_difference(self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let mut largest = (0, 0.0);
@@ -405,8 +415,8 @@ impl SpaceKind {
         });
     }
 
-    /// Unit directions of q̇ along which no pose changes at the configuration q: indices of q̇ with
-    /// their entries.
+    /// Returns unit directions of q̇ along which no pose changes at the configuration q: indices of
+    /// q̇ with their entries.
     #[must_use]
     pub fn normals(self, q: &[f64]) -> Vec<Vec<(usize, f64)>> {
         in_space!(self, S => {
@@ -420,8 +430,9 @@ impl SpaceKind {
         })
     }
 
-    /// Numbers that are equal where poses are: the coordinates in the plane; in space the position
-    /// and the axes of each body, because a quaternion and its negative are one pose.
+    /// Numbers that are equal if and only if the poses are equal: the coordinates in the plane, and
+    /// the position and the axes of each body in space. (A quaternion and its negative represent
+    /// one pose.)
     #[must_use]
     pub fn pose_numbers(self, q: &[f64]) -> Vec<f64> {
         if self != Self::Space3 {
@@ -435,8 +446,8 @@ impl SpaceKind {
         q.chunks_exact(self.n_q()).flat_map(of).collect()
     }
 
-    /// Position of a body at coordinates q in the direction of a column of C: a coordinate (m) or
-    /// an angle (rad).
+    /// Returns the position of a body at coordinates q in the direction of a column of C: a
+    /// coordinate (m) or an angle (rad).
     #[must_use]
     pub fn position(self, q: &[f64], column: usize) -> f64 {
         let own = &q[self.coordinates(self.body_of(column))];

@@ -1,16 +1,20 @@
-//! A consistent start: the configuration closest to the described one, in the mass metric, that
-//! satisfies the constraints, with axes that point as described. Rows that store an initial value
-//! do not restrict it: they hold at any start.
+//! Finds a consistent start: the configuration closest to the described one, in the mass metric,
+//! that satisfies the constraints, with axes that point as described. Rows that store an initial
+//! value do not restrict it, because any start satisfies them.
 //!
-//! Where the iteration towards it does not converge, or converges to axes that point the other way,
-//! the constraints are approached first, in lengths, and it begins anew from there.
+//! If the iteration does not converge, or converges to axes with the opposite direction, the
+//! constraints are first approached in the metric of lengths. The iteration then restarts from the
+//! configuration that is found.
 //!
-//! No rank is decided here: at a configuration that violates the constraints, a redundant row is
-//! not yet redundant. The correction is the regularised least-squares step of `linalg`, repeated to
-//! rounding.
+//! This module decides no rank: at a configuration that violates the constraints, a redundant row
+//! is still independent. The correction is the regularised least-squares step of `linalg`, repeated
+//! to rounding.
 //!
-//! A start may be apart from the description ([`StartOptions::poses`]): initial values are those of
-//! the described start, and the bodies are moved on the constraints that these define.
+//! A start may differ from the description ([`StartOptions::poses`]). Initial values are those of
+//! the described start, and the bodies are moved on the constraints that these values define.
+//!
+//! A search for an equilibrium writes only such poses, so the points, phases and free lengths of
+//! the scene text do not change.
 
 mod approach;
 mod blame;
@@ -55,16 +59,15 @@ pub struct Assembly {
 /// the size of the correction.
 const ITERATIONS: usize = 60;
 
-/// An iteration that comes no digit nearer within this many steps does not arrive within
-/// [`ITERATIONS`]: what converges to rounding within them gains more.
+/// If an iteration gains no digit within this many steps, it does not converge within
+/// [`ITERATIONS`]: an iteration that converges to rounding within them is faster.
 const PATIENCE: usize = 12;
 
 /// Finds a consistent configuration and takes the initial values of joints, drives and forces from
 /// it.
 ///
-/// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0; coordinates without mass or
-/// inertia have the weight of the smallest one with mass or inertia, and kept coordinates do not
-/// move.
+/// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0. Coordinates without mass or
+/// inertia have the weight of the smallest one with mass or inertia. Kept coordinates do not move.
 ///
 /// With [`StartOptions::poses`] this is the described start, which defines the initial values, and
 /// the bodies start at the configuration on the same constraints that is closest to the poses.
@@ -74,9 +77,9 @@ const PATIENCE: usize = 12;
 ///   away.
 /// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
 /// - [`StartError::TooLarge`]: the correction needs a matrix that is too large for the memory.
-/// - [`StartError::Requirement`]: a requirement of a definition does not hold.
-/// - [`StartError::NoCoordinate`], [`StartError::NoPose`]: what `options` keep or place does not
-///   exist.
+/// - [`StartError::Requirement`]: a requirement of a definition is not satisfied.
+/// - [`StartError::NoCoordinate`], [`StartError::NoPose`]: a coordinate that `options` keep, or a
+///   body that they place, does not exist.
 pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Assembly, StartError> {
     let (described, _) = mechanism.described_state();
     initialise(mechanism, &described);
@@ -95,14 +98,14 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     }
     if !options.poses.is_empty() {
         let posed = posed(mechanism, &options.poses, &q)?;
-        // All rows: those of initial values restrict it, too.
+        // All rows restrict this start, including rows of initial values.
         let rows: Vec<usize> = (0..mechanism.layout().m).collect();
         q = closest(mechanism, &mut s, (&rows, &weights), &posed, size)?;
         let first = mechanism.layout().angles().start;
         mechanism.elements.settle_angles(first, &mut q);
         requirement(mechanism, &q)?;
         correction = mechanism.difference_of(&q, &posed);
-        // A body without a pose of its own follows the others.
+        // A body without its own pose follows the others.
         let columns = |pose: &StartPose| mechanism.space().columns_of(pose.body);
         let given: Vec<usize> = options.poses.iter().flat_map(columns).collect();
         for (j, moved) in correction.iter_mut().enumerate() {
@@ -127,7 +130,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     })
 }
 
-/// The coordinates q with the frames of some bodies elsewhere.
+/// Returns the coordinates q after some body frames are placed elsewhere.
 fn posed(mechanism: &Mechanism, poses: &[StartPose], q: &[f64]) -> Result<Vec<f64>, StartError> {
     let space = mechanism.space();
     let mut posed = q.to_vec();
@@ -143,10 +146,10 @@ fn posed(mechanism: &Mechanism, poses: &[StartPose], q: &[f64]) -> Result<Vec<f6
     Ok(posed)
 }
 
-/// Whether the requirements of all definitions hold at a configuration.
+/// Checks the requirements of all definitions at a configuration.
 ///
 /// # Errors
-/// [`StartError::Requirement`]: the first that does not.
+/// [`StartError::Requirement`]: the first requirement that is not satisfied.
 pub fn requirement(mechanism: &Mechanism, q: &[f64]) -> Result<(), StartError> {
     match unmet_requirement(mechanism, q) {
         Some((name, requirement)) => Err(StartError::Requirement { name, requirement }),
@@ -154,8 +157,8 @@ pub fn requirement(mechanism: &Mechanism, q: &[f64]) -> Result<(), StartError> {
     }
 }
 
-/// The configuration closest to a described one that satisfies the rows, with axes that point as
-/// described.
+/// Returns the configuration closest to a described one that satisfies the rows, with axes that
+/// point as described.
 fn closest(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -181,7 +184,7 @@ fn closest(
         }
         Ok(_) | Err(StartError::NoAssembly { .. }) => {
             let meant = approached(mechanism, s, start, restricting, described, size);
-            // A requirement that is not met is told below.
+            // A violated requirement is reported below.
             match (q, meant) {
                 (Ok(q), Err(_)) if !unmet_rows(mechanism, &q).is_empty() => Ok(q),
                 (_, meant) => meant,
@@ -197,8 +200,9 @@ fn closest(
     })
 }
 
-/// The configuration closest to the described one, from where the constraints are reached in
-/// lengths; if that is not found, the one closest to that place.
+/// Returns the configuration closest to the described one, starting from a configuration that
+/// satisfies the constraints in the metric of lengths. If it is not found, the function returns the
+/// configuration closest to that one.
 fn approached(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -208,7 +212,8 @@ fn approached(
     size: f64,
 ) -> Result<Vec<f64>, StartError> {
     let mut there = approach::approach(mechanism, s, restricting, described, size)?;
-    // A wheel that was described below its plane reaches it from below: the others first.
+    // If a wheel is described below its plane, its own row would be satisfied from below. Therefore
+    // the other rows are satisfied first.
     let (rows, weights) = restricting;
     let unmet = unmet_rows(mechanism, &there);
     if !unmet.is_empty() {
@@ -227,17 +232,18 @@ fn approached(
 /// Metric that defines the closest configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Metric<'a> {
-    /// Masses and inertias; used for the start.
+    /// Masses and inertias, the metric of the start.
     Mass,
-    /// The same; coordinates that these options keep do not move.
+    /// Masses and inertias; coordinates that these options keep do not move.
     Start(&'a StartOptions),
-    /// Lengths, with angles times the size of the mechanism. Masses do not determine where a
-    /// mechanism can be: with a light body of large size, the mass metric would rather rotate this
-    /// body far than move its heavy neighbour slightly.
+    /// Lengths, with angles times the size of the mechanism. Masses do not determine the possible
+    /// configurations of a mechanism. With a light body of large size, the mass metric would prefer
+    /// a large rotation of this body to a small motion of its heavy neighbour.
     Length,
 }
 
-/// The configuration closest to q on the given rows of Φ at time t; allocates.
+/// Returns the configuration closest to q on the given rows of Φ at time t. The function allocates
+/// memory.
 ///
 /// # Errors
 /// - [`StartError::NoAssembly`]: there is no such configuration near q.
@@ -258,7 +264,7 @@ pub fn nearest_configuration(
     nearest(mechanism, &mut s, (t, false), (rows, &weights), q, q)
 }
 
-/// Rows of Φ that restrict the start.
+/// Returns the rows of Φ that restrict the start.
 fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
     layout
@@ -270,7 +276,7 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
         .collect()
 }
 
-/// Inverse weights of the coordinates in the mass metric; zero for those that are kept.
+/// Returns the inverse weights of the coordinates in the mass metric; zero for kept coordinates.
 fn position_weights(
     mechanism: &Mechanism,
     options: &StartOptions,
@@ -297,7 +303,7 @@ fn nearest(
     let mut q = from.to_vec();
     let mut best = f64::INFINITY;
     let mut stalled = 0;
-    // The least residual when it last had become smaller by a digit, and when that was.
+    // The smallest residual when it last decreased by a digit, and the iteration of this decrease.
     let mut digit = (f64::INFINITY, 0);
     for iteration in 0..=ITERATIONS {
         mechanism.pose(t, &q, s);
@@ -323,7 +329,8 @@ fn nearest(
         if within && is_at_rest && residual.is_finite() && within::is_within(mechanism, s, rows) {
             return Ok(q);
         }
-        // Rows are known to the rounding of terms that are not present at this orientation, too.
+        // The accuracy of rows is the rounding of all possible terms, including terms that vanish
+        // at this orientation.
         if is_last && rows.iter().all(|&r| is_rounding(mechanism, s, r)) {
             return Ok(q);
         }
@@ -335,7 +342,7 @@ fn nearest(
         }
         let c = dense_rows(mechanism.layout(), s, rows)?;
         let shift = mechanism.difference_of(described, &q);
-        // C·(q₀ + δ − q) + Φ = 0
+        // Solves C·(q₀ + δ − q) + Φ = 0.
         let moved = c.times(&shift);
         let misfit: Vec<f64> = rows
             .iter()
@@ -344,7 +351,7 @@ fn nearest(
             .collect();
         let damped = DampedRows::new(&c, weights, DAMPING)?;
         let mut step = damped.step(&misfit)?;
-        // Damping leaves a small residual; one more step removes it if the rows agree.
+        // Damping leaves a small residual; one more step removes it if the rows are consistent.
         let left = c.times(&step);
         let misfit: Vec<f64> = misfit.iter().zip(&left).map(|(a, b)| a + b).collect();
         for (a, b) in step.iter_mut().zip(damped.step(&misfit)?) {
@@ -355,13 +362,13 @@ fn nearest(
     unreachable!("the last iteration returns")
 }
 
-/// Whether the residual of a row of Φ is the rounding of its terms at any orientation.
+/// Returns whether the residual of a row of Φ is the rounding of its terms at any orientation.
 fn is_rounding(mechanism: &Mechanism, s: &Scratch, row: usize) -> bool {
     let terms = mechanism.scales(s).terms(row, &Level::positions());
     s.phi[row].abs() <= ROUNDINGS * ROUNDINGS * f64::EPSILON * terms
 }
 
-/// The joints and drives that miss at coordinates q, the worst first.
+/// Returns the joints and drives that are violated at coordinates q, the worst first.
 fn missing(mechanism: &Mechanism, q: &[f64], rows: &[usize]) -> Vec<Misfit> {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);

@@ -1,5 +1,6 @@
 //! The interface of a mechanism for solvers: sizes, patterns and kernels in storage of the caller.
-//! No kernel allocates; each computes one result, so that no unused result is computed.
+//! Kernels do not allocate memory. Each kernel computes one result, so that no unused result is
+//! computed.
 
 use std::ops::Range;
 
@@ -11,17 +12,17 @@ use crate::space::SpaceKind;
 
 /// The equations of a mechanism.
 ///
-/// Order of calls at one instant: [`System::pose`]; then any of [`System::phi`], [`System::c`],
-/// [`System::b`]; [`System::twist`]; then [`System::gamma`] and [`System::force`]. Results are in
-/// the [`Scratch`].
+/// At one instant, the caller first calls [`System::pose`], then any of [`System::phi`],
+/// [`System::c`], [`System::b`]. It then calls [`System::twist`], and finally [`System::gamma`] and
+/// [`System::force`]. The [`Scratch`] contains the results.
 pub trait System: Sync {
     /// Sizes, patterns and labels.
     fn layout(&self) -> &Layout;
 
-    /// Diagonal of M, n_v.
+    /// Returns the diagonal of M, n_v values.
     fn mass(&self) -> &[f64];
 
-    /// Storage for one evaluation at a time.
+    /// Creates storage for one evaluation at a time.
     fn scratch(&self) -> Scratch;
 
     /// Sets time and coordinates: evaluates poses of bodies and values of functions of time.
@@ -64,32 +65,33 @@ pub trait System: Sync {
     /// ```
     fn displace(&self, q: &mut [f64], d: &[f64]);
 
-    /// The displacement (n_v) that moves the configuration `from` to q; counted angles follow from
-    /// it.
+    /// Computes the displacement (n_v) that moves the configuration `from` to q; the unwrapped
+    /// angles follow from it.
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]);
 }
 
 /// Sizes, patterns and labels of a mechanism.
 #[derive(Clone, Debug, Default)]
 pub struct Layout {
-    /// The space in which the bodies move: what the columns of C and the components of reactions
-    /// are.
+    /// The space of the bodies, which defines the meaning of the columns of C and of the components
+    /// of reactions.
     pub space: SpaceKind,
-    /// Number of coordinates: those of the bodies, then the counted angles.
+    /// Number of coordinates: those of the bodies, then the unwrapped angles.
     pub n_q: usize,
-    /// Number of counted angles among the coordinates: angles in space since the start, with their
-    /// full turns, for elements that need these.
+    /// Number of unwrapped angles among the coordinates: angles in space since the start, including
+    /// full revolutions, for elements that need them.
     pub turns: usize,
     /// Number of velocities.
     pub n_v: usize,
-    /// Number of holonomic rows m; they come first.
+    /// Number of holonomic rows m, which come first.
     pub m: usize,
     /// Number of nonholonomic rows h.
     pub h: usize,
     /// Pattern of C.
     pub pattern: Pattern,
-    /// Joints with holonomic rows, drives, joints without holonomic rows, each in the order of the
-    /// description. Holonomic rows follow this order, nonholonomic ones that of the description.
+    /// Joints with holonomic rows, drives, and joints without holonomic rows, each in the order of
+    /// the description. Holonomic rows follow this order; nonholonomic rows follow the order of the
+    /// description.
     pub groups: Vec<ConstraintGroup>,
     /// The joint or drive of each row.
     pub owners: Vec<ConstraintId>,
@@ -102,34 +104,34 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Number of rows m + h.
+    /// Returns the number of rows m + h.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.m + self.h
     }
 
-    /// Where the counted angles are among the coordinates.
+    /// Returns the range of the unwrapped angles in the coordinates.
     pub(crate) fn angles(&self) -> std::ops::Range<usize> {
         self.n_q - self.turns..self.n_q
     }
 
-    /// Rows of drives, ascending.
+    /// Returns the rows of drives, ascending.
     #[must_use]
     pub fn drive_rows(&self) -> Vec<usize> {
         let drives = self.groups.iter().filter(|g| g.is_drive());
         drives.flat_map(|g| g.rows.iter()).collect()
     }
 
-    /// The joint or drive of row `i`.
+    /// Returns the joint or drive of row `i`.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if the row does not exist.
     #[must_use]
     pub fn owner(&self, i: usize) -> &ConstraintGroup {
         &self.groups[self.owners[i].0]
     }
 
-    /// Row `i` of C as (column, value).
+    /// Returns row `i` of C as (column, value).
     pub fn row<'a>(&'a self, s: &'a Scratch, i: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
         let (column, entry) = (&self.pattern.column, &self.pattern.entry);
         let columns = column[self.pattern.row(i)].iter();
@@ -142,13 +144,13 @@ impl Layout {
         (0..self.groups.len()).map(ConstraintId)
     }
 
-    /// Columns of C of a body.
+    /// Returns the columns of C of a body.
     #[must_use]
     pub fn columns(&self, body: usize) -> Range<usize> {
         self.space.columns_of(body)
     }
 
-    /// Kind of velocity of each column of C, n_v entries.
+    /// Returns the kind of velocity of each column of C, n_v entries.
     #[must_use]
     pub fn column_kinds(&self) -> Vec<ColumnKind> {
         let kind = |j| {
@@ -161,16 +163,16 @@ impl Layout {
         (0..self.n_v).map(kind).collect()
     }
 
-    /// Whether row `i` compares angles: it contains no translation.
+    /// Returns whether row `i` compares angles: it contains no translation.
     #[must_use]
     pub fn is_angular(&self, i: usize) -> bool {
         let columns = &self.pattern.column[self.pattern.row(i)];
         columns.iter().all(|j| self.space.is_rotation(*j))
     }
 
-    /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations
-    /// divided by the size, rounded to a power of two. Ranks, dependencies and verdicts of the
-    /// scaled C are those of C; margins do not depend on units.
+    /// Returns the scaling that makes C dimensionless for a mechanism of this size: columns of
+    /// rotations divided by the size, rounded to a power of two. Ranks, dependencies and verdicts
+    /// of the scaled C are those of C; margins do not depend on units.
     #[must_use]
     pub fn dimension_scaling(&self, size: f64) -> Scaling {
         let exponent = size.log2().round();
@@ -191,7 +193,7 @@ impl Layout {
         }
     }
 
-    /// C as a dense matrix; allocates.
+    /// Returns C as a dense matrix. The function allocates memory.
     #[must_use]
     pub fn dense(&self, s: &Scratch) -> Matrix {
         let mut c = Matrix::zeros(self.rows(), self.n_v);
@@ -201,7 +203,7 @@ impl Layout {
         c
     }
 
-    /// `C·v − b` of row `i`.
+    /// Returns the residual `C·v − b` of row `i`.
     #[must_use]
     pub fn velocity_residual(&self, s: &Scratch, i: usize, v: &[f64]) -> f64 {
         self.row(s, i).map(|(column, c)| c * v[column]).sum::<f64>() - s.b[i]
@@ -211,7 +213,7 @@ impl Layout {
 /// Pattern of C by rows. The entries of row i have the indices `start[i]..start[i + 1]`.
 #[derive(Clone, Debug, Default)]
 pub struct Pattern {
-    /// Index of the first entry of each row; one more than rows.
+    /// Index of the first entry of each row; its length is the number of rows plus one.
     pub start: Vec<usize>,
     /// Column of each entry.
     pub column: Vec<usize>,
@@ -220,7 +222,7 @@ pub struct Pattern {
 }
 
 impl Pattern {
-    /// Indices of the entries of row `i`.
+    /// Returns the indices of the entries of row `i`.
     pub(crate) fn row(&self, i: usize) -> Range<usize> {
         self.start[i]..self.start[i + 1]
     }
@@ -244,9 +246,9 @@ impl std::fmt::Display for RowLabel {
     }
 }
 
-/// Storage of one evaluation, created by [`System::scratch`]. It holds the results of the kernels
-/// and belongs to the mechanism that created it: results of the last evaluation are not computed
-/// again.
+/// Storage of one evaluation, created by [`System::scratch`]. It contains the results of the
+/// kernels and belongs to the mechanism that created it, because results of the last evaluation are
+/// not recomputed.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// Time of the poses.
@@ -267,7 +269,7 @@ pub struct Scratch {
     pub(crate) slots: Slots,
     /// Angular velocities of the bodies in their axes, in space only.
     pub(crate) spins: Vec<[f64; 3]>,
-    /// Time at which its functions of time were evaluated; NaN at the beginning.
+    /// Time at which its functions of time were evaluated; initially NaN.
     pub(crate) jets_at: f64,
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,

@@ -1,10 +1,11 @@
-//! The stated uncertainty of the numbers of a scene. Without a statement it is their rounding.
+//! The stated uncertainty of the numbers of a scene. If no tolerance is stated, the uncertainty is
+//! their rounding.
 //!
-//! The effect of a tolerance on a rank is computed in `solvability`.
+//! The crate `solvability` computes the effect of a tolerance on a rank.
 
 use std::fmt;
 
-/// The tolerances of a scene, valid unless one is stated for a joint or body.
+/// The tolerances of a scene. They are valid unless a tolerance is stated for a joint or body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Tolerance {
@@ -15,8 +16,8 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// The tolerance of angles in a mechanism of this size (m): the stated one, or the length
-    /// tolerance divided by the size. Returns `None` if neither is stated.
+    /// Returns the tolerance of angles in a mechanism of this size (m): the stated one, or the
+    /// length tolerance divided by the size. Returns `None` if neither is stated.
     ///
     /// ```
     /// use pfaff_model::Tolerance;
@@ -31,7 +32,7 @@ impl Tolerance {
             .or_else(|| self.length.map(|length| length / size))
     }
 
-    /// These tolerances; values that are not stated are taken from `other`.
+    /// Returns these tolerances, completed by `other` for values that are not stated.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {
@@ -40,7 +41,7 @@ impl Tolerance {
         }
     }
 
-    /// Whether anything is stated.
+    /// Returns whether any tolerance is stated.
     #[must_use]
     pub fn is_stated(self) -> bool {
         self != Self::default()

@@ -19,15 +19,15 @@ const CLOSED: f64 = 10.0;
 /// Accuracy of a configuration along the motions that the constraints leave free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConfigurationAccuracy {
-    /// Exactly as stored.
+    /// The configuration is exact as stored.
     AsStored,
-    /// To this fraction of a radian and of the lengths of the mechanism: the result of an
-    /// integrator with about this tolerance.
+    /// The accuracy is this fraction of a radian and of the lengths of the mechanism: the result of
+    /// an integrator with about this tolerance.
     To(f64),
 }
 
 impl ConfigurationAccuracy {
-    /// Angle by which bodies may be rotated beyond rounding (rad).
+    /// Returns the angle by which bodies may be rotated beyond rounding (rad).
     fn turned(self) -> f64 {
         match self {
             Self::AsStored => 0.0,
@@ -37,7 +37,7 @@ impl ConfigurationAccuracy {
 }
 
 impl Mechanism {
-    /// Whether a tolerance is stated for any number.
+    /// Returns whether a tolerance is stated for any number.
     #[must_use]
     pub fn has_tolerances(&self) -> bool {
         self.tolerance().is_stated()
@@ -52,17 +52,18 @@ impl Mechanism {
 }
 
 impl Scales<'_> {
-    /// Bound on the distance of each entry of C from that of the intended mechanism, (m+h) × n_v,
-    /// in the units of C; allocates.
+    /// Returns a bound on the distance of each entry of C from that of the intended mechanism,
+    /// (m+h) × n_v, in the units of C. The function allocates memory.
     ///
     /// The uncertainty of a number is the relative error of the data times the size of the terms
-    /// that are added, which its kernel on magnitudes computes. It is never taken entry by entry:
-    /// all components of a force, or of the position of a point, have the same uncertainty,
-    /// whatever the direction of the axes, and no zero is exact. The uncertainty of a lever is the
-    /// rounding of the longest arm of its body and of the positions of its bodies, plus the
-    /// residual |Φ_i| of the constraints; if a tolerance is stated, plus rounding only, because
-    /// residuals of contradicting rows within the tolerance are not an error of the entries. `size`
-    /// is that of the mechanism. Needs Φ and C at the pose of the scratch.
+    /// that are added, which its kernel on magnitudes computes. It is never determined for single
+    /// entries: all components of a force, or of the position of a point, have the same
+    /// uncertainty. This holds for every direction of the axes, and no zero is exact. The
+    /// uncertainty of a lever is the rounding of the longest arm of its body and of the positions
+    /// of its bodies, plus the residual |Φ_i| of the constraints. If a tolerance is stated, only
+    /// rounding is added in place of the residual, because residuals of contradicting rows within
+    /// the tolerance are not an error of the entries. `size` is the size of the mechanism. The
+    /// scratch must contain Φ and C at its configuration.
     #[must_use]
     pub fn uncertainty(self, size: f64, known: ConfigurationAccuracy) -> Matrix {
         let layout = self.mechanism.layout();
@@ -76,7 +77,7 @@ impl Scales<'_> {
         u
     }
 
-    /// Like [`Self::uncertainty`], for each entry of the pattern of C, in its order.
+    /// Works like [`Self::uncertainty`], for each entry of the pattern of C, in its order.
     #[must_use]
     pub fn uncertainty_of_entries(self, size: f64, known: ConfigurationAccuracy) -> Vec<f64> {
         let layout = self.mechanism.layout();
@@ -108,8 +109,8 @@ impl Scales<'_> {
                 let body = layout.space.body_of(column);
                 let of_body = forces.iter().find(|(other, ..)| *other == body);
                 let (_, force, magnitude) = of_body.copied().unwrap_or_default();
-                // A force that is the rounding of its terms counts as zero, whichever way the axes
-                // point.
+                // A force that is the rounding of its terms counts as zero, for any direction of
+                // the axes.
                 let has_force = force > ROUNDING * magnitude;
                 u.push(if layout.space.is_rotation(column) {
                     let lever = force * self.mechanism.reach(body);
@@ -130,8 +131,8 @@ impl Scales<'_> {
         u
     }
 
-    /// For each body on which this row of the pattern exerts a force: the body, the size of the
-    /// force, and the size of the terms that are added in it.
+    /// Returns, for each body on which this row of the pattern exerts a force: the body, the size
+    /// of the force, and the size of the terms that are added in it.
     fn forces_of_row(self, magnitudes: &[Magnitude], row: Range<usize>) -> Vec<(usize, f64, f64)> {
         let Layout { space, pattern, .. } = self.mechanism.layout();
         let mut forces: Vec<(usize, [f64; 3], [f64; 3])> = Vec::new();

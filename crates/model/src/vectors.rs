@@ -8,7 +8,7 @@ use crate::reaction::Reaction;
 use crate::space::SpaceKind;
 
 impl SpatialBody {
-    /// The body with its frame at this pose, body to ground.
+    /// Returns the body with its frame at this pose (from body to ground).
     ///
     /// ```
     /// use pfaff_model::nalgebra::{Isometry3, Matrix3, Vector3};
@@ -39,8 +39,8 @@ impl SpatialBody {
         }
     }
 
-    /// The body with this velocity of the origin of its frame (m/s) and angular velocity (rad/s),
-    /// both in ground axes.
+    /// Returns the body with this velocity of the origin of its frame (m/s) and angular velocity
+    /// (rad/s), both in ground axes.
     #[must_use]
     pub fn moving(self, velocity: &Vector3<f64>, omega: &Vector3<f64>) -> Self {
         Self {
@@ -50,13 +50,13 @@ impl SpatialBody {
         }
     }
 
-    /// The pose of its frame, body to ground.
+    /// Returns the pose of its frame, from body to ground.
     #[must_use]
     pub fn isometry(&self) -> Isometry3<f64> {
         isometry(self.position, self.orientation)
     }
 
-    /// Its inertia about the centre of mass, in the axes of its frame (kg·m²).
+    /// Returns the inertia about the centre of mass, in the axes of its frame (kg·m²).
     #[must_use]
     pub fn tensor(&self) -> Matrix3<f64> {
         Matrix3::from_row_slice(self.inertia.as_flattened())
@@ -64,7 +64,7 @@ impl SpatialBody {
 }
 
 impl FrameState {
-    /// Its pose, to ground; in the plane turned about z.
+    /// Returns the pose relative to the ground; in the plane, the rotation is about z.
     #[must_use]
     pub fn isometry(&self) -> Isometry3<f64> {
         if self.space == SpaceKind::Space3 {
@@ -75,13 +75,13 @@ impl FrameState {
 }
 
 impl Reaction {
-    /// Its force (N), ground axes.
+    /// Returns the force (N), in ground axes.
     #[must_use]
     pub fn force_vector(&self) -> Vector3<f64> {
         self.force.into()
     }
 
-    /// Its moment about the place (N·m), ground axes.
+    /// Returns the moment about the reference point (N·m), in ground axes.
     #[must_use]
     pub fn torque_vector(&self) -> Vector3<f64> {
         self.torque.into()

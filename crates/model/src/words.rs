@@ -1,12 +1,14 @@
-//! Numbers and lists in messages, short enough to be read.
+//! Short numbers and lists in messages.
 
-/// Names of a list that is written out; a longer one is its first names and a count.
+/// Largest number of names that are listed completely. A longer list consists of its first names
+/// and a count.
 pub const LISTED: usize = 12;
 
-/// Names that stand for a longer list.
+/// Number of names that represent a longer list.
 const FIRST: usize = 3;
 
-/// Names separated by commas; of more than [`LISTED`] the first three and the number of the others.
+/// Returns names separated by commas. If there are more than [`LISTED`], it returns the first three
+/// and the number of the others.
 ///
 /// ```
 /// let names = |n: usize| (1..=n).map(|k| format!("W{k}")).collect::<Vec<_>>();
@@ -27,7 +29,7 @@ pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
     }
 }
 
-/// A number with six significant digits.
+/// Returns a number with six significant digits.
 ///
 /// ```
 /// assert_eq!(pfaff_model::words::rounded(0.500_000_000_001), "0.5");
@@ -43,9 +45,9 @@ pub fn rounded(x: f64) -> String {
     }
 }
 
-/// Units of lengths (m), each with the smallest length that is written in it: hundredths of a
-/// millimetre are usual, hundredths of a metre are not. The bounds are a little smaller because of
-/// rounding.
+/// Units of lengths (m), each with the smallest length that is printed in it. Hundredths of a
+/// millimetre are common, but hundredths of a metre are not. The bounds are slightly smaller
+/// because of rounding.
 const UNITS: [(f64, f64, &str); 4] = [
     (1.0, 0.099, "m"),
     (1e-3, 0.99e-5, "mm"),
@@ -53,7 +55,7 @@ const UNITS: [(f64, f64, &str); 4] = [
     (1e-9, 0.99e-10, "nm"),
 ];
 
-/// A length (m) with two digits, in the unit that people say.
+/// Formats a length (m) with two digits, in the common unit for its size.
 ///
 /// ```
 /// assert_eq!(pfaff_model::words::length(3.58e-4), "0.36 mm");

@@ -27,6 +27,7 @@ use crate::resources::{Memory, Resources};
 #[command(
     name = "pfaff",
     version,
+    term_width = 80,
     after_help = "Exit codes: 0 done, 1 the computation stopped, 2 the input is wrong."
 )]
 pub(crate) struct Arguments {
@@ -38,25 +39,25 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     #[command(flatten)]
     Ask(AskCommand),
-    /// Create a scene from a template; without a name, list the templates
+    /// Create a scene from a template, or list the templates
     #[command(after_help = examples::NEW)]
     New(New),
-    /// A scene from a model of a robot: MJCF, URDF or SDF
+    /// Convert a robot model (MJCF, URDF, SDF) to a scene
     #[command(after_help = examples::IMPORT)]
     Import(Import),
     /// Draw the assembled start, with joints marked by their verdicts
     #[command(after_help = examples::VIEW)]
     View(View),
-    /// What the code of an error means, and what to do; without a code, list all
+    /// Explain an error code, or list all codes
     #[command(after_help = examples::EXPLAIN)]
     Explain(Explain),
-    /// The JSON schema of scene files, for editors, or that of an answer
+    /// Print the JSON schema of scenes or of an answer
     #[command(after_help = examples::SCHEMA)]
     Schema(Schema),
-    /// Completions for a shell, on standard output
+    /// Print completions for a shell
     #[command(after_help = examples::COMPLETIONS)]
     Completions(Completions),
-    /// The manual page, on standard output
+    /// Print the manual page
     #[command(after_help = examples::MAN)]
     Man(Man),
 }
@@ -78,52 +79,51 @@ impl Command {
 
 #[derive(Args)]
 pub(crate) struct New {
-    /// The template; without it, list all templates
+    /// Template [default: list all templates]
     #[arg(value_parser = named(Template::ALL, Template::name), value_name = "TEMPLATE")]
     pub(crate) template: Option<Template>,
-    /// File for the scene, or - for standard output; default: TEMPLATE.toml
+    /// Output file, or - for standard output [default: TEMPLATE.toml]
     #[arg(long, value_name = "FILE", requires = "template")]
     pub(crate) out: Option<PathBuf>,
-    /// Replace an existing file
+    /// Overwrite an existing file
     #[arg(long, requires = "template")]
     pub(crate) force: bool,
-    /// The written file, or the templates, as one JSON document on standard output
+    /// Print the written file or the templates as a JSON document
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 #[derive(Args)]
 pub(crate) struct Import {
-    /// File to import, or - for standard input; its root tells the format
+    /// Model file, or - for standard input; its root element states the format
     pub(crate) file: PathBuf,
-    /// File for the scene, or - for standard output
+    /// Output file, or - for standard output
     #[arg(long, value_name = "SCENE")]
     pub(crate) out: PathBuf,
-    /// Replace an existing file
+    /// Overwrite an existing file
     #[arg(long)]
     pub(crate) force: bool,
-    /// Keep links that are fixed to others as bodies with `fixed` joints; by default they become
-    /// parts of the others
+    /// Keep fixed links as bodies with `fixed` joints [default: merge them]
     #[arg(long)]
     pub(crate) keep_fixed: bool,
-    /// What becomes of the root link of a URDF
+    /// Root link of a URDF
     #[arg(long, value_name = "BASE", default_value = "fixed", value_parser = named(&Base::ALL, Base::name))]
     pub(crate) base: Base,
-    /// A YAML file with the loops of a URDF: `closed_loop`, pairs of links, and `type`, 3d or 6d
+    /// YAML file with the loop closures of a URDF
     #[arg(long, value_name = "YAML")]
     pub(crate) loops: Option<PathBuf>,
-    /// Values of coordinates near which loops are closed (m, rad), as knee=0.6,hip=-0.3
+    /// Close loops near these coordinates (m, rad), e.g. knee=0.6,hip=-0.3
     #[arg(long, value_name = "JOINT=VALUE", value_delimiter = ',', allow_hyphen_values = true, value_parser = joint_value, conflicts_with = "keyframe")]
     pub(crate) pose: Vec<(String, f64)>,
-    /// Make axes of a loop parallel, or make them meet, where they nearly are or do
+    /// Correct loop axes that are nearly parallel or nearly intersect
     #[arg(long)]
     pub(crate) snap: bool,
-    /// Start at this keyframe of the file
+    /// Start at a keyframe of the file
     #[arg(long, value_name = "NAME")]
     pub(crate) keyframe: Option<String>,
     #[command(flatten)]
     pub(crate) memory: Memory,
-    /// What is left out, and what was written, as one JSON document on standard output
+    /// Print omissions and written files as a JSON document
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -132,18 +132,16 @@ pub(crate) struct Import {
 pub(crate) struct View {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
-    /// File to write: a page (.html) or only its picture (.svg, .png); by default a page with the
-    /// name of the scene file, in this directory
+    /// Output file: page (.html) or picture (.svg, .png) [default: SCENE.html in this directory]
     #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
-    /// Write the picture as PNG, with the name of the scene file, in this directory
+    /// Write the picture to SCENE.png in this directory
     #[arg(long, conflicts_with = "out")]
     pub(crate) png: bool,
-    /// Pixels of a PNG for each px of the picture, which is 960 px wide, from 0.1 to 20; by default
-    /// 2
+    /// PNG pixels per px of the picture (960 px wide), 0.1 to 20 [default: 2]
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(crate) scale: Option<f64>,
-    /// Also replace a file that pfaff has not written
+    /// Overwrite a file not created by pfaff
     #[arg(long)]
     pub(crate) force: bool,
     /// Do not open the file
@@ -153,26 +151,26 @@ pub(crate) struct View {
     pub(crate) known: SceneOptions,
     #[command(flatten)]
     pub(crate) resources: Resources,
-    /// The written file as one JSON document on standard output; opens nothing
+    /// Print the written file as a JSON document; do not open it
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 #[derive(Args)]
 pub(crate) struct Explain {
-    /// The code, as P0102
+    /// Error code, e.g. P0102
     pub(crate) code: Option<String>,
     /// The page of the book with all codes
     #[arg(long, hide = true, conflicts_with = "json")]
     pub(crate) book: bool,
-    /// The code, or all codes, as one JSON document on standard output
+    /// Print the code, or all codes, as a JSON document
     #[arg(long)]
     pub(crate) json: bool,
 }
 
 #[derive(Args)]
 pub(crate) struct Schema {
-    /// The question whose answer with --json is described; without it: scene files
+    /// Command whose JSON answer is described [default: scene files]
     #[arg(value_parser = PossibleValuesParser::new(Questions::FACTS.iter().map(|facts| facts.name)))]
     pub(crate) question: Option<String>,
 }
@@ -185,6 +183,6 @@ pub(crate) struct Completions {
 
 #[derive(Args)]
 pub(crate) struct Man {
-    /// The command whose page is printed; without it, the page of all commands
+    /// Command whose page is printed [default: page of all commands]
     pub(crate) command: Option<String>,
 }

@@ -1,5 +1,5 @@
-//! Questions on the command line: the options of a question, the scenes that it is asked about, and
-//! the ways in which its answer is wanted. No question is known by name here.
+//! Questions on the command line: the options of a question, the scenes that are its subject, and
+//! the form of its answer. This module refers to no question by name.
 
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
@@ -10,7 +10,7 @@ use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand, ValueHint
 use pfaff::question::{self, AnyAnswer, Control, Ending, NOTHING_WRITTEN, Output, Place, Writing};
 use pfaff::questions::{Facts, Questions};
 use pfaff::report::{FileError, OutputDirectory};
-use pfaff::words;
+use pfaff::words::{self, Verbosity};
 
 use crate::args::SceneOptions;
 use crate::console::Console;
@@ -22,7 +22,7 @@ use crate::provenance::provenance;
 use crate::resources::Resources;
 use crate::watch;
 
-/// A question that is asked on the command line.
+/// A question on the command line.
 pub(crate) struct AskCommand {
     question: Questions,
     facts: &'static Facts,
@@ -31,34 +31,37 @@ pub(crate) struct AskCommand {
     of: CommonOptions,
 }
 
-// The comments of these structs are not help texts: those of the questions are.
+// The comments of these structs are not help texts; the comments of the questions are.
 
-/// Where the files of an answer go.
+/// Options for the files of an answer.
 #[derive(Args, Clone, Default)]
 pub struct OutputOptions {
     /// Directory for the files of the answer
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Also replace files there that pfaff has not written
+    /// Overwrite files not created by pfaff
     #[arg(long, requires = "out")]
     pub force: bool,
 }
 
 #[derive(Args)]
 struct CommonOptions {
-    /// Ask again whenever a file changes, until Ctrl-C
+    /// Repeat whenever a file changes, until Ctrl-C
     #[arg(long, conflicts_with = "json")]
     watch: bool,
     #[command(flatten)]
     known: SceneOptions,
     #[command(flatten)]
     resources: Resources,
-    /// The answer as one JSON document on standard output
+    /// Print the answer as a JSON document
     #[arg(long)]
     json: bool,
+    /// Print more details
+    #[arg(long, conflicts_with = "json")]
+    verbose: bool,
 }
 
-/// The name of the argument with the scenes.
+/// Name of the argument with the scenes.
 const SCENES: &str = "scenes";
 
 impl Subcommand for AskCommand {
@@ -66,7 +69,7 @@ impl Subcommand for AskCommand {
         let all = Questions::augment_subcommands(command);
         let complete = |all: Command, facts: &Facts| {
             all.mut_subcommand(facts.name, |own| {
-                // Options that are added must not say what the question is.
+                // The added options must not replace the description of the question.
                 let about = own.get_about().cloned().unwrap_or_default();
                 let scenes = Arg::new(SCENES)
                     .help("Scene file, or - for standard input")
@@ -79,7 +82,7 @@ impl Subcommand for AskCommand {
                 let own = match facts.output {
                     None => own,
                     Some(output) => OutputOptions::augment_args(own).mut_arg("out", |out| {
-                        let help = format!("Directory for {}", output.contents);
+                        let help = format!("Output directory for {}", output.contents);
                         out.required(output.is_streamed()).help(help)
                     }),
                 };
@@ -124,7 +127,7 @@ impl FromArgMatches for AskCommand {
 }
 
 impl AskCommand {
-    /// The form of the answer.
+    /// Returns the form of the answer.
     pub(crate) fn answer(&self) -> Answer {
         if self.of.json {
             Answer::Json
@@ -133,7 +136,7 @@ impl AskCommand {
         }
     }
 
-    /// Asks, writes the files, and prints the answer.
+    /// Computes the answer, writes its files, and prints it.
     pub(crate) fn run(&self, console: &Console<'_>) -> Outcome {
         let is_stdin = |path: &&PathBuf| path.as_os_str() == OsStr::new("-");
         if self.scenes.iter().filter(is_stdin).count() > 1 {
@@ -155,12 +158,17 @@ impl AskCommand {
         Asking {
             output: output.zip(self.place.as_ref()),
             is_json: self.of.json,
+            verbosity: if self.of.verbose {
+                Verbosity::Details
+            } else {
+                Verbosity::Normal
+            },
             threads: self.of.resources.threads,
             hears,
         }
     }
 
-    /// Reads the scenes and asks.
+    /// Reads the scenes and computes the answer.
     fn asked<'a>(&'a self, console: &'a Console<'_>) -> impl FnOnce(&Control<'_>) -> Asks + 'a {
         move |control| {
             let CommonOptions {
@@ -178,26 +186,28 @@ impl AskCommand {
     }
 }
 
-/// An answer, or why there is none.
+/// An answer, or the reason why there is no answer.
 pub type Asks = Result<Box<dyn AnyAnswer>, Failure>;
 
-/// How an answer is wanted.
+/// The requested form of an answer.
 pub struct Asking<'a> {
-    /// Its files and their place, if they are wanted.
+    /// Files of the answer and their destination, if they are requested.
     pub output: Option<(Output, &'a OutputOptions)>,
-    /// Whether it is wanted as a document.
+    /// Whether the answer is requested as a document.
     pub is_json: bool,
+    /// How much of it is printed in words.
+    pub verbosity: Verbosity,
     /// Number of threads.
     pub threads: Option<NonZeroUsize>,
-    /// Whether requests to stop are for it.
+    /// Whether requests to stop apply to this answer.
     pub hears: Hears,
 }
 
 impl Asking<'_> {
-    /// Asks, writes the files, and prints the answer.
+    /// Computes the answer, writes its files, and prints it.
     ///
     /// # Errors
-    /// There is no answer, or it is not whole.
+    /// Returns an error if there is no answer, or if it is incomplete.
     pub fn run(&self, console: &Console<'_>, ask: impl FnOnce(&Control<'_>) -> Asks) -> Outcome {
         Interrupt::ends_at_once()?;
         let (text, ending) = self.answered(ask)?;
@@ -207,12 +217,12 @@ impl Asking<'_> {
         }
     }
 
-    /// The answer as text, after its files are written.
+    /// Returns the answer as text, after its files are written.
     fn answered(
         &self,
         ask: impl FnOnce(&Control<'_>) -> Asks,
     ) -> Result<(String, Ending), Failure> {
-        // A place that is none is refused before anything is computed.
+        // An invalid directory is rejected before the computation.
         let place = self.output.and_then(|(output, place)| {
             Some(Directory::open(place.out.as_ref()?, output, place.force))
         });
@@ -244,27 +254,27 @@ impl Asking<'_> {
         let text = if self.is_json {
             answer.json()?
         } else {
-            words::text(&answer.words()) + &written
+            words::text(&answer.words(), self.verbosity) + &written
         };
         Ok((text, answer.ending()))
     }
 }
 
-/// Whether requests to stop are for the answer.
+/// Whether requests to stop apply to the answer.
 #[derive(Clone, Copy)]
 pub enum Hears {
-    /// The first one ends the work, and what is done is the answer.
+    /// The first request ends the work, and the results so far are the answer.
     Stops,
-    /// They are for whoever asks again and again.
+    /// Requests apply to the caller, which repeats the question.
     Not,
 }
 
-/// The directory of an answer.
+/// The directory for the files of an answer.
 struct Directory {
     path: PathBuf,
     output: Output,
     directory: OutputDirectory,
-    /// What is being written.
+    /// Name of the result that is being written.
     begun: Arc<Mutex<Option<String>>>,
 }
 
@@ -292,7 +302,7 @@ impl Directory {
         *self.begun.lock().unwrap_or_else(PoisonError::into_inner) = Some(what);
     }
 
-    /// What is done, and said, if the work has to be ended.
+    /// Returns the final action if the work has to be ended: it writes files and returns a message.
     fn last_act(&self) -> impl Fn() -> String + Send + Sync + use<> {
         let (directory, begun) = (self.directory.clone(), Arc::clone(&self.begun));
         let writing = self.output.writing;
@@ -305,7 +315,7 @@ impl Directory {
         }
     }
 
-    /// Writes the files that are not written yet; says where they are.
+    /// Writes the files that are not written yet, and returns a text with their location.
     fn write(&self, answer: &dyn AnyAnswer) -> Result<String, Failure> {
         let (path, family) = (self.path.display().to_string(), self.output.family);
         if self.output.is_streamed() {

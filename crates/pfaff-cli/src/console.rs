@@ -1,5 +1,5 @@
-//! The streams that answers go to, and the registry of joints and forces. A closed output ends the
-//! command without a message.
+//! The streams for answers, and the registry of joints and forces. A closed output ends the command
+//! without a message.
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
@@ -13,14 +13,14 @@ use serde::Serialize;
 use crate::interrupt::note_answer;
 use crate::output::{Answer, Failure, Outcome, Refusal, json, visible};
 
-/// A stream for output, and whether it can show colours.
+/// An output stream, with the information whether it can show colours.
 pub struct Stream<'w> {
     writer: &'w mut dyn Write,
     is_terminal: bool,
 }
 
 impl<'w> Stream<'w> {
-    /// A file or a buffer: without colours.
+    /// Wraps a file or a buffer, without colours.
     pub fn plain(writer: &'w mut dyn Write) -> Self {
         Self {
             writer,
@@ -28,7 +28,7 @@ impl<'w> Stream<'w> {
         }
     }
 
-    /// A stream of the process: with colours if it is a terminal.
+    /// Wraps a stream of the process, with colours if it is a terminal.
     pub fn terminal(writer: &'w mut (impl Write + IsTerminal)) -> Self {
         Self {
             is_terminal: writer.is_terminal(),
@@ -51,7 +51,7 @@ pub struct Console<'c> {
 }
 
 impl<'c> Console<'c> {
-    /// A console with these streams.
+    /// Creates a console with these streams.
     pub fn new(registry: &'c Registry, out: Stream<'c>, err: Stream<'c>) -> Self {
         Self {
             registry,
@@ -72,7 +72,7 @@ impl<'c> Console<'c> {
     /// Writes an answer as a document.
     ///
     /// # Errors
-    /// As [`Console::print`].
+    /// Returns the errors of [`Console::print`].
     pub fn document(&self, document: &impl Serialize) -> Outcome {
         self.print(&json(document)?)
     }
@@ -80,7 +80,7 @@ impl<'c> Console<'c> {
     /// Writes an answer piece by piece.
     ///
     /// # Errors
-    /// As [`Console::print`].
+    /// Returns the errors of [`Console::print`].
     pub fn write(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Outcome {
         let out = &mut self.out.borrow_mut();
         note_answer();
@@ -91,8 +91,8 @@ impl<'c> Console<'c> {
         })
     }
 
-    /// Writes the results of a computation that was not finished. That it was not finished is the
-    /// outcome, whether or not the output can be written.
+    /// Writes the results of an incomplete computation. The function always returns this outcome,
+    /// whether or not the output can be written.
     pub fn incomplete(&self, text: &str) -> Failure {
         match self.print(text) {
             Ok(()) | Err(Failure::Closed) => Failure::Incomplete,
@@ -100,9 +100,9 @@ impl<'c> Console<'c> {
         }
     }
 
-    /// Writes a remark among the errors, for people.
+    /// Writes a remark to standard error.
     pub fn note(&self, text: &str) {
-        // One that cannot be written is not missed.
+        // If the remark cannot be written, it is discarded.
         let _ = self
             .err
             .borrow_mut()
@@ -119,8 +119,8 @@ impl<'c> Console<'c> {
         is_coloured(&self.out.borrow())
     }
 
-    /// Reports why a command did not finish, in words or as a document among the answers, and
-    /// returns the exit code.
+    /// Reports the reason why a command did not finish, as text or as a document that replaces the
+    /// answer, and returns the exit code.
     pub fn report(&self, failure: Failure, answer: Answer) -> ExitCode {
         let code = match failure {
             Failure::Closed => return ExitCode::SUCCESS,
@@ -135,7 +135,7 @@ impl<'c> Console<'c> {
         if let Some(failure) = unsaid {
             let mut err = self.err.borrow_mut();
             let words = failure.words(is_coloured(&err));
-            // An error on standard error itself cannot be reported anywhere.
+            // A write error on standard error cannot be reported.
             let _ = err.write(words.as_bytes());
         }
         ExitCode::from(code)
@@ -169,13 +169,13 @@ impl<'c> Console<'c> {
             NO_COMMAND => format!("{}\n{text}", failure.words(is_coloured(&stream))),
             _ => text.replacen(": ", &format!("[{}]: ", const { Code::new(1) }), 1),
         };
-        // An error on standard error itself cannot be reported anywhere.
+        // A write error on standard error cannot be reported.
         let _ = stream.write(text.as_bytes());
         ExitCode::from(2)
     }
 }
 
-/// The kind of error whose text is the help alone.
+/// The error kind whose text contains only the help.
 const NO_COMMAND: ErrorKind = ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand;
 
 fn rendered(message: &clap::Error, stream: &Stream<'_>) -> String {
@@ -187,7 +187,7 @@ fn rendered(message: &clap::Error, stream: &Stream<'_>) -> String {
     }
 }
 
-/// An error in the command line without its paragraphs about usage.
+/// Returns an error in the command line without its paragraphs about usage.
 fn in_one_line(message: &clap::Error) -> String {
     if message.kind() == NO_COMMAND {
         return "there is no command; `--help` lists all".to_owned();
@@ -209,8 +209,8 @@ fn unprintable(e: &io::Error) -> Failure {
     Failure::stopped(format!("cannot write to standard output: {e}")).coded(const { Code::new(6) })
 }
 
-/// Whether the stream shows colours and the user wants them: an empty `NO_COLOR` counts as not set
-/// (no-color.org), and a dumb terminal would show the codes of colours.
+/// Whether the stream shows colours and the user enables them: an empty `NO_COLOR` counts as not
+/// set (no-color.org), and a dumb terminal would print the colour codes.
 fn is_coloured(stream: &Stream<'_>) -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let is_dumb = std::env::var_os("TERM").is_some_and(|value| value == "dumb");

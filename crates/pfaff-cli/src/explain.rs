@@ -1,4 +1,5 @@
-//! `pfaff explain`: what the code of an error means, and what to do.
+//! The command `pfaff explain`: prints the meaning of the code of an error, and the possible
+//! remedies.
 
 use pfaff::documents::CodesDocument;
 use pfaff::explain;

@@ -1,4 +1,4 @@
-//! `pfaff import`: a scene from a model of a robot.
+//! The command `pfaff import`: converts a robot model to a scene.
 
 use std::path::Path;
 

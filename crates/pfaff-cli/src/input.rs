@@ -1,4 +1,4 @@
-//! A scene file from the command line, or standard input.
+//! Reads a scene file from the command line, or from standard input.
 
 use std::io;
 use std::path::Path;
@@ -20,14 +20,14 @@ pub use pfaff::source::LARGEST;
 pub(crate) struct Source<'r> {
     pub(crate) name: String,
     pub(crate) text: String,
-    /// Takes precedence over the tolerance that the scene states.
+    /// Tolerance that takes precedence over the tolerance that the scene states.
     pub(crate) tolerance: Tolerance,
     /// The joints and forces that the scene may use.
     pub(crate) registry: &'r Registry,
 }
 
 impl<'r> Source<'r> {
-    /// Reads a file, or standard input for `-`, with other numbers in it.
+    /// Reads a file, or standard input for `-`, and replaces numbers in it.
     pub(crate) fn read(
         path: &Path,
         settings: &Settings,
@@ -42,7 +42,7 @@ impl<'r> Source<'r> {
         })
     }
 
-    /// The same scene with numbers known to this.
+    /// Returns the same scene with this accuracy of its numbers.
     pub(crate) fn known(self, known: &SceneOptions) -> Self {
         Self {
             tolerance: known.into(),
@@ -50,7 +50,7 @@ impl<'r> Source<'r> {
         }
     }
 
-    /// The same as the subject of a question.
+    /// Converts the scene to the subject of a question.
     pub(crate) fn start(self, resources: Resources) -> Start<'r> {
         let budget = resources.memory.budget();
         let mut start = Start::new(self.name, self.text, self.registry, budget);
@@ -59,16 +59,16 @@ impl<'r> Source<'r> {
     }
 }
 
-/// The scene of a file, or of standard input for `-`.
+/// Reads the scene of a file, or of standard input for `-`.
 ///
 /// # Errors
-/// The file cannot be read.
+/// Returns an error if the file cannot be read.
 pub fn start<'r>(path: &Path, console: &Console<'r>) -> Result<Start<'r>, Failure> {
     let source = Source::read(path, &Settings::default(), console)?;
     Ok(source.start(Resources::default()))
 }
 
-/// The name in messages and the text of a file, or of standard input for `-`.
+/// Returns the name in messages and the text of a file, or of standard input for `-`.
 pub(crate) fn text_of(path: &Path) -> Result<(String, String), Failure> {
     if path.as_os_str() == "-" {
         let name = "<stdin>".to_owned();
@@ -78,8 +78,8 @@ pub(crate) fn text_of(path: &Path) -> Result<(String, String), Failure> {
     Ok(source::of_file(path)?)
 }
 
-/// The text of a scene with other numbers in it. One that is not TOML stays as it is: its reader
-/// says what is wrong.
+/// Returns the text of a scene with other numbers in it. A text that is not TOML remains unchanged,
+/// because the reader of scenes reports its errors.
 fn with_settings(text: String, Settings { list }: &Settings) -> Result<String, Failure> {
     if list.is_empty() {
         return Ok(text);
@@ -94,12 +94,14 @@ fn with_settings(text: String, Settings { list }: &Settings) -> Result<String, F
     Ok(template.with_expressions(&expressions))
 }
 
-/// A file that cannot be read, with the scene in its directory that was probably meant.
+/// Builds the error for a file that cannot be read; it suggests a scene in the same directory with
+/// a similar name.
 pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
     source::unreadable(path, e).into()
 }
 
-/// The error for an unknown name, with the name that was probably meant and the known names.
+/// Builds the error for an unknown name, with the most similar known name and a list of the known
+/// names.
 pub fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
     let near = nearest(name, known.iter().copied());
     let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));

@@ -1,6 +1,6 @@
-//! Requests to stop from outside: Ctrl-C, the end of the terminal, and the signal that ends
-//! processes. A command that has results to keep hears the first request and ends by itself; if it
-//! has not ended after a short time, or at the second request, its process ends.
+//! Requests to stop from outside: Ctrl-C, the end of the terminal, and the termination signal. A
+//! command that has results to keep receives the first request and ends itself. If it has not ended
+//! after a short time, or at the second request, its process ends.
 
 use std::io::{self, Write};
 use std::process;
@@ -17,51 +17,53 @@ use crate::output::{Answer, Failure};
 /// Exit code of a program that was interrupted.
 const INTERRUPTED: i32 = 1;
 
-/// Time that a command has to end by itself: with the time for its last act it is less than a
-/// second, after which people press Ctrl-C again.
+/// Time within which a command has to end itself. Together with the time for its last action it is
+/// less than a second, after which users press Ctrl-C again.
 const GRACE: Duration = Duration::from_millis(600);
 
-/// Time for the last act of a command that has to be ended.
+/// Time for the last action of a command that has to be ended.
 const LAST_ACT: Duration = Duration::from_millis(250);
 
-/// What is left to do for a command that is ended: it puts the files in order, and says what was
-/// kept.
+/// The last action of a command that is ended: it completes the files, and returns a text on the
+/// saved results.
 type LastAct = Arc<dyn Fn() -> String + Send + Sync>;
 
-/// Requests to stop, as heard by a command that keeps its results.
+/// Requests to stop for a command that keeps its results.
 pub struct Interrupt(Arc<AtomicBool>);
 
-/// What a request does at present.
+/// The current effect of a request.
 enum Action {
-    /// Ends the process with this code; a code other than 0 with these words.
+    /// Ends the process with this exit code; for a code other than 0 it prints this message.
     End(i32, &'static str),
-    /// Is heard by the command; the process ends after a time, or at the second request.
+    /// The command receives the request; the process ends after a time limit, or at the second
+    /// request.
     Hear {
         asked: Arc<AtomicBool>,
         last_act: LastAct,
     },
 }
 
-/// The action, and the form of its words. A later command of the same process replaces it.
+/// The current effect, and the form of its message. A later command of the same process replaces
+/// it.
 static ACTION: Mutex<Option<Action>> = Mutex::new(None);
 static AS_JSON: AtomicBool = AtomicBool::new(false);
-/// Whether the command has answered.
+/// Whether the command has printed its answer.
 static ANSWERED: AtomicBool = AtomicBool::new(false);
 
 impl Interrupt {
-    /// Starts listening for requests.
+    /// Starts to listen for requests.
     ///
     /// # Errors
-    /// If the system does not allow it.
+    /// Returns an error if the system does not allow it.
     pub fn listen() -> Result<Self, Failure> {
         Self::listen_with(|| "interrupted".to_owned())
     }
 
-    /// Starts listening for requests; `last_act` puts files in order if the command has to be
-    /// ended, and returns what it has kept, in words.
+    /// Starts to listen for requests; `last_act` completes the files if the command has to be
+    /// ended, and returns a text on the saved results.
     ///
     /// # Errors
-    /// If the system does not allow it.
+    /// Returns an error if the system does not allow it.
     pub fn listen_with(
         last_act: impl Fn() -> String + Send + Sync + 'static,
     ) -> Result<Self, Failure> {
@@ -73,19 +75,19 @@ impl Interrupt {
         Ok(Self(asked))
     }
 
-    /// Starts listening for a command without results to keep: the first request ends it.
+    /// Starts to listen for a command without results to keep: the first request ends it.
     ///
     /// # Errors
-    /// As [`Interrupt::listen`].
+    /// Returns the errors of [`Interrupt::listen`].
     pub fn ends_at_once() -> Result<(), Failure> {
         on_request(Action::End(INTERRUPTED, NOTHING_WRITTEN))
     }
 
-    /// Starts listening for a command that runs until it is stopped: a request is its normal end,
+    /// Starts to listen for a command that runs until it is stopped: a request is its normal end,
     /// not a failure.
     ///
     /// # Errors
-    /// As [`Interrupt::listen`].
+    /// Returns the errors of [`Interrupt::listen`].
     pub fn ends_well() -> Result<(), Failure> {
         on_request(Action::End(0, ""))
     }
@@ -97,7 +99,7 @@ impl Interrupt {
 }
 
 impl Drop for Interrupt {
-    /// The command is over: there is nothing to wait for.
+    /// The command has ended, so no last action is needed.
     fn drop(&mut self) {
         let mut present = action();
         let is_own = |action: &Action| matches!(action, Action::Hear { asked, .. } if Arc::ptr_eq(asked, &self.0));
@@ -107,13 +109,13 @@ impl Drop for Interrupt {
     }
 }
 
-/// Sets the form of words about requests of the command that begins.
+/// Sets the form of messages about requests for the command that begins.
 pub(crate) fn answer_as(answer: Answer) {
     AS_JSON.store(matches!(answer, Answer::Json), Ordering::Relaxed);
     ANSWERED.store(false, Ordering::Relaxed);
 }
 
-/// Notes that the command has answered: no other document may follow.
+/// Records that the command has printed its answer: no other document may follow.
 pub(crate) fn note_answer() {
     ANSWERED.store(true, Ordering::Relaxed);
 }
@@ -126,7 +128,8 @@ fn on_request(new: Action) -> Result<(), Failure> {
     if action().replace(new).is_some() {
         return Ok(());
     }
-    // Listening needs a thread. Where there is none, the system ends the process as it always does.
+    // The listener needs a thread. If no thread can be started, the system ends the process in its
+    // default way.
     if thread::Builder::new().spawn(|| ()).is_err() {
         return Ok(());
     }
@@ -134,7 +137,7 @@ fn on_request(new: Action) -> Result<(), Failure> {
         .map_err(|e| Failure::stopped(format!("cannot listen for interrupts: {e}")))
 }
 
-/// Reacts to a request, on a thread of its own.
+/// Reacts to a request, on a separate thread.
 fn heard() {
     let present = action();
     match present.as_ref() {
@@ -161,18 +164,18 @@ fn heard() {
                 }
             };
             if thread::Builder::new().spawn(late).is_err() {
-                // Then only a second request ends the process.
+                // In this case only a second request ends the process.
             }
         }
     }
 }
 
-/// Ends the process after its last act and its last words, as far as there is time for them.
+/// Ends the process after its last action and its last message, if there is enough time for them.
 fn end(code: i32, last_act: impl FnOnce() -> String + Send + 'static) -> ! {
     let (done, is_done) = channel();
     let act = move || {
         say(&last_act());
-        // Nobody listens if it took too long.
+        // If the action took too long, the receiver no longer exists.
         let _ = done.send(());
     };
     if thread::Builder::new().spawn(act).is_ok() {
@@ -181,14 +184,14 @@ fn end(code: i32, last_act: impl FnOnce() -> String + Send + 'static) -> ! {
     process::exit(code)
 }
 
-/// Writes the last words to the streams of the process, because those of the command may be
+/// Writes the last message to the streams of the process, because the streams of the command may be
 /// blocked.
 fn say(words: &str) {
     if words.is_empty() || ANSWERED.load(Ordering::Relaxed) {
         return;
     }
     let failure = Failure::stopped(words.to_owned()).coded(BY_REQUEST);
-    // The process ends, whether or not anybody hears it.
+    // The process ends even if the message cannot be written.
     let _ = if AS_JSON.load(Ordering::Relaxed) {
         let document = failure.document().unwrap_or_default();
         io::stdout().write_all(document.as_bytes())

@@ -30,12 +30,12 @@ pub use console::Stream;
 use output::{Answer, Outcome};
 pub use pfaff::command::named;
 
-/// Runs one command: `arguments` begin with the name of the program, `registry` contains the joints
-/// and forces that scenes can use.
+/// Runs one command: `arguments` begins with the name of the program, `registry` contains the
+/// joints and forces that scenes can use.
 ///
-/// Answers are written to `out`, errors to `err`. Exit codes: 0 done (also if the reader has closed
-/// `out`), 1 the computation stopped or was interrupted, 2 the input is wrong. With `--json`, `out`
-/// receives exactly one document in every case.
+/// Answers are written to `out`, errors to `err`. Exit codes: 0 means success (also if the reader
+/// has closed `out`), 1 means that the computation stopped or was interrupted, and 2 means invalid
+/// input. With `--json`, `out` receives exactly one document in every case.
 ///
 /// ```
 /// use pfaff::model::Registry;
@@ -60,17 +60,17 @@ where
 
 /// A parsed command line.
 pub trait CommandLine: Parser {
-    /// The form of the answer.
+    /// Returns the form of the answer.
     fn answer(&self) -> Answer;
 
     /// Executes the command.
     ///
     /// # Errors
-    /// The reason why the command did not finish.
+    /// Returns the reason why the command did not finish.
     fn run(&self, console: &Console<'_>) -> Outcome;
 }
 
-/// Runs one command line, as [`run`] does, of a program with additional commands.
+/// Runs one command line, as [`run`] does, for a program with additional commands.
 pub fn serve<'a, C, I>(
     registry: &'a Registry,
     arguments: I,
@@ -97,8 +97,8 @@ where
     }
 }
 
-/// A refusal of words of the command line, with what other programs call by that name if clap knows
-/// nothing like it.
+/// Adds a suggestion to an error about an unknown word of the command line: the name of the same
+/// concept in this program, if clap finds no similar word.
 fn with_suggestion(mut e: clap::Error, program: clap::Command, words: &[OsString]) -> clap::Error {
     let said = |kind| match e.get(kind) {
         Some(ContextValue::String(word)) => Some(word.clone()),

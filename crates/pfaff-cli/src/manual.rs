@@ -9,7 +9,7 @@ use crate::args::{Arguments, Completions, Man as Page, Schema};
 use crate::console::Console;
 use crate::output::{Failure, Outcome};
 
-/// `pfaff schema`
+/// The command `pfaff schema`.
 pub(crate) fn schema(arguments: &Schema, console: &Console<'_>) -> Outcome {
     let all = Questions::FACTS.iter();
     let mut of_answer = all.filter(|facts| arguments.question.as_deref() == Some(facts.name));
@@ -19,7 +19,7 @@ pub(crate) fn schema(arguments: &Schema, console: &Console<'_>) -> Outcome {
     console.print(&format!("{:#}\n", scene::schema(console.registry)))
 }
 
-/// `pfaff completions`
+/// The command `pfaff completions`.
 pub(crate) fn completions(arguments: &Completions, console: &Console<'_>) -> Outcome {
     let mut out = Vec::new();
     let mut command = Arguments::command();
@@ -27,7 +27,7 @@ pub(crate) fn completions(arguments: &Completions, console: &Console<'_>) -> Out
     console.print(&String::from_utf8_lossy(&out))
 }
 
-/// `pfaff man`
+/// The command `pfaff man`.
 pub(crate) fn page(arguments: &Page, console: &Console<'_>) -> Outcome {
     let mut whole = Arguments::command();
     whole.build();
@@ -51,12 +51,12 @@ pub(crate) fn page(arguments: &Page, console: &Console<'_>) -> Outcome {
     console.print(&text)
 }
 
-/// Lines in the syntax of `man`, without filling.
+/// Formats lines in the syntax of `man`, without filling.
 fn set(text: &str) -> String {
     let mut out = String::new();
     for line in text.lines() {
         let line = line.replace('\\', "\\e").replace('-', "\\-");
-        // A point or an apostrophe at the beginning of a line would be a command.
+        // A point or an apostrophe at the beginning of a line would start a macro.
         if line.starts_with(['.', '\'']) {
             out.push_str("\\&");
         }

@@ -1,4 +1,4 @@
-//! `pfaff new`: creates a scene from a template.
+//! The command `pfaff new`: creates a scene from a template.
 
 use std::path::PathBuf;
 

@@ -18,14 +18,14 @@ pub use pfaff::words::{columns, count, wrapped};
 /// The form of an answer.
 #[derive(Clone, Copy)]
 pub enum Answer {
-    /// Words for people.
+    /// Text for a reader.
     Words,
     /// One JSON document for programs, without other output.
     Json,
 }
 
 impl Answer {
-    /// The form that the words of a command line ask for which cannot be parsed.
+    /// Returns the form that the words of an invalid command line request.
     pub fn asked_by(words: &[OsString]) -> Self {
         let mut options = words.iter().take_while(|word| *word != "--");
         if options.any(|word| word == "--json") {
@@ -45,7 +45,7 @@ pub enum Failure {
     Refused(Refusal),
     /// The reader has closed the output.
     Closed,
-    /// The computation stopped or was interrupted; its partial results have been written already.
+    /// The computation stopped or was interrupted; its partial results have already been written.
     Incomplete,
 }
 
@@ -68,17 +68,17 @@ impl From<Refusal> for Failure {
 }
 
 impl Failure {
-    /// A failure because of wrong input; the message states how to correct it.
+    /// Creates a failure because of invalid input; the message states how to correct it.
     pub fn input(message: String) -> Self {
         Refusal::input(message).into()
     }
 
-    /// A computation that stopped, with the reason.
+    /// Creates a failure of a computation that stopped, with the reason.
     pub fn stopped(message: String) -> Self {
         Refusal::stopped(message).into()
     }
 
-    /// The same failure with another code.
+    /// Returns the same failure with another code.
     #[must_use]
     pub fn coded(self, code: Code) -> Self {
         match self {
@@ -87,7 +87,7 @@ impl Failure {
         }
     }
 
-    /// Its code, if there is something to report.
+    /// Returns the code of the failure, if there is an error to report.
     pub fn code(&self) -> Option<Code> {
         match self {
             Self::Refused(refusal) => refusal.code(),
@@ -95,7 +95,7 @@ impl Failure {
         }
     }
 
-    /// The failure in words.
+    /// Returns the failure as text.
     pub fn words(&self, color: bool) -> String {
         match self {
             Self::Refused(refusal) => refusal.words(color),
@@ -103,11 +103,11 @@ impl Failure {
         }
     }
 
-    /// The failure as a document: `error` is one line, `problems` are the wrong places of a scene,
-    /// if there are any.
+    /// Returns the failure as a document: `error` is one line; `problems` contains the positions of
+    /// errors in a scene, if there are any.
     ///
     /// # Errors
-    /// As [`json`].
+    /// Returns the errors of [`json`].
     pub fn document(&self) -> Result<String, Self> {
         match self {
             Self::Refused(refusal) => json(&refusal.document()),
@@ -121,7 +121,8 @@ impl Failure {
     }
 }
 
-/// The files of an answer, which get their names together. A request to stop before leaves none.
+/// The files of an answer, which receive their names together. A request to stop before that time
+/// leaves no file.
 pub(crate) struct Files {
     directory: OutputDirectory,
     family: Family,
@@ -145,7 +146,7 @@ impl Files {
         })
     }
 
-    /// Writes a file next to its place.
+    /// Writes a file under a temporary name in its directory.
     pub(crate) fn put(&mut self, name: impl AsRef<OsStr>, content: &[u8]) -> Result<(), FileError> {
         let mut file = self.directory.file(name)?;
         file.put(content)?;
@@ -153,8 +154,8 @@ impl Files {
         Ok(())
     }
 
-    /// Gives all files their names, and removes what an earlier answer has left. Returns what other
-    /// commands have left there, in words.
+    /// Gives all files their final names, and removes the files of an earlier answer. Returns a
+    /// text on the files of other commands in the directory.
     pub(crate) fn finish(self) -> Result<String, Failure> {
         if self.interrupt.is_asked() {
             return Err(Failure::stopped(NOTHING_WRITTEN.to_owned()).coded(INTERRUPTED));
@@ -165,7 +166,7 @@ impl Files {
     }
 }
 
-/// What a scene may replace.
+/// Which existing files a scene may replace.
 pub(crate) fn replaces(force: bool) -> Replaces {
     if force {
         Replaces::Files
@@ -174,10 +175,10 @@ pub(crate) fn replaces(force: bool) -> Replaces {
     }
 }
 
-/// The family of a file that is the only one of its command.
+/// The family of a file that is the only file of its command.
 const SINGLE: Family = Family(&[]);
 
-/// Writes a single file next to its place, and renames it.
+/// Writes a single file under a temporary name in its directory, and renames it.
 pub(crate) fn write_file(path: &Path, content: &[u8], replaces: Replaces) -> Outcome {
     let around = OutputDirectory::around(path, replaces)?;
     let mut files = Files::of(&around, SINGLE)?;
@@ -185,7 +186,8 @@ pub(crate) fn write_file(path: &Path, content: &[u8], replaces: Replaces) -> Out
     files.finish().map(drop)
 }
 
-/// A sentence on what other commands have left in a directory; empty if they have left nothing.
+/// Returns a sentence on the files of other commands in a directory; empty if there are no such
+/// files.
 pub(crate) fn beside(directory: &OutputDirectory, family: Family) -> String {
     if family == SINGLE {
         return String::new();
@@ -202,10 +204,10 @@ pub(crate) fn beside(directory: &OutputDirectory, family: Family) -> String {
     )
 }
 
-/// A document as text.
+/// Returns a document as text.
 ///
 /// # Errors
-/// If it cannot be written.
+/// Returns an error if the document cannot be written.
 pub fn json(document: &impl Serialize) -> Result<String, Failure> {
     Ok(refusal::json(document)?)
 }

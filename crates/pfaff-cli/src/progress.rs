@@ -1,4 +1,5 @@
-//! What is done at present, on a terminal. Nothing is shown if standard error is none.
+//! Shows the current progress on a terminal. No progress is shown if standard error is not a
+//! terminal.
 
 use std::sync::{Mutex, PoisonError};
 use std::thread;
@@ -11,17 +12,17 @@ use pfaff::question;
 /// Texts of at least this size (bytes) take long to read.
 const LONG: usize = 1 << 20;
 
-/// Steps of the bar over a whole motion.
+/// Number of steps of the bar over a whole motion.
 const TICKS: f64 = 1000.0;
 
-/// The present lines of a terminal; dropping it removes them.
+/// The progress lines on a terminal; the destructor removes them.
 #[derive(Default)]
 pub(crate) struct Progress {
     all: MultiProgress,
     lines: Mutex<Vec<Line>>,
 }
 
-/// A bar, and what it shows.
+/// A bar, and the quantity that it shows.
 struct Line {
     what: &'static str,
     bar: ProgressBar,
@@ -64,7 +65,7 @@ impl Progress {
         }
     }
 
-    /// The bar that shows this, a new one if there is none.
+    /// Returns the bar for this quantity, and creates it if it does not exist.
     fn bar<'l>(
         &self,
         lines: &'l mut Vec<Line>,
@@ -78,7 +79,7 @@ impl Progress {
             if let Ok(style) = ProgressStyle::with_template(style) {
                 bar.set_style(style);
             }
-            // What was done before says nothing of the speed.
+            // The part that was done before does not count for the speed.
             bar.set_position(done);
             bar.reset_eta();
             lines.push(Line { what, bar });
@@ -93,7 +94,7 @@ impl Progress {
             bar.set_style(style);
         }
         bar.set_message(format!("{what}: {}", Bytes(bytes as u64)));
-        // The bar ticks on a thread of its own; without one it stands still.
+        // The bar is updated on a separate thread; without this thread it does not move.
         if !bar.is_hidden() && thread::Builder::new().spawn(|| ()).is_ok() {
             bar.enable_steady_tick(Duration::from_millis(100));
         }

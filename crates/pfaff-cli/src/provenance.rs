@@ -1,4 +1,4 @@
-//! Who asks: the machine, the program and its command line, and when.
+//! The origin of an answer: the machine, the program and its command line, and the time.
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use pfaff::report::Provenance;
 use pfaff::work_precision::provenance::{date, machine};
 
-/// The machine, versions, date and command of the results.
+/// Returns the machine, versions, date and command of the results.
 #[must_use]
 pub fn provenance() -> Provenance {
     Provenance {
@@ -21,7 +21,7 @@ pub fn provenance() -> Provenance {
     }
 }
 
-/// The command line without the directory of the program.
+/// Returns the command line without the directory of the program.
 fn command() -> String {
     let mut arguments = std::env::args_os();
     let program = arguments.next().map(PathBuf::from).unwrap_or_default();
@@ -31,7 +31,7 @@ fn command() -> String {
     words.join(" ")
 }
 
-/// A word of a command line as a shell reads it.
+/// Quotes a word of a command line in the syntax of a shell.
 fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:,=+@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {

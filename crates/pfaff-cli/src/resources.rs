@@ -1,5 +1,5 @@
 //! Limits of a command: threads and memory. A command that needs more memory than is available is
-//! refused before it starts, with the number of bytes.
+//! rejected before it starts, with the number of bytes.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,7 +12,7 @@ use crate::output::Failure;
 
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct Resources {
-    /// Largest number of threads; default: the number of cores
+    /// Maximum number of threads [default: number of cores]
     #[arg(long, value_name = "K")]
     pub(crate) threads: Option<NonZeroUsize>,
     #[command(flatten)]
@@ -21,14 +21,13 @@ pub(crate) struct Resources {
 
 #[derive(Args, Clone, Copy, Default)]
 pub(crate) struct Memory {
-    /// Largest memory, as 500MB or 4GiB: computations that need more are refused; default: the
-    /// available memory of the machine
+    /// Reject computations that need more memory, e.g. 500MB or 4GiB [default: available memory]
     #[arg(long, value_name = "SIZE")]
     pub(crate) max_memory: Option<Bytes>,
 }
 
-/// Starts the threads of all parallel computations; if the system does not allow them, the user is
-/// told once.
+/// Starts the threads of all parallel computations; if the system does not allow them, the command
+/// prints one message.
 pub(crate) fn start_threads(threads: Option<NonZeroUsize>, console: &Console<'_>) {
     static TOLD: AtomicBool = AtomicBool::new(false);
     if !pfaff::start_threads(threads) && !TOLD.swap(true, Ordering::Relaxed) {
@@ -44,7 +43,7 @@ impl Resources {
 }
 
 impl Memory {
-    /// Refuses a computation that needs more memory than is allowed.
+    /// Rejects a computation that needs more memory than is allowed.
     pub(crate) fn allow(self, bytes: usize, what: &str) -> Result<(), Failure> {
         Ok(self.budget().allow(bytes, what)?)
     }

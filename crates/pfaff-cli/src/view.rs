@@ -31,7 +31,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     } else {
         Replaces::Ours
     };
-    // Before anything is computed, too.
+    // This check is also performed before the computation.
     OutputDirectory::around(&path, replaces)?;
     arguments.resources.apply(console);
     let scene = source.start(arguments.resources);
@@ -97,7 +97,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     ))
 }
 
-/// The path of the file, and what it is.
+/// Returns the path of the file, and its format.
 fn place(arguments: &View) -> Result<(PathBuf, Form), Failure> {
     let scene = &arguments.scene;
     let (path, form) = match &arguments.out {
@@ -132,7 +132,7 @@ fn place(arguments: &View) -> Result<(PathBuf, Form), Failure> {
 fn show(path: &Path) -> Result<(), String> {
     let (program, before): (_, &[&str]) = match env::consts::OS {
         "macos" => ("open", &[]),
-        // The first quoted word would be taken as the title of a window.
+        // Without this argument the first quoted word would be the title of a window.
         "windows" => ("cmd", &["/C", "start", ""]),
         _ if !has_display() => return Err("there is no display".to_owned()),
         _ => ("xdg-open", &[]),
@@ -154,7 +154,7 @@ fn has_display() -> bool {
     is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")
 }
 
-/// A line on characters that are boxes; empty if there are none.
+/// Returns a line on characters that are drawn as boxes; empty if there are no such characters.
 fn missing(boxes: &str) -> String {
     if boxes.is_empty() {
         return String::new();

@@ -1,4 +1,4 @@
-//! Questions that are asked again whenever a file changes.
+//! Questions that are repeated whenever a file changes.
 
 use std::fs;
 use std::io;
@@ -11,13 +11,13 @@ use crate::input::unreadable;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, visible};
 
-/// Time between two looks at the files.
+/// Time between two checks of the files.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// Number of looks after which a missing file is reported: editors replace a file by another one.
+/// Number of checks after which a missing file is reported: editors replace a file by another one.
 const PATIENCE: usize = 3;
 
-/// Prints the answer, and again whenever one of the files has changed.
+/// Prints the answer, and prints it again whenever one of the files has changed.
 pub(crate) fn run(
     paths: &[PathBuf],
     console: &Console<'_>,
@@ -28,7 +28,7 @@ pub(crate) fn run(
             "--watch looks at a file again and again; standard input comes once".to_owned(),
         ));
     }
-    // A file that does not exist at the beginning has a wrong name.
+    // If a file does not exist at the beginning, its name is wrong.
     let mut seen = stamps(paths)?;
     let named: Vec<String> = paths
         .iter()
@@ -38,7 +38,7 @@ pub(crate) fn run(
     let heading = visible(&heading);
     Interrupt::ends_well()?;
     loop {
-        // The colours of a refusal are ours.
+        // The colour codes in an error text come from this program and are kept.
         let answer = ask().map(|text| visible(&text).into_owned());
         let answer = answer.unwrap_or_else(|failure| failure.words(console.is_coloured()));
         console.write(|out| write!(out, "{heading}{answer}"))?;
@@ -48,7 +48,7 @@ pub(crate) fn run(
     }
 }
 
-/// Waits until a file differs from what was seen; tells of one that is missing.
+/// Waits until a file differs from its recorded properties, and reports a missing file.
 fn changed(
     paths: &[PathBuf],
     seen: Vec<Stamp>,

@@ -1,5 +1,5 @@
-//! The verdicts along the motion of a scene: the scene is run, recorded with enough rows for its
-//! speed, and analysed.
+//! Computes the verdicts along the motion of a scene: runs the scene, records enough rows for its
+//! speed, and analyses them.
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -18,26 +18,27 @@ use solvability::{
 use crate::error::StudyError;
 use crate::study::Study;
 
-/// Smallest number of analysed states, evenly spaced in time. For large mechanisms it is multiplied
-/// by the number of rows, but is not below the smaller number.
+/// Smallest number of analysed states, evenly spaced in time. For mechanisms with many rows the
+/// number is `INTERVALS_OF_ROWS` divided by the number of rows, but at least `INTERVALS_LEAST`.
 const INTERVALS: usize = 200;
 const INTERVALS_OF_ROWS: usize = 240_000;
 const INTERVALS_LEAST: usize = 24;
 
 /// Recorded rows between two analysed states. States between rows are interpolated, with an error
-/// of REACH⁴/384 of the distance of rows, and moved onto the constraints. For mechanisms with more
-/// than `MANY` rows there is only one, as interpolated by the integrator, because projecting rows
-/// would take longer than all steps; their accelerations are slopes of the velocities, which are
-/// used only for the direction of the motion at singular instants.
+/// of REACH⁴/384 times the distance of the rows, and moved onto the constraints. Mechanisms with
+/// more than `MANY` rows have one recorded row per analysed state, as interpolated by the
+/// integrator, because a projection of rows would take longer than all steps. Their accelerations
+/// are slopes of the velocities and are used only for the direction of the motion at singular
+/// instants.
 const ROWS: usize = 4;
 const MANY: usize = 10_000;
 
 /// Between analysed states no body moves by more than this fraction of the size of the mechanism,
-/// or by more than as many radians.
+/// or rotates by more than this angle (rad).
 const REACH: f64 = 0.1;
 
-/// A motion that stopped is continued by this multiple of the time between its last row and its
-/// end, at least of the time between rows.
+/// A motion that stopped is extrapolated by this multiple of the time between its last row and its
+/// end, or of the time between rows if that is longer.
 const BEYOND: f64 = 8.0;
 
 /// Largest number of analysed states.
@@ -53,14 +54,14 @@ pub struct VerdictsAlongMotion {
     pub to: f64,
     /// Number of analysed states.
     pub samples: usize,
-    /// How far a body moves between two of them: a fraction of the size of the mechanism, or as
-    /// many radians.
+    /// Largest displacement of a body between two analysed states: a fraction of the size of the
+    /// mechanism, or an angle (rad).
     pub reach: f64,
     /// Reason why the motion stopped, if it did.
     pub stopped: Option<MotionError>,
-    /// If the motion stopped at a singular configuration: the time (s) up to which it was analysed,
-    /// continued smoothly beyond its last state. How it continues is a result of the passages; it
-    /// was not computed.
+    /// Time (s) up to which the analysis extrapolated the motion smoothly beyond its last state, if
+    /// the motion stopped at a singular configuration. The analysis of the singular configuration
+    /// determines how the motion continues; the motion itself was not computed there.
     pub continued_to: Option<f64>,
 }
 
@@ -76,8 +77,8 @@ impl VerdictsAlongMotion {
         document
     }
 
-    /// Adds them to the document of a configuration of the same scene. The generic verdicts are
-    /// then those of the stretches of the motion that contain its time.
+    /// Adds the verdicts to the document of a configuration of the same scene. The generic verdicts
+    /// of that document are then the verdicts of the stretches of the motion that contain its time.
     pub fn add_to(&self, document: &mut AnalysisDocument, layout: &Layout) {
         let generic = self.along.verdicts.generic_at(document.configuration.time);
         if let Some(verdicts) = generic {
@@ -92,7 +93,7 @@ impl VerdictsAlongMotion {
 pub enum MotionProgress {
     /// The motion has reached this time (s).
     Moving(f64),
-    /// Verdicts are computed at this time (s); searches move in both directions.
+    /// Verdicts are computed at this time (s); searches move forwards and backwards in time.
     Judging(f64),
 }
 
@@ -131,11 +132,12 @@ impl Study {
         self.verdicts_along_motion_until(t_end, &|| false, progress)
     }
 
-    /// Like [`Self::verdicts_along_motion`]; `stop` is asked at each evaluation of the motion, and
-    /// before it is analysed.
+    /// Like [`Self::verdicts_along_motion`], but `stop` is called at each evaluation of the motion,
+    /// and before the motion is analysed.
     ///
     /// # Errors
-    /// As there, and [`StudyError::Interrupted`]: `stop` returned true.
+    /// Returns the errors of [`Self::verdicts_along_motion`], and [`StudyError::Interrupted`] if
+    /// `stop` returned true.
     pub fn verdicts_along_motion_until(
         &self,
         t_end: Option<f64>,
@@ -167,9 +169,9 @@ impl Study {
         if run.stopped.is_none() && intervals == least {
             return self.judge(run, intervals, &mut progress);
         }
-        // Record again if the motion is too fast for these rows, or up to the last state before it
-        // stopped. That state may be too close to a singular configuration to be moved onto the
-        // constraints; then the last row before it is used.
+        // Record the motion again if it is too fast for these rows, or record it up to the last
+        // state before it stopped. That state may be too close to a singular configuration for a
+        // projection onto the constraints; then the last row before it is used.
         let again = self.record(run.reached, intervals, stop, &mut progress)?;
         let stopped = again.stopped.is_some();
         match self.judge(again, intervals, &mut progress) {
@@ -186,7 +188,8 @@ impl Study {
         }
     }
 
-    /// Analyses a motion that stopped a little beyond its end, if there is a passage.
+    /// Analyses a motion that stopped, up to a time a little beyond its end, if this interval
+    /// contains a singular configuration.
     fn judge_beyond(
         &self,
         run: &Record,
@@ -210,7 +213,7 @@ impl Study {
         })
     }
 
-    /// Verdicts at evenly spaced times up to `to`.
+    /// Returns verdicts at evenly spaced times up to `to`.
     fn along(
         &self,
         run: &Record,
@@ -260,7 +263,7 @@ impl Study {
         })
     }
 
-    /// Runs the scene and keeps its rows.
+    /// Runs the scene and records its rows.
     fn record(
         &self,
         t_end: f64,
@@ -278,7 +281,8 @@ impl Study {
                 Rows::Every
             },
             accelerations: !many,
-            // With them come the verdicts of the run; their numbers are not computed.
+            // With this option the run also returns its verdicts; the values of the reactions are
+            // not computed.
             reactions: Reactions::All,
             ..OutputRequest::default()
         };
@@ -342,8 +346,8 @@ struct Row {
 }
 
 /// Sets the acceleration of each row to the slope of the parabola through its velocities and those
-/// of the adjacent rows, at the ends through the nearest three; if there are two rows, to the slope
-/// of the line.
+/// of the adjacent rows. The first and last rows use the parabola through the three nearest rows.
+/// With only two rows, the acceleration is the slope of the line.
 fn differentiate(rows: &mut [Row]) {
     let secant = |pair: &[Row]| {
         let h = pair[1].t - pair[0].t;
@@ -382,7 +386,7 @@ struct Record {
 }
 
 impl Record {
-    /// The largest displacement between analysed states.
+    /// Returns the largest displacement between analysed states.
     fn reach(&self, mechanism: &Mechanism) -> f64 {
         let Some(first) = self.rows.first() else {
             return 0.0;
@@ -393,7 +397,8 @@ impl Record {
             ColumnKind::Rotation => 1.0,
         };
         let units: Vec<f64> = mechanism.layout().column_kinds().iter().map(unit).collect();
-        // By velocities, because there may be more coordinates than velocities.
+        // The speeds come from velocities, because a body may have more coordinates than
+        // velocities.
         let fastest = |row: &Row| {
             let rates = row.v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
             rates.fold(0.0, f64::max)
@@ -403,8 +408,8 @@ impl Record {
         self.between as f64 * self.rows.windows(2).map(moved).fold(0.0, f64::max)
     }
 
-    /// The motion at a time between the first row and the last, or near them; needs at least two
-    /// rows.
+    /// Interpolates the motion at a time between the first row and the last, or near them; at least
+    /// two rows are necessary.
     fn state(&self, t: f64, extent: &Extent) -> State {
         let next = self.rows.partition_point(|row| row.t <= t);
         let k = next.clamp(1, self.rows.len() - 1);
@@ -425,7 +430,7 @@ impl Record {
     }
 }
 
-/// The cubic with these values and slopes at u = 0 and u = 1.
+/// The cubic polynomial with these values and slopes at u = 0 and u = 1.
 fn hermite(u: f64, [x, slope_x]: [f64; 2], [y, slope_y]: [f64; 2]) -> f64 {
     let d = y - x;
     let (c_2, c_3) = (

@@ -1,5 +1,5 @@
-//! A scene with its mechanism, before its rows are analysed: the first stage of a study, and all
-//! that is available for a mechanism whose rank is too uncertain for a motion.
+//! A scene with its mechanism, before its rows are analysed. This is the first stage of a study. If
+//! the rank is too uncertain for a motion, it is the only available stage.
 
 use dynamics::{MotionError, MotionOptions, PreparedMechanism, RowChoice};
 use dynamics::{prepare_after, start_velocity, unmovable};
@@ -37,9 +37,10 @@ use crate::within;
 /// ```
 #[non_exhaustive]
 pub struct AssembledScene {
-    /// The scene, read from a text or made by a program.
+    /// The scene, read from a text or built by a program.
     pub scene: Scene,
-    /// Its mechanism. Until it is assembled, initial values are those of the described start.
+    /// The mechanism of the scene. Before the assembly, its initial values are those of the
+    /// described start.
     pub mechanism: Mechanism,
 }
 
@@ -54,11 +55,11 @@ impl AssembledScene {
         Ok(Self { scene, mechanism })
     }
 
-    /// Takes a scene, or a description alone, made by a program.
+    /// Builds the mechanism of a scene, or of a description without a scene that a program made.
     ///
     /// # Errors
     /// [`StudyError::Build`]: all faults of the description. If the scene was read from a text and
-    /// then changed, [`StudyError::Scene`] with places.
+    /// then changed, [`StudyError::Scene`] with positions in the text.
     pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
         let scene = scene.into();
         match Mechanism::build(&scene.description) {
@@ -104,15 +105,16 @@ impl AssembledScene {
     /// # Errors
     /// - [`StudyError::Scene`]: there is no such start; for a scene without text
     ///   [`StudyError::Motion`].
-    /// - [`StudyError::SingularStart`]: there is a start, but no motion begins with its velocities.
-    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or the options of the
-    ///   run are invalid, with their place if they come from the scene.
+    /// - [`StudyError::SingularStart`]: there is such a start, but no motion begins with its
+    ///   velocities.
+    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or options of the run
+    ///   are invalid, with their position in the text if they come from the scene.
     pub fn prepare(self, overrides: &RunOptions) -> Result<Study, StudyError> {
         self.prepare_after(overrides, None)
     }
 
-    /// Like [`AssembledScene::prepare`]; what has been decided for another mechanism with the same
-    /// constraints is taken from there.
+    /// Like [`AssembledScene::prepare`], but reuses the decisions for another mechanism with the
+    /// same constraints.
     pub(crate) fn prepare_after(
         self,
         overrides: &RunOptions,
@@ -148,7 +150,7 @@ impl AssembledScene {
                     other => other.into(),
                 });
             }
-            // Only faults of the text have a place in it; rows may come from the caller.
+            // Only errors of the text have a position in it; rows may come from the caller.
             Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
                 let help = within::advice(spare.as_ref(), &scene, &rows, &e);
                 return Err(match (refused(&scene, e), help) {
@@ -174,20 +176,22 @@ impl AssembledScene {
         })
     }
 
-    /// Moves the bodies to a consistent configuration of the start, the nearest one, and takes the
-    /// initial values of joints there.
+    /// Moves the bodies to the nearest consistent configuration, and sets the initial values of the
+    /// joints to their values in it.
     ///
     /// # Errors
-    /// [`StudyError::Scene`]: there is none; for a scene without text [`StudyError::Motion`].
+    /// [`StudyError::Scene`]: there is no such configuration; for a scene without text
+    /// [`StudyError::Motion`].
     pub fn assemble(&mut self) -> Result<Assembly, StudyError> {
         assemble(&mut self.mechanism, &self.scene.start).map_err(|e| refused(&self.scene, e.into()))
     }
 
-    /// Analyses the start, even if [`AssembledScene::prepare`] refuses it because the rank is
+    /// Analyses the start, even if [`AssembledScene::prepare`] rejects it because the rank is
     /// undecided in `f64` or no motion begins there.
     ///
     /// # Errors
-    /// As [`AssembledScene::assemble`], also if the given velocities are impossible, and
+    /// Returns the errors of [`AssembledScene::assemble`], also if the given velocities are
+    /// impossible, and
     /// [`StudyError::Analysis`]: C cannot be analysed.
     pub fn analyse(
         &mut self,
@@ -199,7 +203,7 @@ impl AssembledScene {
     /// Like [`Self::analyse`]; calls `progress` with the number of joints analysed so far.
     ///
     /// # Errors
-    /// As [`AssembledScene::analyse`].
+    /// Returns the errors of [`AssembledScene::analyse`].
     pub fn analyse_with_progress(
         &mut self,
         drop: Option<&[usize]>,
@@ -238,7 +242,7 @@ impl AssembledScene {
     }
 }
 
-/// Adds the place in the text of the scene to an error, if there is a text.
+/// Adds the position in the text of the scene to an error, if there is a text.
 pub(crate) fn refused(scene: &Scene, error: MotionError) -> StudyError {
     match scene.locate_motion(&error) {
         Some(place) => StudyError::Scene(vec![place]),
@@ -246,8 +250,8 @@ pub(crate) fn refused(scene: &Scene, error: MotionError) -> StudyError {
     }
 }
 
-/// Whether rows contradict each other in accelerations only, and none of them is driven: then a
-/// motion with another velocity is possible.
+/// Whether rows contradict each other in accelerations only, and none of them is a driven row: then
+/// a motion with another velocity is possible.
 fn leaves_no_motion(e: &MotionError) -> bool {
     matches!(e, MotionError::Contradiction(c) if c.level == ConstraintLevel::Acceleration && c.drives == 0)
 }

@@ -13,7 +13,7 @@ use crate::start::Start;
 /// Rows that `--allow` permits to be deleted, in a mechanism with this number of rows.
 ///
 /// # Errors
-/// What is expected instead.
+/// Describes the expected text.
 pub fn allowed(text: &str, rows: usize) -> Result<DeletableRows, Refusal> {
     match (text, text.strip_prefix("rows:")) {
         ("sensible", _) => Ok(DeletableRows::Sensible),
@@ -26,13 +26,13 @@ pub fn allowed(text: &str, rows: usize) -> Result<DeletableRows, Refusal> {
     }
 }
 
-/// What choices refer to: the number of rows of a mechanism, and its joints and drives by name.
+/// The scope of choices: the number of rows of a mechanism, and its joints and drives by name.
 pub type ChoiceScope<'a> = (usize, &'a dyn Fn(&str) -> Result<ConstraintId, StudyError>);
 
-/// The choices of `--choose`.
+/// Parses the choices of `--choose`.
 ///
 /// # Errors
-/// What is expected instead, or a name that is none.
+/// Describes the expected text, or names the joint or drive that does not exist.
 pub fn choices(
     texts: &[String],
     of: &Start<'_>,
@@ -87,7 +87,7 @@ fn wrong(text: &str, expected: &str) -> Refusal {
     Refusal::input(format!("--choose is `{text}`, need {expected}"))
 }
 
-/// Terms between commas; a name may have a comma in it.
+/// Splits a list at its commas; a name may contain a comma.
 fn terms(text: &str) -> Vec<&str> {
     let (mut terms, mut begin) = (Vec::new(), 0);
     let commas = text.match_indices(',').map(|(at, _)| at);
@@ -132,12 +132,13 @@ fn compliance(
     })
 }
 
-/// Parses a list of rows, counted from 1, into existing rows from 0, each at most once.
+/// Parses a list of rows, counted from 1, into indices of existing rows, counted from 0, without
+/// repetition.
 fn row_list(option: &str, list: &str, rows: usize) -> Result<Vec<usize>, Refusal> {
     let numbers: Result<Vec<usize>, _> = list.split(',').map(|x| x.trim().parse()).collect();
     let Ok(numbers) = numbers else {
         return Err(Refusal::input(format!(
-            "{option}: `{list}` is no list of rows, as `6,21`"
+            "{option}: `{list}` is not a list of rows such as `6,21`"
         )));
     };
     if let Some(row) = numbers.iter().find(|row| **row > rows) {

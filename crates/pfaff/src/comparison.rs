@@ -1,11 +1,11 @@
-//! Compares reactions that are not unique along a run for several choices: that of the run or the
-//! requested ones, the least norm, and sets of rows without reaction. Each set of joints that share
-//! cycles is treated separately, so the work grows with the redundant sets and not with the
-//! mechanism.
+//! Compares reactions that are not unique along a run for several choices: the choice of the run or
+//! the requested choices, the least norm, and sets of rows without reaction. Each set of joints
+//! that share cycles is treated separately, so the work grows with the redundant sets and not with
+//! the size of the mechanism.
 //!
-//! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the configuration
-//! at that instant, so unique components are recognised at every instant and not at the start only.
-//! If the rank is undecided, no comparison is made.
+//! All solutions at an instant are `λ + Z·y`. The vector λ is the solution of the run. The matrix Z
+//! belongs to the configuration at that instant, so unique components are recognised at every
+//! instant and not only at the start. If the rank is undecided, no comparison is made.
 
 #[cfg(test)]
 mod tests;
@@ -26,24 +26,24 @@ const ROWS_MAX: usize = 150;
 /// Largest number of sets that are compared.
 const SETS_MAX: usize = 24;
 
-/// Number of sets of rows without reaction that are compared, and number of sets from which they
-/// are taken.
+/// Number of sets of rows without reaction that are compared, and number of candidate sets from
+/// which they are taken.
 const ELIMINATIONS: usize = 6;
 const CANDIDATES: usize = 400;
 
 /// Rows without reaction must determine the free directions at least this well; otherwise their
-/// numbers are large for that reason alone.
+/// values are large only because the rows are ill-conditioned.
 const FIRM: f64 = 0.02;
 
-/// Values below this fraction of the largest free load of a set are rounding.
+/// Values below this fraction of the largest free load of a set count as rounding.
 const VISIBLE: f64 = 1e-9;
 
-/// Fraction of the square of a free force across its main direction, above which the force is free
-/// in the plane.
+/// If the square of a free force across its main direction exceeds this fraction of the total, the
+/// force is free in both directions of the plane.
 const PLANE: f64 = 1e-9;
 
-/// The comparisons, and sentences on what is not compared. `own` are the names of the choices that
-/// the frames contain: of the requested ones, or of that of the run.
+/// Returns the comparisons, and sentences on the sets that are not compared. `own` contains the
+/// names of the choices in the frames: the requested choices, or the choice of the run.
 pub(crate) fn compare(
     mechanism: &Mechanism,
     recording: &Recording,
@@ -88,8 +88,7 @@ pub(crate) fn compare(
     let words = match left_out.as_slice() {
         [] => Vec::new(),
         sets => vec![format!(
-            "For {} of {} sets of joints that share loads no choices are compared (too large, too many, or not all of their reactions \
-             were asked for), the first with {}: components that are not unique have no curve there.",
+            "{} of {} sets of joints that share loads are not compared, because a set is too large, there are too many sets, or not all of their reactions were requested. The first of these sets contains {}. Components that are not unique have no curve there.",
             sets.len(),
             redundant.len(),
             sets[0]
@@ -105,7 +104,7 @@ struct Set<'a> {
 }
 
 impl<'a> Set<'a> {
-    /// Returns `None` if the multipliers of the run are not known, or the rank is undecided.
+    /// Returns `None` if the multipliers of the run are unknown, or if the rank is undecided.
     fn new(part: &'a Part, recording: &Recording) -> Option<Self> {
         let first = recording.frames.first()?;
         let known = |&i: &usize| first.multipliers.get(i).is_some_and(|x| x.is_finite());
@@ -287,7 +286,7 @@ impl<'a> Set<'a> {
             .collect()
     }
 
-    /// The axes of the frame of the first body of each joint.
+    /// The axes of the frame of the first body of each joint at this instant.
     fn turns(&self, s: &Scratch) -> Vec<[[f64; 3]; 3]> {
         let mechanism = &self.part.mechanism;
         let of = |id| {
@@ -301,8 +300,8 @@ impl<'a> Set<'a> {
     }
 }
 
-/// Directions of the forces `W_X·Z_X·y` of each joint, and which components of its wrench change
-/// with y; torques are divided by the size of the set (m).
+/// Returns the directions of the forces `W_X·Z_X·y` of each joint, and the components of its wrench
+/// that change with y; torques are divided by the size of the set (m).
 fn freedom(space: SpaceKind, free: &[Matrix], turns: &[[[f64; 3]; 3]], size: f64) -> Vec<Freedom> {
     let norm = |m: &Matrix, i: usize| m.row(i).iter().map(|x| x * x).sum::<f64>().sqrt();
     let all = |m: &Matrix, rows: Range<usize>| rows.map(|i| norm(m, i)).fold(0.0, f64::hypot);
@@ -326,7 +325,8 @@ fn freedom(space: SpaceKind, free: &[Matrix], turns: &[[[f64; 3]; 3]], size: f64
             } else {
                 space.forces()
             };
-            // The component along an axis of the body, by those along the axes of the ground.
+            // Computes the component along an axis of the body from the components along the axes
+            // of the ground.
             let axis = axes[space.axis_of(c)];
             let along = (0..m.ncols()).map(|y| {
                 let terms = own.clone().map(|i| axis[space.axis_of(i)] * m[(i, y)]);
@@ -343,8 +343,8 @@ fn freedom(space: SpaceKind, free: &[Matrix], turns: &[[[f64; 3]; 3]], size: f64
     free.iter().zip(turns).map(of).collect()
 }
 
-/// The angle of a direction in which a force in the plane is free, NaN if there is none, and
-/// whether it is also free across it.
+/// Returns the angle of a direction in which a force in the plane is free, or NaN if there is no
+/// such direction, and whether the force is also free across this direction.
 fn direction(m: &Matrix, least: f64) -> (f64, bool) {
     let dot = |i: usize, j: usize| -> f64 {
         let terms = m.row(i).iter().zip(m.row(j));
@@ -355,7 +355,7 @@ fn direction(m: &Matrix, least: f64) -> (f64, bool) {
     if !is_free {
         return (f64::NAN, false);
     }
-    // Axes of the ellipse with these moments.
+    // Computes the axes of the ellipse with these second moments.
     let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
     let minor = (0.5 * (xx + yy) - half).max(0.0);
     let angle = 0.5 * (2.0 * xy).atan2(xx - yy);
@@ -368,14 +368,14 @@ struct Instant {
     freedom: Vec<Freedom>,
 }
 
-/// Sets of rows such that each row that can be without reaction is in one of them, if there are
-/// enough sets; the best determined ones come first.
+/// Selects sets of rows such that each row that can be without reaction is in one of them, if there
+/// are enough sets; the best determined sets come first.
 fn eliminations(decision: &RankDecision) -> Vec<Vec<usize>> {
     let z = dependencies(decision);
     let all = deletions(decision, CANDIDATES).unwrap_or_default();
     let firm = all.into_iter().filter_map(|rows| {
         let firmness = firmness(&z, &rows);
-        // The rows that the decision dropped are already the choice of most runs.
+        // Most runs already use the redundant rows of the decision as their choice.
         (firmness >= 2.0 * FIRM && rows != decision.dropped).then_some((rows, firmness))
     });
     let mut firm: Vec<(Vec<usize>, f64)> = firm.collect();
@@ -403,7 +403,7 @@ fn firmness(z: &Matrix, rows: &[usize]) -> f64 {
     smallest / z.max_abs().max(f64::MIN_POSITIVE)
 }
 
-/// `W·Z` with these rows of Z.
+/// The product `W·Z` for these rows of Z.
 fn product(w: &Matrix, z: &Matrix, rows: &RowRanges) -> Matrix {
     let rows: Vec<usize> = rows.iter().collect();
     Matrix::from_fn(w.nrows(), z.ncols(), |i, j| {

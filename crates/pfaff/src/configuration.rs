@@ -1,5 +1,5 @@
-//! One configuration of a scene, and all results for its reactions. Each method computes one
-//! result; nothing else is computed.
+//! One configuration of a scene, and all results for its reactions. Each method computes only one
+//! result.
 
 mod document;
 mod numbers;
@@ -50,7 +50,7 @@ use crate::error::StudyError;
 pub struct ConfigurationAnalysis<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// Its mechanism.
+    /// The mechanism of the scene.
     pub mechanism: &'a Mechanism,
     /// Coordinates and velocities. The velocities are empty if the rank is undecided, because none
     /// are known to be consistent.
@@ -60,7 +60,7 @@ pub struct ConfigurationAnalysis<'a> {
     questions: Questions<'a>,
 }
 
-/// The results of a configuration, to be asked again later.
+/// The results for a configuration, stored for later use.
 #[derive(Clone)]
 #[non_exhaustive]
 pub struct KeptAnalysis {
@@ -70,13 +70,13 @@ pub struct KeptAnalysis {
     pub analysis: Arc<Analysis>,
 }
 
-/// The decision on the rows of a configuration that is known or requested.
+/// The decision on the rows of a configuration, if it was made before or is requested.
 pub(crate) enum AskedRows<'r> {
-    /// No decision is known or requested.
+    /// No decision was made or is requested.
     Any,
-    /// They have already been decided at this configuration.
+    /// The rows have already been decided at this configuration.
     Decided(&'r Rows),
-    /// These rows, from 0, are to be dropped.
+    /// These rows, counted from 0, are to be treated as redundant.
     Dropped(&'r [usize]),
 }
 
@@ -107,7 +107,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         })
     }
 
-    /// The results without the scene that they belong to.
+    /// Returns the results without the scene to which they belong.
     #[must_use]
     pub fn kept(&self) -> KeptAnalysis {
         KeptAnalysis {
@@ -116,8 +116,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         }
     }
 
-    /// The same configuration again: nothing is decided anew. The results have to be those of this
-    /// scene and this mechanism.
+    /// Restores a configuration from its stored results without a new decision. The results must
+    /// belong to this scene and this mechanism.
     ///
     /// ```
     /// use pfaff::ConfigurationAnalysis;
@@ -144,28 +144,29 @@ impl<'a> ConfigurationAnalysis<'a> {
         }
     }
 
-    /// The joint or drive with this name.
+    /// Finds the joint or drive with this name.
     ///
     /// # Errors
-    /// [`StudyError::UnknownReaction`], with the nearest name.
+    /// [`StudyError::UnknownReaction`], with the most similar name.
     pub fn reaction(&self, name: &str) -> Result<ConstraintId, StudyError> {
         requests::reaction(self.scene, self.mechanism, name)
     }
 
-    /// The verdict on the joint or drive with this name.
+    /// Returns the verdict on the joint or drive with this name.
     ///
     /// # Errors
-    /// [`StudyError::UnknownReaction`], with the nearest name.
+    /// [`StudyError::UnknownReaction`], with the most similar name.
     pub fn verdict(&self, name: &str) -> Result<&ReactionVerdict, StudyError> {
         let ConstraintId(place) = self.reaction(name)?;
         Ok(&self.analysis.reactions[place])
     }
 
-    /// Verdicts with their names: first the groups of the scene, then sums of components such as
-    /// `W3.N + W4.N`, or of whole wrenches such as `W3 + W4`.
+    /// Returns verdicts with their names: first the groups of the scene, then sums of components
+    /// such as `W3.N + W4.N`, or of whole wrenches such as `W3 + W4`.
     ///
     /// # Errors
-    /// If a sum cannot be parsed, contains an unknown name, or involves a part that is too large.
+    /// Returns an error if a sum cannot be parsed, contains an unknown name, or involves a part
+    /// that is too large.
     pub fn groups(&self, combine: &[String]) -> Result<Vec<(String, GroupVerdict)>, StudyError> {
         requests::groups(self.scene, self.mechanism, combine)?
             .into_iter()
@@ -173,21 +174,22 @@ impl<'a> ConfigurationAnalysis<'a> {
             .collect()
     }
 
-    /// The verdict on one such sum.
+    /// Returns the verdict on one such sum.
     ///
     /// # Errors
-    /// If it cannot be parsed, contains an unknown name, or involves a part that is too large.
+    /// Returns an error if the sum cannot be parsed, contains an unknown name, or involves a part
+    /// that is too large.
     pub fn group(&self, combination: &str) -> Result<GroupVerdict, StudyError> {
         let group = requests::combination(self.scene, self.mechanism, combination)?;
         Ok(self.questions.group(&group)?)
     }
 
-    /// The numbers of the same groups that are unique, with their names; groups of several separate
-    /// reactions have none.
+    /// Returns the unique numbers of the same groups, with their names; groups of several separate
+    /// reactions have no numbers.
     ///
     /// # Errors
-    /// As [`ConfigurationAnalysis::groups`], and [`StudyError::Choice`]: there are no reactions, or
-    /// the rank is undecided.
+    /// Returns the errors of [`ConfigurationAnalysis::groups`], and [`StudyError::Choice`] if there
+    /// are no reactions or the rank is undecided.
     pub fn determined(&self, combine: &[String]) -> Result<Vec<Numbers>, StudyError> {
         let solution = self.solution()?;
         let groups = requests::groups(self.scene, self.mechanism, combine)?;
@@ -197,10 +199,10 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(numbers.collect::<Result<_, _>>()?)
     }
 
-    /// All numbers of the same groups for a given choice.
+    /// Returns all numbers of the same groups for a given choice.
     ///
     /// # Errors
-    /// As [`ConfigurationAnalysis::groups`].
+    /// Returns the errors of [`ConfigurationAnalysis::groups`].
     pub fn chosen(
         &self,
         combine: &[String],
@@ -248,8 +250,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.analysis.sensitivities(self.mechanism, q, v)?)
     }
 
-    /// How strongly other unique numbers of the reactions depend on the data, such as sums, moments
-    /// and components in other frames; `None` where that is not known.
+    /// Computes how strongly other unique numbers of the reactions depend on the data, such as
+    /// sums, moments and components in other frames; unknown sensitivities are `None`.
     ///
     /// # Errors
     /// [`StudyError::Choice`]
@@ -266,7 +268,7 @@ impl<'a> ConfigurationAnalysis<'a> {
             .sensitivities_of(self.mechanism, q, v, numbers)?)
     }
 
-    /// Whether no velocities of this configuration are known: its rank can be proved, but not be
+    /// Whether no velocities of this configuration are known: its rank can be proved, but cannot be
     /// used in `f64`.
     fn has_no_velocities(&self) -> bool {
         self.state.v.is_empty() && self.mechanism.layout().n_v > 0
@@ -280,23 +282,25 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.analysis.freedoms(self.mechanism, &self.state.q)?)
     }
 
-    /// Ranks at other configurations of the same component; `None` if none could be reached.
+    /// Computes the ranks at other configurations of the same component; `None` if none could be
+    /// reached.
     #[must_use]
     pub fn generic(&self) -> Option<Generic> {
         generic(self.mechanism, self.analysis.time, &self.state.q)
     }
 
-    /// The same, with the verdicts on all joints and drives there: the worst at the configurations
-    /// with the smallest redundancy, or `None` if they are not known.
+    /// Computes the same ranks with the verdicts on all joints and drives there. They are the worst
+    /// verdicts at the configurations with the smallest redundancy, or `None` if unknown.
     #[must_use]
     pub fn generic_with_verdicts(&self) -> Option<(Generic, Option<Vec<GenericVerdict>>)> {
         generic_with_verdicts(self.mechanism, self.analysis.time, &self.state.q)
     }
 
-    /// How the motion continues at a singular configuration, at which the redundancy is larger than
-    /// elsewhere: along one branch only, or not determined by the constraints. Returns `None` if
-    /// the configuration is not singular, or if the velocities of the scene do not determine the
-    /// motion, because the mechanism is at rest or has several degrees of freedom.
+    /// Determines how the motion continues at a singular configuration, at which the redundancy is
+    /// larger than elsewhere: along one branch only, along several branches, or not determined by
+    /// the constraints. Returns `None` if the configuration is not singular, or if the velocities
+    /// of the scene do not determine the motion, because the mechanism is at rest or has several
+    /// degrees of freedom.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -310,7 +314,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         }
         let rank = decision.rank + decision.redundancy - generic.redundancy;
         let moves = !is_at_rest(self.mechanism, scene_size(self.mechanism, q), v);
-        // A mechanism that is rigid elsewhere moves among poses like this one, if it moves.
+        // If a mechanism that is rigid elsewhere moves, it moves only through configurations with
+        // the same rank as this one.
         let is_driven = self.mechanism.layout().rheonomic;
         let regular = match self.analysis.velocities - rank {
             0 if is_driven || !moves => Matrix::zeros(v.len(), 0),
@@ -328,9 +333,10 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(Some(found))
     }
 
-    /// Whether the mechanism cannot move although its rows leave velocities free: second order
-    /// blocks all of them while functions of time are held. `None` if second order does not decide,
-    /// and for mechanisms with too many rows for dense matrices.
+    /// Whether the mechanism cannot move although its rows leave velocities free. In this case the
+    /// second-order conditions exclude all of these velocities while functions of time are held
+    /// constant. Returns `None` if the second-order conditions do not decide, and for mechanisms
+    /// with too many rows for dense matrices.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -352,9 +358,9 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.freedoms()?.cannot_move)
     }
 
-    /// The sets of reactions that have no finite value at these velocities, because the loads push
-    /// along a freedom that second order excludes. Empty if the rank is undecided, and for
-    /// mechanisms with too many rows for dense matrices.
+    /// Finds the sets of reactions that have no finite value at these velocities, because the loads
+    /// push along a freedom that the second-order conditions exclude. The result is empty if the
+    /// rank is undecided, and for mechanisms with too many rows for dense matrices.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -375,8 +381,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.explanation()?)
     }
 
-    /// The number of sets of rows that can be deleted without a change of motion; each set has as
-    /// many rows as the degree of redundancy.
+    /// Counts the sets of rows that can be deleted without a change of motion; each set has as many
+    /// rows as the degree of redundancy.
     ///
     /// # Errors
     /// [`EliminationError`]: the rank or one of the sets is undecided, there are too many sets, or
@@ -385,7 +391,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         self.questions.eliminations()
     }
 
-    /// The first of these sets, rows from 0.
+    /// Returns the first of these sets, with rows counted from 0.
     ///
     /// # Errors
     /// [`EliminationError`]: the rank or one of the sets is undecided, or a part is too large.
@@ -393,7 +399,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         self.questions.elimination_sets(limit)
     }
 
-    /// The smallest deletions that make a reaction unique without a change of motion.
+    /// Finds the smallest deletions that make a reaction unique without a change of motion.
     ///
     /// # Errors
     /// [`EliminationError`]: the rank or an answer is undecided, an allowed row does not exist, or
@@ -407,7 +413,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         self.questions.make_unique(id, allowed, limits)
     }
 
-    /// The verdicts of a reaction in all frames that it has.
+    /// Returns the verdicts of a reaction in all frames in which it is described.
     ///
     /// # Errors
     /// [`StudyError::Request`]
@@ -415,7 +421,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.frames(id)?)
     }
 
-    /// The verdict on the moment of a reaction about a point (m, ground axes).
+    /// Returns the verdict on the moment of a reaction about a point (m, ground axes).
     ///
     /// # Errors
     /// [`StudyError::Request`]
@@ -423,7 +429,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.moment(id, about)?)
     }
 
-    /// The nearest point about which the moment of a reaction is unique, if its place is none.
+    /// Finds the nearest point about which the moment of a reaction is unique, if the moment about
+    /// its reference point is not unique.
     ///
     /// # Errors
     /// [`StudyError::Request`]
@@ -431,7 +438,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(self.questions.centre_of_moments(id)?)
     }
 
-    /// Where a marker is (m), ground axes; `None` if there is no marker with this name.
+    /// Returns the position of a marker (m, ground axes); `None` if there is no marker with this
+    /// name.
     #[must_use]
     pub fn marker(&self, name: &str) -> Option<[f64; 3]> {
         let frames = self.mechanism.frames();
@@ -444,8 +452,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Some(frames.marker(k, &self.state.q, &still).place)
     }
 
-    /// The reactions for a given choice at these velocities: unique numbers, and one of many
-    /// possible values for the others.
+    /// Computes the reactions for a given choice at these velocities: unique numbers, and one of
+    /// many possible values for the other numbers.
     ///
     /// # Errors
     /// [`StudyError::Choice`]: there is no such distribution, or the rank is undecided.
@@ -458,8 +466,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(found)
     }
 
-    /// The components of all reactions with their verdicts, without the numbers that are not
-    /// determined.
+    /// Returns the components of all reactions with their verdicts, without values for the
+    /// components that are not determined.
     ///
     /// # Errors
     /// [`StudyError::Choice`]: the rank is undecided; [`StudyError::Request`].
@@ -469,10 +477,11 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(found)
     }
 
-    /// A choice with its name, which is possible at this configuration.
+    /// Returns a choice with its name, after a check that the choice is possible at this
+    /// configuration.
     ///
     /// # Errors
-    /// As [`Self::distribution`].
+    /// Returns the errors of [`Self::distribution`].
     pub fn named(&self, choice: &Choice) -> Result<NamedChoice, StudyError> {
         let label = self.distribution(choice)?.label;
         Ok(NamedChoice {
@@ -481,10 +490,11 @@ impl<'a> ConfigurationAnalysis<'a> {
         })
     }
 
-    /// Contradictions between redundant rows, the largest first. Empty if the rank is undecided.
+    /// Finds contradictions between redundant rows, the largest first. The result is empty if the
+    /// rank is undecided.
     ///
     /// # Errors
-    /// If the configuration cannot be analysed.
+    /// Returns an error if the configuration cannot be analysed.
     pub fn contradictions(&self) -> Result<Vec<Contradiction>, StudyError> {
         let State { q, v } = &self.state;
         let t = self.analysis.time;
@@ -507,7 +517,7 @@ impl<'a> ConfigurationAnalysis<'a> {
         }
     }
 
-    /// One solution of the equations of motion.
+    /// Computes one solution of the equations of motion.
     fn solution(&self) -> Result<Solution, StudyError> {
         let decision = &self.analysis.decision;
         if let rank::RankStatus::Undecided(doubt) = decision.status {

@@ -1,6 +1,6 @@
-//! Results as JSON documents: plain structs whose fields are the keys, in their order. Rows are
-//! counted from 1, as in all texts for users. JSON has no NaN and no infinity: such numbers are
-//! `null`.
+//! Results as JSON documents: plain structs whose fields are the keys, in the order of the keys.
+//! Rows are counted from 1, as in all texts for users. JSON has no NaN and no infinity: such
+//! numbers are written as `null`.
 
 pub(crate) mod analysis;
 mod answers;
@@ -61,13 +61,13 @@ pub use verdicts::{
 pub struct VerdictDocument {
     /// `unique`, `not_unique` or `undecided`.
     pub verdict: &'static str,
-    /// Reason why it is undecided.
+    /// Reason why the verdict is undecided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// Distance of the reaction from being unique; 0 for a unique reaction.
     pub margin: f64,
-    /// Whether it is unique only within the tolerance that the scene states: the margin is above
-    /// the rounding of the data, but data within their tolerance explain it.
+    /// Whether the reaction is unique only within the tolerance that the scene states. Then the
+    /// margin is above the rounding of the data, but data within their tolerance explain it.
     pub within_tolerance: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Reasons why there are no results, or only a part of them.
+//! Reasons why there are no results, or only partial results.
 
 use crate::documents::RunDocument;
 use dynamics::equilibrium::EquilibriumError;
@@ -14,14 +14,14 @@ use solvability::{
     RequestError, StateError,
 };
 
-/// Reason why there are no results, or only a part of them.
+/// Reason why there are no results, or only partial results.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
-    /// The scene is invalid; all faults with their places.
+    /// The scene is invalid; the list contains all errors with their positions.
     #[error("{} problem(s) in the scene, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Scene(Vec<Diagnostic>),
-    /// A description made by a program is invalid; all faults.
+    /// A description made by a program is invalid; the list contains all errors.
     #[error("{} problem(s) in the description, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Build(Vec<BuildError>),
     /// The start is a singular configuration from which no motion with its velocities is possible.
@@ -30,13 +30,13 @@ pub enum StudyError {
     SingularStart {
         /// The contradiction that prevents the motion.
         contradiction: Contradiction,
-        /// Place in the text of the scene, if it has one.
+        /// Position of the contradiction in the text of the scene, if it has one.
         place: Option<Box<Diagnostic>>,
     },
     /// Neither the scene nor the caller states the end of the run.
-    #[error("the scene has no `[simulate]` with `t_end`, and no last time was given")]
+    #[error("the scene has no `[simulate]` with `t_end`, and no end time was given")]
     NoEnd,
-    /// Choices are requested of a run that writes no reactions.
+    /// Choices are requested for a run that writes no reactions.
     #[error(
         "the choices have no table: `[output] reactions` of the scene is false; leave out the choices, or write reactions"
     )]
@@ -46,7 +46,7 @@ pub enum StudyError {
     Combination {
         /// The combination.
         text: String,
-        /// Cause.
+        /// Cause of the error.
         error: CombinationError,
     },
     /// A joint or drive does not exist.
@@ -54,10 +54,10 @@ pub enum StudyError {
     UnknownReaction {
         /// The name.
         name: String,
-        /// The most similar name, if one is similar.
+        /// The most similar name, if there is one.
         nearest: Option<String>,
     },
-    /// A joint or drive is in the scene, but not active.
+    /// A joint or drive exists in the scene, but is not active.
     #[error("`{name}` is not active in this scene, so there is no reaction")]
     InactiveReaction {
         /// The name.
@@ -66,7 +66,7 @@ pub enum StudyError {
     /// A row does not exist.
     #[error("there is no row {}; rows are 1 to {rows}", row + 1)]
     UnknownRow {
-        /// The row, from 0.
+        /// The row, counted from 0.
         row: usize,
         /// Number of rows.
         rows: usize,
@@ -80,12 +80,12 @@ pub enum StudyError {
     /// A motion could not begin or continue.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// A run stopped on its way; what it had computed has been written.
+    /// A run stopped before its end; the results up to that time have been written.
     #[error("{error}; {}", run.kept())]
     Stopped {
-        /// Cause.
+        /// Cause of the stop.
         error: MotionError,
-        /// Its summary.
+        /// Summary of the run.
         run: Box<RunDocument>,
     },
     /// A stop was requested before there was any result.
@@ -94,7 +94,7 @@ pub enum StudyError {
     /// A motion could not be linearised.
     #[error(transparent)]
     Linearise(#[from] LineariseError),
-    /// No place of rest was found.
+    /// No equilibrium was found.
     #[error(transparent)]
     Equilibrium(#[from] EquilibriumError),
     /// A configuration could not be analysed.
@@ -124,7 +124,7 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// Its code; see [`model::codes`].
+    /// Returns the code of the error; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -159,7 +159,7 @@ impl StudyError {
     }
 }
 
-/// Whether a motion cannot begin with this input.
+/// Whether a motion cannot begin because of this input.
 fn is_input(e: &MotionError) -> bool {
     match e {
         MotionError::Component { source, .. } => is_input(source),
@@ -179,7 +179,7 @@ fn suggestion(nearest: Option<&str>) -> String {
 }
 
 impl StudyError {
-    /// The reason why a scene cannot be moved although its start can be analysed by
+    /// Returns the reason why a scene cannot be simulated although its start can be analysed by
     /// [`AssembledScene::analyse`](crate::AssembledScene::analyse). Returns `None` if the start is
     /// invalid, or if nothing prevents a motion.
     #[must_use]
@@ -195,7 +195,7 @@ impl StudyError {
         }
     }
 
-    /// Whether the input is invalid; otherwise the computation stopped.
+    /// Whether the input is invalid; otherwise the error occurred during the computation.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

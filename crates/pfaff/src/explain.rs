@@ -1,14 +1,14 @@
-//! What the code of an error means, and what to do.
+//! The meaning of the code of an error, and the possible remedies.
 
 use model::codes::{Code, Entry, Example};
 
 use crate::refusal::Refusal;
 use crate::words::wrapped;
 
-/// The entry of a code, as `P0102`.
+/// Finds the entry of a code, such as `P0102`.
 ///
 /// # Errors
-/// There is no such code.
+/// Returns an error if there is no such code.
 pub fn entry(text: &str) -> Result<&'static Entry, Refusal> {
     Code::find(text).ok_or_else(|| {
         Refusal::input(format!(
@@ -17,7 +17,7 @@ pub fn entry(text: &str) -> Result<&'static Entry, Refusal> {
     })
 }
 
-/// What it means, and what to do, in words.
+/// Returns the meaning and the remedies as text.
 #[must_use]
 pub fn words(entry: &Entry) -> String {
     let mut text = wrapped(&format!("{}: ", entry.code), entry.title);

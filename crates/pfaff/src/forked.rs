@@ -1,8 +1,8 @@
-//! Parallel work in a process that was forked.
+//! Parallel work in a process that was created by a fork.
 //!
-//! A forked process inherits the pool of its parent but not the threads of the pool: work that is
-//! given to them waits for ever. Programs that fork (`multiprocessing` of Python does) do parallel
-//! work through [`on_own_threads`] or [`on_this_thread`], before the fork and after it.
+//! A forked process inherits the thread pool of its parent but not its threads: work for this pool
+//! waits forever. Programs that fork (for example with `multiprocessing` of Python) must do
+//! parallel work through [`on_own_threads`] or [`on_this_thread`], before the fork and after it.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -11,10 +11,10 @@ use rayon::ThreadPool;
 
 use crate::workers::{Workers, alone};
 
-/// The process that first did parallel work; 0 before.
+/// Identifier of the process that first did parallel work; 0 before that.
 static FIRST: AtomicU32 = AtomicU32::new(0);
 
-/// The pool of a forked process, with its process.
+/// The thread pool of a forked process, with the identifier of the process.
 static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 
 /// Whether this process was forked from one that had done parallel work.
@@ -24,7 +24,7 @@ fn is_forked() -> bool {
     first.is_err_and(|first| first != own)
 }
 
-/// The pool of this process, if it was forked.
+/// Returns the thread pool of this process, if it was forked.
 fn own_pool() -> Option<Arc<ThreadPool>> {
     if !is_forked() {
         return None;
@@ -40,13 +40,14 @@ fn own_pool() -> Option<Arc<ThreadPool>> {
         return None;
     };
     let pool = Arc::new(pool);
-    // The end of a pool waits for its threads, and those of the parent do not exist here.
+    // Dropping a pool would wait for its threads, and the threads of the parent do not exist in
+    // this process.
     std::mem::forget(kept.replace((own, Arc::clone(&pool))));
     Some(pool)
 }
 
 /// Does work whose parallel parts run on threads of this process. In a forked process the whole
-/// work runs on another thread.
+/// work runs on a thread of its own pool.
 pub fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     match own_pool() {
         Some(pool) => pool.install(work),
@@ -54,7 +55,8 @@ pub fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     }
 }
 
-/// The same on the thread that calls; in a forked process the parallel parts run on it, too.
+/// Does the work on the calling thread; in a forked process the parallel parts also run on this
+/// thread.
 ///
 /// ```
 /// assert_eq!(pfaff::forked::on_this_thread(|| pfaff::both(|| 1, || 2)), (1, 2));
@@ -62,7 +64,7 @@ pub fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 /// ```
 pub fn on_this_thread<T>(work: impl FnOnce() -> T) -> T {
     if is_forked() && rayon::current_thread_index().is_none() {
-        // The thread keeps its pool of one until it ends.
+        // The thread keeps its pool of one thread until it ends.
         std::mem::forget(alone().build());
     }
     work()

@@ -2,25 +2,25 @@
 //!
 //! # Code map
 //!
-//! Contains all other crates under their own names, and leads from the text of a scene, or from a
-//! description in code, to its results:
+//! Contains all other crates under their own names, and computes results from the text of a scene,
+//! or from a description in code:
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`question`], [`questions`] | what a question is, and all of them: options, answers, words |
-//! | [`mod@start`] | the scene that a question is asked about |
+//! | [`question`], [`questions`] | the definition of a question, and all questions: options, answers, texts |
+//! | [`mod@start`] | the scene that is the subject of a question |
 //! | [`words`] | sentences and tables, laid out as text |
 //! | [`documents`], [`mod@page`] | the answers of an analysis, a run and samples as data; the page of a run |
 //! | [`view`], [`template`], [`mod@explain`] | the start as a picture; scenes to begin with; codes of errors |
-//! | [`prelude`] | the names that a program needs most often |
+//! | [`prelude`] | the most frequently used names |
 //! | [`assembled`] | a scene with its mechanism |
-//! | [`study`] | its consistent start, its motion, its files |
-//! | `report_builder`, `comparison` | its report, and several choices for reactions that are not unique |
-//! | [`run_options`] | options of a run that replace those of its scene |
-//! | [`choice`] | choices of reactions that are not unique, as users write them |
+//! | [`study`] | the consistent start, the motion and the files of a scene |
+//! | `report_builder`, `comparison` | the report, and several choices for reactions that are not unique |
+//! | [`run_options`] | options of a run that replace those of the scene |
+//! | [`choice`] | choices of reactions that are not unique, in the syntax of the command |
 //! | [`configuration`] | one configuration, and the results for its reactions |
-//! | [`along_motion`] | the verdicts along its motion |
-//! | [`mod@rows`] | what takes the rows of a run: one value for each file or array |
+//! | [`along_motion`] | the verdicts along a motion |
+//! | [`mod@rows`] | consumers of the rows of a run: one value for each file or array |
 //! | [`mod@sweep`] | many runs with different numbers |
 //! | [`mod@tolerance`] | many mechanisms with data within their tolerances |
 //! | [`mod@work_precision`] | error against run time |
@@ -28,7 +28,7 @@
 //! | `command` (feature `command`) | values of options on a command line |
 //! | [`forked`] | parallel work in a process that was forked |
 //! | [`error`] | reasons why there are no results |
-//! | [`refusal`], [`source`] | these reasons in words for people (feature `messages`) and as documents; texts of files |
+//! | [`refusal`], [`source`] | these reasons as text (feature `messages`) and as documents; texts of files |
 
 pub mod along_motion;
 pub mod assembled;
@@ -87,8 +87,8 @@ pub use solvability::Numbers;
 pub use study::Study;
 pub use workers::{MOST_THREADS, start_threads, threads};
 
-/// The results of two computations, run in parallel if there are threads for both, otherwise one
-/// after the other.
+/// Returns the results of two computations, which run in parallel if two threads are available, and
+/// otherwise one after the other.
 pub fn both<A: Send, B: Send>(
     a: impl FnOnce() -> A + Send,
     b: impl FnOnce() -> B + Send,

@@ -1,6 +1,6 @@
 //! Estimates the memory for work on a scene before it is allocated, from counted sizes and sparsity
-//! patterns only: right to a fifth for scenes of many bodies (`resources.rs` in the tests of the
-//! command measures it).
+//! patterns only. The estimates are accurate to one fifth for scenes of many bodies (`resources.rs`
+//! in the tests of the command measures it).
 
 mod budget;
 #[cfg(target_os = "linux")]
@@ -15,13 +15,13 @@ use model::System;
 
 pub use budget::{Budget, Bytes};
 
-/// Bytes for each byte of a scene: its text and its tables with their places.
+/// Bytes for each byte of a scene: its text and its parsed tables with their positions.
 const OF_TEXT: usize = 24;
 
 /// Bytes that are always needed: the program itself and its streams.
 const FLOOR: usize = 18_500_000;
 
-/// Bytes that each run needs besides: buffers of its files, and its page.
+/// Additional bytes that each run needs: the buffers of its files, and its page.
 const OF_RUN: usize = 5_400_000;
 
 /// Bytes of a joint, drive or coupling in a run: its columns, its peaks and its verdicts.
@@ -53,8 +53,8 @@ pub fn of_import(text: usize, scene: usize) -> usize {
 }
 
 impl AssembledScene {
-    /// Estimated memory (bytes) of the mechanism, its ranks, kept rows and verdicts on this number
-    /// of threads, in addition to the text: see [`memory_of_verdicts`].
+    /// Estimated memory (bytes) of the mechanism, its ranks, independent rows and verdicts on this
+    /// number of threads, in addition to the text: see [`memory_of_verdicts`].
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: elimination would take too many operations for a sparse decision.
@@ -64,8 +64,8 @@ impl AssembledScene {
 }
 
 impl Study {
-    /// Estimated memory (bytes) of a run, including the reading of a text of this length and the
-    /// verdicts at the start.
+    /// Returns the estimated memory (bytes) of a run, including the reading of a text of this
+    /// length and the verdicts at the start.
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: elimination would take too many operations for a sparse decision.

@@ -1,5 +1,5 @@
 //! The names needed by a program that builds, analyses and moves a mechanism:
-//! `use pfaff::prelude::*;`. The other joints and forces are in [`joints`], the documents in
+//! `use pfaff::prelude::*;`. The other joints and forces are in [`joints`], and the documents in
 //! [`crate::documents`].
 
 pub use dynamics::MotionOptions;

@@ -1,6 +1,6 @@
-//! What a question about scenes is: options, a subject, and an answer that is a document, words and
-//! files. Each question is one folder of [`crate::questions`]; whoever asks (the command, Python)
-//! knows none by name.
+//! The definition of a question about scenes. A question has options and a subject; its answer is a
+//! document, a text and files. Each question is one folder of [`crate::questions`]; the callers
+//! (the command and Python) do not refer to any question by name.
 
 use std::num::NonZeroUsize;
 use std::sync::LazyLock;
@@ -14,23 +14,24 @@ use crate::refusal::{Refusal, json};
 use crate::start::Start;
 use crate::words::{Block, count};
 
-/// A question; its fields are the options. Their comments are the help of the command, too.
+/// A question; its fields are the options. The comments of the fields are also the help of the
+/// command.
 pub trait Question: for<'d> Deserialize<'d> + Default {
-    /// Subcommand and method of Python.
+    /// Name of the subcommand and of the Python method.
     const NAME: &'static str;
     /// JSON schema of the answer, written by `cargo xtask questions`.
     const SCHEMA: &'static str;
     /// The files of an answer; `None` if it has none.
     const OUTPUT: Option<Output> = None;
-    /// What it is asked about.
+    /// Subject of the question.
     type Subject<'s>: Subject<'s>;
-    /// What comes back.
+    /// Type of the answer.
     type Answer: Answer;
 
-    /// Answers it.
+    /// Computes the answer.
     ///
     /// # Errors
-    /// Why there is no answer.
+    /// Returns the reason why there is no answer.
     fn answer<'s>(
         &self,
         of: Self::Subject<'s>,
@@ -38,14 +39,14 @@ pub trait Question: for<'d> Deserialize<'d> + Default {
     ) -> Result<Self::Answer, Refusal>;
 }
 
-/// What a question is asked about: one scene or several.
+/// The subject of a question: one scene or several scenes.
 pub trait Subject<'s>: Sized {
-    /// Names of the scenes in help texts; the last one may stand for several.
+    /// Names of the scenes in help texts; the last name may represent several scenes.
     const SCENES: &'static [&'static str];
-    /// The least and the greatest number of them.
+    /// Smallest and largest number of scenes.
     const COUNT: (usize, usize) = (Self::SCENES.len(), Self::SCENES.len());
 
-    /// The subject that consists of these scenes; `None` if it has another number of them.
+    /// Builds the subject from these scenes; `None` if their number does not fit.
     fn of(scenes: &[&'s Start<'s>]) -> Option<Self>;
 }
 
@@ -88,65 +89,65 @@ impl<'s> Subject<'s> for Vec<&'s Start<'s>> {
     }
 }
 
-/// An answer. It owns all that its words and files need, so that it can leave the thread and the
-/// scene. As a document its fields are the keys, in their order.
+/// An answer. It owns all data that its text and files need, so that it can outlive the thread and
+/// the scene. As a document, its fields are the keys, in the order of the fields.
 pub trait Answer: Serialize + Send + 'static {
-    /// The answer for people.
+    /// Returns the answer as text.
     fn words(&self) -> Vec<Block>;
 
-    /// Whether it is whole.
+    /// Returns whether the answer is complete.
     fn ending(&self) -> Ending {
         Ending::Complete
     }
 
-    /// Writes its files, if it has any.
+    /// Writes the files of the answer, if it has any.
     ///
     /// # Errors
-    /// If one of them cannot be written.
+    /// Returns an error if one of them cannot be written.
     fn files(&self, _place: &mut dyn Place) -> Result<(), Refusal> {
         Ok(())
     }
 
-    /// Where files are that were written while it was computed.
+    /// Describes the location of the files that were written during the computation.
     fn written(&self, place: &str) -> String {
         format!("written to {place}")
     }
 }
 
-/// Whether an answer is whole.
+/// Whether an answer is complete.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Ending {
-    /// It is.
+    /// The answer is complete.
     Complete,
-    /// It is a part: why.
+    /// The answer is incomplete, for this reason.
     Partial {
-        /// The code of the reason.
+        /// Code of the reason.
         code: Code,
-        /// The reason.
+        /// Text of the reason.
         error: String,
     },
-    /// It is a part, and says itself why.
+    /// The answer is incomplete, and its document contains the reason.
     Stopped,
 }
 
-/// Code of what was ended by a request.
+/// Code of a computation that was interrupted on request.
 pub const INTERRUPTED: Code = Code::new(8);
 
-/// What is said where a request has ended what has no results yet.
+/// Message if a request has ended a computation without results.
 pub const NOTHING_WRITTEN: &str = "interrupted; nothing was written";
 
 impl Ending {
-    /// A part, since a stop was requested.
+    /// Returns a partial answer because a stop was requested.
     #[must_use]
     pub fn interrupted(error: String) -> Self {
         let code = INTERRUPTED;
         Self::Partial { code, error }
     }
 
-    /// A document as text; `code` and `error` come first in one that is not whole.
+    /// Returns a document as text; in a partial document `code` and `error` come first.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Returns an error if the document cannot be written.
     pub fn json(&self, document: &impl Serialize) -> Result<String, Refusal> {
         #[derive(Serialize)]
         struct Partial<'d, D> {
@@ -169,66 +170,67 @@ impl Ending {
 /// The files of an answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Output {
-    /// Their names.
+    /// Names of the files.
     pub family: Family,
-    /// What they contain, after "Directory for".
+    /// Contents of the files, as a phrase after "Output directory for".
     pub contents: &'static str,
-    /// When they are written.
+    /// The time at which the files are written.
     pub writing: Writing,
 }
 
 impl Output {
-    /// Whether files are written while the answer is computed: then a directory has to be given.
+    /// Whether files are written while the answer is computed; then the caller must give a
+    /// directory.
     #[must_use]
     pub fn is_streamed(&self) -> bool {
         matches!(self.writing, Writing::Meanwhile { .. })
     }
 }
 
-/// When the files of an answer are written.
+/// The time at which the files of an answer are written.
 #[derive(Clone, Copy, Debug)]
 pub enum Writing {
-    /// Together, once the answer is there.
+    /// All files are written together after the computation.
     AtEnd,
-    /// While the answer is computed.
+    /// Files are written during the computation.
     Meanwhile {
         /// Whether several processes write into the directory at the same time.
         shared: bool,
-        /// What is done if the process has to end at once; returns what was kept, in words. It is
-        /// called with the name that was announced by [`Progress::Writing`].
+        /// Called if the process has to end immediately; returns a text on the saved results. Its
+        /// argument is the name that [`Progress::Writing`] announced.
         cut: fn(&OutputDirectory, Option<&str>) -> String,
     },
 }
 
-/// Where the files of an answer are put: a directory, or memory.
+/// The destination of the files of an answer: a directory, or memory.
 pub trait Place {
-    /// Puts a whole file there.
+    /// Writes a whole file to the destination.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Returns an error if the file cannot be written.
     fn put(&mut self, name: &str, content: &[u8]) -> Result<(), FileError>;
 }
 
-/// How whoever asks accompanies the work on an answer.
+/// Settings and callbacks of a caller for the work on an answer.
 #[derive(Clone, Copy)]
 pub struct Control<'c> {
-    /// Whether the work should end before it is done. It is asked often.
+    /// Returns whether the work should end early. The computation calls it often.
     pub stop: &'c (dyn Fn() -> bool + Sync),
-    /// Hears what is done at present.
+    /// Receives the current progress.
     pub progress: &'c (dyn Fn(Progress) + Sync),
-    /// Whether the answer is wanted in words.
+    /// Whether the caller needs the answer as text.
     pub wants_words: bool,
-    /// Whether the files of the answer are wanted, too.
+    /// Whether the caller also needs the files of the answer.
     pub wants_files: bool,
-    /// Where files are written while the answer is computed.
+    /// Directory for files that are written during the computation.
     pub directory: Option<&'c OutputDirectory>,
-    /// Who asks, with what, when: named on pages.
+    /// Name, version and time of the caller; pages print them.
     pub provenance: &'c Provenance,
     /// Number of threads; `None` means one for each core.
     pub threads: Option<NonZeroUsize>,
 }
 
-/// Whoever does not say.
+/// Provenance of callers that do not state one.
 static UNNAMED: LazyLock<Provenance> = LazyLock::new(|| {
     let Origin { command, versions } = Origin::default();
     Provenance {
@@ -240,7 +242,7 @@ static UNNAMED: LazyLock<Provenance> = LazyLock::new(|| {
 });
 
 impl Control<'static> {
-    /// Nobody stops the work, hears of it, or wants files.
+    /// Returns settings without stop, progress and files.
     #[must_use]
     pub fn quiet() -> Self {
         Self {
@@ -255,27 +257,27 @@ impl Control<'static> {
     }
 }
 
-/// What is done at present.
+/// Current progress of the work.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Progress {
-    /// Work on a text of so many bytes, in words.
+    /// The stage, as text, and the size of its input (bytes).
     Stage(&'static str, usize),
-    /// What is counted, how much of it is done, and all of it.
+    /// The counted items, the number that is done, and the total.
     Count(&'static str, usize, usize),
-    /// Runs that are done, all of them, and what else there is to say.
+    /// The number of runs that are done, the total, and a remark.
     Runs(u64, u64, String),
-    /// What is done along a motion, the time that it has reached, and the last time (s).
+    /// The work along a motion, the time that it has reached, and the last time (s).
     Motion(&'static str, f64, f64),
-    /// Results of the scene with this name are written from now on.
+    /// From now on, results of the scene with this name are written.
     Writing(String),
 }
 
-/// A question whose type is known when it is asked.
+/// A question whose type is selected at run time.
 pub trait AnyQuestion {
-    /// Answers it about these scenes.
+    /// Computes the answer for these scenes.
     ///
     /// # Errors
-    /// Why there is no answer.
+    /// Returns the reason why there is no answer.
     fn ask<'s>(
         &self,
         scenes: &[&'s Start<'s>],
@@ -301,25 +303,25 @@ impl<Q: Question> AnyQuestion for Q {
 
 /// An answer of any type.
 pub trait AnyAnswer: Send {
-    /// As [`Answer::words`].
+    /// See [`Answer::words`].
     fn words(&self) -> Vec<Block>;
 
-    /// As [`Answer::ending`].
+    /// See [`Answer::ending`].
     fn ending(&self) -> Ending;
 
-    /// The document as text; `code` and `error` come first in one that is not whole.
+    /// Returns the document as text; in a partial document `code` and `error` come first.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// Returns an error if the document cannot be written.
     fn json(&self) -> Result<String, Refusal>;
 
-    /// As [`Answer::files`].
+    /// See [`Answer::files`].
     ///
     /// # Errors
-    /// If one of them cannot be written.
+    /// Returns an error if one of them cannot be written.
     fn files(&self, place: &mut dyn Place) -> Result<(), Refusal>;
 
-    /// As [`Answer::written`].
+    /// See [`Answer::written`].
     fn written(&self, place: &str) -> String;
 }
 

@@ -1,4 +1,4 @@
-//! All questions, each in a folder of its own: options, computation, answer, words.
+//! All questions, each in a folder of its own: options, computation, answer and text.
 
 pub mod analyze;
 pub mod check;
@@ -30,18 +30,18 @@ use crate::question::{AnyQuestion, Output, Question, Subject};
 use crate::refusal::Refusal;
 use crate::run_options::without_place;
 
-/// What is known of a question before it is asked.
+/// Static properties of a question.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
-    /// Subcommand and method of Python.
+    /// Name of the subcommand and of the Python method.
     pub name: &'static str,
     /// JSON schema of the answer.
     pub schema: &'static str,
     /// The files of an answer.
     pub output: Option<Output>,
-    /// Names of the scenes that it is asked about.
+    /// Names of the scenes that are the subject of the question.
     pub scenes: &'static [&'static str],
-    /// The least and the greatest number of them.
+    /// Smallest and largest number of scenes.
     pub count: (usize, usize),
 }
 
@@ -57,7 +57,7 @@ impl Facts {
     }
 }
 
-/// The one list of questions.
+/// Defines the list of all questions.
 macro_rules! questions {
     ($($question:ident),+ $(,)?) => {
         /// A question with its options.
@@ -72,17 +72,17 @@ macro_rules! questions {
         }
 
         impl Questions {
-            /// What is known of each of them, in the order of the list.
+            /// Static properties of all questions, in the order of the list.
             pub const FACTS: &'static [Facts] = &[$(Facts::of::<$question>()),+];
 
-            /// Each of them and its answer as JSON schemas.
+            /// Returns the JSON schemas of each question and of its answer.
             #[cfg(feature = "schema")]
             #[must_use]
             pub fn schemas() -> Vec<crate::schema::QuestionSchema> {
                 vec![$(crate::schema::QuestionSchema::of::<$question>()),+]
             }
 
-            /// What is known of it.
+            /// Returns the static properties of this question.
             #[must_use]
             pub fn facts(&self) -> Facts {
                 match self {
@@ -90,7 +90,7 @@ macro_rules! questions {
                 }
             }
 
-            /// The question, whichever it is.
+            /// Returns the question as a trait object.
             #[must_use]
             pub fn as_question(&self) -> &dyn AnyQuestion {
                 match self {
@@ -115,7 +115,7 @@ questions!(
 );
 
 impl Questions {
-    /// The question of this name, with its options as a JSON object.
+    /// Reads the question of this name, with its options as a JSON object.
     ///
     /// ```
     /// use pfaff::questions::Questions;
@@ -126,7 +126,7 @@ impl Questions {
     /// ```
     ///
     /// # Errors
-    /// There is no such question, or it has no such options.
+    /// Returns an error if there is no such question, or if it has no such options.
     pub fn read(name: &str, options: &str) -> Result<Self, Refusal> {
         let known = || Self::FACTS.iter().map(|facts| facts.name);
         if !known().any(|known| known == name) {

@@ -1,5 +1,5 @@
-//! Why there is no answer, as the command and other programs for people say it: in words, with the
-//! lines of a scene at fault, or as one document.
+//! The reason why there is no answer, as the command and other programs report it. The form is a
+//! text, with the lines of the scene that contain the error, or a document.
 
 #[cfg(feature = "messages")]
 mod render;
@@ -22,9 +22,9 @@ pub enum Refusal {
     Scene {
         /// The name of the scene in messages.
         name: String,
-        /// Its text.
+        /// Text of the scene.
         text: String,
-        /// The errors, with places in the text.
+        /// The errors, with their positions in the text.
         diagnostics: Vec<Diagnostic>,
     },
     /// Another input is wrong.
@@ -46,7 +46,7 @@ impl Refusal {
         Self::Stopped(const { Code::new(9) }, message)
     }
 
-    /// An error of a scene with this name and text, in which its places are.
+    /// Converts an error of a scene with this name and text, to which its positions refer.
     ///
     /// ```
     /// use pfaff::Study;
@@ -77,7 +77,7 @@ impl Refusal {
         refusal.coded(code)
     }
 
-    /// The same with another code; those of a scene have codes of their own.
+    /// Returns the same refusal with another code; errors of a scene have codes of their own.
     #[must_use]
     pub fn coded(self, code: Code) -> Self {
         match self {
@@ -87,7 +87,7 @@ impl Refusal {
         }
     }
 
-    /// Its code; a scene without errors has none.
+    /// Returns the code of the refusal; a scene without errors has no code.
     #[must_use]
     pub fn code(&self) -> Option<Code> {
         match self {
@@ -96,7 +96,7 @@ impl Refusal {
         }
     }
 
-    /// The errors of the scene, if it is one.
+    /// Returns the errors of the scene, if the refusal is about a scene.
     #[must_use]
     pub fn problems(&self) -> &[Diagnostic] {
         match self {
@@ -105,7 +105,7 @@ impl Refusal {
         }
     }
 
-    /// The refusal in words, with colours for a terminal or without.
+    /// Returns the refusal as text, with colours for a terminal or without colours.
     #[cfg(feature = "messages")]
     #[must_use]
     pub fn words(&self, color: bool) -> String {
@@ -121,8 +121,8 @@ impl Refusal {
         }
     }
 
-    /// The refusal as a document: `error` is one line, `problems` are the wrong places of a scene,
-    /// if there are any.
+    /// Returns the refusal as a document: `error` is one line; `problems` contains the positions of
+    /// errors in a scene, if there are any.
     #[must_use]
     pub fn document(&self) -> RefusalDocument<'_, Diagnostic> {
         let error = match self {
@@ -139,7 +139,7 @@ impl Refusal {
 }
 
 impl From<import::Refusal> for Refusal {
-    /// The refusal of a file of another format.
+    /// Converts the refusal of a file of another format.
     fn from(refusal: import::Refusal) -> Self {
         Self::Scene {
             name: refusal.file,
@@ -150,7 +150,8 @@ impl From<import::Refusal> for Refusal {
 }
 
 impl From<FileError> for Refusal {
-    /// A file that was not written: because of its place, or because writing failed.
+    /// Converts the error of a file that was not written, because of its path, or because writing
+    /// failed.
     fn from(error: FileError) -> Self {
         let refusal = if error.is_place() {
             Self::input(error.to_string())
@@ -187,17 +188,17 @@ impl From<SweepError> for Refusal {
     }
 }
 
-/// A document as text, as the command writes it.
+/// Returns a document as text, in the form in which the command writes it.
 ///
 /// # Errors
-/// If it cannot be written.
+/// Returns an error if the document cannot be written.
 pub fn json(document: &impl Serialize) -> Result<String, Refusal> {
     let mut out = Vec::new();
     write_json(&mut out, document).map_err(|e| Refusal::stopped(e.to_string()))?;
     Ok(String::from_utf8_lossy(&out).into_owned())
 }
 
-/// The first problem, and the number of others.
+/// Returns the first problem, and the number of the others.
 fn in_one_line(diagnostics: &[Diagnostic]) -> String {
     match diagnostics {
         [] => String::new(),
@@ -206,9 +207,9 @@ fn in_one_line(diagnostics: &[Diagnostic]) -> String {
     }
 }
 
-/// A text without characters that a terminal obeys instead of showing them: control characters and
-/// those that change the direction of writing. Each is replaced by one of the same length, so that
-/// places in the text stay the same.
+/// Returns a text without characters that a terminal interprets instead of showing them: control
+/// characters and characters that change the direction of writing. Each of these characters is
+/// replaced by a character of the same length, so that positions in the text remain valid.
 #[must_use]
 pub fn visible(text: &str) -> Cow<'_, str> {
     let is_obeyed = |c: char| {

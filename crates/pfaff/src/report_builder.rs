@@ -19,18 +19,18 @@ use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
 use crate::rows::{RowFault, RowSink};
 
-/// Number of non-unique reactions for which the page says what would make them unique, and number
-/// of sets tried for each.
+/// Number of non-unique reactions for which the page lists deletions that would make them unique,
+/// and number of sets tried for each.
 const HINTS: usize = 8;
 const HINT_TRIALS: usize = 2_000;
 
-/// What a page reports of a run.
+/// Data of a run for its page.
 #[derive(Clone, Copy)]
 pub(crate) struct OfRun<'a> {
     pub(crate) start: &'a ConfigurationAnalysis<'a>,
     pub(crate) sensitivities: &'a Sensitivities,
     pub(crate) document: &'a RunDocument,
-    /// Its verdicts; `None` if no reactions were asked for.
+    /// Verdicts of the run; `None` if no reactions were requested.
     pub(crate) stretches: Option<&'a Stretches>,
 }
 
@@ -43,7 +43,7 @@ pub(crate) struct ReportBuilder<'a> {
     /// Whether reactions are collected.
     has_reactions: bool,
     compares: bool,
-    /// Whether other choices are requested than the rows that the run keeps.
+    /// Whether choices other than the independent rows of the run are requested.
     has_choices: bool,
     ends_only: bool,
 }
@@ -138,7 +138,7 @@ impl<'a> ReportBuilder<'a> {
         analysis.add_notes(mechanism.layout());
         if self.ends_only {
             left_out.push(
-                "The scene wants neither trajectory nor reactions, so that only start and end were computed."
+                "The scene requests neither a trajectory nor reactions. Therefore only the start and the end were computed."
                     .to_owned(),
             );
         }
@@ -159,7 +159,7 @@ impl<'a> ReportBuilder<'a> {
         })
     }
 
-    /// The verdicts at the start with their reasons, and hints.
+    /// Computes the verdicts at the start with their reasons, and hints.
     fn analysis(
         &self,
         start: &ConfigurationAnalysis<'_>,
@@ -185,7 +185,7 @@ impl<'a> ReportBuilder<'a> {
         (document, hints)
     }
 
-    /// The values that drives prescribe at the frames.
+    /// Returns the values that drives prescribe at the frames.
     fn drives(&self) -> Vec<DriveCurve> {
         let mechanism = &self.prepared.mechanism;
         let forces = mechanism.space().forces();
@@ -224,7 +224,7 @@ impl<'a> ReportBuilder<'a> {
             .collect();
         let mut options = vec![
             (
-                "Last time",
+                "End time",
                 format!("{} s, a row every {} s", o.t_end, o.output_step),
             ),
             (
@@ -232,7 +232,7 @@ impl<'a> ReportBuilder<'a> {
                 format!("{:e} relative, {:e} absolute", o.rtol, o.atol),
             ),
             (
-                "Asked for",
+                "Requested",
                 format!(
                     "{}, {}, {}",
                     o.method.name(),
@@ -242,7 +242,7 @@ impl<'a> ReportBuilder<'a> {
             ),
         ];
         if !rows.is_empty() && rows.len() <= 40 {
-            options.push(("Rows without reaction", rows.join(", ")));
+            options.push(("Dependent rows", rows.join(", ")));
         }
         options
             .into_iter()
@@ -251,7 +251,7 @@ impl<'a> ReportBuilder<'a> {
     }
 }
 
-/// What a page tells of the text of a scene.
+/// Information about the text of a scene for the page.
 #[must_use]
 pub fn written_scene(scene: &Scene) -> WrittenScene<'_> {
     WrittenScene {

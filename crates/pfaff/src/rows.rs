@@ -1,4 +1,4 @@
-//! What is done with the rows of a run: one value for each file or array.
+//! Consumers of the rows of a run: one value for each file or array.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -10,33 +10,33 @@ use solvability::Stretches;
 
 use crate::error::StudyError;
 
-/// Takes the rows of a run as they come, and its verdicts when it has ended. Numbers of reactions
-/// are those of one choice until then.
+/// Receives the rows of a run during the run, and its verdicts at its end. Before the end, the
+/// numbers of reactions are those of one choice.
 pub trait RowSink {
-    /// Takes a row. What it asks of the sample is computed when it is first asked for.
+    /// Receives a row. A quantity of the sample is computed at the first access.
     ///
     /// # Errors
     /// [`RowFault`]: the row cannot be computed or written; the run ends.
     fn row(&mut self, sample: &mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault>;
 
-    /// Takes the verdicts of the run, however it ended; `None` if no reactions were asked for.
+    /// Receives the verdicts of the run, for any ending; `None` if no reactions were requested.
     ///
     /// # Errors
-    /// [`StudyError::File`], [`StudyError::Table`]: what belongs to the end cannot be written.
+    /// [`StudyError::File`], [`StudyError::Table`]: the final contents cannot be written.
     fn end(&mut self, verdicts: Option<&Stretches>, ending: &Ending<'_>) -> Result<(), StudyError> {
         let _ = (verdicts, ending);
         Ok(())
     }
 }
 
-/// Reason why a row cannot be taken.
+/// Reason why a row cannot be processed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RowFault {
-    /// It cannot be computed.
+    /// The row cannot be computed.
     #[error(transparent)]
     Motion(#[from] MotionFault),
-    /// It cannot be written.
+    /// The row cannot be written.
     #[error(transparent)]
     Table(#[from] TableError),
 }
@@ -56,15 +56,15 @@ where
 /// A run that has ended.
 pub(crate) struct RunEnd {
     pub(crate) summary: Summary,
-    /// Why it stopped by itself.
+    /// Reason why the run stopped before its end.
     pub(crate) error: Option<MotionError>,
     interrupted: bool,
-    /// Why a row could not be written.
+    /// Reason why a row could not be written.
     pub(crate) unwritten: Option<TableError>,
 }
 
 impl RunEnd {
-    /// How it ended; a run whose rows could not be written is partial.
+    /// Returns how the run ended; a run whose rows could not be written is partial.
     pub(crate) fn ending(&self) -> Ending<'_> {
         match (&self.error, self.interrupted || self.unwritten.is_some()) {
             (Some(error), _) => Ending::Stopped(error),
@@ -74,12 +74,13 @@ impl RunEnd {
     }
 }
 
-/// Runs a plan into sinks. `watch` is called with the time of each row, or of each step where no
-/// rows are asked for, and may end the run, as `stop` may, which is asked at each evaluation.
+/// Runs a plan and passes its rows to sinks. `watch` is called with the time of each row, or of
+/// each step if no rows are requested, and may end the run. `stop` is called at each evaluation and
+/// may also end the run.
 ///
 /// # Errors
 /// - [`StudyError::Motion`]: the run could not begin.
-/// - [`StudyError::Interrupted`]: it was ended before the first row.
+/// - [`StudyError::Interrupted`]: the run was ended before the first row.
 pub(crate) fn run_into(
     plan: &Plan<'_>,
     (watch, stop): (&(dyn Fn(f64) -> ControlFlow<()> + Sync), &Stop<'_>),

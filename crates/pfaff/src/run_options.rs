@@ -16,7 +16,7 @@ use crate::refusal::Refusal;
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 pub struct RunOptions {
-    /// Last time (s)
+    /// End time (s)
     #[cfg_attr(
         feature = "command",
         arg(long, value_name = "T", allow_hyphen_values = true)
@@ -34,13 +34,13 @@ pub struct RunOptions {
         arg(long, value_name = "A", allow_hyphen_values = true)
     )]
     pub atol: Option<f64>,
-    /// Largest step (s)
+    /// Maximum step size (s)
     #[cfg_attr(
         feature = "command",
         arg(long, value_name = "H", allow_hyphen_values = true)
     )]
     pub max_step: Option<f64>,
-    /// Most steps, accepted and rejected, after which the run stops
+    /// Maximum number of steps (accepted + rejected)
     #[cfg_attr(feature = "command", arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..)))]
     pub max_steps: Option<u64>,
     /// Integrator
@@ -48,12 +48,12 @@ pub struct RunOptions {
     #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     #[cfg_attr(feature = "command", arg(long, value_name = "M", value_parser = crate::command::named(Method::ALL, Method::name)))]
     pub method: Option<Method>,
-    /// Treatment of drift
+    /// Method against constraint drift
     #[serde(deserialize_with = "stabilisation")]
     #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     #[cfg_attr(feature = "command", arg(long, value_name = "S", value_parser = crate::command::named(Stabilisation::ALL, Stabilisation::name)))]
     pub stabilisation: Option<Stabilisation>,
-    /// Rows to eliminate, counted from 1
+    /// Rows to eliminate (1-based)
     // In the program they are counted from 0.
     #[serde(deserialize_with = "rows")]
     #[cfg_attr(
@@ -62,23 +62,23 @@ pub struct RunOptions {
     )]
     #[cfg_attr(feature = "command", arg(long, value_name = "ROWS", value_delimiter = ',', value_parser = row))]
     pub drop: Option<Vec<usize>>,
-    /// Number of components that compute at the same time.
+    /// Number of components that are integrated at the same time.
     #[serde(skip)]
     #[cfg_attr(feature = "command", arg(skip))]
     pub threads: Option<NonZeroUsize>,
 }
 
 impl RunOptions {
-    /// Options from a JSON object.
+    /// Reads options from a JSON object.
     ///
     /// # Errors
-    /// Which of them is wrong.
+    /// Returns an error that names the invalid option.
     pub fn read(text: &str) -> Result<Self, Refusal> {
         read_json(text).map_err(|e| Refusal::input(without_place(&e).to_owned()))
     }
 }
 
-/// An error of JSON without its place: the caller has not written the text.
+/// Removes the position from a JSON error: the caller has not written the JSON text.
 pub(crate) fn without_place(error: &str) -> &str {
     error
         .rsplit_once(" at line ")
@@ -87,7 +87,7 @@ pub(crate) fn without_place(error: &str) -> &str {
 
 pub(crate) const NO_ROW: &str = "rows are counted from 1; there is no row 0";
 
-/// Rows from 0, from those of a user, who counts from 1.
+/// Converts rows of a user, who counts from 1, to rows counted from 0.
 pub(crate) fn rows<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<Vec<usize>>, D::Error> {
     let Some(rows) = Option::<Vec<usize>>::deserialize(reader)? else {
         return Ok(None);
@@ -96,13 +96,15 @@ pub(crate) fn rows<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<Vec<usiz
     from_zero.map(Some).ok_or_else(|| D::Error::custom(NO_ROW))
 }
 
-/// One row of a command line, from 0; a user counts from 1.
+/// Converts one row of a command line, counted from 1, to a row counted from 0.
 ///
 /// # Errors
-/// It is no number, or 0.
+/// Returns an error if the text is not a number, or is 0.
 #[cfg(feature = "command")]
 pub fn row(text: &str) -> Result<usize, String> {
-    let row: usize = text.parse().map_err(|_| format!("`{text}` is no row"))?;
+    let row: usize = text
+        .parse()
+        .map_err(|_| format!("`{text}` is not a row number"))?;
     row.checked_sub(1).ok_or_else(|| NO_ROW.to_owned())
 }
 
@@ -114,7 +116,7 @@ fn stabilisation<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<Stabilisat
     named(reader, Stabilisation::ALL, Stabilisation::name)
 }
 
-/// The value of this name, or the error that lists all names.
+/// Returns the value with this name, or an error that lists all names.
 fn named<'d, D: Deserializer<'d>, T: Copy>(
     reader: D,
     all: &[T],
@@ -128,7 +130,7 @@ fn named<'d, D: Deserializer<'d>, T: Copy>(
         let names: Vec<&str> = all.iter().map(|value| name(*value)).collect();
         let near = nearest(&text, names.iter().copied());
         let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-        D::Error::custom(format!("`{text}` is none of {}{near}", names.join(", ")))
+        D::Error::custom(format!("`{text}` is not one of {}{near}", names.join(", ")))
     })
 }
 
@@ -151,7 +153,7 @@ mod tests {
         let text = r#"{ "t_end": 2, "method": "radau5", "drop": [6, 21] }"#;
         assert_eq!(read(text), Ok(expected));
         for (wrong, words) in [
-            (r#"{ "method": "euler" }"#, "`euler` is none of "),
+            (r#"{ "method": "euler" }"#, "`euler` is not one of "),
             (r#"{ "drop": [0] }"#, NO_ROW),
             (r#"{ "t_ned": 2 }"#, "t_ned"),
         ] {

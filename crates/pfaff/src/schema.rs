@@ -1,4 +1,4 @@
-//! Questions and answers as JSON schemas, for programs that write interfaces of them.
+//! Questions and answers as JSON schemas, for programs that generate interfaces from them.
 
 use report::json::FORMAT;
 use schemars::generate::SchemaSettings;
@@ -11,16 +11,16 @@ use crate::question::Question;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct QuestionSchema {
-    /// Its name.
+    /// Name of the question.
     pub name: &'static str,
-    /// Its options.
+    /// Schema of the options.
     pub options: Schema,
-    /// Its document.
+    /// Schema of the answer document.
     pub answer: Schema,
 }
 
 impl QuestionSchema {
-    /// Those of one question.
+    /// Builds the schemas of one question.
     pub(crate) fn of<Q: Question<Answer: JsonSchema> + JsonSchema>() -> Self {
         let settings = SchemaSettings::draft2020_12;
         let read = settings().for_deserialize().into_generator();
@@ -36,7 +36,7 @@ impl QuestionSchema {
     }
 }
 
-/// What stands at the head of every document, and of one that is not whole.
+/// Adds the keys at the head of every document, and of an incomplete document.
 fn add_head(document: &mut Schema) {
     let head = json_schema!({
         "format": { "const": FORMAT, "description": "Number of the format of documents" },
@@ -49,7 +49,7 @@ fn add_head(document: &mut Schema) {
     let own = entries.entry("properties").or_insert_with(none);
     if let (Some(own), Some(head)) = (own.as_object_mut(), head.as_object()) {
         for (key, of) in head {
-            // A document may have one of them itself.
+            // A document may define one of these keys itself.
             own.entry(key.clone()).or_insert_with(|| of.clone());
         }
     }

@@ -10,7 +10,7 @@ use scene::nearest;
 use crate::refusal::Refusal;
 
 /// Largest scene that is read (bytes): ten times the size of a scene with a hundred thousand
-/// bodies. An endless device must not fill the memory.
+/// bodies. The limit prevents an endless device from filling the memory.
 pub const LARGEST: u64 = 1 << 28;
 
 const UNREADABLE: Code = Code::new(2);
@@ -18,11 +18,11 @@ const UNREADABLE: Code = Code::new(2);
 /// Number of entries of a directory that are searched for a similar name.
 const LOOKED_AT: usize = 10_000;
 
-/// The name in messages and the text of a file.
+/// Returns the name in messages and the text of a file.
 ///
 /// # Errors
-/// The file cannot be read, with the name of one beside it that was probably meant, it is too large
-/// for a scene, or it is not UTF-8.
+/// Returns an error if the file cannot be read, is too large for a scene, or is not UTF-8. For an
+/// unreadable file the error suggests a file in the same directory with a similar name.
 pub fn of_file(path: &Path) -> Result<(String, String), Refusal> {
     let name = path.display().to_string();
     let bytes = File::open(path).and_then(bounded);
@@ -30,10 +30,10 @@ pub fn of_file(path: &Path) -> Result<(String, String), Refusal> {
     Ok((name.clone(), text(&name, bytes)?))
 }
 
-/// The text of a stream with this name in messages.
+/// Returns the text of a stream with this name in messages.
 ///
 /// # Errors
-/// As [`of_file`].
+/// Returns the errors of [`of_file`].
 pub fn of_stream(name: &str, stream: impl Read) -> Result<String, Refusal> {
     let bytes = bounded(stream).map_err(|e| unread(name, &e, ""))?;
     text(name, bytes)
@@ -52,7 +52,8 @@ fn text(name: &str, bytes: Vec<u8>) -> Result<String, Refusal> {
     })
 }
 
-/// A file that cannot be read, with the scene in its directory that was probably meant.
+/// Builds the error for a file that cannot be read; it suggests a scene in the same directory with
+/// a similar name.
 #[must_use]
 pub fn unreadable(path: &Path, e: &io::Error) -> Refusal {
     let near = match e.kind() {
@@ -69,7 +70,7 @@ fn unread(name: &str, e: &io::Error, advice: &str) -> Refusal {
     Refusal::input(format!("cannot read `{name}`: {e}{advice}")).coded(UNREADABLE)
 }
 
-/// The scene in the directory of a path whose name is nearest to that of the path.
+/// Finds the scene in the directory of a path whose name is most similar to that of the path.
 fn scene_beside(path: &Path) -> Option<PathBuf> {
     let directory = match path.parent() {
         Some(parent) if parent.as_os_str() != "" => parent,
@@ -93,7 +94,7 @@ fn bounded(reader: impl Read) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Line and column just after the last valid character of a text, both from 1.
+/// Returns line and column just after the last valid character of a text, both counted from 1.
 fn end_of(text: &[u8]) -> (usize, usize) {
     let text = String::from_utf8_lossy(text);
     let last = text.rsplit('\n').next().unwrap_or_default();

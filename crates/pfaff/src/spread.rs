@@ -1,5 +1,6 @@
-//! The spread of two choices of rows: within a stated tolerance the motion depends on which rows
-//! are kept, by about as much as the dropped ones miss.
+//! The difference between the motions for two choices of rows. Within a stated tolerance the motion
+//! depends on the choice of independent rows, by about as much as the violations of the redundant
+//! rows.
 
 use std::ops::ControlFlow;
 
@@ -10,7 +11,7 @@ use dynamics::{MotionError, OutputRequest, Plan, PreparedMechanism, Sample, Stop
 
 use crate::rows::{RowFault, RowSink, RunEnd};
 
-/// Configurations of a run at its rows of output, if rows of it may miss.
+/// Configurations of a run at its output rows, if redundant rows of it may be violated.
 pub(crate) struct Path {
     may_miss: bool,
     rows: Vec<Vec<f64>>,
@@ -33,7 +34,7 @@ impl Path {
         }
     }
 
-    /// The spread of a run that has reached its end.
+    /// Computes the difference for a run that has reached its end.
     pub(crate) fn spread_of(
         &self,
         plan: &Plan<'_>,
@@ -46,9 +47,9 @@ impl Path {
         }
     }
 
-    /// Compares these rows with those of a run on other rows: the run is repeated with each row
-    /// that has missed kept instead of the one that takes the largest part in its dependency.
-    /// Returns `None` if no row has missed, or no other rows can be dropped.
+    /// Compares these configurations with those of a run on other rows. The second run keeps each
+    /// violated row and instead deletes the row with the largest coefficient in the same
+    /// dependency. Returns `None` if no row is violated, or if no other rows can be deleted.
     fn spread(
         &self,
         plan: &Plan<'_>,

@@ -1,5 +1,5 @@
-//! The text of a scene, and what is made of it when it is first needed: the assembled scene, and
-//! its judged start.
+//! The text of a scene, with results that are computed at the first access: the assembled scene,
+//! and the analysed start.
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -16,25 +16,25 @@ use crate::refusal::Refusal;
 use crate::run_options::RunOptions;
 use crate::study::Study;
 
-/// A scene that questions are asked about.
+/// A scene that is the subject of questions.
 pub struct Start<'r> {
-    /// Its name in messages.
+    /// Name of the scene in messages.
     pub name: String,
-    /// Its text.
+    /// Text of the scene.
     pub text: String,
-    /// Takes precedence over the tolerance that the scene states.
+    /// Tolerance that takes precedence over the tolerance that the scene states.
     pub tolerance: Tolerance,
-    /// The joints and forces that it may use.
+    /// The joints and forces that the scene may use.
     pub registry: &'r Registry,
-    /// What its computations may take of the memory.
+    /// Limit of the memory for its computations.
     pub budget: Budget,
     judged: OnceLock<Arc<JudgedStart>>,
-    /// The verdicts that were found last, with their time (s).
+    /// The last computed verdicts, with their time (s).
     verdicts: Mutex<Option<(f64, KeptAnalysis)>>,
 }
 
 impl<'r> Start<'r> {
-    /// A scene with this name in messages and this text.
+    /// Creates a scene with this name in messages and this text.
     #[must_use]
     pub fn new(name: String, text: String, registry: &'r Registry, budget: Budget) -> Self {
         Self {
@@ -48,7 +48,7 @@ impl<'r> Start<'r> {
         }
     }
 
-    /// The same, with what is known of it by another one with the same text and tolerance.
+    /// Reuses the results of another instance with the same text and tolerance.
     #[must_use]
     pub fn knowing(self, other: &Self) -> Self {
         Self {
@@ -58,7 +58,7 @@ impl<'r> Start<'r> {
         }
     }
 
-    /// An error with its places in the text.
+    /// Adds positions in the text to an error.
     #[must_use]
     pub fn refusal(&self, error: StudyError) -> Refusal {
         if let StudyError::NoEnd = error {
@@ -71,17 +71,17 @@ impl<'r> Start<'r> {
     /// Reads the scene and builds its mechanism.
     ///
     /// # Errors
-    /// The memory does not suffice, or the errors of the scene.
+    /// Returns an error if the memory is not sufficient, and the errors of the scene.
     pub fn assembled(&self, control: &Control<'_>) -> Result<AssembledScene, Refusal> {
         (control.progress)(Progress::Stage("reading and building", self.text.len()));
         let of = (self.name.as_str(), self.text.as_str());
         self.budget.assembled(of, self.registry, self.tolerance)
     }
 
-    /// Finds a consistent start and chooses rows, with options in place of those of the scene.
+    /// Finds a consistent start and chooses rows, with options that replace those of the scene.
     ///
     /// # Errors
-    /// As [`Self::assembled`] and [`AssembledScene::prepare`].
+    /// Returns the errors of [`Self::assembled`] and [`AssembledScene::prepare`].
     pub fn prepared(&self, with: &RunOptions, control: &Control<'_>) -> Result<Study, Refusal> {
         let assembled = self.assembled(control)?;
         self.prepare(assembled, with, control)
@@ -99,11 +99,11 @@ impl<'r> Start<'r> {
         assembled.prepare(with)
     }
 
-    /// Judges the start, also if no motion can begin there, with rows to drop that are not those of
-    /// the scene.
+    /// Analyses the start, also if no motion can begin there, with redundant rows that may differ
+    /// from those of the scene.
     ///
     /// # Errors
-    /// As [`Self::assembled`], or there is no start.
+    /// Returns the errors of [`Self::assembled`], and an error if there is no start.
     pub fn judged_with(
         &self,
         with: &RunOptions,
@@ -129,29 +129,29 @@ impl<'r> Start<'r> {
         })))
     }
 
-    /// The judged start with the options of the scene. It is made once.
+    /// Returns the analysed start with the options of the scene. The analysis is performed once.
     ///
     /// # Errors
-    /// As [`Self::judged_with`].
+    /// Returns the errors of [`Self::judged_with`].
     pub fn judged(&self, control: &Control<'_>) -> Result<Arc<JudgedStart>, Refusal> {
         if let Some(judged) = self.judged.get() {
-            // A limit refuses the same scenes whether or not they are known.
+            // A memory limit rejects the same scenes whether or not results are stored.
             if self.budget.limit.is_some() {
                 let of = (self.name.as_str(), self.text.as_str());
                 self.budget.allow_scene(of, judged.parts().1)?;
             }
             return Ok(Arc::clone(judged));
         }
-        // Two threads may both do this; they find the same.
+        // Two threads may both compute the start; they obtain the same result.
         let judged = Arc::new(self.judged_with(&RunOptions::default(), control)?);
         Ok(Arc::clone(self.judged.get_or_init(|| judged)))
     }
 
-    /// The verdicts on [`Self::judged`] at a time of its motion (s). The last ones stay known;
-    /// `progress` is called with the number of joints that have been judged.
+    /// Returns the verdicts on [`Self::judged`] at a time of its motion (s). The last verdicts are
+    /// stored; `progress` is called with the number of joints analysed so far.
     ///
     /// # Errors
-    /// The motion does not reach that time, or C cannot be analysed there.
+    /// Returns an error if the motion does not reach that time, or if C cannot be analysed there.
     pub fn configuration<'j>(
         &self,
         judged: &'j JudgedStart,
@@ -179,10 +179,10 @@ impl<'r> Start<'r> {
         self.verdicts.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The study with the options of the scene.
+    /// Returns the study with the options of the scene.
     ///
     /// # Errors
-    /// As [`Self::judged`], or no motion can begin.
+    /// Returns the errors of [`Self::judged`], and an error if no motion can begin.
     pub fn study(&self, control: &Control<'_>) -> Result<Arc<Study>, Refusal> {
         self.judged(control)?.study().map(Arc::clone)
     }
@@ -190,26 +190,26 @@ impl<'r> Start<'r> {
 
 /// A start with its verdicts.
 pub enum JudgedStart {
-    /// It can move.
+    /// The mechanism can move.
     Moves(Arc<Study>),
-    /// It can only be judged.
+    /// The start can be analysed, but no motion begins there.
     Stands(Box<Standing>),
 }
 
-/// A start that can only be judged.
+/// A start that can be analysed, but at which no motion begins.
 pub struct Standing {
-    /// The scene, assembled.
+    /// The assembled scene.
     pub assembled: AssembledScene,
-    /// Its verdicts.
+    /// Verdicts at the start.
     pub kept: KeptAnalysis,
-    /// Why it cannot move, as a warning.
+    /// Reason why the mechanism cannot move, as a warning.
     pub warning: String,
-    /// Why it cannot move, as a refusal of what needs a motion.
+    /// Reason why the mechanism cannot move, as an error for requests that need a motion.
     pub refusal: Refusal,
 }
 
 impl JudgedStart {
-    /// The scene and its mechanism.
+    /// Returns the scene and its mechanism.
     #[must_use]
     pub fn parts(&self) -> (&Scene, &Mechanism) {
         match self {
@@ -218,10 +218,10 @@ impl JudgedStart {
         }
     }
 
-    /// What can move.
+    /// Returns the study, if the mechanism can move.
     ///
     /// # Errors
-    /// Why it cannot.
+    /// Returns the reason why it cannot move.
     pub fn study(&self) -> Result<&Arc<Study>, Refusal> {
         match self {
             Self::Moves(study) => Ok(study),
@@ -230,10 +230,10 @@ impl JudgedStart {
     }
 }
 
-/// The document of a configuration without answers to further questions.
+/// Returns the document of a configuration without results for further questions.
 ///
 /// # Errors
-/// A verdict cannot be explained.
+/// Returns an error if a verdict cannot be explained.
 pub fn document_of(
     configuration: &ConfigurationAnalysis<'_>,
 ) -> Result<AnalysisDocument, StudyError> {

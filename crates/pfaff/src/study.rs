@@ -1,5 +1,5 @@
-//! A scene from its text to its results: read, assemble, decide, move, write. These are the
-//! commands without their printing.
+//! All stages for a scene, from its text to its results: read, assemble, decide, simulate, write.
+//! The functions correspond to the commands without printing.
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -48,14 +48,14 @@ use crate::within::missed;
 /// of the tables.
 const PICTURED_ROWS: usize = 600;
 
-/// Largest number of rows of a mechanism for which it is tested whether a motion begins.
+/// Largest number of rows of a mechanism for which the program tests whether a motion begins.
 const BEGUN_ROWS: usize = 2000;
 
-/// Where a search has ended on the constraints, a start that misses by less than this share of the
-/// size is not too far from an assembled one: the constraints are dependent there.
+/// After a search on the constraints, a start with a violation below this fraction of the size is
+/// close enough to an assembled start: the constraints are dependent there.
 const REACHED: f64 = 1e-6;
 
-/// Searches for a place of rest that follow one from a singular start, at most.
+/// Largest number of searches for an equilibrium after a search from a singular start.
 const SEARCHES: usize = 3;
 
 /// A scene that has been assembled and can move.
@@ -63,12 +63,12 @@ const SEARCHES: usize = 3;
 pub struct Study {
     /// The scene, read from a text or made by a program.
     pub scene: Scene,
-    /// Start and kept rows.
+    /// The start and the independent rows.
     pub prepared: PreparedMechanism,
     /// Options of a run; `None` if neither the scene nor the caller states the end of the run.
     pub options: Option<MotionOptions>,
-    /// Choices that give the numbers which the model does not determine, in a run; without any, its
-    /// dropped rows are the choice.
+    /// Choices that give values to the numbers that the model does not determine, in a run; without
+    /// a choice, the multipliers of the redundant rows are zero.
     pub choices: Vec<Choice>,
 }
 
@@ -76,19 +76,20 @@ pub struct Study {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct EndedRun {
-    /// Its numbers, events and verdicts.
+    /// Numbers, events and verdicts of the run.
     pub document: RunDocument,
-    /// Why it stopped before its end, if it did so by itself.
+    /// Reason why the run stopped before its end, if an error stopped it.
     pub stopped: Option<MotionError>,
     /// Verdicts at the start, in the order of the rows of C.
     pub verdicts: Vec<ReactionVerdict>,
-    /// Verdicts of the run; `None` if no reactions were asked for.
+    /// Verdicts of the run; `None` if no reactions were requested.
     pub stretches: Option<Stretches>,
-    /// The columns of reactions of all joints and drives, then those of the groups of the scene.
+    /// The columns of reactions of all joints and drives, then the columns of the groups of the
+    /// scene.
     pub columns: Vec<ReactionColumn>,
 }
 
-/// The numbers of reactions of a row, all of one choice.
+/// The values of the reactions of a row for one choice.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ChosenNumbers {
@@ -96,8 +97,8 @@ pub struct ChosenNumbers {
     pub reactions: ChosenValues<Reaction>,
     /// All numbers of the groups of the scene, group by group.
     pub groups: ChosenValues<f64>,
-    /// The same for each choice of [`Study::choices`] and then of [`OutputRequest::choices`];
-    /// NaN where a choice selects no solution.
+    /// The same values for each choice of [`Study::choices`] and then of
+    /// [`OutputRequest::choices`]; NaN if a choice selects no solution.
     pub choices: Vec<ChosenNumbers>,
 }
 
@@ -106,7 +107,7 @@ impl Study {
     /// messages.
     ///
     /// # Errors
-    /// - [`StudyError::Scene`]: all faults of the text, including those of the start.
+    /// - [`StudyError::Scene`]: all errors of the text, including those of the start.
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
     pub fn read(
         name: &str,
@@ -117,7 +118,7 @@ impl Study {
         AssembledScene::read(name, text, registry)?.prepare(overrides)
     }
 
-    /// Like [`Self::read`], for a scene, or a description alone, made by a program.
+    /// Like [`Self::read`], for a scene made by a program, or for a description without a scene.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -136,7 +137,7 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// - [`StudyError::Build`]: all faults of the description.
+    /// - [`StudyError::Build`]: all errors of the description.
     /// - [`StudyError::Motion`]: there is no consistent start, or no rows can be chosen.
     /// - [`StudyError::SingularStart`]: no motion begins with the velocities of the start.
     pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
@@ -144,11 +145,11 @@ impl Study {
     }
 
     /// Analyses a configuration at a time of the motion; at t = 0 no run is needed. `drop` (rows
-    /// from 0) states which rows are expressed by the dependencies; no verdict depends on it.
+    /// from 0) selects the redundant rows; no verdict depends on this selection.
     ///
     /// # Errors
-    /// If the motion does not reach that time, if C cannot be analysed there, if redundant rows
-    /// contradict each other there, or if the rows cannot be dropped.
+    /// Returns an error if the motion does not reach that time, if C cannot be analysed there, if
+    /// redundant rows contradict each other there, or if these rows cannot be redundant.
     pub fn analyse(
         &self,
         t: f64,
@@ -157,11 +158,12 @@ impl Study {
         self.analyse_until(t, drop, &|| false, |_| ())
     }
 
-    /// Like [`Self::analyse`]; `stop` is asked at each evaluation of the run that reaches the time,
-    /// and `progress` is called with the number of joints analysed so far.
+    /// Like [`Self::analyse`]; `stop` is called at each evaluation of the run that reaches the
+    /// time, and `progress` is called with the number of joints analysed so far.
     ///
     /// # Errors
-    /// As [`Study::analyse`], and [`StudyError::Interrupted`]: `stop` returned true.
+    /// Returns the errors of [`Study::analyse`], and [`StudyError::Interrupted`] if `stop` returned
+    /// true.
     pub fn analyse_until(
         &self,
         t: f64,
@@ -181,7 +183,7 @@ impl Study {
         progress: impl Fn(usize) + Sync,
     ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
         let mechanism = &self.prepared.mechanism;
-        // Later configurations are only as accurate as the motion that has reached them.
+        // A later configuration is only as accurate as the motion up to that time.
         let known = match t {
             0.0 => ConfigurationAccuracy::AsStored,
             _ => ConfigurationAccuracy::To(self.motion_to(t).rtol),
@@ -205,11 +207,12 @@ impl Study {
         }
     }
 
-    /// Small motions about the state at a time of the motion, which has to be at rest or steady; at
-    /// t = 0 no run is needed. At rest, functions of time keep their values at t.
+    /// Linearises the motion about the state at a time of the motion, which must be at rest or in
+    /// steady motion; at t = 0 no run is needed. At rest, functions of time have their constant
+    /// values at t.
     ///
     /// # Errors
-    /// If the motion does not reach that time, or as [`linearise`].
+    /// Returns an error if the motion does not reach that time, and the errors of [`linearise`].
     pub fn linearise(
         &self,
         t: f64,
@@ -218,11 +221,12 @@ impl Study {
         self.linearise_until(t, options, &|| false)
     }
 
-    /// Like [`Self::linearise`]; `stop` is asked at each evaluation of the run that reaches the
+    /// Like [`Self::linearise`]; `stop` is called at each evaluation of the run that reaches the
     /// time.
     ///
     /// # Errors
-    /// As [`Study::linearise`], and [`StudyError::Interrupted`]: `stop` returned true.
+    /// Returns the errors of [`Study::linearise`], and [`StudyError::Interrupted`] if `stop`
+    /// returned true.
     pub fn linearise_until(
         &self,
         t: f64,
@@ -233,10 +237,11 @@ impl Study {
         Ok(linearise(&self.prepared, (t, &q, &v), options)?)
     }
 
-    /// A configuration at rest near the start, and the study of the same scene that starts there,
-    /// at rest, for all further questions. Places, initial values and the zeros of measures stay
-    /// those of the described start. Drives are held as at the start; where they accelerate at
-    /// once ([`Equilibrium::moving_on`]), the forces at rest are those of [`Self::held_at`].
+    /// Finds an equilibrium near the start, and returns it with the study of the same scene that
+    /// starts there, at rest, for all further questions. Reference points, initial values and the
+    /// zeros of joint coordinates are those of the described start. Drives are locked at their
+    /// positions at the start; if they would accelerate immediately ([`Equilibrium::moving_on`]),
+    /// the static forces are those of [`Self::held_at`].
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -256,14 +261,14 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// As [`equilibrium`]; and if the mechanism cannot start there.
+    /// Returns the errors of [`equilibrium`], and an error if the mechanism cannot start there.
     pub fn equilibrium(
         &self,
         options: &EquilibriumOptions,
     ) -> Result<(Equilibrium, Self), StudyError> {
         let mut found = equilibrium(&self.prepared, options)?;
         let mut there = self.starting_at(&found.q)?;
-        // From a singular start the search has moved with the rank that holds there only.
+        // A search from a singular start uses the rank of the start, which may hold only there.
         let rank = |study: &Self| study.prepared.decision.rank;
         for _ in 0..SEARCHES {
             let before = rank(&there);
@@ -282,8 +287,8 @@ impl Study {
         Ok((found, there))
     }
 
-    /// The same study in which functions of time keep the values that they have at t, for a start
-    /// at rest: [`model::Mechanism::held_at`]. Its reactions at the start are those of statics.
+    /// Returns the same study with functions of time constant at their values at t, for a start at
+    /// rest: [`model::Mechanism::held_at`]. The reactions at its start are the static reactions.
     #[must_use]
     pub fn held_at(&self, t: f64) -> Self {
         Self {
@@ -294,7 +299,7 @@ impl Study {
         }
     }
 
-    /// The same scene that starts at the coordinates q, at rest.
+    /// Returns the study of the same scene that starts at the coordinates q, at rest.
     fn starting_at(&self, q: &[f64]) -> Result<Self, StudyError> {
         let mut scene = self.scene.clone();
         scene.start.poses = self.poses(q);
@@ -329,7 +334,7 @@ impl Study {
         })
     }
 
-    /// The poses of all bodies at the coordinates q.
+    /// Returns the positions and orientations of all bodies at the coordinates q.
     fn poses(&self, q: &[f64]) -> Vec<StartPose> {
         let mechanism = &self.prepared.mechanism;
         let v = vec![0.0; mechanism.layout().n_v];
@@ -351,23 +356,23 @@ impl Study {
         (0..mechanism.bodies().len()).map(pose).collect()
     }
 
-    /// The text of the scene, if it was read from one, that starts at the coordinates q, at rest:
-    /// see [`scene::at_rest`].
+    /// Returns the text of the scene, if it was read from a text, that starts at the coordinates q,
+    /// at rest: see [`scene::at_rest`].
     ///
     /// # Errors
-    /// If the poses cannot be written into the text.
+    /// Returns an error if the poses cannot be written into the text.
     pub fn text_at_rest(&self, q: &[f64]) -> Result<String, KeyError> {
         let poses: Vec<FramePose> = self.poses(q).iter().map(|pose| pose.frame).collect();
         scene::at_rest(&self.scene, &poses)
     }
 
-    /// The first contradiction of drives after the start: with each other, or with what joints
-    /// allow, checked at a dozen times up to the end of the run. Returns `None` if there is none,
-    /// if the end of the run is not stated, or if it cannot be determined: see
-    /// [`solvability::contradicting_drives_along`].
+    /// Finds the first contradiction of drives after the start: with each other, or with the
+    /// motions that the joints permit. The check uses a dozen times up to the end of the run.
+    /// Returns `None` if there is no contradiction, if the end of the run is not stated, or if it
+    /// cannot be determined: see [`solvability::contradicting_drives_along`].
     ///
     /// # Errors
-    /// If C cannot be analysed on the way.
+    /// Returns an error if C cannot be analysed at one of these times.
     pub fn contradicting_drives(&self) -> Result<Option<Contradiction>, StudyError> {
         let Some(options) = &self.options else {
             return Ok(None);
@@ -376,11 +381,12 @@ impl Study {
         Ok(contradicting_drives_along(mechanism, q, options.t_end)?)
     }
 
-    /// Returns an error for drives that contradict each other later in the run, with their places
-    /// in the scene.
+    /// Returns an error for drives that contradict each other later in the run, with their
+    /// positions in the scene.
     ///
     /// # Errors
-    /// As [`Study::contradicting_drives`], and [`StudyError::Scene`], or for a scene without text
+    /// Returns the errors of [`Study::contradicting_drives`], and [`StudyError::Scene`], or for a
+    /// scene without text
     /// [`StudyError::Motion`]: there are such drives.
     pub fn check_drives(&self) -> Result<(), StudyError> {
         match self.contradicting_drives()? {
@@ -389,9 +395,9 @@ impl Study {
         }
     }
 
-    /// The reason why no motion begins although the start is consistent, for example a body without
-    /// mass that is free to move. Returns `None` if a motion begins. For mechanisms with many rows
-    /// it is not tested, because the test costs as much as a step.
+    /// Returns the reason why no motion begins although the start is consistent, for example a
+    /// massless body that is free to move. Returns `None` if a motion begins. For mechanisms with
+    /// many rows this is not tested, because the test takes as long as a step.
     #[must_use]
     pub fn cannot_begin(&self) -> Option<String> {
         if self.prepared.mechanism.layout().rows() > BEGUN_ROWS {
@@ -418,11 +424,11 @@ impl Study {
         Some(format!("this start cannot be simulated: {error}"))
     }
 
-    /// Adds to the document of the start what speaks against a motion: drives that contradict each
-    /// other later, first, and the reason why none begins.
+    /// Adds warnings to the document of the start: drives that contradict each other later, and the
+    /// reason why no motion begins.
     ///
     /// # Errors
-    /// As [`Study::contradicting_drives`].
+    /// Returns the errors of [`Study::contradicting_drives`].
     pub fn add_warnings(&self, document: &mut AnalysisDocument) -> Result<(), StudyError> {
         if let Some(later) = self.contradicting_drives()? {
             document.warnings.insert(0, later.to_string());
@@ -431,13 +437,13 @@ impl Study {
         Ok(())
     }
 
-    /// The state at a time of the motion; at t = 0 no run is needed.
+    /// Returns the state at a time of the motion; at t = 0 no run is needed.
     pub(crate) fn state_at(&self, t: f64) -> Result<State, StudyError> {
         self.state_until(t, &|| false)
     }
 
-    /// The state at a time of the motion, that of a row of its tables at this time; at t = 0 no run
-    /// is needed. `stop` is asked at each evaluation of the run.
+    /// Returns the state at a time of the motion, as in a row of its tables at this time; at t = 0
+    /// no run is needed. `stop` is called at each evaluation of the run.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -464,7 +470,8 @@ impl Study {
         }
         let own = self.motion_to(t);
         match self.reached(t, &own, stop) {
-            // The motion that the scene states may not begin for what comes later.
+            // The motion up to the end that the scene states may fail to begin because of later
+            // events.
             Err(StudyError::Motion(_)) if own.t_end > t => {
                 let shorter = MotionOptions { t_end: t, ..own };
                 self.reached(t, &shorter, stop)
@@ -473,7 +480,7 @@ impl Study {
         }
     }
 
-    /// The state at a later time of a motion with a row there.
+    /// Returns the state at a later time of a motion with a row at that time.
     fn reached(
         &self,
         t: f64,
@@ -501,9 +508,9 @@ impl Study {
         state.ok_or(StudyError::Interrupted)
     }
 
-    /// Options of a run with a row at a time. Its steps are those of the motion that the scene
-    /// states: a run that ended there would take other steps, and be another motion within its
-    /// tolerance.
+    /// Returns options of a run with a row at this time. The steps are those of the motion that the
+    /// scene states. A run that ended at this time would take other steps and give a slightly
+    /// different motion within the tolerance.
     fn motion_to(&self, t: f64) -> MotionOptions {
         let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
         MotionOptions {
@@ -513,18 +520,18 @@ impl Study {
         }
     }
 
-    /// The options of a run of the scene, with those of the caller taking precedence; `None` if
-    /// neither states its end. Rows to drop belong to a study of their own, see
+    /// Returns the options of a run of the scene, with those of the caller taking precedence;
+    /// `None` if neither states its end. A choice of redundant rows needs a separate study, see
     /// [`AssembledScene::prepare`].
     #[must_use]
     pub fn options_with(&self, overrides: &RunOptions) -> Option<MotionOptions> {
         crate::assembled::options(&self.scene, overrides)
     }
 
-    /// Runs the scene and shows projected rows of output; see [`dynamics::simulate()`].
+    /// Runs the scene and passes projected output rows to a function; see [`dynamics::simulate()`].
     ///
     /// # Errors
-    /// A failure contains the summary of the part that was completed.
+    /// An error contains the summary of the completed part.
     pub fn run(
         &self,
         options: &MotionOptions,
@@ -533,11 +540,11 @@ impl Study {
         self.run_until(options, &|| false, row)
     }
 
-    /// Like [`Study::run`]; `stop` is asked at each evaluation, and the run ends once it returns
+    /// Like [`Study::run`]; `stop` is called at each evaluation, and the run ends after it returns
     /// true.
     ///
     /// # Errors
-    /// As [`Study::run`].
+    /// Returns the errors of [`Study::run`].
     pub fn run_until(
         &self,
         options: &MotionOptions,
@@ -547,9 +554,9 @@ impl Study {
         simulate_until(&self.prepared, options, stop, row)
     }
 
-    /// The motion as plain data: state and reactions at t = 0, at every output step and at the end,
-    /// with the numbers, events and verdicts of the run. Numbers of reactions that are not unique
-    /// depend on the choice that the summary states.
+    /// Returns the motion as plain data: state and reactions at t = 0, at every output step and at
+    /// the end, with the numbers, events and verdicts of the run. Values of reactions that are not
+    /// unique depend on the choice that the summary states.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -566,7 +573,7 @@ impl Study {
     ///
     /// # Errors
     /// - [`StudyError::Motion`]: the run could not begin, or stopped; [`Study::run`] returns the
-    ///   rows up to there.
+    ///   rows up to that time.
     /// - [`StudyError::Analysis`]: reactions cannot be analysed at the start.
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;
@@ -592,9 +599,9 @@ impl Study {
         }
     }
 
-    /// Runs the scene and passes its rows with their reactions to `row`, which may end the run, as
-    /// `stop` may, which is asked at each evaluation. Rows that were passed stay valid however the
-    /// run ends.
+    /// Runs the scene and passes its rows with their reactions to `row`, which may end the run.
+    /// `stop` is called at each evaluation and may also end the run. Rows that were passed remain
+    /// valid for any ending of the run.
     ///
     /// ```
     /// use std::ops::ControlFlow;
@@ -617,7 +624,7 @@ impl Study {
     ///
     /// # Errors
     /// - [`StudyError::Motion`]: the run could not begin.
-    /// - [`StudyError::Interrupted`]: it was ended before the first row.
+    /// - [`StudyError::Interrupted`]: the run was ended before the first row.
     /// - [`StudyError::Analysis`]: reactions cannot be analysed at the start.
     pub fn show(
         &self,
@@ -673,20 +680,20 @@ impl Study {
         })
     }
 
-    /// The joint or drive with this name.
+    /// Finds the joint or drive with this name.
     ///
     /// # Errors
-    /// [`StudyError::UnknownReaction`], with the nearest name.
+    /// [`StudyError::UnknownReaction`], with the most similar name.
     pub fn reaction(&self, name: &str) -> Result<ConstraintId, StudyError> {
         requests::reaction(&self.scene, &self.prepared.mechanism, name)
     }
 
-    /// The groups of the scene with their names.
+    /// Returns the groups of the scene with their names.
     fn groups(&self) -> Result<Vec<(String, Group)>, StudyError> {
         requests::groups(&self.scene, &self.prepared.mechanism, &[])
     }
 
-    /// What is known of a run before it begins.
+    /// Returns the data of a run that are known before it begins.
     fn begun(&self) -> Result<RunPreparation<'_>, StudyError> {
         let start = self.analyse(0.0, None)?;
         let choices = self.choices.iter().map(|choice| start.named(choice));
@@ -701,7 +708,8 @@ impl Study {
         })
     }
 
-    /// The plan of a run of the scene, with the output that its `[output]` requests.
+    /// Returns the plan of a run of the scene, with the output that `[output]` of the scene
+    /// requests.
     ///
     /// ```
     /// use pfaff::model::Registry;
@@ -717,7 +725,7 @@ impl Study {
     /// let study = Study::read("pendulum.toml", scene, &Registry::standard(), &RunOptions::default())?;
     /// let plan = study.plan()?;
     /// assert_eq!(plan.components[0].decisions.reactions.taken, "none");
-    /// assert_eq!(plan.components[0].decisions.method.reason, "no applied forces, so that nothing can be stiff");
+    /// assert_eq!(plan.components[0].decisions.method.reason, "no applied forces that could be stiff");
     /// # Ok::<(), pfaff::StudyError>(())
     /// ```
     ///
@@ -739,8 +747,9 @@ impl Study {
         Ok(Plan::new(&self.prepared, &options, &wanted)?)
     }
 
-    /// Number of rows that a run computes for each row of the tables: an animation may need more of
-    /// them than the scene requests. A power of two, so that the times of the tables do not change.
+    /// Returns the number of rows that a run computes for each row of the tables: an animation may
+    /// need more rows than the scene requests. The number is a power of two, so that the times of
+    /// the tables do not change.
     fn rows_between(&self, wanted: &OutputRequest) -> usize {
         let Some(options) = self.options.as_ref().filter(|_| self.scene.output.report) else {
             return 1;
@@ -757,17 +766,17 @@ impl Study {
     }
 
     /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and
-    /// `report.html` into a directory, each if the scene requests it; those that an earlier run has
-    /// left and this one does not write are removed. `progress` is called with the time of each
-    /// row, or of each step if no rows are written, and may stop the run. The files of a stopped
-    /// run are kept, and its summary says `partial`.
+    /// `report.html` into a directory, each if the scene requests it. Files of an earlier run that
+    /// this run does not write are removed. `progress` is called with the time of each row, or of
+    /// each step if no rows are written, and may stop the run. The files of a stopped run are kept,
+    /// and its summary contains `partial`.
     ///
     /// # Errors
     /// - [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
     /// - [`StudyError::Motion`]: the run could not begin; nothing has been written.
-    /// - [`StudyError::Stopped`]: the run stopped; everything up to there has been written.
+    /// - [`StudyError::Stopped`]: the run stopped; all results up to that time have been written.
     /// - [`StudyError::Interrupted`]: a stop was requested before the first row.
-    /// - [`StudyError::File`], [`StudyError::Table`]: something could not be written.
+    /// - [`StudyError::File`], [`StudyError::Table`]: a file could not be written.
     pub fn simulate_into(
         &self,
         directory: &OutputDirectory,
@@ -776,11 +785,11 @@ impl Study {
         self.simulate_as(&Origin::default(), directory, &|| false, progress)
     }
 
-    /// Like [`Study::simulate_into`], with information for the report on how the run was made, and
-    /// with `stop`, which is asked at each evaluation: once it returns true, the run ends.
+    /// Like [`Study::simulate_into`], with information for the report on the origin of the run, and
+    /// with `stop`, which is called at each evaluation; the run ends after it returns true.
     ///
     /// # Errors
-    /// As [`Study::simulate_into`].
+    /// Returns the errors of [`Study::simulate_into`].
     pub fn simulate_as(
         &self,
         origin: &Origin,
@@ -788,7 +797,7 @@ impl Study {
         stop: &Stop<'_>,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RunDocument, StudyError> {
-        // Checked before any file of an earlier run is changed.
+        // The plan is checked before any file of an earlier run is changed.
         let mut plan = self.plan()?;
         let t_end = plan.options().t_end;
         let between = self.rows_between(&wanted(&self.scene.output));
@@ -871,7 +880,7 @@ impl Study {
             source,
         })?;
         directory.write("summary.json", &text)?;
-        // The summary names its files, so that these mean nothing any more.
+        // The summary lists the files of the run, so old files without an entry have no meaning.
         directory.keep(FAMILY, &files)?;
         if let Some(report_builder) = report_builder {
             let figure = comparison_beside(directory);
@@ -895,7 +904,7 @@ impl Study {
     }
 }
 
-/// What is known of a run before it begins.
+/// Data of a run that are known before it begins.
 struct RunPreparation<'s> {
     start: ConfigurationAnalysis<'s>,
     freedoms: Freedoms,
@@ -903,11 +912,11 @@ struct RunPreparation<'s> {
     /// The groups of the scene, with their names.
     groups: Vec<(String, Group)>,
     choices: Vec<NamedChoice>,
-    /// How strongly their numbers depend on the data, with the same names.
+    /// Sensitivities of the numbers of the groups to the data, with the same names.
     group_sensitivities: Vec<(String, GroupSensitivities)>,
 }
 
-/// What was written of a run.
+/// Output of a run.
 #[derive(Default)]
 struct WrittenRun<'w> {
     spread: Option<SpreadDocument>,
@@ -919,7 +928,7 @@ struct WrittenRun<'w> {
 }
 
 impl RunPreparation<'_> {
-    /// The requested output with the groups of the scene and the choices.
+    /// Adds the groups of the scene and the choices to the requested output.
     fn wanted(&self, wanted: OutputRequest) -> OutputRequest {
         let groups = self.groups.iter().map(|(_, group)| group.clone());
         let choices = self.choices.iter().cloned();
@@ -930,7 +939,7 @@ impl RunPreparation<'_> {
         }
     }
 
-    /// The columns of reactions.
+    /// Returns the columns of reactions.
     fn columns(&self, selection: &Selection) -> Result<Vec<ReactionColumn>, TableError> {
         let mechanism = self.start.mechanism;
         columns_of_reactions(mechanism, selection, &self.groups, |quantity| {
@@ -938,7 +947,7 @@ impl RunPreparation<'_> {
         })
     }
 
-    /// Whether a number is unique at the start, but determined by the last digits of the data.
+    /// Whether a number is unique at the start, but sensitive to the last digits of the data.
     fn is_fragile(&self, quantity: &Quantity) -> bool {
         let own = match quantity {
             Quantity::Component(id, name) => self.sensitivities.component(*id, name),
@@ -981,7 +990,7 @@ pub const FAMILY: Family = Family(&[
     "report.html",
 ]);
 
-/// The files of a run with this output and these tables of choices.
+/// Returns the files of a run with this output and these tables of choices.
 fn files_of(output: &Output, choices: &[String]) -> Vec<String> {
     let reactions = !matches!(output.reactions, WantedReactions::None);
     let tables = [
@@ -997,7 +1006,7 @@ fn files_of(output: &Output, choices: &[String]) -> Vec<String> {
         .collect()
 }
 
-/// The output of a run that is needed for these files.
+/// Returns the output of a run that is needed for these files.
 fn wanted(output: &Output) -> OutputRequest {
     let reactions = match &output.reactions {
         WantedReactions::All => Reactions::All,
@@ -1017,7 +1026,8 @@ fn wanted(output: &Output) -> OutputRequest {
     }
 }
 
-/// The numbers of a row by each choice. Counts the rows at which a choice selects no solution.
+/// Returns the values of a row for each choice. Counts the rows at which a choice selects no
+/// solution.
 fn chosen_numbers(
     sample: &mut Sample<'_, '_>,
     groups: &mut GroupNumbers<'_>,
@@ -1038,8 +1048,8 @@ fn chosen_numbers(
     Ok(all)
 }
 
-/// The figure of a comparison of methods in the same directory, if there is one and it is not too
-/// large for the page.
+/// Returns the figure of a comparison of methods in the same directory, if there is one and it is
+/// not too large for the page.
 fn comparison_beside(directory: &OutputDirectory) -> Option<String> {
     let path = directory.path().join("work_precision.svg");
     let small = std::fs::metadata(&path).is_ok_and(|m| m.len() < FIGURE_MOST);
@@ -1049,7 +1059,7 @@ fn comparison_beside(directory: &OutputDirectory) -> Option<String> {
 /// Largest size of a figure that is included in a page (bytes).
 const FIGURE_MOST: u64 = 1 << 20;
 
-/// The reactions in a table; `None` if no table is requested.
+/// Returns the reactions in a table; `None` if no table is requested.
 fn selection(wanted: &WantedReactions) -> Option<Selection> {
     match wanted {
         WantedReactions::All => Some(Selection::All),

@@ -1,10 +1,22 @@
 //! Many runs of one scene with different numbers: in parallel, in shards on any number of machines,
-//! and such that no end of a process loses a finished run.
+//! and such that the end of a process does not lose a finished run.
 //!
-//! Each run is read, checked, assembled and moved like any scene. A fault of one combination of
-//! numbers is reported in its row; the other runs continue. Only unique reactions have numbers.
+//! Each run is read, checked, assembled and simulated like any scene. An error for one combination
+//! of numbers is reported in its row; the other runs continue. Only unique reactions have values.
 //!
-//! The meaning of a key is in [`scene::Template`], the format of files in [`report::sweep`].
+//! The meaning of a key is described in [`scene::Template`], the format of files in
+//! [`report::sweep`].
+//!
+//! A run counts as finished once its line is in a journal. A journal belongs to one process, is
+//! only appended to, and contains a digest in each line. Once all runs of a shard are finished,
+//! they are written to one file next to its final name, synchronised and renamed. No lock is
+//! necessary: a process that repeats a run writes the same line. Runs that a crashed process left
+//! unfinished are retried first, one per process (`gate`); a run that then ends two processes is
+//! reported as a row. Processes are started by Slurm, Dask or Ray, not by this module.
+//!
+//! Rejected alternatives: a shard of every n-th run, because its rows are distributed over the
+//! whole grid and n cannot be changed later. Locks were also rejected, and so were tables written
+//! by every shard, because 200 shards would write all rows 200 times.
 
 mod attempt;
 mod axis;
@@ -38,7 +50,7 @@ pub use varied::Sweep;
 /// Settings of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SweepSettings {
-    /// The runs that are made by this process.
+    /// The runs that this process performs.
     pub shard: Shard,
     /// Number of threads; 0 means one for each core.
     pub threads: usize,
@@ -54,14 +66,15 @@ impl Default for SweepSettings {
 }
 
 impl Sweep<'_> {
-    /// Makes the runs of a shard that nobody has finished, and writes them as one file. If no run
-    /// of the sweep is left then, or if the shard is the whole, the tables are written:
-    /// `sweep.csv`, `sweep.parquet` and `summary.json`. `progress` is called with each finished
-    /// run, in any order; `interrupted` is called often and ends the sweep without losing a
-    /// finished run.
+    /// Performs the runs of a shard that are not finished yet, and writes them as one file. If all
+    /// runs of the sweep are then finished, or if the shard is the whole sweep, the tables are
+    /// written: `sweep.csv`, `sweep.parquet` and `summary.json`. `progress` is called with each
+    /// finished run, in any order; `interrupted` is called often and ends the sweep without losing
+    /// a finished run.
     ///
-    /// Any number of processes may work in one directory, also on the same shard. A run during
-    /// which its process ends is made again, alone; if it ends twice then, the row says so.
+    /// Any number of processes may work in one directory, also on the same shard. If the process
+    /// ends during a run, this run is repeated alone; if the process ends twice during the
+    /// repetition, the row of the run reports this.
     ///
     /// # Errors
     /// - [`SweepError::NoneBegins`]: no run of the sweep can begin; nothing is written.
@@ -110,7 +123,7 @@ impl Sweep<'_> {
             shards.forget();
             if is_new {
                 drop(output);
-                // Others may have begun.
+                // Other processes may have begun.
                 let _ = std::fs::remove_dir(directory);
             }
             return Err(error);
@@ -126,7 +139,7 @@ impl Sweep<'_> {
         self.ended(&output, &shards, settings.shard, now)
     }
 
-    /// Writes the tables, if they are due.
+    /// Writes the tables, if all their runs are finished.
     fn ended(
         &self,
         output: &OutputDirectory,
@@ -160,7 +173,7 @@ impl Sweep<'_> {
 /// How a sweep, or a shard of it, ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepOutcome {
-    /// Its runs.
+    /// Runs of the sweep or shard.
     pub document: SweepDocument,
     /// The tables of all runs.
     pub tables: Tables,
@@ -169,15 +182,16 @@ pub struct SweepOutcome {
 /// Whether the tables of all runs have been written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tables {
-    /// They have, by this call.
+    /// This call has written the tables.
     Written,
-    /// Runs of other shards are missing: who makes the last one writes them, or [`merge`].
+    /// Runs of other shards are missing: the process that performs the last run writes the tables,
+    /// or [`merge`] does.
     NotYet,
 }
 
-/// Forgets the rows of runs that have ended their process, if there are some in a directory: the
-/// next call of [`Sweep::run_into`] makes these runs again. Returns their number. No process may
-/// make runs of the sweep meanwhile.
+/// Deletes the rows of runs that ended their process, if there are any in a directory: the next
+/// call of [`Sweep::run_into`] repeats these runs. Returns the number of these runs. During this
+/// call no process may perform runs of the sweep.
 ///
 /// # Errors
 /// [`SweepError::Journal`]: the directory cannot be read or written.
@@ -188,11 +202,11 @@ pub fn forget_crashed(directory: &Path) -> Result<u64, SweepError> {
     Ok(Shards::find(directory)?.forget_crashed()?)
 }
 
-/// Merges what several directories have into one set of tables.
+/// Merges the results of several directories into one set of tables.
 ///
 /// # Errors
 /// [`SweepError::Journal`]: they belong to different sweeps, or two rows of one run differ;
-/// [`SweepError::File`], [`SweepError::Table`]: something could not be written.
+/// [`SweepError::File`], [`SweepError::Table`]: a file could not be written.
 pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<MergedSweep, SweepError> {
     let records = Records::merged(directories)?;
     let output = OutputDirectory::create(into)?.shared()?;
@@ -202,17 +216,17 @@ pub fn merge<P: AsRef<Path>>(directories: &[P], into: &Path) -> Result<MergedSwe
     })
 }
 
-/// What [`merge`] has found.
+/// Result of [`merge`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct MergedSweep {
-    /// All runs.
+    /// All runs of the directories.
     pub document: SweepDocument,
-    /// The number of shards in which the runs were made, if the finished ones tell.
+    /// The number of shards in which the runs were performed, if the finished shards determine it.
     pub shards: Option<u64>,
 }
 
-/// Writes the tables. If others have finished shards meanwhile, they may have written tables with
-/// more rows before: then once more.
+/// Writes the tables of a sweep. If other processes have finished shards in the meantime, they may
+/// have written tables with more rows earlier; then the tables are written again.
 fn write_all(
     output: &OutputDirectory,
     shards: &Shards,

@@ -1,4 +1,9 @@
-//! The tables of a run as sinks of its rows.
+//! Sinks that write the rows of a run to tables.
+//!
+//! The verdict of a stretch is known only at its end. So a run first writes all numbers of one
+//! choice, and `reactions.csv` is a copy of this table without the numbers that are not determined.
+//! The first table is stored as `choice.csv` if a cell of the copy is empty. In tables of other
+//! choices, numbers that the model determines are replaced by those of the run.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -18,10 +23,10 @@ use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
 use crate::error::StudyError;
 use crate::rows::{RowFault, RowSink};
 
-/// Which rows of a run are those of its tables: an animation may need more of them.
+/// Selects the rows of a run that belong to its tables: an animation may need more rows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TableRows {
-    /// One in this many, and the last.
+    /// Every row whose index is a multiple of this number, and the last row.
     between: usize,
     t_end: f64,
     seen: usize,
@@ -36,7 +41,7 @@ impl TableRows {
         }
     }
 
-    /// Whether the next row, at time t, is one.
+    /// Whether the next row, at time t, belongs to the tables.
     pub(crate) fn take(&mut self, t: f64) -> bool {
         let is_one = self.seen.is_multiple_of(self.between) || t >= self.t_end;
         self.seen += 1;
@@ -44,7 +49,7 @@ impl TableRows {
     }
 }
 
-/// Gives a file its final name; it may end early.
+/// Gives a file its final name; the run may have ended early.
 fn finished(file: OutputFile, ending: &Ending<'_>) -> Result<PathBuf, FileError> {
     match ending {
         Ending::Complete => file.finish(),
@@ -52,7 +57,7 @@ fn finished(file: OutputFile, ending: &Ending<'_>) -> Result<PathBuf, FileError>
     }
 }
 
-/// `trajectory.csv`.
+/// Writer of `trajectory.csv`.
 pub(crate) struct TrajectoryFile<'m> {
     table: Option<TrajectoryTable<'m, OutputFile>>,
     rows: TableRows,
@@ -85,38 +90,38 @@ impl RowSink for TrajectoryFile<'_> {
     }
 }
 
-/// `reactions.csv`, and tables of choices where a cell of it is empty. Until the run has ended, all
-/// numbers are those of one choice: of the rows that the run keeps, in `choice.csv`; or, if other
-/// choices are requested, in a file that is removed at the end.
+/// Writer of `reactions.csv`, and of tables of choices if a cell of it is empty. Before the end of
+/// the run, all values are those of one choice. For the independent rows of the run they are in
+/// `choice.csv`; if other choices are requested, they are in a file that is removed at the end.
 pub(crate) struct ReactionFiles<'m> {
     directory: &'m OutputDirectory,
     mechanism: &'m Mechanism,
     table: Option<ReactionTable<OutputFile>>,
-    /// The numbers of each requested choice, with the rows at which it selects no solution.
+    /// The values for each requested choice, with the rows at which it selects no solution.
     chosen: Vec<(ReactionTable<OutputFile>, Option<Gap>)>,
-    /// Whether every number is determined, whatever comes.
+    /// Whether every number is determined at all times.
     is_plain: bool,
     rows: TableRows,
     numbers: GroupNumbers<'m>,
     peaks: PeakRecorder,
     columns: Vec<ReactionColumn>,
-    /// The peaks of the columns, after the end.
+    /// The peaks of the columns, available after the end.
     found: Vec<Option<Peak>>,
-    /// The tables of choices, after the end; none if no cell is empty.
+    /// The tables of choices, available after the end; empty if no cell is empty.
     pub(crate) choice_files: Vec<String>,
-    /// The rows at which each choice selects no solution, after the end.
+    /// The rows at which each choice selects no solution, available after the end.
     pub(crate) gaps: Vec<Option<Gap>>,
 }
 
-/// The table of all numbers of one choice.
+/// File name of the table of all values of one choice.
 const CHOICE: &str = "choice.csv";
 const REACTIONS: &str = "reactions.csv";
 
-/// The numbers on the rows that the run keeps, if other choices are requested.
+/// File name of the values on the independent rows of the run, if other choices are requested.
 const KEPT_ROWS: &str = "choice_0.csv";
 
 impl<'m> ReactionFiles<'m> {
-    /// Begins the files. `is_plain` states whether no row is dropped.
+    /// Creates the files. `is_plain` states whether no row is redundant.
     pub(crate) fn begin(
         directory: &'m OutputDirectory,
         (mechanism, q): (&'m Mechanism, &[f64]),
@@ -153,13 +158,13 @@ impl<'m> ReactionFiles<'m> {
         })
     }
 
-    /// The columns of the tables and their peaks, after the end.
+    /// Returns the columns of the tables and their peaks, after the end.
     pub(crate) fn peaks(&self) -> (&[ReactionColumn], &[Option<Peak>]) {
         (&self.columns, &self.found)
     }
 
-    /// Writes `reactions.csv` from all numbers of the run, and the tables of the requested choices
-    /// from their numbers where a cell is empty.
+    /// Writes `reactions.csv` from all values of the run. If a cell is empty, it also writes the
+    /// tables of the requested choices from their values.
     fn end_of_choices(
         &mut self,
         mut all: OutputFile,
@@ -179,7 +184,8 @@ impl<'m> ReactionFiles<'m> {
             if !has_choice {
                 continue;
             }
-            // Its own numbers of what is determined differ by rounding from those of the run.
+            // For determined numbers the values of a choice differ from those of the run by
+            // rounding.
             let own = File::open(finished(file, ending)?).map_err(write)?;
             let name = choice_file(k);
             let mut out = self.directory.file(&name)?;
@@ -231,7 +237,7 @@ impl RowSink for ReactionFiles<'_> {
         let stretches = if let Some(verdicts) = verdicts {
             verdicts
         } else {
-            // No joint or drive is written, so no cell is open.
+            // No joint or drive is written, so no cell is undetermined.
             nothing = Stretches::unique(self.mechanism, [0.0; 2], self.numbers.groups());
             &nothing
         };
@@ -252,7 +258,7 @@ impl RowSink for ReactionFiles<'_> {
         let mut out = self.directory.file(REACTIONS)?;
         let has_choice = write_determined(all, &mut out, &columns, stretches)?;
         finished(out, ending)?;
-        // Without one, it is not among the files that are kept.
+        // Without a choice this file is not among the files that are kept.
         if has_choice {
             self.choice_files.push(CHOICE.to_owned());
         }
@@ -268,7 +274,7 @@ pub(crate) fn note_gap(gap: &mut Option<Gap>, t: f64, refused: Option<&ChoiceErr
     }
 }
 
-/// The numbers of groups at a row.
+/// Returns the values of groups at a row.
 pub(crate) fn group_numbers(
     numbers: &mut GroupNumbers<'_>,
     sample: &mut Sample<'_, '_>,
@@ -280,14 +286,14 @@ pub(crate) fn group_numbers(
     numbers_of(numbers, sample, &multipliers)
 }
 
-/// The numbers of groups at a row for these multipliers.
+/// Returns the values of groups at a row for these multipliers.
 pub(crate) fn numbers_of(
     numbers: &mut GroupNumbers<'_>,
     sample: &Sample<'_, '_>,
     multipliers: &ChosenValues<f64>,
 ) -> Result<ChosenValues<f64>, RowFault> {
     let found = numbers.at(sample.t, sample.q, multipliers);
-    // Groups were judged before the run began; what is left is a number that is not finite.
+    // Groups were analysed before the run began; the remaining error is a value that is not finite.
     found.map_err(|e| {
         RowFault::Table(TableError::Write {
             table: REACTIONS,

@@ -1,4 +1,4 @@
-//! Templates for scenes: those of `examples/`, which are tested there.
+//! Templates for scenes: the scenes of `examples/`, which are tested there.
 
 /// Longest summary (bytes).
 const WIDTH: usize = 96;
@@ -19,7 +19,7 @@ macro_rules! examples {
     };
 }
 
-/// From simple to rich; `examples/README.md` has them by kind.
+/// The list is ordered from simple to rich; `examples/README.md` lists the templates by kind.
 const EXAMPLES: [Template; 33] = examples!(
     "door" "carriage" "truss" "four-bar" "slider-crank" "knife-edge" "sleigh" "towed-cart" "scotch-yoke" "three-cranks" "gear-train" "planetary-gear"
     "sweeper" "car" "truck" "snakeboard" "pantograph" "peaucellier" "chebyshev" "five-bar" "scissor-lift" "andrews"
@@ -43,13 +43,13 @@ impl Template {
         all
     };
 
-    /// Its name.
+    /// Returns the name of the template.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.name
     }
 
-    /// The first sentence of its text, which describes it.
+    /// Returns the first sentence of the text, which describes the template.
     #[must_use]
     pub fn summary(self) -> String {
         let lines = self.text.lines().map_while(|line| line.strip_prefix("# "));
@@ -68,7 +68,7 @@ impl Template {
         )
     }
 
-    /// The scene with a header that explains how to use it; `file` is its name in the header.
+    /// Returns the scene with a header that explains its use; `file` is its name in the header.
     #[must_use]
     pub fn scene(self, file: &str) -> String {
         let Self { name, text } = self;

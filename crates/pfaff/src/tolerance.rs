@@ -1,16 +1,20 @@
-//! Many mechanisms with the data that a scene leaves open: each point, direction and number is
-//! somewhere within its tolerance, and each such mechanism is assembled again from the described
-//! pose and analysed. The results are how far verdicts, ranks, unique reactions and places hold.
+//! Many mechanisms with data that vary within the tolerances of a scene. Each point, direction and
+//! number has a random value within its tolerance. Each such mechanism is assembled again from the
+//! described configuration and analysed. The results are the ranges of verdicts, ranks, unique
+//! reactions and positions.
 //!
-//! Displacements are uniform: points in the ball of their tolerance, directions and axes turned by
-//! rotation vectors that are uniform in theirs, numbers in their interval. Each point of each body
-//! is displaced by itself, because it is made by itself; a drive has the points of its joint.
-//! Masses and forces stay as they are described, unless they are varied by their keys
+//! Displacements are uniformly distributed: points in the ball of their tolerance, directions and
+//! axes rotated by rotation vectors that are uniform in theirs, numbers in their interval. Each
+//! point of each body is displaced independently, because it is manufactured independently; a drive
+//! has the points of its joint. Masses and forces are not varied, unless a key varies them
 //! ([`Variation`]).
 //!
-//! Where rows are redundant within the tolerances, samples are assembled on the rows that are kept:
-//! the others miss by a little, which is a result. What the same numbers are without play is the
-//! second reading of each sample; see [`Sample`].
+//! If rows are redundant within the tolerances, samples are assembled on the independent rows. The
+//! small violations of the redundant rows are a result. The second analysis of each sample takes
+//! its numbers as exact, without clearance; see [`Sample`].
+//!
+//! Ranges are computed in the order of the samples, so the number of threads does not change any
+//! bit.
 
 mod draw;
 mod error;
@@ -45,7 +49,7 @@ pub use vary::{Variation, VariedText};
 pub struct ToleranceOptions {
     /// Number of samples.
     pub samples: usize,
-    /// The seed: the same one gives the same samples, whatever the number of threads.
+    /// The seed: the same seed gives the same samples, for any number of threads.
     pub seed: u64,
     /// Number of threads; `None` means one for each core.
     pub threads: Option<NonZeroUsize>,
@@ -91,11 +95,11 @@ pub struct ToleranceStudy<'r> {
     vary: Option<VariedText<'r>>,
 }
 
-/// All samples, and what they say together.
+/// All samples, and their combined results.
 pub struct ToleranceResult {
-    /// The samples that were made, in their order.
+    /// The computed samples, in their order.
     pub samples: Vec<Sample>,
-    /// What they say together.
+    /// Combined results of the samples.
     pub document: ToleranceDocument,
 }
 
@@ -103,18 +107,19 @@ impl<'r> ToleranceStudy<'r> {
     /// Analyses the described mechanism at a time of its motion; at t = 0 no run is needed.
     ///
     /// # Errors
-    /// - [`ToleranceError::NoTolerance`], [`ToleranceError::NoData`]: nothing varies.
+    /// - [`ToleranceError::NoTolerance`], [`ToleranceError::NoData`]: no datum varies.
     /// - [`ToleranceError::TooLarge`]: the mechanism has too many rows.
-    /// - [`ToleranceError::Study`]: it cannot be assembled, moved to that time, or analysed there.
+    /// - [`ToleranceError::Study`]: the mechanism cannot be assembled, moved to that time, or
+    ///   analysed there.
     pub fn new(assembled: AssembledScene, t: f64) -> Result<Self, ToleranceError> {
         Self::varying(assembled, t, None)
     }
 
-    /// Like [`Self::new`], with numbers of the scene that vary besides; then no tolerance has to be
+    /// Like [`Self::new`], with further numbers of the scene that vary; then no tolerance has to be
     /// stated.
     ///
     /// # Errors
-    /// As [`Self::new`].
+    /// Returns the errors of [`Self::new`].
     pub fn varying(
         assembled: AssembledScene,
         t: f64,
@@ -135,17 +140,17 @@ impl<'r> ToleranceStudy<'r> {
         Ok(Self { nominal, vary })
     }
 
-    /// Makes one sample, counted from 1.
+    /// Computes one sample, counted from 1.
     #[must_use]
     pub fn sample(&self, seed: u64, number: u64) -> Sample {
         self.nominal.sample(self.vary.as_ref(), seed, number)
     }
 
-    /// Makes all samples. `progress` is called with each one, in any order; `interrupted` is asked
-    /// often and ends the work, with the samples so far as the result.
+    /// Computes all samples. `progress` is called with each sample, in any order; `interrupted` is
+    /// called often and ends the work, with the samples so far as the result.
     ///
     /// # Errors
-    /// - [`ToleranceError::Samples`]: their number is out of its range.
+    /// - [`ToleranceError::Samples`]: the number of samples is out of its range.
     pub fn run(
         &self,
         options: &ToleranceOptions,
@@ -173,30 +178,31 @@ impl<'r> ToleranceStudy<'r> {
         })
     }
 
-    /// Estimated memory of this many samples (bytes).
+    /// Estimates the memory of this many samples (bytes).
     #[must_use]
     pub fn memory(&self, samples: usize) -> usize {
         samples.saturating_mul(self.nominal.numbers_of_sample() * size_of::<f64>())
     }
 
-    /// The numbers of the scene that vary.
+    /// Returns the numbers of the scene that vary.
     fn list(&self) -> &[Variation] {
         self.vary.as_ref().map_or(&[], |vary| &vary.list)
     }
 
-    /// The columns of the table of samples.
+    /// Returns the columns of the table of samples.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
         self.nominal.columns(self.list())
     }
 
-    /// A row of the table of samples.
+    /// Returns a row of the table of samples.
     #[must_use]
     pub fn row(&self, sample: &Sample) -> Vec<String> {
         self.nominal.row(self.list(), sample)
     }
 
-    /// Names and places of markers in these samples (m), with the described place first.
+    /// Returns names and positions of markers in these samples (m), with the described position
+    /// first.
     #[must_use]
     pub fn clouds(&self, samples: &[Sample]) -> Vec<(String, Vec<[f64; 3]>)> {
         self.nominal.clouds(samples)

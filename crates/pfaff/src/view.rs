@@ -13,7 +13,7 @@ use crate::question::Control;
 use crate::refusal::Refusal;
 use crate::start::{Start, document_of};
 
-/// What is drawn.
+/// Format of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// A page for any browser.
@@ -25,11 +25,11 @@ pub enum Form {
 }
 
 impl Form {
-    /// All forms, by the end of the names of their files.
+    /// All formats, by the extension of the file name.
     pub const ALL: [(&str, Self); 3] =
         [("html", Self::Page), ("svg", Self::Svg), ("png", Self::Png)];
 
-    /// The form that the end of a name asks for.
+    /// Returns the format for the extension of a file name.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         let end = path.extension()?;
@@ -44,13 +44,13 @@ impl Form {
 pub struct Drawing {
     /// Name of the scene.
     pub scene: String,
-    /// The file.
+    /// Contents of the file.
     pub content: Vec<u8>,
     /// Size of a PNG (pixels).
     pub pixels: Option<[u32; 2]>,
-    /// Characters that are boxes in a PNG, as no font has them.
+    /// Characters that are drawn as boxes in a PNG because no font contains them.
     pub boxes: String,
-    /// What the verdicts are that it shows.
+    /// Document of the verdicts that the drawing shows.
     pub document: AnalysisDocument,
 }
 
@@ -58,7 +58,7 @@ impl Drawing {
     /// Draws the start of a scene; `scale` is the number of pixels of a PNG for each px.
     ///
     /// # Errors
-    /// The scene has no start, or the picture cannot be painted.
+    /// Returns an error if the scene has no start, or if the picture cannot be painted.
     pub fn new(
         of: &Start<'_>,
         form: Form,
@@ -89,7 +89,7 @@ impl Drawing {
     }
 }
 
-/// The picture of the start as SVG.
+/// Returns the picture of the start as SVG.
 fn figure(start: &ConfigurationAnalysis<'_>) -> Result<String, Refusal> {
     let marking = Marking::Verdicts(&start.analysis.reactions);
     let labels = Labels::NamesAndRows;
@@ -97,7 +97,7 @@ fn figure(start: &ConfigurationAnalysis<'_>) -> Result<String, Refusal> {
         .map_err(|e| Refusal::stopped(e.to_string()))
 }
 
-/// The page of a run that consists of the start only.
+/// Returns the page for the start only, without a run.
 fn page(start: &ConfigurationAnalysis<'_>, document: &AnalysisDocument, origin: &Origin) -> String {
     let mut recording = Recording::new(0.0, 1.0, 1);
     let frame = Frame::at_rest(0.0, &start.state.q, start.mechanism.layout().n_v);

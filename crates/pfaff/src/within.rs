@@ -1,4 +1,4 @@
-//! Starts that miss by little: which stated tolerance would explain it.
+//! Starts with small constraint violations, and the stated tolerance that would explain them.
 
 use dynamics::{MotionError, RowChoice, prepare};
 use model::start::{Misfit, scene_size};
@@ -6,28 +6,29 @@ use model::{Mechanism, StartError, System, Tolerance};
 use scene::Scene;
 use solvability::{ConstraintLevel, ONE_PART};
 
-/// A start that misses by more than this share of the size is wrong, not known badly.
+/// A start with a violation above this fraction of the size is wrong, and not only inaccurate.
 const SMALL: f64 = 1e-2;
 
-/// Tolerances that are tried, as multiples of what is missed: data of several joints may share it,
-/// and levers may amplify it.
+/// Tolerances that are tried, as multiples of the violation: data of several joints may contribute
+/// to it, and levers may amplify it.
 const TRIED: [f64; 4] = [1.0, 3.0, 10.0, 30.0];
 
-/// The largest of these misfits (m), angles times the size of the mechanism.
+/// Returns the largest of these violations (m), with angles multiplied by the size of the
+/// mechanism.
 pub(crate) fn missed(misfits: &[Misfit], size: f64) -> f64 {
     let each = misfits.iter().map(|m| m.distance.max(m.angle * size));
     each.fold(0.0, f64::max)
 }
 
-/// A mechanism with which tolerances are tried if it cannot be prepared; `None` if it states one,
-/// or if it is so large that the trials take long.
+/// Returns a mechanism with which tolerances are tried if it cannot be prepared; `None` if it
+/// states a tolerance, or if it is so large that the trials take long.
 pub(crate) fn spare(mechanism: &Mechanism) -> Option<Mechanism> {
     let is_tried = !mechanism.has_tolerances() && mechanism.layout().rows() <= ONE_PART;
     is_tried.then(|| mechanism.clone())
 }
 
-/// The advice to state a tolerance, where rows miss by little and one was found with which the
-/// mechanism can be prepared.
+/// Returns the advice to state a tolerance, if rows have small violations and the mechanism can be
+/// prepared with a tolerance that was found.
 pub(crate) fn advice(
     spare: Option<&Mechanism>,
     scene: &Scene,
@@ -60,12 +61,12 @@ pub(crate) fn advice(
     });
     let (length, redundancy, mobility) = works.next()?;
     Some(format!(
-        "if the dimensions are known to no more digits: with `tolerance = {length:e}` (m) in `[scene]`, or `--tolerance {length:e}`, \
-         it is assembled, with redundancy {redundancy} and mobility {mobility} within it"
+        "if the dimensions are not more accurate: with `tolerance = {length:e}` (m) in `[scene]`, or `--tolerance {length:e}`, \
+         the mechanism can be assembled, with redundancy {redundancy} and mobility {mobility}"
     ))
 }
 
-/// A length rounded up to one digit: 1, 2 or 5.
+/// Rounds a length up to one digit: 1, 2 or 5.
 fn rounded_up(length: f64) -> f64 {
     let ten = 10.0_f64.powf(length.log10().floor());
     let digit = [1.0, 2.0, 5.0, 10.0]

@@ -1,35 +1,48 @@
-//! Answers for people: sentences and tables, and how they are laid out as text.
+//! Answers as sentences and tables, and their layout as text.
 
 use std::iter;
 
 /// A part of an answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Block {
-    /// Says what comes next: without a full stop, after an empty line.
+    /// A title of the next blocks, without a full stop, after an empty line.
     Heading(String),
-    /// A sentence after some words, under which its further lines begin.
+    /// A sentence after an introduction; its further lines are indented by the width of the
+    /// introduction.
     Sentence {
-        /// The words: as `warning: `, or nothing.
+        /// The introduction, such as `warning: `, or an empty text.
         lead: String,
         /// The sentence.
         text: String,
     },
-    /// Explains a table, directly below it: words, and what they stand for.
+    /// Explanation of a table, directly below it: a word and its meaning.
     Legend(String, String),
-    /// An empty line: what follows is about something else.
+    /// An empty line before a new subject.
     Gap,
-    /// Lines of cells, the first one of them with the names of the columns.
+    /// Lines of cells; the first line contains the names of the columns.
     Table(Vec<Vec<String>>),
+    /// A block that is printed only if details are requested.
+    Detail(Box<Block>),
+}
+
+/// How much of an answer is printed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Verbosity {
+    /// Without details.
+    #[default]
+    Normal,
+    /// Everything.
+    Details,
 }
 
 impl Block {
-    /// A sentence.
+    /// Creates a sentence.
     #[must_use]
     pub fn sentence(text: impl Into<String>) -> Self {
         Self::after("", text)
     }
 
-    /// A sentence after some words.
+    /// Creates a sentence after an introduction.
     #[must_use]
     pub fn after(lead: impl Into<String>, text: impl Into<String>) -> Self {
         Self::Sentence {
@@ -38,7 +51,13 @@ impl Block {
         }
     }
 
-    /// A table with the names of its columns.
+    /// A sentence that is printed only if details are requested.
+    #[must_use]
+    pub fn detail(lead: impl Into<String>, text: impl Into<String>) -> Self {
+        Self::Detail(Box::new(Self::after(lead, text)))
+    }
+
+    /// Creates a table with the names of its columns.
     #[must_use]
     pub fn table<const N: usize>(
         columns: [&str; N],
@@ -50,18 +69,23 @@ impl Block {
     }
 }
 
-/// The blocks as text. Sentences follow each other; an empty line is before headings and around
-/// tables that have none.
+/// Converts the blocks to text. Sentences follow each other; there is an empty line before headings
+/// and around tables that have no heading.
 #[must_use]
-pub fn text(blocks: &[Block]) -> String {
+pub fn text(blocks: &[Block], verbosity: Verbosity) -> String {
     let mut out = String::new();
     let mut before: Option<&Block> = None;
     for block in blocks {
+        let block = match block {
+            Block::Detail(_) if verbosity == Verbosity::Normal => continue,
+            Block::Detail(detail) => detail.as_ref(),
+            block => block,
+        };
         let is_apart = match (before, block) {
             (None | Some(Block::Heading(_) | Block::Gap), _)
             | (_, Block::Gap | Block::Legend(..)) => false,
             (_, Block::Heading(_) | Block::Table(_)) | (Some(Block::Table(_)), _) => true,
-            (_, Block::Sentence { .. }) => false,
+            (_, Block::Sentence { .. } | Block::Detail(_)) => false,
         };
         if is_apart {
             out.push('\n');
@@ -72,30 +96,32 @@ pub fn text(blocks: &[Block]) -> String {
             Block::Heading(words) => out.push_str(&wrapped("", words)),
             Block::Sentence { lead, text } => out.push_str(&wrapped(lead, text)),
             Block::Table(lines) => out.push_str(&columns(lines)),
+            // A detail within a detail.
+            Block::Detail(inner) => out.push_str(&text(std::slice::from_ref(inner), verbosity)),
         }
         before = Some(block);
     }
     out
 }
 
-/// A number with its noun, as `1 body` or `7 bodies`.
+/// Formats a number with its noun, such as `1 body` or `7 bodies`.
 #[must_use]
 pub fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
-/// Names in marks, as `` `A`, `B` ``.
+/// Formats names in grave accents, such as `` `A`, `B` ``.
 #[must_use]
 pub fn marked(names: &[impl AsRef<str>]) -> String {
     let names: Vec<String> = names.iter().map(|n| format!("`{}`", n.as_ref())).collect();
     names.join(", ")
 }
 
-/// Width of texts for people (characters).
+/// Width of printed texts (characters).
 const WIDTH: usize = 100;
 
 /// Breaks a text into lines of at most 100 characters, if its words are short enough; the first
-/// line begins with `lead`, the others are indented by its width.
+/// line begins with `lead`, and the other lines are indented by its width.
 #[must_use]
 pub fn wrapped(lead: &str, text: &str) -> String {
     let indent = " ".repeat(lead.chars().count());
@@ -164,13 +190,16 @@ mod tests {
             Block::sentence("end"),
         ];
         let expected = "one\n- two\n\na  bc\n1  2\na: letter\nthree\n\nnext:\na  bc\n1  2\n\na  bc\n1  2\n\nend\n";
-        assert_eq!(text(&blocks), expected);
+        assert_eq!(text(&blocks, Verbosity::Normal), expected);
+        let detail = [Block::sentence("one"), Block::detail("- ", "two")];
+        assert_eq!(text(&detail, Verbosity::Normal), "one\n");
+        assert_eq!(text(&detail, Verbosity::Details), "one\n- two\n");
     }
 
     #[test]
     fn lines_of_a_sentence_begin_below_its_first_word() {
         let long = "word ".repeat(40);
-        let lines = text(&[Block::after("note: ", long)]);
+        let lines = text(&[Block::after("note: ", long)], Verbosity::Normal);
         let widths: Vec<usize> = lines.lines().map(|line| line.chars().count()).collect();
         assert_eq!(widths.len(), 3);
         assert!(widths.iter().all(|width| *width <= 100), "{widths:?}");

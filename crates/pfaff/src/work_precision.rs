@@ -3,12 +3,12 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `plan` | the runs that are made |
-//! | `observation`, `standard` | what is compared, the reference values, and their accuracy |
-//! | `measure` | runs for errors, and runs for times |
+//! | `plan` | the runs of a comparison |
+//! | `observation`, `standard` | the compared quantities, the reference values, and their accuracy |
+//! | `measure` | runs that measure errors, and runs that measure times |
 //! | `rival` | runs of other programs and other formulations, in the same table |
 //! | `ranking`, `overview` | which method reaches which error in the shortest time |
-//! | [`provenance`] | where and when the runs were made |
+//! | [`provenance`] | machine and date of the runs |
 
 mod measure;
 mod observation;
@@ -38,7 +38,7 @@ pub use standard::{Errors, Reference, ReferenceInstant};
 /// Number of instants at which motions without a known solution are compared.
 const INSTANTS: u32 = 5;
 
-/// Tolerances for a reference: the tightest one at which a method reaches its end is used.
+/// Tolerances for a reference, which uses the tightest one at which a method reaches its end.
 const TIGHTEST: [f64; 3] = [1e-13, 1e-12, 1e-11];
 
 /// A scene whose motions are compared.
@@ -63,15 +63,15 @@ pub struct SceneComparison {
 }
 
 impl Subject {
-    /// A scene with a known motion.
+    /// Creates a scene with a known motion.
     ///
     /// # Errors
-    /// As [`Subject::of_study`].
+    /// Returns the errors of [`Subject::of_study`].
     pub fn known(study: Study, title: &str, reference: Reference) -> Result<Self, StudyError> {
         Self::new(study, title, Some(reference))
     }
 
-    /// A scene without a known motion: its reference consists of two methods that agree.
+    /// Creates a scene without a known motion: its reference consists of two methods that agree.
     ///
     /// # Errors
     /// [`StudyError::NoEnd`]: neither the scene nor the caller states the end of the run.
@@ -104,26 +104,26 @@ impl Subject {
         })
     }
 
-    /// Its name.
+    /// Returns the name of the scene.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// The mechanism at its start.
+    /// Returns the mechanism at its start.
     #[must_use]
     pub fn prepared(&self) -> &PreparedMechanism {
         &self.study.prepared
     }
 
-    /// Times at which motions are compared (s), ascending.
+    /// Returns the times at which motions are compared (s), in ascending order.
     #[must_use]
     pub fn instants(&self) -> &[f64] {
         &self.times.wanted
     }
 
-    /// One run, compared with the known motion: its error, and that of the reference. `None` if no
-    /// motion is known.
+    /// Compares one run with the known motion, and returns its error and the error of the
+    /// reference. Returns `None` if no motion is known.
     ///
     /// # Errors
     /// [`StudyError::Motion`]: the run did not reach its end.
@@ -137,7 +137,7 @@ impl Subject {
         Ok(known.and_then(|known| known.errors(&run.observations)))
     }
 
-    /// Makes all runs of a plan, then those of the rivals at the same tolerances, and passes on
+    /// Performs all runs of a plan, then those of the rivals at the same tolerances, and passes on
     /// each row when it is finished. `interrupted` is called from time to time to decide whether to
     /// stop.
     ///
@@ -194,7 +194,7 @@ impl Subject {
         })
     }
 
-    /// The method that is chosen automatically, found by a run with the loosest tolerance.
+    /// Returns the method that is chosen automatically, found by a run with the loosest tolerance.
     fn automatic(
         &self,
         plan: &ComparisonPlan,
@@ -207,7 +207,7 @@ impl Subject {
         run.summary.method.name()
     }
 
-    /// The runs at one setting: a row, or `None` if interrupted.
+    /// Performs the runs at one setting and returns a row, or `None` if interrupted.
     fn run(
         &self,
         curve: Curve,
@@ -231,7 +231,7 @@ impl Subject {
             RunEnding::Reached => clock(&self.study, &options, plan, interrupted),
             RunEnding::GivenUp(t) => {
                 row.status = format!(
-                    "{GIVEN_UP}: {:.0} s of computing led to t = {t:.3} s",
+                    "{GIVEN_UP}: after {:.0} s of computing the run had reached t = {t:.3} s",
                     plan.budget
                 );
                 None
@@ -277,8 +277,8 @@ impl Subject {
         Some(Standard::known(reference, mechanism, self.size))
     }
 
-    /// The reference values of the runs: the known motion, and for other quantities two runs of
-    /// different methods that agree.
+    /// Returns the reference values of the runs: the known motion, and for other quantities two
+    /// runs of different methods that agree.
     fn standard(
         &self,
         plan: &ComparisonPlan,
@@ -294,7 +294,7 @@ impl Subject {
         };
         let source = match &self.reference {
             Some(reference) => reference.source.clone(),
-            None => "the mean of two runs of different methods; how far they are apart is how well it is known.".to_owned(),
+            None => "the mean of two runs of different methods. The difference between the two runs is the accuracy of the reference.".to_owned(),
         };
         let standard = match (known, pair) {
             (Some(known), Some(pair)) => Some(known.completed_by(&pair.mean)),
@@ -310,7 +310,8 @@ impl Subject {
         Ok((standard, document))
     }
 
-    /// The pair of runs that agree best, of the most accurate runs of different methods.
+    /// Returns the two runs with the best agreement among the most accurate runs of different
+    /// methods.
     fn best_pair(
         &self,
         plan: &ComparisonPlan,
@@ -359,7 +360,7 @@ impl Subject {
     }
 }
 
-/// A way to move the mechanism, by this product or by another program.
+/// A way to simulate the mechanism, by this program or by another program.
 enum Contender<'a> {
     Own(Curve),
     Rival(&'a dyn Rival),
@@ -384,10 +385,10 @@ fn given_up_before(row: WorkPrecisionRow, looser: f64) -> WorkPrecisionRow {
     }
 }
 
-/// Two runs that agree.
+/// Two runs that agree with each other.
 struct Pair {
     methods: [&'static str; 2],
-    /// The looser tolerance of the two.
+    /// The looser of the two tolerances.
     tolerance: f64,
     mean: Standard,
     first: Vec<observation::Observation>,

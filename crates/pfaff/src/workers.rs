@@ -1,4 +1,4 @@
-//! Threads of parallel computations. Where the system starts none, the thread that calls computes
+//! Threads for parallel computations. If the system starts no threads, the calling thread computes
 //! everything.
 
 use std::io::{self, ErrorKind};
@@ -9,20 +9,20 @@ use std::thread;
 
 use rayon::{ThreadBuilder, ThreadPool, ThreadPoolBuilder};
 
-/// Most threads of parallel computations.
+/// Largest number of threads for parallel computations.
 pub const MOST_THREADS: usize = 256;
 
 /// Starts the threads of all parallel computations of this program: as many as given, up to
-/// [`MOST_THREADS`], or one for each core. If the system does not allow so many, everything is
-/// computed on the thread that calls, and the answer is `false`. A second call does nothing and has
-/// the answer of the first. Runs with several components have a separate option,
+/// [`MOST_THREADS`], or one for each core. If the system does not allow this number, the calling
+/// thread computes everything, and the function returns `false`. A second call has no effect and
+/// returns the result of the first call. Runs with several components have a separate option,
 /// [`dynamics::MotionOptions::threads`].
 pub fn start_threads(threads: Option<NonZeroUsize>) -> bool {
     static STARTED: OnceLock<bool> = OnceLock::new();
     *STARTED.get_or_init(|| {
         let waiting = waiting(most(threads));
         let started = waiting.is_ok();
-        // It fails if the program has started a pool itself.
+        // The call fails if the program has started a thread pool itself.
         let _ = match waiting {
             Ok(waiting) => {
                 let pool = ThreadPoolBuilder::new().num_threads(waiting.len());
@@ -34,27 +34,27 @@ pub fn start_threads(threads: Option<NonZeroUsize>) -> bool {
     })
 }
 
-/// A pool of the thread that calls.
+/// Creates a pool that consists of the calling thread.
 pub(crate) fn alone() -> ThreadPoolBuilder {
     ThreadPoolBuilder::new().num_threads(1).use_current_thread()
 }
 
-/// Number of threads of parallel computations.
+/// Returns the number of threads of parallel computations.
 #[must_use]
 pub fn threads() -> usize {
     rayon::current_num_threads()
 }
 
-/// The threads of a part of a program.
+/// The threads that a part of a program uses.
 pub(crate) enum Workers {
-    /// Of its own.
+    /// A separate pool.
     Own(ThreadPool),
-    /// The thread that calls.
+    /// The calling thread.
     Caller,
 }
 
 impl Workers {
-    /// Like [`start_threads`].
+    /// See [`start_threads`].
     pub(crate) fn start(threads: Option<NonZeroUsize>) -> Self {
         let waiting = waiting(most(threads)).ok();
         let own = waiting.and_then(|waiting| {
@@ -63,7 +63,7 @@ impl Workers {
         });
         own.map_or_else(
             || {
-                // What is computed in parallel needs some pool.
+                // Parallel computations need a thread pool.
                 start_threads(None);
                 Self::Caller
             },
@@ -78,7 +78,7 @@ impl Workers {
         }
     }
 
-    /// The result of a computation on these threads.
+    /// Returns the result of a computation on these threads.
     pub(crate) fn install<R: Send>(&self, compute: impl FnOnce() -> R + Send) -> R {
         match self {
             Self::Own(pool) => pool.install(compute),
@@ -86,7 +86,7 @@ impl Workers {
         }
     }
 
-    /// The results of the same computation on each of these threads.
+    /// Returns the results of the same computation on each of these threads.
     pub(crate) fn broadcast<R: Send>(&self, compute: impl Fn() -> R + Sync) -> Vec<R> {
         match self {
             Self::Own(pool) => pool.broadcast(|_| compute()),
@@ -100,8 +100,8 @@ fn most(threads: Option<NonZeroUsize>) -> usize {
     threads.map_or(cores, NonZeroUsize::get).min(MOST_THREADS)
 }
 
-/// Threads that wait for their work, so that a pool of them is there or no thread is: a pool that
-/// misses some cannot be begun again. They end if they get none.
+/// Starts threads that wait for their work, so that either all threads of a pool exist or none: an
+/// incomplete pool cannot be started again. The threads end if they receive no work.
 fn waiting(number: usize) -> io::Result<Vec<Sender<ThreadBuilder>>> {
     let mut threads = Vec::with_capacity(number);
     for _ in 0..number {
@@ -114,7 +114,7 @@ fn waiting(number: usize) -> io::Result<Vec<Sender<ThreadBuilder>>> {
         match thread::Builder::new().spawn(work) {
             Ok(handle) => threads.push((sender, handle)),
             Err(e) => {
-                // Their memory is needed.
+                // Later computations need their memory.
                 for (sender, handle) in threads {
                     drop(sender);
                     let _ = handle.join();
@@ -126,7 +126,7 @@ fn waiting(number: usize) -> io::Result<Vec<Sender<ThreadBuilder>>> {
     Ok(threads.into_iter().map(|(sender, _)| sender).collect())
 }
 
-/// Hands the work of a pool to threads that wait for it.
+/// Passes the work of a pool to threads that wait for it.
 fn to_these(
     mut waiting: Vec<Sender<ThreadBuilder>>,
 ) -> impl FnMut(ThreadBuilder) -> io::Result<()> {

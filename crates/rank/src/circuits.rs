@@ -1,10 +1,10 @@
-//! Circuits: minimal sets of rows that depend on each other. They explain a redundancy in its
-//! smallest pieces.
+//! Circuits: minimal sets of rows that depend on each other. They explain a redundancy by its
+//! smallest parts.
 //!
-//! Redundancy belongs to circuits, never to a row. The p fundamental circuits (one for each dropped
-//! row) depend on which rows were dropped and may be long. Every circuit is the support of a vector
-//! `Z·y` that vanishes on a hyperplane of the dual, so the hyperplanes list all circuits, and the
-//! short ones among them describe the same dependencies with fewer rows.
+//! Redundancy is a property of circuits, not of single rows. The p fundamental circuits (one for
+//! each dropped row) depend on which rows were dropped and may be long. Every circuit is the
+//! support of a vector `Z·y` that vanishes on a hyperplane of the dual, so all circuits follow from
+//! the hyperplanes. Short circuits describe the same dependencies with fewer rows.
 
 use crate::limits::{HYPERPLANES_MAX, PIVOT_MIN};
 use std::cmp::Ordering;
@@ -23,16 +23,16 @@ pub struct Circuit {
     pub rows: Vec<usize>,
     /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient of the equilibrated rows, relative to the largest of all, that
-    /// counts as zero only within a stated tolerance; zero if there is none.
+    /// The largest coefficient (for equilibrated rows, relative to the largest of all) that counts
+    /// as zero only within a stated tolerance; zero if there is no such coefficient.
     pub left_out: f64,
 }
 
-/// The fundamental circuit of each dropped row, in the order of `dropped`.
+/// Returns the fundamental circuit of each dropped row, in the order of `dropped`.
 ///
 /// The support is decided on equilibrated coefficients relative to the largest of the circuit,
-/// against the noise of their rows ([`RankDecision::row_noise`]); a row with margin zero is in no
-/// circuit. A row of zeros is a circuit of one row.
+/// against the noise of their rows ([`RankDecision::row_noise`]); a row with margin zero belongs to
+/// no circuit. A row of zeros is a circuit of one row.
 #[must_use]
 pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
     fundamental(decision)
@@ -41,14 +41,14 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
         .collect()
 }
 
-/// p independent circuits, as short as possible: of all circuits the shortest, then the shortest
-/// independent of it, and so on, which makes the total length smallest. Shortest first, equal
-/// lengths by rows; they do not depend on the rows that were dropped.
+/// Returns p independent circuits that are as short as possible: the shortest of all circuits, then
+/// the shortest one that is independent of it, and so on. This choice minimises the total length.
+/// The circuits are sorted by length, then by rows. They do not depend on the dropped rows.
 ///
 /// A component (a set of coupled rows) of redundancy p_c has at most as many circuits as subsets of
 /// p_c − 1 of its rows. If there are more than 20 000 of these, or if rounding hides which rows
 /// belong to a circuit or whether a row belongs to any, the fundamental circuits of the component
-/// are returned: also minimal and independent, but perhaps longer.
+/// are returned. These are also minimal and independent, but may be longer.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -92,14 +92,14 @@ fn by_length(a: &Sparse, b: &Sparse) -> Ordering {
     a.len().cmp(&b.len()).then_with(|| rows(a).cmp(&rows(b)))
 }
 
-/// Whether each of these rows has a coefficient.
+/// Returns whether each of these rows has a coefficient.
 fn covers(circuits: &[Sparse], rows: &[usize]) -> bool {
     let is_in = |row: usize| circuits.iter().flatten().any(|&(other, _)| other == row);
     rows.iter().all(|&row| is_in(row))
 }
 
-/// The shortest independent circuits of one component, greedily, which is optimal in a matroid.
-/// `None` if they are too many or too noisy.
+/// Returns the shortest independent circuits of one component by a greedy search, which is optimal
+/// in a matroid. Returns `None` if they are too many or too noisy.
 fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
     let p = dual.dimension();
     let classes = dual.parallel_classes().ok()?;
@@ -129,8 +129,9 @@ fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
     None
 }
 
-/// The circuit `Z̃·y` that vanishes on p − 1 independent vectors, with y. Returns `None` if they
-/// are dependent or too noisy to decide which other rows it contains.
+/// Returns the circuit `Z̃·y` that vanishes on p − 1 independent vectors, together with y. Returns
+/// `None` if the vectors are dependent, or too noisy to decide which other rows the circuit
+/// contains.
 fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse, Vec<f64>)> {
     let hyperplane = eliminate(vectors, dual.noise).ok()?;
     if hyperplane.pivots.len() != p - 1 || hyperplane.smallest < PIVOT_MIN {
@@ -175,8 +176,8 @@ fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
         .collect()
 }
 
-/// The largest coefficient of the dependency, relative to the largest of all, that counts as zero
-/// although it is larger than rounding.
+/// Returns the largest coefficient of the dependency, relative to the largest of all, that counts
+/// as zero although it is larger than rounding.
 fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
     if !decision.has_tolerance() {
         return 0.0;
@@ -197,7 +198,7 @@ fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
     left.fold(0.0, |most, (_, x)| f64::max(most, x))
 }
 
-/// Equilibrated coefficients in the scaling of C, normalised.
+/// Returns the equilibrated coefficients in the scaling of C, normalised.
 fn circuit(decision: &RankDecision, z: &Sparse) -> Circuit {
     let exponents = &decision.scaling.rows;
     // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative to one

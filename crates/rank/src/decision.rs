@@ -1,16 +1,17 @@
-//! The rank decision and its tolerance. Ranks are decided nowhere else.
+//! The rank decision and its tolerance. Only this module decides ranks.
 //!
-//! A rank is decided once per regime of a motion, at a point polished onto the constraints, never
-//! inside a right-hand side: at a distance δ from the manifold, a singular value that is exactly
-//! zero on it is about δ. The decision contains its evidence (all singular values of the
-//! equilibrated matrix) and may be `Undecided`; then it contains both possible ranks. The meaning
-//! of redundancy for reactions is outside this module (`null_space` gives the dependencies). Masses
-//! are not used as weights, because they create false small singular values.
+//! A rank is decided once for each regime of a motion, at a configuration that is refined onto the
+//! constraints. It is never decided inside a right-hand side. At a distance δ from the manifold, a
+//! singular value that is exactly zero on the manifold is about δ. The decision contains its
+//! evidence (all singular values of the equilibrated matrix). It may be `Undecided`, and then
+//! contains both possible ranks. This module does not determine the effect of redundancy on
+//! reactions; `null_space` computes the dependencies. Masses are not used as weights, because they
+//! create false small singular values.
 //!
 //! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
 //! `τ = 10·max(eps·√(m·n), uncertainty)`, rank r is decided iff `σ_{r+1} ≤ τ` and
-//! `σ_r ≥ max(10³·τ, 10⁻⁷)`; if τ is above 0.01, only if σ_{r+1} is rounding. Two other rules give
-//! a certificate: `exact` takes the entries as exact, `within` uses double-double and the
+//! `σ_r ≥ max(10³·τ, 10⁻⁷)`. If τ is above 0.01, σ_{r+1} must also be rounding. Two other rules
+//! give a certificate: `exact` assumes exact entries, and `within` uses double-double and the
 //! uncertainty of the data.
 
 mod accuracy;
@@ -50,11 +51,11 @@ pub use explicit::{
     KeptRowsError, decide_dropping, decide_keeping, dropping_of_rank, with_dropped,
 };
 
-/// Like [`decide`], if the rank is known otherwise: data within a stated tolerance may have a lower
-/// rank than the matrix. Dropped rows then depend on the kept ones only nearly.
+/// Works like [`decide`], with a given rank: data within a stated tolerance may have a lower rank
+/// than the matrix. The dropped rows then depend on the kept rows only approximately.
 ///
 /// # Errors
-/// As [`decide`].
+/// Same errors as [`decide`].
 pub fn decide_of_rank<'a>(
     c: &Matrix,
     uncertainty: impl Into<Accuracy<'a>>,
@@ -64,9 +65,9 @@ pub fn decide_of_rank<'a>(
     Ok(reading.of_rank(rank).with_strong_basis(scaling, &scaled))
 }
 
-/// Rows that appear independent by the pivots of one factorisation, ascending: a Newton iteration
-/// may be tried with them, and its convergence shows whether they are independent. This is not a
-/// rank decision.
+/// Returns rows that appear independent by the pivots of one factorisation, ascending. A Newton
+/// iteration may be tried with them; its convergence shows whether they are independent. This is
+/// not a rank decision.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -77,7 +78,7 @@ pub fn decide_of_rank<'a>(
 /// ```
 ///
 /// # Errors
-/// As [`decide`].
+/// Same errors as [`decide`].
 pub fn promising_rows<'a>(
     c: &Matrix,
     uncertainty: impl Into<Accuracy<'a>>,
@@ -92,14 +93,14 @@ pub fn promising_rows<'a>(
     Ok(rows)
 }
 
-/// A rank read from singular values, before rows are chosen.
+/// A rank decided from singular values, before rows are chosen.
 struct Reading {
     rank: usize,
     evidence: Evidence,
     status: RankStatus,
 }
 
-/// Checks the input, equilibrates, and reads the rank.
+/// Checks the input, equilibrates the matrix, and decides the rank.
 fn read(c: &Matrix, uncertainty: Accuracy<'_>) -> Result<(Scaling, Matrix, Reading), RankError> {
     check_finite(c)?;
     let (scaling, spread) = uncertainty.equilibrate(c)?;
@@ -110,14 +111,14 @@ fn read(c: &Matrix, uncertainty: Accuracy<'_>) -> Result<(Scaling, Matrix, Readi
     Ok((scaling, scaled, reading))
 }
 
-/// τ of an m×n matrix whose equilibrated entries have this uncertainty.
+/// Returns τ of an m×n matrix whose equilibrated entries have this uncertainty.
 pub(crate) fn tolerance(m: usize, n: usize, uncertainty: f64) -> f64 {
     let rounding = f64::EPSILON * (m as f64 * n as f64).sqrt();
     NOISE_FACTOR * rounding.max(uncertainty)
 }
 
 impl RankDecision {
-    /// The smallest singular value that kept rows need, equilibrated as here, to count as
+    /// Returns the smallest singular value, in this equilibration, that kept rows need to count as
     /// independent.
     #[must_use]
     pub fn required_of_kept(&self) -> f64 {
@@ -125,19 +126,21 @@ impl RankDecision {
     }
 }
 
-/// Lower limit for the smallest singular value that counts as non-zero: max(10³·τ, 10⁻⁷).
+/// Returns the lower limit for the smallest singular value that counts as non-zero: max(10³·τ,
+/// 10⁻⁷).
 pub(crate) fn required(tolerance: f64) -> f64 {
     (CLEARANCE * tolerance).max(NEARLY_SINGULAR)
 }
 
-/// σ_r and σ_{r+1}; infinite for r = 0, and zero beyond the last.
+/// Returns σ_r and σ_{r+1}. The value is infinite for r = 0, and zero beyond the last singular
+/// value.
 fn around(singular_values: &[f64], r: usize) -> [f64; 2] {
     let before = r.checked_sub(1).map(|k| singular_values[k]);
     let next = singular_values.get(r).copied();
     [before.unwrap_or(f64::INFINITY), next.unwrap_or(0.0)]
 }
 
-/// σ_r / σ_{r+1}, infinite if σ_{r+1} = 0.
+/// Returns σ_r / σ_{r+1}, or infinity if σ_{r+1} = 0.
 fn gap(sigma_r: f64, sigma_next: f64) -> f64 {
     match sigma_next {
         0.0 => f64::INFINITY,
@@ -152,7 +155,7 @@ fn check_finite(c: &Matrix) -> Result<(), RankError> {
     }
 }
 
-/// A combination of rows without its component in the left null space, of unit norm.
+/// Returns a combination of rows without its component in the left null space, of unit norm.
 fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
     let z = crate::orthonormal(decision);
     let part = z.transpose_times(&direction);
@@ -164,8 +167,8 @@ fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
     direction
 }
 
-/// The status of a rank with a clear gap: decided, unless the tolerance hides singular values that
-/// are not rounding.
+/// Returns the status of a rank with a clear gap: decided, unless the tolerance hides singular
+/// values that are not rounding.
 pub(crate) fn shown(sigma_next: f64, tolerance: f64) -> RankStatus {
     if tolerance > HIDDEN && sigma_next > NOT_ROUNDING {
         RankStatus::Undecided(Doubt::Hidden {
@@ -203,7 +206,7 @@ impl Reading {
             shown(hidden, tolerance)
         };
 
-        // Below the tolerance there is only noise, which must not enlarge the gap.
+        // Below the tolerance, all values are noise, which must not enlarge the gap.
         let clear_gap = |r: usize| {
             let [sigma_r, sigma_next] = around(&singular_values, r);
             sigma_r.min(sigma_max) / sigma_next.max(tolerance)
@@ -228,7 +231,7 @@ impl Reading {
         }
     }
 
-    /// The same singular values for a rank that is known otherwise.
+    /// Returns these singular values for a given rank.
     fn of_rank(self, rank: usize) -> Self {
         let rank = rank.min(self.evidence.singular_values.len());
         let [sigma_r, sigma_next] = around(&self.evidence.singular_values, rank);
@@ -244,7 +247,8 @@ impl Reading {
         }
     }
 
-    /// The decision on the rows with the largest pivots, exchanged until no coefficient is large.
+    /// Returns the decision on the rows with the largest pivots. Rows are exchanged until no
+    /// coefficient is large.
     fn with_strong_basis(self, scaling: Scaling, scaled: &Matrix) -> RankDecision {
         let basis = if self.rank == scaled.nrows() {
             Basis::whole(self.rank)

@@ -1,14 +1,14 @@
-//! Which rows may be deleted so that the motion stays the same, and which deletions make a given
-//! multiplier unique.
+//! Determines which rows may be deleted without a change of motion, and which deletions make a
+//! given multiplier unique.
 //!
 //! A set D of p rows is admissible iff the other rows still have rank r; equivalently iff the block
 //! `Z_D` of a left null space basis is nonsingular. Deleting D sets its multipliers to zero, and
-//! all others become unique. Deleting fewer rows makes some of them unique: a combination `ℓᵀ·λ`
-//! becomes unique iff `ℓᵀ·Z` lies in the row space of `Z_D`. All tests use the clear gap of rank
-//! decisions, on the coefficients of the decision; if a number lies in the gap, the result is an
-//! error that says so.
+//! all other multipliers become unique. If fewer rows are deleted, some multipliers become unique:
+//! a combination `ℓᵀ·λ` becomes unique iff `ℓᵀ·Z` is in the row space of `Z_D`. All tests use the
+//! clear gap of rank decisions, on the coefficients of the decision. If a number is in the gap, the
+//! result is an error that states this.
 //!
-//! Which rows it is sensible to delete is up to the caller, who passes the candidates.
+//! The caller decides which rows are candidates for deletion.
 
 mod count;
 mod substitutes;
@@ -27,21 +27,20 @@ pub use substitutes::{Limits, Substitutes, making_unique};
 #[non_exhaustive]
 pub enum DeletionError {
     /// The rank itself is undecided.
-    #[error("the rank is undecided, so no deletion can be judged: {0}")]
+    #[error("the rank is undecided, so no deletion can be analysed: {0}")]
     Rank(Doubt),
     /// Whether some rows may be deleted together depends on a number that is neither certainly zero
-    /// nor certainly not zero.
+    /// nor certainly nonzero.
     #[error(
-        "whether rows can be deleted together hangs on {value:.3e}, and the dependencies are known to {noise:.3e} only: \
-         more accurate data or a smaller tolerance decide it"
+        "whether rows can be deleted together depends on a coefficient {value:.3e}, and coefficients are accurate only to {noise:.3e}: use more accurate data or a smaller tolerance"
     )]
     Unclear {
         /// The number.
         value: f64,
-        /// What the coefficients of the dependencies are known to.
+        /// Accuracy of the coefficients of the dependencies.
         noise: f64,
     },
-    /// There are too many deletions to be counted.
+    /// The number of deletions is too large.
     #[error(
         "a component with redundancy {redundancy} has too many admissible deletions to be counted"
     )]
@@ -83,12 +82,12 @@ impl From<Unclear> for DeletionError {
     }
 }
 
-/// The first `limit` admissible sets of p rows: deleting one of them keeps the motion and makes all
-/// other multipliers unique.
+/// Returns the first `limit` admissible sets of p rows. Deleting one of these sets does not change
+/// the motion and makes all other multipliers unique.
 ///
-/// Sets ascend; those of one component (coupled rows) come in lexicographic order, and several
-/// components are combined like the digits of a number. [`count_deletions`] returns their number. A
-/// matrix of full rank has one such set, the empty one.
+/// The rows of a set ascend. The sets of one component (coupled rows) are in lexicographic order,
+/// and several components are combined like the digits of a number. [`count_deletions`] returns
+/// their number. A matrix of full rank has one such set, the empty one.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -122,7 +121,7 @@ pub fn deletions(decision: &RankDecision, limit: usize) -> Result<Vec<Vec<usize>
     Ok(sets)
 }
 
-/// The dual of each component.
+/// Returns the dual of each component.
 fn duals(decision: &RankDecision) -> Result<Vec<Dual>, DeletionError> {
     require_rank(decision)?;
     let support = Support::new(decision);
@@ -140,8 +139,8 @@ fn require_rank(decision: &RankDecision) -> Result<(), DeletionError> {
     }
 }
 
-/// Adds to `bases` the bases that contain `chosen` and otherwise rows from index `next` on. Every
-/// branch that is entered ends in a basis, so the work for each basis is bounded.
+/// Adds to `bases` the bases that contain `chosen` and otherwise rows from index `next` onwards.
+/// Every branch of the search ends in a basis, so the work for each basis is bounded.
 fn list_bases(
     dual: &Dual,
     all: &[usize],

@@ -1,13 +1,13 @@
 //! The rows of a left null space basis as vectors: the dual of the row matroid.
 //!
 //! Row i of Z̃ (m×p, of the equilibrated rows) is the vector of constraint i. A set D of
-//! constraints may be deleted without a change of motion iff its vectors are independent; rows with
-//! parallel vectors replace each other; the rows where `Z̃·y` vanishes and those where it does not
-//! are a hyperplane of the dual and a circuit of the rows.
+//! constraints may be deleted without a change of motion iff its vectors are independent. Rows with
+//! parallel vectors can replace each other. The rows where `Z̃·y` vanishes and those where it does
+//! not are a hyperplane of the dual and a circuit of the rows.
 //!
-//! Every test is a rank of a few vectors, computed by elimination with complete pivoting: the
+//! Every test is a rank of a few vectors, computed by elimination with complete pivoting. The
 //! multipliers are at most one, so the noise of all entries stays that of the decision. An entry
-//! between "zero" and "certainly not zero" is an error, not a guess.
+//! between "zero" and "certainly not zero" is reported as an error.
 
 use crate::decision::{CoefficientReading, Readings, Size, size};
 use crate::null_space::Support;
@@ -20,11 +20,11 @@ pub(crate) struct Unclear {
     pub(crate) noise: f64,
 }
 
-/// What numbers are known to, and how those that are not zero are told.
+/// The accuracy of numbers, and the criterion for nonzero numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Noise {
     pub(crate) value: f64,
-    /// The rules of a stated tolerance, which verdicts follow as well; `None` for rounding.
+    /// The rules of a stated tolerance, which also apply to verdicts; `None` for rounding.
     stated: Option<Readings>,
 }
 
@@ -36,7 +36,7 @@ impl Noise {
         }
     }
 
-    /// That of numbers known to this multiple.
+    /// Returns the noise of numbers with this multiple of the uncertainty.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             value: factor * self.value,
@@ -59,15 +59,15 @@ impl Noise {
 pub(crate) struct Dual {
     /// The constraints, ascending.
     pub(crate) rows: Vec<usize>,
-    /// Their vectors, in the same order.
+    /// Vectors of the rows, in the same order.
     pub(crate) vectors: Vec<Vec<f64>>,
     /// Noise of the entries, the largest of which is about one.
     pub(crate) noise: Noise,
 }
 
 impl Dual {
-    /// The vectors of `rows` (ascending); their coordinates belong to the dropped rows among them,
-    /// so `rows` must be a union of components.
+    /// Creates the vectors of `rows` (ascending). Their coordinates belong to the dropped rows
+    /// among them, so `rows` must be a union of components.
     pub(crate) fn new(decision: &RankDecision, support: &Support, rows: &[usize]) -> Self {
         let inside = |row: &usize| rows.binary_search(row).is_ok();
         let coordinates: Vec<usize> = (0..decision.redundancy)
@@ -91,18 +91,18 @@ impl Dual {
         }
     }
 
-    /// Number of coordinates, the rank of all vectors together.
+    /// Returns the number of coordinates, which is the rank of all vectors together.
     pub(crate) fn dimension(&self) -> usize {
         self.vectors.first().map_or(0, Vec::len)
     }
 
-    /// Rank of the vectors with these indices.
+    /// Returns the rank of the vectors with these indices.
     pub(crate) fn rank(&self, places: &[usize]) -> Result<usize, Unclear> {
         let vectors = places.iter().map(|&k| self.vectors[k].clone()).collect();
         rank(vectors, self.noise)
     }
 
-    /// Indices grouped by direction; zero vectors are left out.
+    /// Returns indices grouped by direction; zero vectors are omitted.
     pub(crate) fn parallel_classes(&self) -> Result<Vec<Vec<usize>>, Unclear> {
         let mut classes: Vec<Vec<usize>> = Vec::new();
         'places: for k in 0..self.rows.len() {
@@ -121,7 +121,7 @@ impl Dual {
     }
 }
 
-/// Rank of vectors whose entries have the given noise.
+/// Returns the rank of vectors whose entries have the given noise.
 pub(crate) fn rank(vectors: Vec<Vec<f64>>, noise: Noise) -> Result<usize, Unclear> {
     Ok(eliminate(vectors, noise)?.pivots.len())
 }
@@ -131,11 +131,11 @@ pub(crate) struct EchelonForm {
     pub(crate) vectors: Vec<Vec<f64>>,
     /// Coordinate of each pivot.
     pub(crate) pivots: Vec<usize>,
-    /// Absolute value of the last pivot, infinite if there is none.
+    /// Absolute value of the last pivot; infinite if there is no pivot.
     pub(crate) smallest: f64,
 }
 
-/// Gaussian elimination with complete pivoting.
+/// Performs Gaussian elimination with complete pivoting.
 pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: Noise) -> Result<EchelonForm, Unclear> {
     let mut pivots = Vec::new();
     let mut smallest = f64::INFINITY;
@@ -178,7 +178,7 @@ pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: Noise) -> Result<Eche
     })
 }
 
-/// All subsets of `0..n` with k elements, in lexicographic order.
+/// Returns all subsets of `0..n` with k elements, in lexicographic order.
 pub(crate) fn subsets(n: usize, k: usize) -> impl Iterator<Item = Vec<usize>> {
     let mut next = (k <= n).then(|| (0..k).collect::<Vec<_>>());
     std::iter::from_fn(move || {
@@ -195,7 +195,7 @@ pub(crate) fn subsets(n: usize, k: usize) -> impl Iterator<Item = Vec<usize>> {
     })
 }
 
-/// Number of subsets of `0..n` with k elements, `None` above the largest `usize`.
+/// Returns the number of subsets of `0..n` with k elements, `None` above the largest `usize`.
 pub(crate) fn binomial(n: usize, k: usize) -> Option<usize> {
     if k > n {
         return Some(0);
@@ -233,7 +233,8 @@ mod tests {
         assert!(rank(vectors(1e-10), noise).is_err());
     }
 
-    /// Data known to a thousandth of the size do not hide whether a coefficient of one is zero.
+    /// If the data are accurate to a thousandth of the size, they show whether a coefficient of one
+    /// is zero.
     #[test]
     fn within_a_tolerance_a_pivot_clears_what_the_data_move_it_by() {
         let rules = Readings {

@@ -1,9 +1,9 @@
 //! The left null space of a constraint matrix, derived from a rank decision, and the groups of rows
-//! that it couples (components). Minimal dependent sets are in `circuits`.
+//! that it couples (components). The module `circuits` computes minimal dependent sets.
 //!
-//! Columns z with `Cᵀ·z = 0` are the self-stresses: if multipliers change by them, the force on
-//! every body stays the same. Verdicts on joints and reactions need the grouping of rows and are
-//! made elsewhere.
+//! Columns z with `Cᵀ·z = 0` are the self-stresses: if multipliers change by a self-stress, the
+//! force on every body does not change. Verdicts on joints and reactions need the grouping of rows;
+//! other modules compute them.
 
 use crate::limits::COEFFICIENT_ROUNDING;
 use crate::{CoefficientReading, RankDecision};
@@ -15,12 +15,12 @@ use linalg::{Matrix, PivotedQr, kernels};
 pub struct Components {
     /// Sets of coupled rows: each list ascending, lists ordered by their first row.
     pub coupled: Vec<Vec<usize>>,
-    /// Rows in no dependency at all: their multipliers are unique. Ascending.
+    /// Rows that belong to no dependency (coloops), ascending. Their multipliers are unique.
     pub coloops: Vec<usize>,
 }
 
-/// Z (m×p) with `Cᵀ·Z = 0`: column j is `[−T_jᵀ; e_j]` in the order (K, D), permuted to row order;
-/// it states that `row dropped[j] = Σ T_ji · row kept[i]`.
+/// Returns Z (m×p) with `Cᵀ·Z = 0`. Column j is `[−T_jᵀ; e_j]` in the order (K, D), permuted to row
+/// order. It states that `row dropped[j] = Σ T_ji · row kept[i]`.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -34,25 +34,29 @@ pub fn dependencies(decision: &RankDecision) -> Matrix {
     scatter(decision, &decision.dependence())
 }
 
-/// Orthonormal basis (m×p) of the left null space of the *equilibrated* rows `D_r·C·D_c`.
+/// Returns an orthonormal basis (m×p) of the left null space of the *equilibrated* rows
+/// `D_r·C·D_c`.
 ///
-/// The norm of row i is the margin of "row i is unique": zero iff the row is in no dependency, one
-/// iff the row alone is dependent (a row of zeros). `D_r` times a column is a self-stress of C.
+/// The norm of row i is the margin of "row i is unique". It is zero iff the row belongs to no
+/// dependency, and one iff the row alone is dependent (a row of zeros). `D_r` times a column is a
+/// self-stress of C.
 pub fn orthonormal(decision: &RankDecision) -> Matrix {
     let z = scatter(decision, &decision.equilibrated_dependence());
     let p = z.ncols();
     PivotedQr::of_columns(&z).q_columns(0..p)
 }
 
-/// Largest equilibrated coefficient that counts as zero: [`RankDecision::coefficient_tolerance`].
+/// Returns the largest equilibrated coefficient that counts as zero:
+/// [`RankDecision::coefficient_tolerance`].
 pub fn support_tolerance(decision: &RankDecision) -> f64 {
     decision.coefficient_tolerance()
 }
 
-/// Connected components of the graph with an edge between kept row i and dropped row j if T_ji ≠ 0.
+/// Returns the connected components of the graph with an edge between kept row i and dropped row j
+/// if T_ji ≠ 0.
 ///
-/// They are the components of the row matroid: rows of one list are coupled by dependencies, rows
-/// of different lists never are, and the result does not depend on which rows were kept.
+/// They are the components of the row matroid. Dependencies couple the rows of one list, but never
+/// rows of different lists. The result does not depend on the choice of the kept rows.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -67,8 +71,8 @@ pub fn components(decision: &RankDecision) -> Components {
     components_of(decision, &Support::new(decision))
 }
 
-/// Rows of components in which a stated tolerance leaves open whether a row belongs to a
-/// dependency, or to which one. Ascending; empty without a tolerance.
+/// Returns rows of components for which a stated tolerance leaves undecided whether a row belongs
+/// to a dependency, or to which one. The rows ascend; the list is empty without a tolerance.
 pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
     if !decision.has_tolerance() {
         return Vec::new();
@@ -79,7 +83,7 @@ pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
     for (open, row) in support.open.iter_mut().zip(&decision.kept) {
         *open |= told.binary_search(row).is_ok();
     }
-    // Open rows belong to every component in which they have a coefficient.
+    // Rows with an undecided membership belong to every component in which they have a coefficient.
     for (noise, _) in support.noise.iter_mut().zip(&support.open).filter(|x| *x.1) {
         *noise = COEFFICIENT_ROUNDING;
     }
@@ -124,9 +128,9 @@ fn components_of(decision: &RankDecision, support: &Support) -> Components {
     }
 }
 
-/// Which equilibrated coefficients count as non-zero. A row whose margin, the norm of its row of
-/// [`orthonormal`], counts as zero is in no circuit: verdicts use the margin, and circuits must be
-/// consistent with them.
+/// Decides which equilibrated coefficients count as non-zero. A row belongs to no circuit if its
+/// margin, the norm of its row of [`orthonormal`], counts as zero: verdicts use the margin, and
+/// circuits must be consistent with them.
 pub(crate) struct Support {
     /// Coefficients T of the equilibrated rows.
     pub(crate) t: Matrix,
@@ -166,7 +170,7 @@ impl Support {
         }
     }
 
-    /// Whether kept row i is in the circuit of dropped row j.
+    /// Returns whether kept row i is in the circuit of dropped row j.
     pub(crate) fn contains(&self, j: usize, i: usize) -> bool {
         self.t[(j, i)].abs() > self.size[j] * self.noise[i]
     }
@@ -256,7 +260,8 @@ mod tests {
     }
 
     /// Row 3 is the mean of rows 0 and 2, and row 4 is `row 1 + x·row 2`, in whole multiples of
-    /// powers of two. A tolerance that leaves row 2 open joins them by row 2, if x is no rounding.
+    /// powers of two. A tolerance that makes row 2 undecided couples them by row 2, if x exceeds
+    /// rounding.
     #[test]
     fn an_open_row_joins_what_it_belongs_to_beyond_rounding() {
         for (exponent, joined) in [(-37, vec![0, 1, 2, 3, 4]), (-44, vec![0, 2, 3])] {

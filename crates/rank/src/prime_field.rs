@@ -1,9 +1,9 @@
-//! Arithmetic modulo a prime, for tests without a tolerance: is a minor zero?
+//! Arithmetic modulo a prime, for tests without a tolerance whether a minor is zero.
 //!
-//! A determinant that is not zero modulo one prime is not zero; one that is zero modulo primes
-//! whose product exceeds Hadamard's bound is zero. Every finite `f64` is an integer times a power
-//! of two, and a power of two is a unit modulo an odd prime, so constraint matrices are mapped
-//! without error. The choice of rows and minors is in `pfaff_rank::modular`.
+//! A determinant that is not zero modulo one prime is not zero. A determinant that is zero modulo
+//! primes whose product exceeds Hadamard's bound is zero. Every finite `f64` is an integer times a
+//! power of two, and a power of two is a unit modulo an odd prime, so constraint matrices are
+//! mapped without error. The module `pfaff_rank::modular` chooses rows and minors.
 //!
 //! The primes have 62 bits and are drawn from a fixed pseudo-random stream. Primes of a special
 //! form are not suitable: modulo the convenient 2⁶¹ − 1 the determinant of [[1, 1], [1, 2⁶¹]]
@@ -20,9 +20,9 @@ use std::sync::LazyLock;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct PrimeField {
     p: u64,
-    /// −p⁻¹ modulo 2⁶⁴.
+    /// The value −p⁻¹ modulo 2⁶⁴.
     neg_inverse: u64,
-    /// 2¹²⁸ modulo p.
+    /// The value 2¹²⁸ modulo p.
     r_squared: u64,
 }
 
@@ -39,9 +39,9 @@ impl Residue {
 }
 
 impl PrimeField {
-    /// The field of the odd number `p < 2⁶²`; inverses exist if it is a prime.
+    /// Returns the field of the odd number `p < 2⁶²`; inverses exist if it is a prime.
     fn new(p: u64) -> Self {
-        // Newton's iteration doubles the correct bits: 3 → 96.
+        // Newton's iteration doubles the number of correct bits, from 3 to 96.
         let mut inverse = p;
         for _ in 0..5 {
             inverse = inverse.wrapping_mul(2_u64.wrapping_sub(p.wrapping_mul(inverse)));
@@ -58,12 +58,12 @@ impl PrimeField {
         self.p
     }
 
-    /// The class of `x`.
+    /// Returns the class of `x`.
     pub(crate) fn integer(self, x: u64) -> Residue {
         self.times(Residue(x % self.p), Residue(self.r_squared))
     }
 
-    /// The representative in `0..p`.
+    /// Returns the representative in `0..p`.
     pub(crate) fn value(self, x: Residue) -> u64 {
         self.reduce(u128::from(x.0))
     }
@@ -89,12 +89,12 @@ impl PrimeField {
         Residue(self.reduce(u128::from(x.0) * u128::from(y.0)))
     }
 
-    /// x·y of a residue and a plain number below 2⁶²; the result is plain, in `0..p`.
+    /// Returns x·y of a residue and a plain number below 2⁶²; the result is plain, in `0..p`.
     pub(crate) fn times_plain(self, x: Residue, y: u64) -> u64 {
         self.reduce(u128::from(x.0) * u128::from(y))
     }
 
-    /// xᵉ.
+    /// Returns xᵉ.
     pub(crate) fn power(self, x: Residue, mut e: u64) -> Residue {
         let (mut square, mut product) = (x, self.integer(1));
         while e > 0 {
@@ -107,19 +107,19 @@ impl PrimeField {
         product
     }
 
-    /// x⁻¹ by Fermat; zero for zero.
+    /// Returns x⁻¹ by Fermat's theorem; zero for zero.
     pub(crate) fn inverse(self, x: Residue) -> Residue {
         self.power(x, self.p - 2)
     }
 
-    /// `y ← y − s·x` over the shorter length.
+    /// Computes `y ← y − s·x` over the shorter length.
     pub(crate) fn subtract(self, s: Residue, x: &[Residue], y: &mut [Residue]) {
         for (y, &x) in y.iter_mut().zip(x) {
             *y = self.minus(*y, self.times(s, x));
         }
     }
 
-    /// t·2⁻⁶⁴ mod p, for t < p·2⁶⁴.
+    /// Returns t·2⁻⁶⁴ mod p, for t < p·2⁶⁴.
     fn reduce(self, t: u128) -> u64 {
         let m = (t as u64).wrapping_mul(self.neg_inverse);
         self.below_p(((t + u128::from(m) * u128::from(self.p)) >> 64) as u64)
@@ -140,9 +140,9 @@ pub(crate) fn fields() -> impl Iterator<Item = PrimeField> {
     ready.iter().copied().chain(more.clone())
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014), filtered for primes. Two equal ones among n have
-/// probability n²/2⁵⁶; the reconstruction detects this, because the second has no inverse of the
-/// first.
+/// SplitMix64 (Steele, Lea, Flood 2014), filtered for primes. Two equal primes among n have
+/// probability n²/2⁵⁶. The reconstruction detects this case, because the second prime has no
+/// inverse of the first.
 #[derive(Debug, Clone)]
 struct Stream(u64);
 
@@ -162,7 +162,8 @@ impl Iterator for Stream {
     }
 }
 
-/// Miller–Rabin test with the first twelve primes as bases: no composite below 3.1e23 passes it.
+/// Performs the Miller–Rabin test with the first twelve primes as bases: no composite below 3.1e23
+/// passes it.
 fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if BASES.iter().any(|b| n.is_multiple_of(*b)) {
@@ -195,7 +196,7 @@ mod tests {
     use super::*;
     use crate::limits::PRIME_BITS;
 
-    /// Compared with `u128` remainders, and with Fermat's theorem through the inverse.
+    /// Compares with `u128` remainders, and with Fermat's theorem for the inverse.
     #[test]
     fn arithmetic_agrees_with_remainders() {
         for field in fields().take(4).chain([PrimeField::new(7)]) {
@@ -229,7 +230,8 @@ mod tests {
                     .all(|d| !n.is_multiple_of(d))
         };
         assert!((0..2000).all(|n| is_prime(n) == prime(n)));
-        // Carmichael, strong pseudoprime to 2, 3, 5 and 7, the Mersenne prime, its neighbour.
+        // Examples: a Carmichael number, a strong pseudoprime to 2, 3, 5 and 7, the Mersenne prime,
+        // and its neighbour.
         assert!(!is_prime(561) && !is_prime(3_215_031_751));
         assert!(is_prime((1 << 61) - 1) && !is_prime((1 << 61) + 1));
     }

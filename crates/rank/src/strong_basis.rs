@@ -2,11 +2,12 @@
 //!
 //! Column-pivoted QR picks a good set K of rows, but the coefficients that express the other rows
 //! can still grow like 2^r. Exchanging a kept row i with a dropped row j multiplies the volume
-//! `√det(C_K·C_Kᵀ)` by `|T_ji|`, so exchanging while an entry exceeds the bound terminates. This is
-//! the part of the strong rank-revealing criterion that is needed here; its second term,
-//! `‖R₁₁⁻¹‖·‖R₂₂‖ ≤ σ_{r+1}/σ_r`, is at most 1e-3 for every decided rank and is left out.
+//! `√det(C_K·C_Kᵀ)` by `|T_ji|`, so the exchanges terminate if they are made only while an entry
+//! exceeds the bound. Only this part of the strong rank-revealing criterion is needed here. Its
+//! second term, `‖R₁₁⁻¹‖·‖R₂₂‖ ≤ σ_{r+1}/σ_r`, is at most 1e-3 for every decided rank and is
+//! omitted.
 //!
-//! The rank itself has been decided before.
+//! The rank itself must already be decided.
 //!
 //! Source: M. Gu, S. C. Eisenstat, Efficient algorithms for computing a strong rank-revealing QR
 //! factorization, SIAM J. Sci. Comput. 17 (1996) 848–869, algorithm 4 with f = 2.
@@ -14,20 +15,20 @@
 use crate::limits::{COEFFICIENT_BOUND, EXCHANGE_ROUNDS};
 use linalg::{Matrix, PivotedQr, RowBasis, kernels};
 
-/// A partition of the rows into a basis K and the rest D.
+/// A partition of the rows into a basis K and the remaining rows D.
 pub(crate) struct Basis {
     /// Kept rows, ascending.
     pub(crate) kept: Vec<usize>,
     /// Dropped rows, ascending.
     pub(crate) dropped: Vec<usize>,
-    /// T = C_D·C_K⁺, p×r.
+    /// The coefficients T = C_D·C_K⁺, p×r.
     pub(crate) t: Matrix,
     /// Largest `‖row of C_D − T·C_K‖₂`.
     pub(crate) residual: f64,
 }
 
 impl Basis {
-    /// All other rows in terms of the kept ones: `Tᵀ = R₁₁⁻¹·R₁₂`.
+    /// Expresses all other rows in terms of the kept rows: `Tᵀ = R₁₁⁻¹·R₁₂`.
     pub(crate) fn of(rows: &RowBasis) -> Self {
         let (kept, dropped) = (rows.kept().to_vec(), rows.dropped().to_vec());
         let mut t = Matrix::zeros(dropped.len(), kept.len());
@@ -44,7 +45,7 @@ impl Basis {
         }
     }
 
-    /// All m rows, which are independent.
+    /// Creates the basis of all m rows, which are independent.
     pub(crate) fn whole(m: usize) -> Self {
         Self {
             kept: (0..m).collect(),
@@ -71,7 +72,8 @@ impl Basis {
     }
 }
 
-/// Improves a basis of the rows of `c` by exchanges until `|T_ji| ≤ 2`; also returns it factored.
+/// Improves a basis of the rows of `c` by exchanges until `|T_ji| ≤ 2`. The function also returns
+/// the factored basis.
 pub(crate) fn bounded(c: &Matrix, mut rows: RowBasis) -> (Basis, RowBasis) {
     let mut basis = Basis::of(&rows);
     for _ in 0..EXCHANGE_ROUNDS {
@@ -85,7 +87,7 @@ pub(crate) fn bounded(c: &Matrix, mut rows: RowBasis) -> (Basis, RowBasis) {
     (basis, rows)
 }
 
-/// Exchanges rows until `|T_ji| ≤ 2`. T is updated, not computed again, and the lists are no longer
+/// Exchanges rows until `|T_ji| ≤ 2`. T is updated, not recomputed, and the lists are then not
 /// ascending.
 pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [usize]) {
     let exchanges_max = 10 * (kept.len() + dropped.len());
@@ -98,8 +100,8 @@ pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [us
     }
 }
 
-/// Coefficients of the row y in terms of the factored rows, and the norm of the component of y
-/// outside their span; y is overwritten.
+/// Computes the coefficients of the row y in terms of the factored rows, and the norm of the
+/// component of y outside their span; y is overwritten.
 pub(crate) fn coefficients(qr: &PivotedQr, y: &mut [f64], t: &mut [f64]) -> f64 {
     qr.q_transpose_mul(y);
     let (x, outside) = y.split_at_mut(t.len());
@@ -110,7 +112,7 @@ pub(crate) fn coefficients(qr: &PivotedQr, y: &mut [f64], t: &mut [f64]) -> f64 
     kernels::norm(outside)
 }
 
-/// All of `0..m` that are not in the ascending list `rows`.
+/// Returns all numbers of `0..m` that are not in the ascending list `rows`.
 pub(crate) fn complement(m: usize, rows: &[usize]) -> Vec<usize> {
     (0..m).filter(|i| rows.binary_search(i).is_err()).collect()
 }
@@ -162,7 +164,7 @@ mod tests {
         assert!(good.t.max_abs() <= COEFFICIENT_BOUND);
         assert_eq!(good.kept, [1, 2]);
         assert!(good.residual < 1e-15);
-        // row 0 = (row 1 − row 2) / 100
+        // The relation is row 0 = (row 1 − row 2) / 100.
         approx::assert_abs_diff_eq!(good.t, Matrix::from_rows(&[[0.01, -0.01]]), epsilon = 1e-16);
     }
 
@@ -179,7 +181,7 @@ mod tests {
         let express = |kept: &[usize]| Basis::of(&RowBasis::of_rows(&c, kept.to_vec())).t;
         let mut t = express(&[0, 1, 3]); // dropped: 2, 4
         exchange(&mut t, 1, 0); // keep 4 instead of 0
-        // New order is kept (4, 1, 3), dropped (2, 0); a basis sorts both.
+        // The new order is kept (4, 1, 3), dropped (2, 0); a basis sorts both lists.
         let fresh = express(&[4, 1, 3]);
         for (j, sorted_j) in [(0, 1), (1, 0)] {
             for (i, sorted_i) in [(0, 2), (1, 0), (2, 1)] {

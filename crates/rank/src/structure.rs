@@ -1,9 +1,10 @@
-//! Facts that follow from the pattern of a constraint matrix before any rank of the whole: rows
-//! that are in no dependency because of where they act, and parts that are independent of each
-//! other.
+//! Facts that follow from the pattern of a constraint matrix, without a rank decision on the whole
+//! matrix: rows that belong to no dependency because of the bodies on which they act, and parts
+//! that are independent of each other.
 //!
-//! Columns form blocks (bodies), rows form groups (joints). Three facts are used. Each is exact in
-//! one direction: rows that they settle are settled, the others need numbers.
+//! Columns form blocks (bodies), rows form groups (joints). Three facts are used. Each fact is
+//! exact in one direction: the rows that it settles are settled, and the other rows need numerical
+//! values.
 //!
 //! - **Parts.** Groups that share no block, directly or through other groups, are independent
 //!   problems. The ground is not a block.
@@ -14,8 +15,9 @@
 //!   the rest has `C_Xᵀ·z_X = 0`: the equilibrium of S. This needs mechanics, see
 //!   [`RowGroup::ground`].
 //!
-//! Ranks here are those of a few rows of the equilibrated matrix, by the rule of `rank`; whatever
-//! is not certain stays open. Names of joints, and verdicts from ranks, are not used here.
+//! The ranks in this module are those of a few rows of the equilibrated matrix, by the rule of
+//! `rank`. Uncertain results stay open. Names of joints, and verdicts from ranks, are not used
+//! here.
 
 mod cycles;
 mod graph;
@@ -36,16 +38,16 @@ pub use incidence::{Part, RowGroup};
 
 pub(crate) use incidence::{partition, within};
 
-/// Result for a row or group before any rank of the whole.
+/// Result for a row or group without a rank decision on the whole matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum StructureVerdict {
-    /// All its rows were removed with blocks on which they are independent: its multipliers are
-    /// unique.
+    /// All rows of the group were removed with blocks on which they are independent, so its
+    /// multipliers are unique.
     Peeled,
-    /// It is the only connection between two sides: `C_Xᵀ·λ_X` is unique.
+    /// The group is the only connection between two sides, so `C_Xᵀ·λ_X` is unique.
     Bridge,
-    /// Not settled; the number is that of its part in [`Structure::open`].
+    /// The group is not settled; the number is that of its part in [`Structure::open`].
     Open(usize),
 }
 
@@ -53,9 +55,11 @@ pub enum StructureVerdict {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Structure {
-    /// For each group, why it is settled, or its part; peeled if all its rows are peeled.
+    /// For each group, the reason why it is settled, or its part. A group is peeled if all its rows
+    /// are peeled.
     pub groups: Vec<StructureVerdict>,
-    /// The same for each row. A row in no group forms a group by itself, connected to the ground.
+    /// The corresponding result for each row. A row outside all groups forms a group by itself,
+    /// connected to the ground.
     pub rows: Vec<StructureVerdict>,
     /// Parts of the whole matrix, ordered by their first rows.
     pub parts: Vec<Part>,
@@ -64,14 +68,14 @@ pub struct Structure {
     pub open: Vec<Part>,
 }
 
-/// Determines what follows from the pattern. `blocks` are ranges of columns; a column in no block
-/// is a block of its own.
+/// Determines the facts that follow from the pattern. `blocks` are ranges of columns; a column
+/// outside all blocks is a separate block.
 ///
-/// A row touches a block if it has a non-zero entry in it. Peeling and bridges alternate until
-/// neither finds more: each pass is linear in the entries of C, and there are at most as many
-/// passes as blocks. A group on more than two blocks, or on two and the ground (a gear with its
-/// carrier), connects all of them and is never a bridge: the load that it transmits to one side may
-/// vanish while the others do not.
+/// A row touches a block if it has a non-zero entry in it. Peeling and the search for bridges
+/// alternate until neither finds more. Each pass is linear in the entries of C, and there are at
+/// most as many passes as blocks. A group on more than two blocks, or on two blocks and the ground
+/// (a gear with its carrier), connects all of them and is never a bridge. The load that it
+/// transmits to one side may vanish while the other loads do not.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -89,8 +93,8 @@ pub struct Structure {
 /// # Ok::<(), pfaff_rank::RankError>(())
 /// ```
 ///
-/// Rows and columns beyond the matrix are left out; a row in several groups, or a column in several
-/// blocks, counts for the first.
+/// Rows and columns beyond the matrix are omitted. A row in several groups, or a column in several
+/// blocks, counts for the first one.
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.

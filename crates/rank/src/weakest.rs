@@ -1,5 +1,5 @@
-//! The combination of rows that is closest to zero: which rows nearly depend on each other, and by
-//! how much.
+//! Computes the combination of rows that is closest to zero: which rows are nearly dependent, and
+//! by how much.
 
 use crate::limits::{DIRECTION_ROUNDING, INVERSE_ITERATIONS};
 use linalg::{Matrix, PivotedQr, kernels};
@@ -14,9 +14,9 @@ pub struct WeakestCombination {
     pub weights: Vec<f64>,
 }
 
-/// The smallest singular value of rows and its left singular vector, by inverse iteration with
-/// `C·Cᵀ = P·Rᵀ·R·Pᵀ`. If rows are dependent to the last digit of `f64`, with `C·Cᵀ + δ²·I`, where
-/// δ is the rounding of the largest row. Returns `None` without rows.
+/// Returns the smallest singular value of rows and its left singular vector, by inverse iteration
+/// with `C·Cᵀ = P·Rᵀ·R·Pᵀ`. If rows are dependent to the last digit of `f64`, the iteration uses
+/// `C·Cᵀ + δ²·I`, where δ is the rounding of the largest row. Returns `None` without rows.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -31,7 +31,7 @@ pub fn weakest_combination(rows: &Matrix) -> Option<WeakestCombination> {
     by_inverse_iteration(rows).or_else(|| by_inverse_iteration(&beside_rounding(rows)))
 }
 
-/// Appends the rounding: `[C, δ·I]`.
+/// Appends the rounding to the rows: `[C, δ·I]`.
 fn beside_rounding(rows: &Matrix) -> Matrix {
     let (r, n) = (rows.nrows(), rows.ncols());
     let largest = (0..r).map(|i| kernels::norm(rows.row(i)));
@@ -73,7 +73,7 @@ fn by_inverse_iteration(rows: &Matrix) -> Option<WeakestCombination> {
 mod tests {
     use super::*;
 
-    /// Two equal rows and a third one: weights (1, −1, 0)/√2, whatever their scale.
+    /// Two equal rows and a third one: the weights are (1, −1, 0)/√2 for any scale.
     #[test]
     fn equal_rows_cancel() {
         for scale in [1e-100, 1.0, 1e100] {

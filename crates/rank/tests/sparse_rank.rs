@@ -1,4 +1,4 @@
-//! Sparse rank decisions on large mechanisms whose answers are known without numerics.
+//! Sparse rank decisions on large mechanisms whose results are known without numerical computation.
 
 use linalg::SparseMatrix;
 use mechanisms::{Known, chain, grid, table};
@@ -62,8 +62,8 @@ fn kept_rows_are_as_many_and_independent() {
     assert_eq!(found.dropped.len(), known.redundancy);
 }
 
-/// Two rows that differ by 1e-5, and one that is orthogonal to the first: it is kept, whichever of
-/// them comes first.
+/// Two rows differ by 1e-5, and a third one is orthogonal to the first: it is independent,
+/// whichever of the two comes first.
 #[test]
 fn of_nearly_parallel_rows_one_is_kept() {
     let rows = [[1.0, 0.0], [1.0, 1e-5], [0.0, 1.0]];
@@ -77,8 +77,8 @@ fn of_nearly_parallel_rows_one_is_kept() {
     }
 }
 
-/// Bodies and rows in another order, another unit of length, and one for each row: the same
-/// answers.
+/// Bodies and rows in another order, another unit of length, and one unit for each row give the
+/// same results.
 #[test]
 fn order_and_units_do_not_matter() {
     let known = chain(20);
@@ -99,8 +99,8 @@ fn order_and_units_do_not_matter() {
         let c = SparseMatrix::from_rows(n, (0..m).map(row)).expect("columns of bodies");
         let found = decide_sparse(&c, 0.0, &known.bodies, Sketch::default()).expect("finite");
         if decades > 3 && !found.is_decided() {
-            // The dense code does not either: equilibration cannot distinguish such units from such
-            // sizes.
+            // The dense code does not do this either: equilibration cannot distinguish such units
+            // from such sizes.
             let dense =
                 pfaff_rank::decide(&c.dense(), pfaff_rank::Accuracy::Rounding).expect("finite");
             assert!(!dense.is_decided());

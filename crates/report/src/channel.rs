@@ -1,10 +1,10 @@
 //! Curves as short text: values are rounded to a fraction of the range of the curve, and each value
-//! is written as the difference from the one before.
+//! is written as the difference from the previous one.
 
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
 
-/// Number of levels in the range of a curve; rounding is half a level.
+/// Number of levels in the range of a curve; the rounding error is half a level.
 pub const LEVELS: f64 = 100_000.0;
 
 /// Number of digits of a single number.
@@ -32,7 +32,7 @@ pub enum Channel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FewDigits(pub f64);
 
-/// Differences of levels; `None` is a gap.
+/// Differences between levels; `None` is a gap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steps(pub Vec<Option<i64>>);
 
@@ -43,7 +43,7 @@ impl Channel {
         Self::above(0.0, values)
     }
 
-    /// Its value at the first frame.
+    /// Value of the curve at the first frame.
     pub fn first(&self) -> f64 {
         match self {
             Self::Constant(value) => value.0,
@@ -54,7 +54,7 @@ impl Channel {
         }
     }
 
-    /// Numbers of this size or smaller are rounding of zero.
+    /// The levels of these numbers; numbers with an absolute value up to `noise` count as zero.
     pub fn above(noise: f64, values: impl Iterator<Item = f64> + Clone) -> Self {
         let values = values.map(|x| if x.abs() <= noise { 0.0 } else { x });
         let finite = values.clone().filter(|x| x.is_finite());
@@ -66,7 +66,7 @@ impl Channel {
         if low > high {
             return Self::Constant(FewDigits(f64::NAN));
         }
-        // A change below the rounding of the numbers themselves counts as no change.
+        // A change below the rounding error of the numbers counts as no change.
         let flat = height <= f64::EPSILON * low.abs().max(high.abs());
         if flat && !has_gaps {
             return Self::Constant(FewDigits(low));
@@ -149,8 +149,8 @@ mod tests {
             .collect();
         let channel = Channel::new(values.iter().copied());
         for (a, b) in values.iter().zip(decoded(&channel, values.len())) {
-            // Half a level, and the rounding of the height of a level to six digits, summed over
-            // all levels.
+            // Half a level, and the rounding error of the height of a level to six digits, summed
+            // over all levels.
             assert!((a - b).abs() <= 6.0 * (0.5 / LEVELS + 5e-7), "{a} {b}");
         }
     }

@@ -1,18 +1,18 @@
 //! Figures as SVG text: light background, system fonts, no external resources, and readable without
 //! colour. Values that are NaN or infinite are gaps.
 //!
-//! | function | shows |
+//! | function | figure |
 //! | --- | --- |
 //! | [`mechanism()`] | a mechanism to scale, its joints marked by the verdict of their reactions |
 //! | [`history()`], [`histories`] | quantities over time |
 //! | [`paths()`] | paths in the plane, with equal axes |
 //! | [`work_precision()`] | error against run time, scene by scene |
-//! | [`ranges()`], [`cloud()`] | numbers and places over samples |
+//! | [`ranges()`], [`cloud()`] | numbers and positions over samples |
 //! | [`extremes()`] | error over an extreme number, panel by panel |
 //!
-//! [`png()`] makes a PNG file of any of them (feature `png`).
+//! The function [`png()`] converts any of these figures to a PNG file (feature `png`).
 //!
-//! The selection of quantities, and the pages around figures, are in other modules.
+//! Other modules select the quantities and create the pages around figures.
 
 mod axis;
 mod curve;
@@ -69,11 +69,11 @@ pub enum FigureError {
     Coordinate {
         /// Name of the mechanism.
         mechanism: String,
-        /// Number of the coordinate, from 1.
+        /// Index of the coordinate, from 1.
         number: usize,
-        /// Its value.
+        /// Value of the coordinate.
         value: f64,
-        /// The largest that can be drawn.
+        /// Largest value that can be drawn.
         limit: f64,
     },
     /// The verdicts belong to another mechanism.

@@ -1,15 +1,16 @@
-//! Files of an output directory. Each is written next to its final place as `<name>.part` and
-//! renamed when it is finished: a file with its final name is always complete. A file that is
-//! dropped before it is finished is removed, and so is a directory that was made for files and has
-//! none. If writing fails, the file and the others that are not finished are cut off after the last
-//! complete line and keep the name `.part`; an older file with the final name stays unchanged.
+//! Files of an output directory. Each file is written next to its final path as `<name>.part` and
+//! renamed when it is finished, so a file with its final name is always complete. An unfinished
+//! file is removed when its value is dropped; a directory that was created for files and contains
+//! no file is also removed. If writing fails, this file and the other unfinished files are cut off
+//! after the last complete line and keep the name `.part`. An older file with the final name does
+//! not change.
 //!
-//! An answer of several files is one step as far as the system allows it: all files are written
-//! next to their places, then all are renamed, then the files are removed that an earlier answer of
-//! the same [`Family`] has left and this one does not have.
+//! A result of several files is replaced in one step, as far as the system allows this. All files
+//! are written next to their final paths, then all are renamed. Finally, files are removed that an
+//! earlier result of the same [`Family`] has left and the new result does not contain.
 //!
-//! Nothing is written through a symbolic link: a link at the place of a file is replaced by the
-//! file, and what it refers to stays as it is. Nothing is removed through one, either.
+//! No content is written through a symbolic link: a link at the path of a file is replaced by the
+//! file, and the target of the link does not change. Files are not removed through links, either.
 
 mod family;
 mod lock;
@@ -42,12 +43,12 @@ pub enum FileError {
     Refused {
         /// The operation that failed.
         action: &'static str,
-        /// Its path.
+        /// Path of the file or directory.
         path: PathBuf,
         /// The error of the operating system.
         source: io::Error,
     },
-    /// A name that is not a plain file name would leave the directory.
+    /// A name that is not a plain file name, so that the file would be outside the directory.
     #[error("`{name}` is not the name of a file inside `{}`: leave out directories", directory.display())]
     Name {
         /// The name.
@@ -56,36 +57,36 @@ pub enum FileError {
         directory: PathBuf,
     },
     /// Another process is writing into the directory.
-    #[error("another run of pfaff is writing into `{}`; wait for its end, or take another directory", directory.display())]
+    #[error("another run of pfaff is writing into `{}`; wait until it ends, or choose another directory", directory.display())]
     Busy {
         /// The directory.
         directory: PathBuf,
     },
     /// A file would be replaced.
-    #[error("`{}` is there already; --force replaces it, --out writes another file", path.display())]
+    #[error("`{}` exists already; use --force to replace it, or --out for another file", path.display())]
     Exists {
         /// The file.
         path: PathBuf,
     },
-    /// What is at the place of a file is none: a directory, a device, a pipe, a link.
-    #[error("`{}` is a directory, a device or a link, not a file; take another place", path.display())]
+    /// The path of a file leads to something else: a directory, a device, a pipe, a link.
+    #[error("`{}` is a directory, a device or a link, not a file; choose another path", path.display())]
     NoFile {
-        /// The place.
+        /// The path.
         path: PathBuf,
     },
-    /// Files that pfaff has not written would be replaced.
+    /// Files would be replaced that pfaff has not written.
     #[error(
-        "`{}` has been written by something else than pfaff; --force replaces it, or take another place",
+        "`{}` was not written by pfaff; use --force to replace it, or choose another path",
         paths_of(paths)
     )]
     Foreign {
-        /// These files.
+        /// Paths of these files.
         paths: Vec<PathBuf>,
     },
 }
 
 impl FileError {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -107,8 +108,8 @@ impl FileError {
         }
     }
 
-    /// Whether the place is wrong: no file can be made there, or one must not be replaced.
-    /// Otherwise writing has failed.
+    /// Whether the path is wrong: no file can be created there, or an existing file must not be
+    /// replaced. Otherwise writing has failed.
     #[must_use]
     pub fn is_place(&self) -> bool {
         match self {
@@ -125,7 +126,7 @@ impl FileError {
     }
 }
 
-/// The operation that begins a file or a directory.
+/// The operation that creates a file or a directory.
 const MAKE: &str = "make";
 
 fn paths_of(paths: &[PathBuf]) -> String {
@@ -143,15 +144,15 @@ pub struct OutputDirectory {
     parts: Parts,
     unfinished: FailurePolicy,
     written: Arc<Mutex<WrittenFiles>>,
-    /// Excludes other processes until the last clone is dropped.
+    /// Excludes other processes until the last clone of the directory is dropped.
     _lock: Option<Arc<File>>,
-    /// The directories that were made for it.
+    /// The directories that were created for the output directory.
     made: Arc<NewDirectories>,
-    /// Whether a file could not be written: then files that are not finished are kept.
+    /// Whether a file could not be written: then unfinished files are kept.
     has_failed: Arc<AtomicBool>,
 }
 
-/// What a single file may replace.
+/// Files that a single file may replace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Replaces {
     /// No file.
@@ -162,29 +163,29 @@ pub enum Replaces {
     Files,
 }
 
-/// Names of files that are not finished.
+/// Names of unfinished files.
 #[derive(Clone, Copy, Debug)]
 enum Parts {
-    /// `<name>.part`: what a run has left is replaced by the next.
+    /// `<name>.part`: the next run replaces the file that an earlier run has left.
     Plain,
-    /// Those of this process alone.
+    /// Names that only this process uses.
     Own,
 }
 
-/// What becomes of files that are not finished after a failure, or when the process is ended.
+/// Treatment of unfinished files after a failure, or when the process is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum FailurePolicy {
-    /// Their whole lines are kept.
+    /// The complete lines are kept.
     Kept,
     Removed,
 }
 
-/// What this process has written into a directory.
+/// The files that this process has written into a directory.
 #[derive(Debug, Default)]
 struct WrittenFiles {
-    /// Files that were begun, with their names.
+    /// Files that were started, with their names.
     begun: Vec<(OsString, Weak<Mutex<Content>>)>,
-    /// Names of files that were written at once.
+    /// Names of files that were written in one step.
     finished: Vec<OsString>,
 }
 
@@ -201,18 +202,19 @@ impl WrittenFiles {
     }
 }
 
-/// Time for which the end of a write is awaited when a run is ended at once.
+/// Time to wait for the end of a write when a run is ended immediately.
 const PATIENCE: Duration = Duration::from_millis(100);
 
 /// Time between two attempts.
 const PAUSE: Duration = Duration::from_millis(5);
 
 impl OutputDirectory {
-    /// Opens a directory, and creates it if there is none. One that was created here and has no
-    /// file is removed with the last clone of this value.
+    /// Opens a directory, and creates it if it does not exist. A directory that was created here
+    /// and has no file is removed with the last clone of this value.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: it cannot be created, for instance because a file has its name.
+    /// - [`FileError::Refused`]: the directory cannot be created, for example because a file has
+    ///   its name.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, FileError> {
         let path = path.into();
         let made = NewDirectories::all_of(&path)
@@ -229,11 +231,11 @@ impl OutputDirectory {
     }
 
     /// Excludes all other processes from the directory, until this value and its clones are dropped
-    /// or the process ends, however it ends. Where the file system knows no locks, nobody is
+    /// or the process ends for any reason. If the file system does not support locks, no process is
     /// excluded.
     ///
     /// # Errors
-    /// - [`FileError::Busy`]: another process has it.
+    /// - [`FileError::Busy`]: another process uses the directory.
     pub fn exclusive(self) -> Result<Self, FileError> {
         let lock = lock::of(&self.path, File::try_lock)?;
         Ok(Self {
@@ -242,13 +244,15 @@ impl OutputDirectory {
         })
     }
 
-    /// The directory of a single file, which has to exist, for writing this file next to its place.
+    /// The directory of a single file, for writing this file next to its path; the directory must
+    /// exist.
     ///
     /// # Errors
-    /// - [`FileError::Exists`], [`FileError::Foreign`]: it is not to be replaced.
-    /// - [`FileError::NoFile`]: there is a directory, a device, a pipe or a link. A link is neither
-    ///   replaced nor followed: whoever made it knows which of both files is meant.
-    /// - [`FileError::Refused`]: there is no such directory.
+    /// - [`FileError::Exists`], [`FileError::Foreign`]: the existing file must not be replaced.
+    /// - [`FileError::NoFile`]: the path is a directory, a device, a pipe or a link. A link is
+    ///   neither replaced nor followed, because only its author can decide which of both files is
+    ///   meant.
+    /// - [`FileError::Refused`]: the directory does not exist.
     pub fn around(file: &Path, replaces: Replaces) -> Result<Self, FileError> {
         let path = file.to_owned();
         let is_there = fs::symlink_metadata(file).is_ok();
@@ -273,27 +277,27 @@ impl OutputDirectory {
         Ok(Self::create(parent)?.with_own_parts().whole())
     }
 
-    /// For files that mean something only when they are whole: those that are not finished are
-    /// removed, also after a failure.
+    /// For files that are only useful if they are complete: unfinished files are removed, also
+    /// after a failure.
     #[must_use]
     pub fn whole(mut self) -> Self {
         self.unfinished = FailurePolicy::Removed;
         self
     }
 
-    /// Lets several processes write the same files at the same time: files that are not finished
-    /// have names of their own, and the one that is finished last stays.
+    /// Allows several processes to write the same files at the same time: unfinished files have
+    /// separate names, and the file that is finished last remains.
     #[must_use]
     pub fn with_own_parts(mut self) -> Self {
         self.parts = Parts::Own;
         self
     }
 
-    /// Like [`Self::exclusive`], but processes that share it do not exclude each other; see
-    /// [`Self::with_own_parts`].
+    /// Like [`Self::exclusive`], but processes that share the directory do not exclude each other;
+    /// see [`Self::with_own_parts`].
     ///
     /// # Errors
-    /// As [`Self::exclusive`].
+    /// Returns the same errors as [`Self::exclusive`].
     pub fn shared(self) -> Result<Self, FileError> {
         let lock = lock::of(&self.path, File::try_lock_shared)?;
         Ok(Self {
@@ -302,7 +306,7 @@ impl OutputDirectory {
         })
     }
 
-    /// Its path.
+    /// Path of the directory.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -323,7 +327,7 @@ impl OutputDirectory {
         }
     }
 
-    /// The names of everything in the directory, in their order.
+    /// The names of all items in the directory, in alphabetical order.
     fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
@@ -332,7 +336,7 @@ impl OutputDirectory {
         names
     }
 
-    /// The names of files that pfaff has written there and that are not of this family.
+    /// The names of files that pfaff has written there and that do not belong to this family.
     #[must_use]
     pub fn others(&self, family: Family) -> Vec<String> {
         let mut names = self.names();
@@ -340,10 +344,10 @@ impl OutputDirectory {
         names
     }
 
-    /// Begins a file; an older file with the same name is kept until this one is finished.
+    /// Starts a file; an older file with the same name is kept until this one is finished.
     ///
     /// # Errors
-    /// - [`FileError::Name`]: the name is empty or has a directory in it.
+    /// - [`FileError::Name`]: the name is empty or contains a directory.
     /// - [`FileError::Refused`]: the file cannot be created.
     pub fn file(&self, name: impl AsRef<OsStr>) -> Result<OutputFile, FileError> {
         let name = name.as_ref();
@@ -354,19 +358,19 @@ impl OutputDirectory {
         Ok(file)
     }
 
-    /// Begins a file that is only read again, by [`OutputFile::written`], and never gets its final
-    /// name: it is removed once it is dropped.
+    /// Starts a file that is only read again, by [`OutputFile::written`], and never gets its final
+    /// name: it is removed when it is dropped.
     ///
     /// # Errors
-    /// As [`OutputDirectory::file`].
+    /// Returns the same errors as [`OutputDirectory::file`].
     pub fn scratch(&self, name: &str) -> Result<OutputFile, FileError> {
         self.begin(name.as_ref())
     }
 
-    /// Writes a whole file.
+    /// Writes a complete file.
     ///
     /// # Errors
-    /// As [`OutputDirectory::file`] and [`OutputFile::finish`].
+    /// Returns the same errors as [`OutputDirectory::file`] and [`OutputFile::finish`].
     pub fn write(&self, name: &str, content: &[u8]) -> Result<PathBuf, FileError> {
         let mut written = self.written();
         let path = self.put(name, content)?;
@@ -380,12 +384,12 @@ impl OutputDirectory {
         file.finish()
     }
 
-    /// Finishes these files, and removes those of this family that an earlier answer has left: see
-    /// [`Self::keep`]. All are written before the first one is renamed, so that a full disk leaves
-    /// the earlier answer.
+    /// Finishes these files, and removes the files of this family that an earlier result has left:
+    /// see [`Self::keep`]. All files are written before the first one is renamed, so that the
+    /// earlier result remains if the disk is full.
     ///
     /// # Errors
-    /// As [`OutputFile::finish`] and [`Self::keep`].
+    /// Returns the same errors as [`OutputFile::finish`] and [`Self::keep`].
     pub fn finish(&self, family: Family, files: Vec<OutputFile>) -> Result<Vec<String>, FileError> {
         for file in &files {
             file.flushed()?;
@@ -399,12 +403,12 @@ impl OutputDirectory {
         self.keep(family, &names)
     }
 
-    /// Removes the files of this family that are not among `files`, also those with the name
-    /// `.part`: they are of an earlier answer and would be taken for a part of this one. A file
-    /// that pfaff has not written stays. Returns the names of what was removed.
+    /// Removes the files of this family that are not in `files`, including those with the name
+    /// `.part`. They belong to an earlier result and could be mistaken for a part of this one. A
+    /// file that pfaff has not written is kept. Returns the names of the removed files.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: one of them cannot be removed.
+    /// - [`FileError::Refused`]: a file cannot be removed.
     pub fn keep(
         &self,
         family: Family,
@@ -434,18 +438,18 @@ impl OutputDirectory {
         Ok(removed)
     }
 
-    /// Ends all writing because the process is about to end: open tables get their final names, cut
-    /// off after the last whole line. Nothing can be written afterwards. Returns false if nothing
-    /// had been begun.
+    /// Ends all writing because the process will end: open tables get their final names, cut off
+    /// after the last complete line. No file can be written afterwards. Returns false if no file
+    /// had been started.
     pub fn abandon(&self) -> bool {
         self.abandon_with(|_| ())
     }
 
-    /// Like [`Self::abandon`]. In addition, `name` is written with this content unless it has been
-    /// written already, and files of the family that were not written are removed.
+    /// Like [`Self::abandon`]. In addition, `name` is written with this content unless it has
+    /// already been written, and files of the family that were not written are removed.
     pub fn abandon_as(&self, name: &str, content: &[u8], family: Family) -> bool {
         self.abandon_with(|written| {
-            // The process ends, whether or not this can be done.
+            // The process ends, whether or not this succeeds.
             if !written.has(name) {
                 let _ = self.put(name, content);
             }
@@ -471,7 +475,7 @@ impl OutputDirectory {
         }
         last(&written);
         self.made.remove_empty();
-        // Whoever writes waits here until the process ends.
+        // Threads that write are blocked here until the process ends.
         mem::forget(written);
         true
     }
@@ -480,7 +484,7 @@ impl OutputDirectory {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Makes the file with the name `.part`.
+    /// Creates the file with the name `.part`.
     fn begin(&self, name: &OsStr) -> Result<OutputFile, FileError> {
         let mut parts = Path::new(name).components();
         let plain = matches!(
@@ -515,8 +519,8 @@ impl OutputDirectory {
     }
 }
 
-/// A new file; what has this name, also a link, is removed before. Readable as well, to find the
-/// last complete line.
+/// A new file; any existing item with this name, including a link, is removed before. The file is
+/// also readable, so that the last complete line can be found.
 fn new_file(path: &Path) -> io::Result<File> {
     match fs::remove_file(path) {
         Err(e) if e.kind() != ErrorKind::NotFound => return Err(e),
@@ -526,7 +530,7 @@ fn new_file(path: &Path) -> io::Result<File> {
     options.read(true).write(true).create_new(true).open(path)
 }
 
-/// The name of a file that is not finished, which no other process or thread has, on any machine.
+/// The name of an unfinished file, which no other process or thread on any machine uses.
 pub(crate) fn own_part(path: &Path) -> PathBuf {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -535,7 +539,7 @@ pub(crate) fn own_part(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// The value of a mutex, if it is free within a short time.
+/// The value of a mutex, if it becomes free within a short time.
 fn patiently<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     let mut waited = Duration::ZERO;
     loop {
@@ -551,8 +555,8 @@ fn patiently<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     }
 }
 
-/// A file that is being written, buffered. Errors of writing name its path. Dropped before it is
-/// finished, it is removed.
+/// A file that is being written, buffered. Errors of writing contain its path. If it is dropped
+/// before it is finished, it is removed.
 #[derive(Debug)]
 pub struct OutputFile {
     content: Arc<Mutex<Content>>,
@@ -566,7 +570,7 @@ struct Content {
     part: PathBuf,
     path: PathBuf,
     unfinished: FailurePolicy,
-    /// Of the directory.
+    /// The flag of the directory.
     has_failed: Arc<AtomicBool>,
 }
 
@@ -574,17 +578,17 @@ impl OutputFile {
     /// Writes the buffer and gives the file its final name.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: not everything could be written, and the file keeps the name
-    ///   `.part`; or it could not be renamed.
+    /// - [`FileError::Refused`]: the file could not be written completely and keeps the name
+    ///   `.part`, or it could not be renamed.
     pub fn finish(self) -> Result<PathBuf, FileError> {
         self.flushed()?;
         self.content().rename()
     }
 
-    /// Writes all of this.
+    /// Writes all of these bytes.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: not everything could be written.
+    /// - [`FileError::Refused`]: the bytes could not be written completely.
     pub fn put(&mut self, bytes: &[u8]) -> Result<(), FileError> {
         let mut content = self.content();
         let put = content.with(|buffer| buffer.write_all(bytes));
@@ -597,9 +601,9 @@ impl OutputFile {
         flushed.map_err(FileError::refused("write", &content.part))
     }
 
-    /// Like [`Self::finish`], for a run that stopped early: the part that has been written gets the
-    /// final name, up to the last complete line if the rest could not be written. The summary of
-    /// the run says that it is partial.
+    /// Like [`Self::finish`], for a run that stopped early: the written part gets the final name,
+    /// up to the last complete line if the rest could not be written. The summary of the run states
+    /// that it is partial.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: the end is missing, or the file could not be renamed.
@@ -611,21 +615,21 @@ impl OutputFile {
         flushed.and(renamed)
     }
 
-    /// Reads what has been written so far.
+    /// Reads the content written so far.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: not everything could be written, or it cannot be read.
+    /// - [`FileError::Refused`]: the content could not be written completely, or cannot be read.
     pub fn written(&mut self) -> Result<File, FileError> {
         self.flushed()?;
         let part = self.part();
         File::open(&part).map_err(FileError::refused("read", &part))
     }
 
-    /// Waits until everything written so far is on the disk, not only passed to the operating
+    /// Waits until the content written so far is on the disk, not only passed to the operating
     /// system.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: not everything could be written.
+    /// - [`FileError::Refused`]: the content could not be written completely.
     pub fn sync(&mut self) -> Result<(), FileError> {
         let mut content = self.content();
         let synced = content.with(|buffer| {
@@ -645,8 +649,8 @@ impl OutputFile {
 }
 
 impl Drop for Content {
-    /// Nothing refers to a file that is given up. What a failure or a panic has left is kept, if a
-    /// part of it means something.
+    /// No other file refers to an unfinished file that is dropped. After a failure or a panic, the
+    /// file is kept if a part of it is useful.
     fn drop(&mut self) {
         let fails = self.has_failed.load(Ordering::Relaxed) || std::thread::panicking();
         if fails && self.unfinished == FailurePolicy::Kept && self.with(Write::flush).is_ok() {
@@ -669,8 +673,8 @@ impl Content {
     }
 
     fn rename(&mut self) -> Result<PathBuf, FileError> {
-        // Closed before renaming, because some systems do not rename open files. A failed flush is
-        // not tried again.
+        // The file is closed before renaming, because some systems do not rename open files. A
+        // failed flush is not repeated.
         let buffer = mem::replace(&mut self.buffer, Err(ErrorKind::BrokenPipe.into()));
         drop(buffer.map(BufWriter::into_parts));
         let renamed = fs::rename(&self.part, &self.path);
@@ -679,19 +683,19 @@ impl Content {
         Ok(self.path.clone())
     }
 
-    /// Keeps the whole lines under the final name, if the file is still being written and a part
-    /// of it means something.
+    /// Keeps the complete lines under the final name, if the file is still being written and a part
+    /// of it is useful.
     fn abandon(&mut self) {
         if self.unfinished == FailurePolicy::Removed {
             self.remove();
         } else if self.with(Write::flush).is_ok() {
             self.close(ErrorKind::BrokenPipe.into());
-            // Its `.part` name is sufficient if this fails.
+            // If this fails, the name `.part` is sufficient.
             let _ = fs::rename(&self.part, &self.path);
         }
     }
 
-    /// Applies `action` to the buffer; after the first error nothing is written any more.
+    /// Applies `action` to the buffer; after the first error no more data are written.
     fn with<T>(
         &mut self,
         action: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
@@ -711,7 +715,7 @@ impl Content {
         done
     }
 
-    /// Cuts off the incomplete line that a failed write has left, and writes no more.
+    /// Removes the incomplete line that a failed write has left, and writes no more data.
     fn close(&mut self, refusal: io::Error) {
         if let Ok(buffer) = mem::replace(&mut self.buffer, Err(refusal)) {
             let (mut file, _) = buffer.into_parts();

@@ -1,4 +1,4 @@
-//! Documents as JSON: their head, and objects whose keys are names.
+//! Documents as JSON: their header, and objects whose keys are names.
 
 use std::io::{self, Write};
 
@@ -6,10 +6,10 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde::ser::{SerializeMap, Serializer};
 
-/// Number of the format of documents: it grows when an entry changes its meaning or disappears.
+/// Version of the document format: it increases when an entry changes its meaning or is removed.
 pub const FORMAT: u32 = 2;
 
-/// A document with its head.
+/// A document with its header.
 #[derive(Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct DocumentWithHead<'d, D> {
@@ -20,11 +20,11 @@ struct DocumentWithHead<'d, D> {
     document: &'d D,
 }
 
-/// Writes a document after the number of its format and the version of the program, indented, with
+/// Writes a document after the version of its format and the version of the program, indented, with
 /// a line feed at the end.
 ///
 /// # Errors
-/// If the writer fails, or if the document is no object.
+/// Returns an error if the writer fails, or if the document is not an object.
 pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<()> {
     let headed = DocumentWithHead {
         format: FORMAT,
@@ -32,8 +32,8 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
         document,
     };
     let text = serde_json::to_string_pretty(&headed)?;
-    // Such characters are in strings only. They may be written as their codes, which no terminal
-    // obeys.
+    // Such characters occur only in strings. They may be written as escape codes, which a terminal
+    // does not interpret.
     let is_obeyed = |c: char| matches!(c, '\u{7f}'..='\u{9f}' | '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let mut written = 0;
     for (at, c) in text.char_indices().filter(|(_, c)| is_obeyed(*c)) {
@@ -44,19 +44,19 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
     out.flush()
 }
 
-/// Reads what somebody asks for from JSON.
+/// Reads a request of a user from JSON.
 ///
 /// # Errors
-/// What is wrong, with its place.
+/// Description of the fault, with its position.
 pub fn read_json<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     serde_json::from_str(text).map_err(|e| e.to_string())
 }
 
-/// A part of a document as text, without a head and in one line, for programs that take documents
-/// apart.
+/// A part of a document as text, without a header and in one line, for programs that process
+/// documents in parts.
 ///
 /// # Errors
-/// If the part cannot be written.
+/// Returns an error if the part cannot be written.
 pub fn part_as_json(part: &impl Serialize) -> io::Result<String> {
     Ok(serde_json::to_string(part)?)
 }
@@ -74,7 +74,7 @@ pub fn part_as_json(part: &impl Serialize) -> io::Result<String> {
 pub struct ByName<T>(pub Vec<(String, T)>);
 
 impl<T> ByName<T> {
-    /// Whether there is nothing.
+    /// Whether the object is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
@@ -91,7 +91,7 @@ impl<T> ByName<T> {
 /// The value of a name.
 ///
 /// # Panics
-/// If there is no such name; [`ByName::get`] returns `None` then.
+/// Panics if the name does not exist; [`ByName::get`] returns `None` in this case.
 impl<T> std::ops::Index<&str> for ByName<T> {
     type Output = T;
     fn index(&self, name: &str) -> &T {

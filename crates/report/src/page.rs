@@ -1,11 +1,11 @@
-//! Common parts of all pages: head and end, style, and format of numbers.
+//! Common parts of all pages: start and end, style, and format of numbers.
 
 use std::fmt::Write;
 
 use crate::figures::escape;
 use crate::work_precision::Provenance;
 
-/// Colours follow the reader's scheme, as those of the figure.
+/// Colours follow the colour scheme of the reader, like the colours of the figure.
 const STYLE: &str = "
 :root { color-scheme: light dark; --ink: #222; --grey: #5f6870; --line: #d5d9dd; --page: #fff; --best: #e3f2e8; }
 @media (prefers-color-scheme: dark) {
@@ -26,10 +26,10 @@ details { margin: .8em 0; } summary { cursor: pointer; }
 dt { font-weight: 600; } dd { margin: 0 0 .3em 1.5em; }
 ";
 
-/// Content security policy: a page without scripts, which loads nothing.
+/// Content security policy: a page without scripts that loads no resources.
 const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; img-src data:";
 
-/// The beginning of a page, up to its title.
+/// The start of a page, up to its title.
 #[must_use]
 pub fn open(title: &str) -> String {
     let title = safe(title);
@@ -45,7 +45,7 @@ pub fn open(title: &str) -> String {
 
 /// The end of a page, with its provenance.
 pub fn close(page: &mut String, p: &Provenance) {
-    page.push_str("<h2>How it was made</h2>\n<dl>\n");
+    page.push_str("<h2>How this page was made</h2>\n<dl>\n");
     for (what, value) in [
         ("Machine", &p.machine),
         ("Versions", &p.versions),
@@ -60,7 +60,7 @@ pub fn close(page: &mut String, p: &Provenance) {
     page.push_str("</dl>\n</body>\n</html>\n");
 }
 
-/// Sentences.
+/// Writes sentences as a list.
 pub fn list(page: &mut String, sentences: &[String]) {
     if sentences.is_empty() {
         return;
@@ -103,7 +103,7 @@ pub fn duration(seconds: f64) -> String {
     format!("{value:.decimals$} {name}")
 }
 
-/// Text of a page.
+/// Escapes text for a page.
 #[must_use]
 pub fn safe(text: &str) -> String {
     let mut out = String::new();

@@ -1,5 +1,5 @@
-//! The largest values of reactions over a run, of determined cells only. Which cells these are is
-//! known when the run has ended; so a peak is kept for each interval between cuts.
+//! The largest values of reactions over a run, of determined cells only. The determined cells are
+//! known when the run has ended; therefore a peak is stored for each interval between boundaries.
 
 use solvability::{Stretches, Value};
 
@@ -10,25 +10,26 @@ use crate::tables::ReactionColumn;
 pub struct Peak {
     /// The value, with its sign (N, N·m).
     pub value: Value,
-    /// The first time at which it occurs (s).
+    /// The first time at which the value occurs (s).
     pub time: f64,
     /// The intervals on which the number is determined (s).
     pub over: Vec<[f64; 2]>,
 }
 
-/// Peaks of columns as rows come.
+/// Records the peaks of columns while rows are added.
 #[derive(Clone, Debug, Default)]
 pub struct PeakRecorder {
-    /// Times at which other verdicts may begin, ascending.
+    /// Times at which other verdicts may start, ascending.
     cuts: Vec<f64>,
-    /// Number of cuts up to the last row.
+    /// Number of these times up to the last row.
     passed: usize,
-    /// For each column its largest value between two cuts, with its time, in the order of time.
+    /// For each column, its largest value between two boundaries, with its time, in the order of
+    /// time.
     columns: Vec<Vec<[f64; 2]>>,
 }
 
 impl PeakRecorder {
-    /// Peaks of this many columns, with cuts that are known beforehand.
+    /// Peaks of this number of columns, with boundaries that are known in advance.
     #[must_use]
     pub fn new(columns: usize, cuts: &[f64]) -> Self {
         Self {
@@ -38,8 +39,8 @@ impl PeakRecorder {
         }
     }
 
-    /// Takes note of a cut, which may lie before the last row: then numbers of both sides are
-    /// compared apart from the next row on.
+    /// Adds a boundary, which may be before the last row: then values on both sides are compared
+    /// separately from the next row on.
     pub fn cut(&mut self, t: f64) {
         let place = self.cuts.partition_point(|cut| *cut < t);
         if self.cuts.get(place) != Some(&t) {
@@ -50,7 +51,7 @@ impl PeakRecorder {
         }
     }
 
-    /// Takes a row. NaN is no value.
+    /// Adds a row. NaN does not count as a value.
     pub fn row(&mut self, t: f64, values: &[f64]) {
         let passed = self.cuts.partition_point(|cut| *cut <= t);
         let begins = passed > self.passed;
@@ -77,7 +78,7 @@ impl PeakRecorder {
                 let number = value(number, t).determined();
                 Some([number.filter(|number| number.is_finite())?, t])
             };
-            // The first of equals.
+            // The first one of equal values.
             let largest = peaks.iter().filter_map(determined).reduce(|best, peak| {
                 if peak[0].abs() > best[0].abs() {
                     peak
@@ -103,7 +104,8 @@ mod tests {
     use super::*;
     use crate::tables::{Column, Quantity};
 
-    /// The largest value may be one of a choice: the peak is that of the determined interval.
+    /// The largest value may belong to a choice of multipliers: the peak is the largest value of
+    /// the determined interval.
     #[test]
     fn a_peak_is_one_of_determined_cells() {
         let column = ReactionColumn {

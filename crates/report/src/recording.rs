@@ -1,18 +1,18 @@
-//! The part of a run that is kept for its report: rows of output, limited in number so that a
-//! report stays small. Nothing is computed here.
+//! The part of a run that is stored for its report: output rows, limited in number so that a report
+//! stays small. This module computes no values.
 
 use model::Reaction;
 
-/// Largest number of rows that are kept.
+/// Largest number of stored rows.
 const FRAMES_MAX: usize = 1000;
 
-/// Largest number of values that are kept, over all rows.
+/// Largest number of stored values, over all rows.
 const NUMBERS_MAX: usize = 4_000_000;
 
-/// Smallest number of rows that are kept for any mechanism, if the run has as many.
+/// Smallest number of stored rows for any mechanism, if the run has as many rows.
 const FRAMES_MIN: usize = 24;
 
-/// A row of output.
+/// An output row.
 #[derive(Clone, Debug)]
 pub struct Frame {
     /// Time (s).
@@ -23,16 +23,16 @@ pub struct Frame {
     pub v: Vec<f64>,
     /// Work of drives and applied forces since the start (J).
     pub work: f64,
-    /// Reactions of all joints and drives; empty if none are requested.
+    /// Reactions of all joints and drives; empty if no reactions are requested.
     pub reactions: Vec<Reaction>,
     /// Multipliers of all rows; empty if no choices are compared.
     pub multipliers: Vec<f64>,
-    /// The same by each requested choice.
+    /// Multipliers of all rows for each requested choice.
     pub chosen: Vec<Vec<f64>>,
 }
 
 impl Frame {
-    /// A frame with coordinates only: nothing moves, no reaction is known.
+    /// A frame with coordinates only: all velocities are zero, and there are no reactions.
     #[must_use]
     pub fn at_rest(t: f64, q: &[f64], n_v: usize) -> Self {
         Self {
@@ -50,9 +50,9 @@ impl Frame {
 /// Rows of a run.
 #[derive(Clone, Debug)]
 pub struct Recording {
-    /// The kept rows, in the order of time.
+    /// The stored rows, in the order of time.
     pub frames: Vec<Frame>,
-    /// One row in this many is kept, and the one at the end.
+    /// One row in this number is stored, and also the row at the end.
     pub stride: usize,
     seen: usize,
     t_end: f64,
@@ -65,7 +65,7 @@ impl Recording {
     pub fn new(t_end: f64, rows: f64, numbers: usize) -> Self {
         let affordable = NUMBERS_MAX / numbers.max(1);
         let most = affordable.clamp(FRAMES_MIN, FRAMES_MAX);
-        // Saturates for extremely large numbers of rows.
+        // The calculation saturates for extremely large numbers of rows.
         let stride = (rows / most as f64).ceil().max(1.0) as usize;
         Self {
             frames: Vec::new(),
@@ -75,7 +75,7 @@ impl Recording {
         }
     }
 
-    /// Whether the next row, at time t, is kept. Must be called once for each row.
+    /// Whether the next row, at time t, is stored. The function must be called once for each row.
     pub fn wants(&mut self, t: f64) -> bool {
         let wanted = self.seen.is_multiple_of(self.stride) || t >= self.t_end;
         self.seen += 1;

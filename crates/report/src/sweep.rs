@@ -1,14 +1,14 @@
-//! Many runs of one scene with different numbers: a row for each, a journal during the runs, tables
-//! at the end.
+//! Many runs of one scene with different numbers: a row for each run, a journal during the runs,
+//! tables at the end.
 //!
-//! While runs are made, each finished run is a line in a journal to which lines are only appended.
-//! When all runs of a shard have rows, they become one file, and the journals go. Tables are
-//! computed from both, completely and in the order of the grid, whichever processes made the runs
-//! and at whatever time.
+//! During the sweep, each finished run is a line in a journal to which lines are only appended.
+//! When all runs of a shard have rows, the rows become one file, and the journals are removed.
+//! Tables are computed from both, completely and in the order of the grid. They do not depend on
+//! the processes that made the runs or on the time of the runs.
 //!
-//! Both are read only in this module.
+//! Only this module reads these files.
 //!
-//! Grids, runs and threads are in the crate `pfaff`.
+//! The crate `pfaff` contains the grids, runs and threads.
 
 mod cell;
 mod document;
@@ -47,19 +47,19 @@ pub use tables::{FAMILY, write_sweep};
 pub struct SweepPlan {
     /// Name of the scene.
     pub scene: String,
-    /// Digest of its text.
+    /// Digest of the text of the scene.
     pub digest: String,
-    /// The program that makes the runs.
+    /// Version of the program that makes the runs.
     pub version: String,
     /// Keys with their values, as given by the user.
     pub vary: Vec<String>,
     /// Number of runs in all shards.
     pub runs: u64,
-    /// Whether each run keeps its trajectory.
+    /// Whether each run stores its trajectory.
     pub keep_rows: bool,
     /// Keys of the varied numbers.
     pub keys: Vec<String>,
-    /// Bodies, in their order.
+    /// Names of the bodies, in their order.
     pub bodies: Vec<String>,
     /// Names of the numbers of the state of a body ([`model::SpaceKind::columns`]).
     #[serde(default = "planar")]
@@ -68,7 +68,7 @@ pub struct SweepPlan {
     pub reactions: Vec<String>,
 }
 
-/// Those of the plane, which journals did not name at first.
+/// The numbers of the plane, which early journals did not contain.
 fn planar() -> Vec<String> {
     let columns = SpaceKind::Plane.columns().iter();
     columns.map(|name| (*name).to_owned()).collect()

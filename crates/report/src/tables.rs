@@ -1,7 +1,8 @@
-//! Tables of a run as CSV: one header, then one line per instant, written as they come. Numbers
-//! have the shortest text that reads back to the same bits; a value that does not exist is `NaN`.
+//! Tables of a run as CSV: one header, then one line per instant, written as they are computed.
+//! Numbers have the shortest text that is read as the same bits; a value that does not exist is
+//! `NaN`.
 //!
-//! The times and the destination of rows are chosen by the caller.
+//! The caller chooses the times and the destination of rows.
 
 mod reactions;
 #[cfg(test)]
@@ -26,7 +27,7 @@ pub enum TableError {
     /// The underlying writer failed.
     #[error("{table}: {source}")]
     Write {
-        /// The table.
+        /// Name of the table.
         table: &'static str,
         /// The error of the writer.
         source: std::io::Error,
@@ -34,7 +35,7 @@ pub enum TableError {
     /// A row of another mechanism.
     #[error("{table}: {found} {what} at t = {t} s, the mechanism has {expected}")]
     Length {
-        /// The table.
+        /// Name of the table.
         table: &'static str,
         /// "coordinates", "velocities" or "reactions".
         what: &'static str,
@@ -48,15 +49,15 @@ pub enum TableError {
     /// No joint or drive has this name.
     #[error("no joint or drive is called `{name}`; there are: {known}")]
     UnknownReaction {
-        /// The name.
+        /// The unknown name.
         name: String,
-        /// All names.
+        /// All existing names.
         known: String,
     },
 }
 
 impl TableError {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -89,7 +90,7 @@ impl<W: Write> Table<W> {
         Ok(table)
     }
 
-    /// Writes a row of numbers: none of them needs quotes.
+    /// Writes a row of numbers; numbers need no quotes.
     fn row(&mut self, values: &[f64]) -> Result<(), TableError> {
         self.line.clear();
         let mut text = zmij::Buffer::new();
@@ -104,7 +105,7 @@ impl<W: Write> Table<W> {
         self.checked(written)
     }
 
-    /// Writes a row of numbers; one that does not exist is an empty cell.
+    /// Writes a row of numbers; a number that does not exist is an empty cell.
     fn row_with_gaps(&mut self, values: &[f64]) -> Result<(), TableError> {
         self.line.clear();
         let mut text = zmij::Buffer::new();
@@ -144,7 +145,7 @@ impl<W: Write> Table<W> {
         self.checked(written)
     }
 
-    /// Returns the writer after everything is written.
+    /// Returns the writer after all content is written.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -156,7 +157,8 @@ impl<W: Write> Table<W> {
         })
     }
 
-    /// Errors are kept as they are, so that callers can tell a closed pipe from a full disk.
+    /// Errors are returned unchanged, so that callers can distinguish a closed pipe from a full
+    /// disk.
     fn checked(&self, written: io::Result<()>) -> Result<(), TableError> {
         written.map_err(|source| TableError::Write {
             table: self.name,

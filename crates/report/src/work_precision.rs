@@ -1,6 +1,6 @@
 //! Error against run time: the results of `pfaff work-precision` as a table, a figure and a page.
 //!
-//! Runs, references, and the comparison of methods are in the crate `pfaff`.
+//! The crate `pfaff` contains the runs, the references and the comparison of methods.
 
 mod page;
 mod table;
@@ -12,24 +12,24 @@ use serde::Serialize;
 pub use page::work_precision_page;
 pub use table::WorkPrecisionTable;
 
-/// How a run was made.
+/// Methods of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CurveName {
     /// Treatment of redundancy.
     pub formulation: &'static str,
-    /// Integrator.
+    /// Integration method.
     pub method: &'static str,
-    /// Treatment of drift.
+    /// Method that prevents drift from the constraints.
     pub stabilisation: &'static str,
 }
 
-/// One run, or the reason why there is none. Errors are scaled; [`WorkPrecisionScene::reference`]
+/// One run, or the reason why it failed. Errors are scaled; [`WorkPrecisionScene::reference`]
 /// describes the reference values.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorkPrecisionRow {
-    /// The scene.
+    /// Name of the scene.
     pub scene: String,
     /// Formulation, integrator and stabilisation.
     #[serde(flatten)]
@@ -41,19 +41,19 @@ pub struct WorkPrecisionRow {
     pub errors: [f64; 4],
     /// Largest |Φ| or |C·v − b| at steps, all rows.
     pub constraint_residual: f64,
-    /// Evaluations of accelerations.
+    /// Number of evaluations of accelerations.
     pub evaluations: u64,
-    /// Projections of steps.
+    /// Number of projections of steps.
     pub projections: u64,
-    /// Factorisations of iteration matrices of implicit methods.
+    /// Number of factorisations of iteration matrices of implicit methods.
     pub factorisations: u64,
-    /// Accepted steps.
+    /// Number of accepted steps.
     pub steps: u64,
     /// Shortest time of a run (s); NaN if the run did not reach its end.
     pub seconds: f64,
     /// `done`, or the reason why the run did not reach its end.
     pub status: String,
-    /// Rejected steps.
+    /// Number of rejected steps.
     pub rejected: u64,
     /// Number of timed runs.
     pub repetitions: u32,
@@ -123,13 +123,13 @@ impl ReferenceDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RankingLine {
-    /// The error that is reached.
+    /// The target error.
     pub error: f64,
-    /// Curves that reach it with their time (s) and evaluations, the fastest first.
+    /// Curves that reach the target error, with their time (s) and evaluations, the fastest first.
     pub places: Vec<Place>,
 }
 
-/// A curve at an error.
+/// A curve at a target error.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Place {
@@ -138,7 +138,7 @@ pub struct Place {
     pub curve: CurveName,
     /// Time (s).
     pub seconds: f64,
-    /// Evaluations.
+    /// Number of evaluations.
     pub evaluations: f64,
 }
 
@@ -146,9 +146,9 @@ pub struct Place {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorkPrecisionScene {
-    /// Its name.
+    /// Name of the scene.
     pub name: String,
-    /// Its description.
+    /// Description of the scene.
     pub title: String,
     /// The method that is chosen automatically.
     pub automatic: &'static str,
@@ -182,7 +182,7 @@ pub struct Provenance {
 pub struct WorkPrecisionDocument {
     /// The machine, versions, date and command of the runs.
     pub provenance: Provenance,
-    /// Whether it was interrupted before its end.
+    /// Whether the comparison was interrupted before its end.
     pub partial: bool,
     /// Summary of all scenes as text.
     pub summary: Vec<String>,

@@ -1,4 +1,4 @@
-//! Figures: well-formed XML with the expected contents, for ordinary and for degenerate data.
+//! Tests figures: well-formed XML with the expected contents, for ordinary and for degenerate data.
 
 use joints::Revolute;
 use model::{Body, BodyRef, Description, Joint, Mechanism, System};
@@ -8,7 +8,7 @@ use solvability::{Verdict, analyse};
 use tests::robot::{robot, steering};
 
 /// Parses a document as far as needed to check that it is well-formed: tags nest, attributes are
-/// quoted, no character needs escaping. Returns its texts.
+/// quoted, no character needs escaping. Returns the texts of the document.
 fn texts(svg: &str) -> Vec<String> {
     let mut open: Vec<String> = Vec::new();
     let mut found = Vec::new();
@@ -54,7 +54,7 @@ fn check_attributes(attributes: &str) {
     }
 }
 
-/// Text without entities; control characters and stray signs are refused.
+/// Returns a text without entities; control characters and single special characters are rejected.
 fn unescaped(text: &str) -> String {
     assert!(!text.contains(|c: char| c.is_control() && c != '\n'));
     let plain = ["lt;", "gt;", "quot;", "amp;"];
@@ -73,7 +73,7 @@ fn the_robot() -> (Mechanism, Vec<f64>) {
     (mechanism, q)
 }
 
-/// A value of an attribute of a tag.
+/// Returns the value of an attribute of a tag.
 fn attribute<'a>(tag: &'a str, name: &str) -> &'a str {
     let from = tag.find(&format!(" {name}=\"")).expect("the attribute") + name.len() + 3;
     let length = tag[from..].find('"').expect("its end");
@@ -103,7 +103,7 @@ fn the_robot_has_all_names_and_verdicts_without_overlap() {
             let content = &l[l.find('>').expect("ends") + 1..l.rfind("</").expect("closes")];
             assert!(names.contains(&content), "{content}");
             let number = |name| attribute(l, name).parse::<f64>().expect("a number");
-            // A low estimate, so that every overlap found is real.
+            // The estimate is low, so that every overlap found is real.
             let width = content.chars().count() as f64;
             [number("x"), number("y"), 0.25 * SIZE * width, 0.35 * SIZE]
         })
@@ -178,7 +178,8 @@ fn what_cannot_be_drawn_is_an_error() {
     ));
 }
 
-/// `n` bodies in a row, each connected to the one before it; names contain special characters.
+/// Returns `n` bodies in a row, each connected to the previous one; names contain special
+/// characters.
 fn chain(n: usize, length: f64) -> (Mechanism, Vec<f64>) {
     let bodies = (0..n).map(|k| Body {
         name: format!("<b>&\"{k}'\u{7}"),

@@ -1,4 +1,4 @@
-//! An output directory: complete files or none, and errors with paths.
+//! Tests an output directory: complete files or no file, and errors with paths.
 
 use std::fs;
 use std::io::Write;
@@ -121,11 +121,11 @@ fn names_do_not_leave_the_directory() {
     }
 }
 
-/// The variable that says that this process may not write any byte into a file.
+/// The variable that states that this process may not write any byte into a file.
 #[cfg(target_os = "linux")]
 const FULL: &str = "PFAFF_TEST_FULL";
 
-/// Runs in a process of its own under a limit for the size of files: no file takes a byte.
+/// Runs in a separate process with a limit for the size of files: no file accepts a byte.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_names_the_file() {
@@ -209,7 +209,7 @@ fn a_process_that_is_ended_leaves_whole_lines_and_a_summary() {
     let read = |name: &str| fs::read_to_string(path.join(name)).unwrap_or_default();
     assert_eq!(read("a.csv"), "t,a.x\n0,1\n");
     assert_eq!(read("summary.json"), "{}");
-    // It belongs to an earlier run.
+    // This file belongs to an earlier run.
     assert!(!path.join("b.csv").exists());
     table.write_all(b"2\n").expect_err("it is over");
     assert_eq!(read("a.csv"), "t,a.x\n0,1\n");
@@ -295,7 +295,7 @@ fn nothing_is_written_through_a_link() {
         error.is_place() && error.to_string().contains("y.html"),
         "{error}"
     );
-    // What is removed is never a link, either.
+    // The command never removes a link.
     symlink(path.join("x.csv"), path.join("a.csv")).expect("links");
     fs::write(path.join("x.csv"), "t,a.x\n0,1\n").expect("writable");
     let family = Family(&["a.csv", "x.csv"]);

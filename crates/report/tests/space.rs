@@ -1,4 +1,4 @@
-//! Pictures and tables of mechanisms in space.
+//! Tests pictures and tables of mechanisms in space.
 
 use joints::space3::{Axes, Revolute};
 use model::{BodyRef, Marker, Mechanism, Reaction, SpaceKind, SpatialBody, SpatialDescription};
@@ -6,7 +6,7 @@ use pfaff_report::figures::{Marking, mechanism};
 use pfaff_report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
 use solvability::ChosenValues;
 
-/// A four-bar in a vertical plane that is turned by `turn` about the vertical axis y.
+/// A four-bar in a vertical plane that is rotated by `turn` about the vertical axis y.
 fn four_bar(turn: f64) -> SpatialDescription {
     let mut d = SpatialDescription {
         gravity: [0.0, -9.81, 0.0],
@@ -50,7 +50,7 @@ fn four_bar(turn: f64) -> SpatialDescription {
 
 const PLACES: [[f64; 2]; 4] = [[0.0, 0.0], [0.3, 0.8], [1.5, 1.1], [1.4, 0.0]];
 
-/// Where the symbols of joints are on the page (px), in the order of their names.
+/// Returns the positions of the symbols of joints on the page (px), in the order of their names.
 fn symbols(svg: &str) -> Vec<[f64; 2]> {
     let mut found: Vec<(String, [f64; 2])> = Vec::new();
     for group in svg
@@ -69,8 +69,8 @@ fn symbols(svg: &str) -> Vec<[f64; 2]> {
     found.into_iter().map(|(_, at)| at).collect()
 }
 
-/// Seen from 60° right of the front and 30° above, with y upwards and z towards the front: the
-/// axes x, y and z are at (√3/2, −1/4), (0, √3/2) and (−1/2, −√3/4).
+/// The view is from 60° right of the front and 30° above, with y upwards and z towards the front.
+/// The axes x, y and z are at (√3/2, −1/4), (0, √3/2) and (−1/2, −√3/4).
 #[test]
 fn a_four_bar_has_its_joints_where_they_are_seen() {
     let root = 0.75_f64.sqrt();
@@ -97,7 +97,7 @@ fn a_four_bar_has_its_joints_where_they_are_seen() {
                 "{turn} {k} {drawn:?}"
             );
         }
-        // Each hinge has a line along its axis, and the corner the axes of the ground.
+        // Each hinge has a line along its axis, and the corner shows the axes of the ground.
         assert_eq!(svg.matches("class=\"rail\"").count(), 4);
         for name in ["x", "y", "z"] {
             assert!(svg.contains(&format!(">{name}</text>")), "{name}");
@@ -114,8 +114,8 @@ fn tables_have_the_columns_of_space() {
     d.observed.markers.push(tip);
     let built = Mechanism::build(&d).expect("builds");
     let mut table = TrajectoryTable::new(Vec::new(), &built).expect("writes");
-    // A quarter of a turn about x, with ω = (0, 0, 3) in its axes, so (0, −3, 0) in those of the
-    // ground: the tip is at 2 m along z, and moves along −x.
+    // The rotation is a quarter of a turn about x, with ω = (0, 0, 3) in body axes and (0, −3, 0)
+    // in ground axes. The tip is at 2 m along z, and moves along −x.
     let half = 0.5_f64.sqrt();
     let q = [1.0, 2.0, 3.0, half, half, 0.0, 0.0];
     table

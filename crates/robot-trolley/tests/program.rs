@@ -1,4 +1,5 @@
-//! The program as the README runs it: what it computes beside what was published, and its figures.
+//! Runs the program as the README describes: its results next to the published ones, and its
+//! figures.
 
 use std::path::Path;
 use std::process::Command;
@@ -26,7 +27,7 @@ fn the_program_finds_what_was_published() {
         let line = line.unwrap_or_else(|| panic!("no row {row:?} in\n{text}"));
         assert_eq!(line[line.len() - 2..], [number, number], "{line:?}");
     }
-    // Fourteen joints and drives: the computed verdict, and the published one.
+    // There are fourteen joints and drives: the computed verdict, and the published one.
     let table = text.split("‖B_X‖").nth(1).unwrap().lines().skip(1);
     let (mut unique, mut not_unique) = (0, 0);
     for line in table.take_while(|line| !line.trim().is_empty()) {

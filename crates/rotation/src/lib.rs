@@ -4,16 +4,16 @@ mod limits;
 
 use limits::{LEAST_COSINE, SERIES_UP_TO};
 
-/// The derivative of an order, by c, of `θ/sin θ` with c = cos θ, 0 ≤ θ ≤ 3: with x = (1 − c)/2
-/// `(−½)ⁿ·(n!)²/(3/2)ₙ · ₂F₁(n + 1, n + 1; n + 3/2; x)`. Its order 0 is 1 at c = 1. NaN beyond
-/// θ = 3.
+/// Returns the derivative of this order of `θ/sin θ` with respect to c = cos θ, for 0 ≤ θ ≤ 3. With
+/// x = (1 − c)/2 it is `(−½)ⁿ·(n!)²/(3/2)ₙ · ₂F₁(n + 1, n + 1; n + 3/2; x)`. The value (order 0) is
+/// 1 at c = 1. The result is NaN beyond θ = 3.
 ///
 /// Source: θ/sin θ = ₂F₁(1, 1; 3/2; sin² ½θ) (NIST DLMF 15.4.13 with 15.8.18), and
 /// `(1 − c²)·f⁽ⁿ⁺¹⁾ = (2n + 1)·c·f⁽ⁿ⁾ + n²·f⁽ⁿ⁻¹⁾` from `(1 − c²)·f′ = c·f − 1`.
 #[must_use]
 pub fn angle_over_sine(c: f64, order: u8) -> f64 {
     let x = 0.5 * (1.0 - c);
-    // NaN, too.
+    // The comparison is also false for NaN.
     let is_known = c >= LEAST_COSINE;
     if !is_known {
         return f64::NAN;
@@ -36,7 +36,7 @@ pub fn angle_over_sine(c: f64, order: u8) -> f64 {
     now
 }
 
-/// The same by its series in x = (1 − c)/2.
+/// Computes the derivative by its series in x = (1 − c)/2.
 fn series(x: f64, order: u8) -> f64 {
     let n = f64::from(order);
     let mut term = (0..order).map(f64::from).fold(1.0, |product, k| {
@@ -46,7 +46,8 @@ fn series(x: f64, order: u8) -> f64 {
     let mut k = 0.0;
     loop {
         let next = sum + term;
-        // Terms fall by a factor below 1 from some k on; none, or all lost, ends the sum.
+        // From some k onwards, terms decrease by a factor below 1. The sum ends if a term is zero
+        // or negligible.
         if next == sum || !next.is_finite() {
             return next;
         }
@@ -60,7 +61,8 @@ fn series(x: f64, order: u8) -> f64 {
 mod tests {
     use super::*;
 
-    /// The sine cancels near half a turn; elsewhere a few roundings.
+    /// Permitted relative error: a few roundings, except near half a revolution, where the sine
+    /// cancels.
     const ROUNDINGS: f64 = 2e-15;
 
     #[test]
@@ -69,7 +71,7 @@ mod tests {
             let theta = 0.01 * f64::from(k) - 1e-12;
             let expected = theta / theta.sin();
             let found = angle_over_sine(theta.cos(), 0);
-            // d(θ/sin θ)/dc·δc, with δc a rounding of the cosine.
+            // The error is d(θ/sin θ)/dc·δc, where δc is a rounding of the cosine.
             let slope = angle_over_sine(theta.cos(), 1).abs();
             let bound = ROUNDINGS * (expected + slope);
             assert!(
@@ -78,12 +80,12 @@ mod tests {
             );
         }
         assert_eq!(angle_over_sine(1.0, 0), 1.0);
-        // c slightly above 1, by rounding.
+        // The value c is slightly above 1 because of rounding.
         assert!((angle_over_sine(1.0 + 1e-15, 0) - 1.0).abs() < 1e-15);
     }
 
-    /// At c = 1: −1/3, 4/15, −12/35; each derivative is the slope of the one
-    /// before.
+    /// At c = 1 the values are −1/3, 4/15, −12/35; each derivative is the slope of the previous
+    /// one.
     #[test]
     fn derivatives() {
         assert!((angle_over_sine(1.0, 1) + 1.0 / 3.0).abs() < ROUNDINGS);

@@ -1,11 +1,11 @@
-//! A scene from its text to a mechanism on its rows.
+//! Converts the text of a scene to a mechanism with its independent rows.
 
 use dynamics::{MotionError, MotionOptions, PreparedMechanism, RowChoice, prepare};
 use model::Registry;
 
 use crate::error::CodeError;
 
-/// A scene with its name, its joints and the rows that are dropped instead of its own.
+/// A scene with its name, its joints and the redundant rows that replace those of the scene.
 pub(crate) struct SceneText<'a> {
     pub(crate) name: &'a str,
     pub(crate) text: &'a str,
@@ -13,7 +13,7 @@ pub(crate) struct SceneText<'a> {
     pub(crate) drop: Option<&'a [usize]>,
 }
 
-/// The mechanism of a scene on its rows, and the run that the scene requests.
+/// The mechanism of a scene with its independent rows, and the run that the scene requests.
 pub(crate) fn prepared(
     scene: &SceneText<'_>,
 ) -> Result<(PreparedMechanism, Option<MotionOptions>), CodeError> {

@@ -1,12 +1,12 @@
 //! The axes in which velocities of spatial bodies are eliminated. The equations have angular
-//! velocities in principal axes of each body, where the mass is a constant; in these axes a hinge
-//! that turns has no entry of C that stays away from 0. In the axes of the ground, or of one of the
-//! bodies (a vehicle), most entries are arms and directions that exist already, zeros, or
+//! velocities in principal axes of each body, in which the mass is constant. In these axes, all
+//! entries of C for a rotating hinge may become zero. In the axes of the ground, or of one of the
+//! bodies (for a vehicle), most entries are arms and directions that already exist, zeros, or
 //! constants.
 //!
-//! The columns and the rows of C are turned as they are, whatever the joints are. Which of the
-//! products are zero, constant, or known already is seen from their values at states that satisfy
-//! no constraint, up to rounding; functions of time are arbitrary numbers there.
+//! The columns and the rows of C are rotated, whatever the joints are. The program detects products
+//! that are zero, constant or already known from their values at states that satisfy no constraint,
+//! up to rounding; functions of time have arbitrary values there.
 
 use model::record::Input;
 use model::{BodyRef, Mechanism, SpaceKind, System};
@@ -22,16 +22,16 @@ type Matrix = [[Value; 3]; 3];
 /// Axes of the velocities in which rows are eliminated.
 #[derive(Clone, Default)]
 pub(crate) struct Axes {
-    /// Turns velocities of points, if they are not along the axes of the ground.
+    /// Rotation of the velocities of points, if they are not along the axes of the ground.
     points: Option<Matrix>,
-    /// Turns the angular velocity of each body, if it is not along its principal axes.
+    /// Rotation of the angular velocity of each body, if it is not along its principal axes.
     rotations: Vec<Option<Matrix>>,
     /// Rows that are x, y and z of one vector.
     rows: Vec<[usize; 3]>,
 }
 
 impl Axes {
-    /// Those of the ground, for velocities of points and of all bodies.
+    /// The axes of the ground, for velocities of points and of all bodies.
     pub(crate) fn of_ground(e: &Equations, subject: &Subject<'_>) -> Option<Self> {
         let bodies = 0..subject.prepared.mechanism.bodies().len();
         let rotations = bodies.map(|body| rotation(e, body).map(Some));
@@ -42,8 +42,9 @@ impl Axes {
         })
     }
 
-    /// For every body those in which the rows of a joint that carries it are constants: of the
-    /// first body of the joint. The joints are those on the shortest ways from the ground.
+    /// For every body, the axes in which the rows of its supporting joint are constant: the axes of
+    /// the first body of this joint. The supporting joints are on the shortest paths from the
+    /// ground.
     pub(crate) fn of_joints(e: &mut Equations, subject: &Subject<'_>) -> Option<Self> {
         let mechanism = &subject.prepared.mechanism;
         let carriers = carriers(mechanism);
@@ -62,7 +63,7 @@ impl Axes {
         })
     }
 
-    /// Those of a body.
+    /// The axes of a body.
     pub(crate) fn of_body(e: &mut Equations, subject: &Subject<'_>, body: usize) -> Option<Self> {
         let mechanism = &subject.prepared.mechanism;
         let own = transposed(rotation(e, body)?);
@@ -87,7 +88,7 @@ impl Axes {
         })
     }
 
-    /// Whether the kept rows contain, of every vector, all components or none.
+    /// Whether the independent rows contain either all components or no component of each vector.
     pub(crate) fn keeps_vectors(&self, kept: &[usize]) -> bool {
         let all_or_none = |rows: &[usize; 3]| {
             let [first, others @ ..] = rows.map(|i| kept.contains(&i));
@@ -120,7 +121,7 @@ impl Axes {
         c
     }
 
-    /// Velocities, from those along these axes to those of the equations.
+    /// Converts velocities along these axes to the velocities of the equations.
     pub(crate) fn velocities_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         for (block, matrix) in self.blocks(x.len()) {
@@ -129,7 +130,7 @@ impl Axes {
         turned
     }
 
-    /// Forces, from those of the equations to those along these axes.
+    /// Converts forces of the equations to forces along these axes.
     pub(crate) fn forces_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         for (block, matrix) in self.blocks(x.len()) {
@@ -138,7 +139,8 @@ impl Axes {
         turned
     }
 
-    /// Row quantities, from components along the axes of the ground to those along these axes.
+    /// Converts row quantities from components along the axes of the ground to components along
+    /// these axes.
     pub(crate) fn rows_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         if let Some(matrix) = self.points {
@@ -149,7 +151,8 @@ impl Axes {
         turned
     }
 
-    /// Row quantities, from components along these axes to those along the axes of the ground.
+    /// Converts row quantities from components along these axes to components along the axes of the
+    /// ground.
     pub(crate) fn rows_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         if let Some(matrix) = self.points.map(transposed) {
@@ -160,7 +163,7 @@ impl Axes {
         turned
     }
 
-    /// Three columns of velocities each, with what turns them.
+    /// Groups of three columns of velocities, each with its rotation.
     fn blocks(&self, columns: usize) -> Vec<([usize; 3], Matrix)> {
         let space = SpaceKind::Space3;
         let bodies = 0..columns / space.n_v();
@@ -177,17 +180,17 @@ impl Axes {
     }
 }
 
-/// What carries a body.
+/// The body that supports a body.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Carrier {
-    /// Nothing, or a joint whose directions are fixed in it.
+    /// No body, or a joint whose directions are fixed in the body itself.
     Itself,
     /// The first body of a joint, in which its directions are fixed.
     First(BodyRef),
 }
 
-/// What carries each body, on the shortest ways from the ground, or from the first body that it is
-/// not connected to.
+/// The support of each body, on the shortest paths from the ground, or from the first body without
+/// a connection to the ground.
 fn carriers(mechanism: &Mechanism) -> Vec<Carrier> {
     let n = mechanism.bodies().len();
     let mut found: Vec<Option<Carrier>> = vec![None; n];
@@ -256,7 +259,7 @@ fn pairs(a: [Value; 3], b: [Value; 3]) -> [(Value, Value); 3] {
     [0, 1, 2].map(|k| (a[k], b[k]))
 }
 
-/// Replaces three numbers by a matrix times them.
+/// Replaces three numbers by the product of a matrix with them.
 fn turn(code: &mut SampledProgram, x: &mut [Value], at: [usize; 3], matrix: Matrix) {
     let of = at.map(|k| x[k]);
     for (k, row) in at.into_iter().zip(matrix) {

@@ -1,17 +1,22 @@
-//! Elimination of kept rows as straight-line code. The order of the pivots is chosen once, for all
-//! sampled states: the pivot with the least fill among those that are large compared with their row
-//! and their column at every state (Markowitz with a threshold).
+//! Elimination of the independent rows as straight-line code. The order of the pivots is chosen
+//! once, for all sampled states. Each pivot has the least fill among those that are large compared
+//! with their row and their column at every state (Markowitz with a threshold).
 //!
 //! Rows are given along axes in which few entries vary ([`crate::axes`]); masses, forces and
-//! results are along those of the equations.
+//! results are along the axes of the equations.
 //!
-//! The rows determine r dependent coordinates; the others are free. Every solve uses the null
-//! space: x = x₀ + N·w, where x₀ satisfies the rows with the free coordinates at zero, the columns
-//! of N are the motions for unit values of the free coordinates, and w minimises the rest in the
-//! mass metric. Zeros and ones of the mechanism are folded, so that sparsity needs no bookkeeping.
+//! The rows determine r dependent coordinates; the others are free. Every solution uses the null
+//! space: x = x₀ + N·w. Here x₀ satisfies the rows with the free coordinates at zero, and the
+//! columns of N are the motions for unit values of the free coordinates. The vector w minimises the
+//! remainder in the mass metric. Zeros and ones of the mechanism are folded as constants, so that
+//! sparsity needs no bookkeeping.
 //!
 //! Source of the threshold rule: I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse
 //! Matrices, 2nd ed. (2017), chapters 5 and 7.
+//!
+//! The free coordinates are fixed when the code is generated. This needs a third of the operations
+//! of a sparse LDLᵀ factorisation of the saddle-point matrix. If the pivots become too small, the
+//! run continues with the interpreter.
 
 use std::cmp::Ordering;
 
@@ -30,10 +35,10 @@ const THRESHOLD: f64 = 0.1;
 const SMALLEST: f64 = 1e-3;
 
 /// A free motion is massless if at most this fraction of its mass remains after the elimination of
-/// the others: rounding.
+/// the others; the remainder is then a rounding error.
 const MASSLESS: f64 = 1e-13;
 
-/// Rows in factored form, and the mass matrix of the motions that they leave free.
+/// Rows in factored form, and the mass matrix of the remaining free motions.
 pub(crate) struct FactoredRows {
     n: usize,
     axes: Axes,
@@ -52,11 +57,12 @@ struct Pivot {
     row: usize,
     column: usize,
     inverse: Value,
-    /// Rows that are eliminated with it, and the multiple of it that is subtracted.
+    /// Rows that are eliminated with this pivot, and the multiple of the pivot row that is
+    /// subtracted.
     below: Vec<(usize, Value)>,
-    /// The entries of its row in later dependent coordinates.
+    /// The entries of the pivot row in later dependent coordinates.
     right: Vec<(usize, Value)>,
-    /// The entries of its row in the free coordinates, in their order.
+    /// The entries of the pivot row in the free coordinates, in their order.
     free: Vec<Value>,
 }
 
@@ -272,7 +278,7 @@ impl FactoredRows {
                 });
             }
             let p = &mut code.program;
-            // What is left of a mass that is an input is compared with that mass.
+            // The remainder of a mass that is an input is compared with this mass.
             let divisor = match varies {
                 true if diagonal == whole => p.number(1.0),
                 true => p.div(diagonal, whole),
@@ -376,10 +382,10 @@ fn best_pivot(
 
 /// The criteria by which a pivot is chosen.
 struct Candidate {
-    /// Whether it has the same sign at all states; otherwise the motion passes a point where it
-    /// vanishes.
+    /// Whether the pivot has the same sign at all states; otherwise the motion reaches a point at
+    /// which it vanishes.
     keeps_sign: bool,
-    /// Smallest fraction of the largest entry of its row and column.
+    /// Smallest fraction of the largest entry of the row and column.
     share: f64,
     /// Upper bound of the number of new entries.
     fill: usize,

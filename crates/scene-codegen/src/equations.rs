@@ -1,5 +1,9 @@
 //! The recorded equations of a mechanism as one program, with the numbers of the mechanism folded
-//! in.
+//! as constants.
+//!
+//! Kernels are recorded instead of printed a second time from their definitions. Therefore each
+//! equation has one source, joints of users are included, and zeros and ones of the scene are
+//! folded as numbers.
 
 use std::collections::HashMap;
 
@@ -11,7 +15,7 @@ use symbolic::{Function, Graph, Program, Value};
 use crate::sampled::SampledProgram;
 use crate::subject::{State, Subject};
 
-/// Number of states off the motion at which equations are compared.
+/// Number of states away from the motion at which equations are compared.
 pub(crate) const ANYWHERE: usize = 8;
 
 /// The meaning of an input of the program.
@@ -28,9 +32,9 @@ pub(crate) enum Source {
 /// A number of the mechanism in a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Number {
-    /// Folded in.
+    /// A constant.
     Known(f64),
-    /// An input.
+    /// An input of the program.
     Input(Value),
 }
 
@@ -55,7 +59,7 @@ pub(crate) struct Equations {
     pub(crate) sources: Vec<Source>,
     inputs: Vec<Value>,
     pub(crate) recording: RecordedEquations,
-    /// The places of the recording that are inputs.
+    /// The indices in the recording that are inputs.
     pub(crate) numbers: HashMap<usize, Value>,
     pub(crate) phi: Vec<Value>,
     /// Rows of C, dense, zeros as the constant 0.
@@ -91,7 +95,8 @@ impl Equations {
             let value = |(i, source): (usize, &Source)| match *source {
                 Source::Mechanism(Input::Function { .. }) | Source::Rhs(_) => shift(i, k),
                 Source::Mechanism(input) => subject.input(input, &state),
-                // Whatever it is: what holds for all numbers holds for those of a mechanism.
+                // The value in the described mechanism is used, because a property that is true for
+                // all numbers is also true for this one.
                 Source::Number(n) => match subject.inputs.list[n].described {
                     0.0 => shift(i, k),
                     x => x * (1.0 + 0.5 * shift(i, k)),
@@ -130,7 +135,7 @@ impl Equations {
         }
     }
 
-    /// The input with this meaning; all inputs exist from the beginning.
+    /// The input with this meaning; all inputs exist from the start.
     pub(crate) fn input(&self, source: Source) -> Option<Value> {
         let at = self.sources.iter().position(|&s| s == source)?;
         self.inputs.get(at).copied()
@@ -176,12 +181,12 @@ pub(crate) fn anywhere(subject: &Subject<'_>, k: usize) -> State {
     State { t, q, v }
 }
 
-/// Numbers between −1 and 1; no symmetry of a mechanism equals one of them.
+/// Numbers between −1 and 1; no symmetry of a mechanism corresponds to one of them.
 fn shift(i: usize, k: usize) -> f64 {
     (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin()
 }
 
-/// C as dense rows of a replayed recording, and a function that looks up its other results.
+/// C as dense rows of a replayed recording, and a function that returns its other results.
 pub(crate) fn results<'v>(
     code: &mut SampledProgram,
     recording: &RecordedEquations,
@@ -215,8 +220,8 @@ fn number(
         .map_or_else(known, |v| Number::Input(*v))
 }
 
-/// Repeats the operations of a tape in a program, which folds known values; the numbers at some
-/// places are inputs.
+/// Repeats the operations of an operation list in a program, which folds known values; the numbers
+/// at some indices are inputs.
 pub(crate) fn replay(
     code: &mut SampledProgram,
     recording: &RecordedEquations,

@@ -1,4 +1,4 @@
-//! Reasons why there is no code for a mechanism.
+//! Reasons why no code can be generated for a mechanism.
 
 use dynamics::{MotionError, MotionFault};
 use model::CalledForce;
@@ -8,16 +8,16 @@ use scene::{Diagnostic, KeyError};
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodeError {
-    /// The scene contains errors, with places in its text.
+    /// The scene contains errors, with positions in its text.
     #[error("{}", lines(.0))]
     Scene(Vec<Diagnostic>),
     /// The motion cannot be sampled.
     #[error("the motion that the code is made for stops: {0}")]
     Motion(#[from] Box<dynamics::Failure>),
-    /// A state cannot be prepared.
+    /// The equations have no solution at a prepared state.
     #[error(transparent)]
     Start(#[from] MotionError),
-    /// A state of the motion cannot be evaluated.
+    /// The equations have no solution at a state of the motion.
     #[error(transparent)]
     MotionFault(#[from] MotionFault),
     /// No order of elimination is suitable for the whole motion.
@@ -31,28 +31,29 @@ pub enum CodeError {
         /// Rows that are not yet eliminated.
         left: usize,
     },
-    /// Laws of drives stop a run where they have no value, which generated code does not.
+    /// Force laws of drives stop a run if they have no value, which generated code cannot do.
     #[error(
         "drive `{drive}` has a law, which generated code cannot stop by name; run this scene interpreted"
     )]
     Law {
-        /// The drive.
+        /// Name of the drive.
         drive: String,
     },
-    /// A force calls a function, which cannot be recorded.
+    /// A force calls an external function, which cannot be recorded.
     #[error("{0}, and no code; run this scene interpreted")]
     Called(CalledForce),
-    /// Rotations of generated code come from angles in the plane and from quaternions in space.
+    /// Generated code computes rotations from angles in the plane and from quaternions in space.
     #[error(
         "generated code is for bodies that turn by an angle or by a quaternion only; run this scene interpreted"
     )]
     Coordinates,
-    /// Turns are counted from the poses, between kernels.
+    /// Revolutions are counted from the poses, between calls of kernels.
     #[error(
         "joints and forces that count the turns of angles are not in generated code; run this scene interpreted"
     )]
     Turns,
-    /// Rotation vectors end before half a turn, where a run stops and generated code does not.
+    /// Rotation vectors are undefined near half a turn; a run stops there, but generated code does
+    /// not.
     #[error(
         "forces along a rotation vector have no value near half a turn, where generated code cannot stop by name; run this scene interpreted"
     )]
@@ -63,7 +64,7 @@ pub enum CodeError {
         column + 1
     )]
     Massless {
-        /// Place of the velocity, from 0.
+        /// Index of the velocity, from 0.
         column: usize,
     },
     /// A key of an input refers to no number of the scene.
@@ -72,15 +73,15 @@ pub enum CodeError {
     /// A number of the scene cannot be an input.
     #[error(transparent)]
     Input(#[from] NotAnInput),
-    /// The scene allows no other values of its inputs.
+    /// The scene is invalid for other values of its inputs.
     #[error("the scene does not allow other values of {}: {reason}", keys.join(", "))]
     Varied {
         /// The keys of the inputs.
         keys: Vec<String>,
-        /// What the first attempt ended with.
+        /// Error of the first attempt.
         reason: String,
     },
-    /// Inputs are found in the text of a scene.
+    /// Inputs can be found only in the text of a scene.
     #[error(
         "inputs are keys of the text of a scene, and a subject has none; call `scene_text` with them"
     )]
@@ -98,13 +99,13 @@ pub enum CodeError {
     /// A file cannot be read or written.
     #[error("{path} cannot be read or written: {source}")]
     File {
-        /// The file.
+        /// Path of the file.
         path: String,
         /// The reason.
         source: std::io::Error,
     },
-    /// Only one component of a vector is kept, so the equations cannot be turned into the frame of
-    /// a body.
+    /// Only one component of a vector is an independent row, so the equations cannot be rotated
+    /// into the frame of a body.
     #[error("the kept rows have one component of a vector without the other")]
     NoView,
     /// The given path is not the path of a crate.
@@ -118,7 +119,7 @@ pub enum CodeError {
     /// A module cannot be compared with a file that does not exist.
     #[error("{path} cannot be read ({source}): write it first, without `--check`")]
     Unwritten {
-        /// The file.
+        /// Path of the file.
         path: String,
         /// The reason.
         source: std::io::Error,
@@ -129,7 +130,7 @@ pub enum CodeError {
     /// A generated file differs from the module of its scene.
     #[error("{path} does not agree with its scene: generate it again")]
     Stale {
-        /// The file.
+        /// Path of the file.
         path: String,
     },
     /// The generated text is not valid Rust: a bug in this crate.
@@ -137,22 +138,22 @@ pub enum CodeError {
     Text(String),
 }
 
-/// Why a number of a scene cannot be an input of code.
+/// Reason why a number of a scene cannot be an input of code.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotAnInput {
-    /// The one with this key.
+    /// The number of one of several keys cannot be an input.
     #[error("`{key}` cannot be an input of code: {why}")]
     OfKey {
-        /// The key.
+        /// The key of the number.
         key: String,
         /// The reason.
         why: Box<NotAnInput>,
     },
-    /// It switches something on or off.
+    /// The number switches a function on or off.
     #[error("it is true or false, not a number; generate code for both scenes")]
     Switch,
-    /// The operations are others.
+    /// Other values cause other operations.
     #[error(
         "with it the equations have other parts, as where a tensor of inertia gets its first products; describe the scene with them"
     )]
@@ -162,19 +163,19 @@ pub enum NotAnInput {
         "it moves a time at which a function of time is not smooth, and these times are constants of a module; generate code for each of its values"
     )]
     BreakTimes,
-    /// Kept rows are fixed in a module.
+    /// The independent rows are fixed in a module.
     #[error(
         "with it the rows that are kept depend on each other; say which rows to drop, with `--drop`"
     )]
     Rows,
-    /// It is no number of the equations.
+    /// The number does not occur in the equations.
     #[error(
         "no number of the equations depends on it, so code without this input serves all of its values; leave it out"
     )]
     Nothing,
 }
 
-/// One line for each place.
+/// One line for each position.
 fn lines(places: &[Diagnostic]) -> String {
     let lines: Vec<String> = places.iter().map(Diagnostic::to_string).collect();
     lines.join("\n")

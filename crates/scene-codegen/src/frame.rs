@@ -1,12 +1,12 @@
 //! The equations in the frame of one of the bodies. If a mechanism moves freely in the plane, its
-//! accelerations relative to itself do not depend on its orientation. In the frame of a body the
-//! arms on that body are constants, so there are fewer products, and no pivot becomes small only
-//! because the whole mechanism has turned.
+//! accelerations relative to itself do not depend on its orientation. In the frame of a body, the
+//! arms on this body are constants, so there are fewer products, and no pivot becomes small only
+//! because the whole mechanism has rotated.
 //!
-//! The frame does not move; it is turned by the angle θ of the body: positions and velocities are
-//! turned by −θ, and accelerations back by θ. Rows that are components x and y of one vector are
-//! turned in pairs. Whether this is allowed cannot be seen from the joints of a mechanism: its C, Γ
-//! and Q are compared with the turned ones at states far from any motion, up to rounding.
+//! The frame has no velocity; it is rotated by the angle θ of the body. Positions and velocities
+//! are rotated by −θ, and accelerations back by θ. Rows that are components x and y of one vector
+//! are rotated in pairs. The joints of a mechanism do not show whether this is allowed. Therefore
+//! its C, Γ and Q are compared with the rotated ones at states far from any motion, up to rounding.
 
 use model::System;
 use model::record::Input;
@@ -16,11 +16,11 @@ use crate::equations::{ANYWHERE, Equations, Source, anywhere, replay, results};
 use crate::sampled::SampledProgram;
 use crate::subject::Subject;
 
-/// Largest difference between the turned equations and those in the frame, as a fraction of their
+/// Largest difference between the rotated equations and those in the frame, as a fraction of their
 /// largest number.
 const SAME: f64 = 1e-10;
 
-/// A frame that is turned by θ.
+/// A frame that is rotated by θ.
 #[derive(Clone)]
 pub(crate) struct Frame {
     /// cos θ and sin θ.
@@ -42,7 +42,7 @@ pub(crate) struct FrameEquations {
 }
 
 impl Frame {
-    /// The frame of the ground, which is not turned.
+    /// The frame of the ground, without rotation.
     fn ground() -> Self {
         Self {
             turn: None,
@@ -137,7 +137,7 @@ impl FrameEquations {
         let values = replay(&mut e.code, &recording, &inputs, &e.numbers);
         let (c, of) = results(&mut e.code, &recording, &values);
         let (gamma, mut force) = (of(&recording.gamma), of(&recording.force));
-        // The weight has a fixed direction on the ground, so it is turned.
+        // The weight has a fixed direction in the ground frame, so it is rotated.
         let weight = e.weight();
         let seen = frame.velocities_in(&mut e.code, &weight);
         for ((force, weight), seen) in force.iter_mut().zip(weight).zip(seen) {
@@ -152,7 +152,7 @@ impl FrameEquations {
         })
     }
 
-    /// Whether the kept rows contain, of every vector, both components or none.
+    /// Whether the independent rows contain either both components or no component of each vector.
     pub(crate) fn keeps_pairs(&self, kept: &[usize]) -> bool {
         let pairs = self.frame.rows.iter();
         pairs
@@ -214,7 +214,8 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
 }
 
 /// Whether the equations of a mechanism may be solved in the frame of the body whose angle has this
-/// index: C, Γ and Q in its frame equal the turned ones, at states that violate the constraints.
+/// index: C, Γ and Q in its frame are equal to the rotated ones, at states that violate the
+/// constraints.
 pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
     let elsewhere = Subject {
         inputs: subject.inputs.clone(),

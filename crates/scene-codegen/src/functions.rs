@@ -19,7 +19,7 @@ pub(crate) const LIMIT: usize = 60_000;
 /// Largest number of bodies whose frames are tried.
 const VIEWS: usize = 12;
 
-/// The smallest size of a divisor is taken as at least this fraction of its median.
+/// The reference size of a divisor is at least this fraction of its median.
 const OF_MEDIAN: f64 = 0.5;
 
 /// One function: straight-line code from inputs to outputs, and the relative sizes of its divisors.
@@ -31,8 +31,8 @@ pub(crate) struct Function {
     pub(crate) program: Program,
 }
 
-/// Name, arguments and result of a function, the same for every mechanism: arrays with the
-/// constants that are their lengths.
+/// Name, arguments and result of a function, which are the same for every mechanism; the lengths of
+/// its arrays are constants of the module.
 #[cfg_attr(
     not(feature = "modules"),
     allow(dead_code, reason = "only modules say it")
@@ -40,10 +40,10 @@ pub(crate) struct Function {
 pub(crate) struct Signature {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
-    /// Arguments after the time.
+    /// Arguments that follow the time.
     pub(crate) arguments: &'static [(&'static str, &'static str)],
     pub(crate) out: (&'static str, &'static str),
-    /// Whether it returns a health, the smallest relative size of its divisors.
+    /// Whether the function returns a health, the smallest relative size of its divisors.
     pub(crate) divides: bool,
 }
 
@@ -95,7 +95,7 @@ const VELOCITY_CORRECTION: Signature = Signature {
     divides: true,
 };
 
-/// In space only: in the plane q̇ = v.
+/// This function exists only in space, because q̇ = v in the plane.
 pub(crate) const RATE: Signature = Signature {
     name: "rate",
     doc: "q̇ = T(q)·v: `½·e∘(0, ω)` for the quaternion e of each body.",
@@ -104,22 +104,23 @@ pub(crate) const RATE: Signature = Signature {
     divides: false,
 };
 
-/// Where the equations are solved.
+/// The axes in which the equations are solved.
 #[derive(Clone, Copy)]
 enum View {
-    /// As they are: angular velocities in space are along principal axes.
+    /// The axes of the equations: angular velocities in space are along principal axes.
     Ground,
     /// In the plane: in the frame of the body whose angle has this index in q.
     Angle(usize),
     /// In space: with angular velocities along the axes of the ground.
     GroundAxes,
-    /// In space: with the angular velocity of each body along the axes of the body that carries it.
+    /// In space: with the angular velocity of each body along the axes of the body that supports
+    /// it.
     JointAxes,
     /// In space: with all velocities along the axes of this body.
     BodyAxes(usize),
 }
 
-/// The same for readers, with the name of the body.
+/// The axes as text, with the name of the body.
 #[cfg_attr(
     not(feature = "modules"),
     allow(dead_code, reason = "only modules say it")
@@ -139,15 +140,15 @@ pub(crate) enum NamedView {
 pub(crate) struct Functions {
     pub(crate) equations: Equations,
     pub(crate) list: Vec<Function>,
-    /// Where the equations are solved.
+    /// The axes in which the equations are solved.
     pub(crate) view: NamedView,
     /// Number of sampled states at which the health of accelerations is below the limit of runs.
     pub(crate) unhealthy: usize,
 }
 
 impl Functions {
-    /// In the view in which accelerations need the fewest operations; in space, in which the fewest
-    /// sampled states are beyond the limit of runs.
+    /// Generates the functions in the axes in which accelerations need the fewest operations. In
+    /// space, it uses the axes in which the fewest sampled states are beyond the limit of runs.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
         recordable(&subject.prepared.mechanism)?;
         let functions = match subject.prepared.mechanism.space() {
@@ -185,7 +186,7 @@ impl Functions {
         views.min_by_key(Self::cost).map_or(from_ground, Ok)
     }
 
-    /// The axes of bodies are tried only where others do not serve all sampled states.
+    /// The axes of bodies are tried only if others are not suitable for all sampled states.
     fn in_space(subject: &Subject<'_>) -> Result<Self, CodeError> {
         let mut best = Self::seen(subject, View::Ground);
         let bodies = 0..subject.prepared.mechanism.bodies().len().min(VIEWS);
@@ -210,7 +211,7 @@ impl Functions {
         self.list[0].program.counts().total()
     }
 
-    /// All functions, with the equations solved in this view.
+    /// All functions, with the equations solved in these axes.
     fn seen(subject: &Subject<'_>, view: View) -> Result<Self, CodeError> {
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
@@ -330,7 +331,7 @@ impl Functions {
     }
 }
 
-/// Whether the kernels of a mechanism do on recorded numbers what they do in a run.
+/// Whether the kernels of a mechanism compute the same results with recorded numbers as in a run.
 pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
     if mechanism.layout().turns > 0 {
         return Err(CodeError::Turns);
@@ -349,9 +350,9 @@ pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
     }
 }
 
-/// Each divisor relative to its smallest size over the sampled states, with its sign. If that size
-/// is less than a fraction of its median, the fraction of the median is used: a motion that passes
-/// near a singular configuration must not define the reference.
+/// Each divisor relative to its smallest size over the sampled states, with its sign. If this size
+/// is less than a fraction of its median, the fraction of the median is used, because a motion near
+/// a singular configuration must not define the reference.
 fn shares(e: &mut Equations, factored: &FactoredRows) -> Vec<Value> {
     let share = |&divisor: &Value| {
         let at = e.code.at(divisor);

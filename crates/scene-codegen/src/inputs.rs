@@ -1,13 +1,16 @@
 //! Numbers of a scene that a module takes as inputs.
 //!
 //! The scene is built with other values of the keys that its user varies, each key alone and all
-//! together. The places of the recorded equations at which a number differs then are what the keys
-//! touch: data of joints and forces, what they keep from the start, masses, weights, principal
-//! axes, coefficients of functions of time. These are the inputs, known by their places, never by
-//! their values. Places that have the same number whatever is varied are one input.
+//! together. A key affects the recorded numbers that change: data of joints and forces, values
+//! stored at the start, masses, weights, principal axes, coefficients of functions of time. These
+//! numbers are the inputs; they are identified by their indices, not by their values. Numbers that
+//! are equal in all variants are one input.
 //!
-//! What is not a number of the equations cannot be one: rows that are kept, the structure, break
-//! times. A key that changes them is refused by name.
+//! Values that are not numbers of the equations cannot be inputs: the choice of independent rows,
+//! the structure, break times. A key that changes them is rejected with an error.
+//!
+//! Indices identify inputs safely, because equal numbers cannot be confused. They also identify
+//! numbers that are computed before the recording, such as principal axes and weights.
 
 use std::collections::HashMap;
 
@@ -21,20 +24,20 @@ use crate::functions::recordable;
 use crate::parameters::{Inputs, Parameter, Variant};
 use crate::subject::{State, Subject};
 
-/// Shares by which numbers are varied, the largest that the scene allows: states of these motions
-/// take part in the choice of pivots.
+/// Shares by which numbers are varied; the largest share that the scene allows is used. The states
+/// of these motions are also used for the choice of pivots.
 const SHARES: [f64; 4] = [0.2, 0.05, 0.01, 1e-3];
 
 /// Numbers that differ by no more than this many roundings are equal.
 const ROUNDINGS: f64 = 4.0;
 
-/// The parts of a list of lists that are opened, one in the other.
+/// Largest nesting depth of lists whose entries are treated as separate keys.
 const NESTED: usize = 4;
 
-/// A key as its user names it: one number, or a list of them.
+/// A key as named by the user: one number, or a list of numbers.
 struct Key {
     name: String,
-    /// Indices of its numbers among all.
+    /// Indices of the numbers of the key among all numbers.
     numbers: Vec<usize>,
 }
 
@@ -76,12 +79,11 @@ struct Search<'s> {
     prepared: &'s PreparedMechanism,
     template: Template,
     keys: Vec<Key>,
-    /// For each number, a share between ½ and 1; entries of a matrix that mirror each other have
-    /// the same.
+    /// For each number, a share between ½ and 1; symmetric entries of a matrix have the same share.
     shares: Vec<f64>,
 }
 
-/// A mechanism with other numbers, and the run that its scene asks for.
+/// A mechanism with other numbers, and the run that its scene requests.
 struct MechanismVariant {
     prepared: PreparedMechanism,
     options: Option<MotionOptions>,
@@ -108,7 +110,7 @@ impl<'s> Search<'s> {
         let mirrored: Vec<String> = parts.iter().map(|part| sorted(part)).collect();
         let share = |part: &String| {
             let first = mirrored.iter().position(|other| other == part);
-            // The golden ratio: no two shares are alike.
+            // Multiples of the golden ratio, so that no two shares are equal.
             let turns = 0.618_033_988_749_894_8 * (first.unwrap_or(0) + 1) as f64;
             0.5 + 0.5 * turns.fract()
         };
@@ -150,8 +152,8 @@ impl<'s> Search<'s> {
         Ok(MechanismVariant { prepared, options })
     }
 
-    /// A mechanism on the rows of the described one, if it has everything but its numbers in common
-    /// with it.
+    /// A mechanism with the independent rows of the described one, if both differ only in their
+    /// numbers.
     fn compared(
         &self,
         other: &PreparedMechanism,
@@ -169,7 +171,7 @@ impl<'s> Search<'s> {
         }
     }
 
-    /// The recording with one key changed; `None` if the scene does not allow that of this key
+    /// The recording with one changed key; `None` if the scene does not allow a change of this key
     /// alone.
     fn alone(
         &self,
@@ -279,7 +281,7 @@ impl<'s> Search<'s> {
         inputs
     }
 
-    /// What the number at a place is.
+    /// Description of the number at an index.
     fn described_place(&self, recording: &RecordedEquations, place: usize) -> String {
         let mechanism = &self.prepared.mechanism;
         let space = mechanism.space();
@@ -324,13 +326,13 @@ impl<'s> Search<'s> {
     }
 }
 
-/// Places at which numbers of recordings of one shape differ.
+/// Indices at which numbers of recordings of one shape differ.
 fn places_apart(all: &[&RecordedEquations]) -> Vec<usize> {
     let places = 0..all[0].tape.len();
     places.filter(|&place| differ(all, place)).collect()
 }
 
-/// Whether the numbers at a place differ by more than their rounding.
+/// Whether the numbers at an index differ by more than their rounding error.
 fn differ(all: &[&RecordedEquations], place: usize) -> bool {
     let Some(first) = all[0].number(place) else {
         return false;

@@ -36,12 +36,13 @@ use model::Registry;
 
 use assembled::{SceneText, prepared};
 
-/// The module of a scene file, made for the run that the scene requests, or for its start if it
-/// requests none. The rows `drop`, counted from 0, are dropped instead of those that the scene
-/// drops.
+/// The module of a scene file, generated for the run that the scene requests, or for its start if
+/// it requests no run. The rows `drop`, counted from 0, are redundant rows instead of those in the
+/// scene.
 ///
 /// # Errors
-/// If the file cannot be read, the scene is wrong or its run stops, or there is no code for it.
+/// Returns an error if the file cannot be read, the scene is wrong, its run stops, or no code can
+/// be generated for it.
 #[cfg(feature = "modules")]
 pub fn scene(
     path: &Path,
@@ -57,11 +58,11 @@ pub fn scene(
     scene_text(&name, &text, registry, drop, choices)
 }
 
-/// The same from the text of a scene; `name` is the file's name in messages, `registry` contains
-/// the joints and forces that the scene may use.
+/// Like [`scene()`], but from the text of a scene; `name` is the file's name in messages,
+/// `registry` contains the joints and forces that the scene may use.
 ///
 /// # Errors
-/// As [`scene()`].
+/// Returns the same errors as [`scene()`].
 #[cfg(feature = "modules")]
 pub fn scene_text(
     name: &str,
@@ -81,10 +82,11 @@ pub fn scene_text(
     })
 }
 
-/// The code of a scene as a list of operations, as [`scene_text`] writes it.
+/// The code of a scene as a list of operations, with the same content as the module of
+/// [`scene_text`].
 ///
 /// # Errors
-/// As [`scene_text`].
+/// Returns the same errors as [`scene_text`].
 pub fn scene_tape(
     name: &str,
     text: &str,

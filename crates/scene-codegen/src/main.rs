@@ -7,31 +7,30 @@ use clap::Parser;
 use model::Registry;
 use pfaff_scene_codegen::{Choices, CodeError, scene};
 
-/// Writes one Rust module for one scene, with its numbers folded in and its kept rows eliminated in
-/// an order that is suitable for its whole motion.
+/// Generate one Rust module for one scene, with its numbers as constants and its independent rows
+/// eliminated in an order suitable for its whole motion
 #[derive(Parser)]
 struct Arguments {
-    /// The scene file.
+    /// Scene file
     scene: PathBuf,
-    /// The file to write.
+    /// Output file
     #[arg(long)]
     out: PathBuf,
-    /// Rows to drop, from 1, separated by commas; default: those of the scene.
+    /// Rows to treat as redundant (1-based, comma-separated); default: those of the scene
     #[arg(long, value_delimiter = ',', value_name = "ROWS")]
     drop: Option<Vec<usize>>,
-    /// Path of the crate `dynamics` in the module; if given, the module implements its trait
-    /// `SceneCode`.
+    /// Path of the crate `dynamics`; implements its trait `SceneCode`
     #[arg(long)]
     dynamics: Option<String>,
-    /// Use sines and roots of the crate `libm`, for programs without the standard library.
+    /// Use sines and roots of `libm` (no standard library)
     #[arg(long)]
     libm: bool,
-    /// Keys of numbers of the scene that are varied, separated by commas, as `pfaff sweep --vary`
-    /// takes them: `body.cart.mass,joint.A.at,L`. Functions of the module take what they touch as
-    /// an argument, and `SceneCode` reads it from the mechanism of a run.
+    /// Scene keys of the input numbers (comma-separated), as in `pfaff sweep --vary`:
+    /// `body.cart.mass,joint.A.at,L`. Functions of the module take the affected numbers as an
+    /// argument, and `SceneCode` reads them from the mechanism of a run.
     #[arg(long, value_delimiter = ',', value_name = "KEYS")]
     inputs: Vec<String>,
-    /// Compare with the file instead of writing it.
+    /// Compare with the file instead of writing it
     #[arg(long)]
     check: bool,
 }

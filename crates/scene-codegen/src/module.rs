@@ -1,5 +1,5 @@
-//! The text of a module: constants, functions on arrays, the same for several states at once, and
-//! the interface to `dynamics`.
+//! The text of a module: constants, functions on arrays, the same functions for several states at
+//! once, and the interface to `dynamics`.
 
 mod docs;
 mod parameters;
@@ -28,16 +28,16 @@ pub struct Choices {
     pub dynamics: Option<String>,
     /// Use sines, cosines and roots of the crate `libm` instead of `std`.
     pub libm: bool,
-    /// Keys of numbers of the scene that are varied, as [`scene::Template`] knows them, a list for
-    /// all of its numbers: what they touch in the equations is an argument of the functions of the
-    /// module.
+    /// Keys of numbers of the scene that are varied, as in [`scene::Template`]; a key of a list
+    /// means all of its numbers. The affected numbers of the equations are arguments of the
+    /// functions of the module.
     pub inputs: Vec<String>,
 }
 
 /// The code of one mechanism.
 #[derive(Clone, Debug)]
 pub struct Module {
-    /// Its name as an identifier.
+    /// Name of the module as an identifier.
     pub name: String,
     /// Lines of documentation.
     docs: Vec<String>,
@@ -50,14 +50,14 @@ const ATTRIBUTES: [&str; 2] = [
 ];
 
 impl Module {
-    /// The same with another name.
+    /// The same module with another name.
     #[must_use]
     pub fn named(self, name: &str) -> Self {
         let name = identifier(name);
         Self { name, ..self }
     }
 
-    /// The text of a file that contains only the module; `origin` states how it was made.
+    /// The text of a file that contains only the module; `origin` states how it was generated.
     #[must_use]
     pub fn as_file(&self, origin: &str) -> String {
         let origin = one_line(origin);
@@ -86,11 +86,11 @@ impl Module {
     }
 }
 
-/// The module of a subject.
+/// Generates the module of a subject.
 ///
 /// # Errors
-/// If no order of elimination serves all states, a free motion has no mass, or the code would be
-/// too long. Inputs need the text of the scene: [`crate::scene_text`].
+/// Returns an error if no order of elimination is suitable for all states, a free motion has no
+/// mass, or the code would be too long. Inputs need the text of the scene: [`crate::scene_text`].
 pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, CodeError> {
     if choices.inputs.is_empty() {
         of_subject(subject, choices)
@@ -206,11 +206,11 @@ fn parse(text: &str) -> Result<TokenStream, CodeError> {
 /// Data that all functions of a module share.
 struct Shape {
     space: SpaceKind,
-    /// Where the rotations that are used come from: coordinates whose cosine and sine are, in space
-    /// bodies.
+    /// Sources of the rotations that are used: coordinates whose cosine and sine are used; in
+    /// space, bodies.
     rotations: Vec<usize>,
     n_functions: usize,
-    /// Whether functions take numbers of the scene.
+    /// Whether functions take numbers of the scene as arguments.
     takes_numbers: bool,
 }
 
@@ -224,7 +224,7 @@ impl Shape {
     }
 }
 
-/// Coordinates whose cosine or sine some function uses, or bodies whose rotation.
+/// Coordinates whose cosine or sine a function uses, or bodies whose rotation a function uses.
 fn rotations(functions: &Functions) -> Vec<usize> {
     let mut found = BTreeSet::new();
     for f in &functions.list {
@@ -368,8 +368,8 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
     })
 }
 
-/// A function on arrays: its straight-line core on readers and a writer, the interface for one
-/// state, and the interface for many.
+/// A function on arrays: its straight-line core with readers and a writer, the interface for one
+/// state, and the interface for many states.
 fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     let e = &functions.equations;
     let (statements, outputs) = Printer::new(&e.names, &f.program, Scalar::F64, &[]).print();
@@ -488,7 +488,7 @@ fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
 /// `Code`, which implements `dynamics::SceneCode`.
 fn face(functions: &Functions, path: &syn::Path, shape: &Shape) -> TokenStream {
     let numbers = shape.takes_numbers.then(|| quote!(&self.0,));
-    // Runs take q̇ from the mechanism.
+    // A run gets q̇ from the mechanism, not from the code.
     let of_runs = functions
         .list
         .iter()

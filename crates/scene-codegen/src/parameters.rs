@@ -1,4 +1,4 @@
-//! The numbers of the equations that a module takes.
+//! The numbers of the equations that a module takes as inputs.
 
 use std::collections::HashMap;
 
@@ -7,14 +7,14 @@ use model::record::TimeFunction;
 /// One number of the equations.
 #[derive(Clone, Debug)]
 pub(crate) struct Parameter {
-    /// What it is, and the keys that change it.
+    /// Description of the number, with the keys that change it.
     pub(crate) name: String,
     pub(crate) described: f64,
-    /// Its places in the recording.
+    /// Indices of the number in the recording.
     pub(crate) places: Vec<usize>,
 }
 
-/// The numbers that a module takes, and mechanisms in which they have other values.
+/// The numbers that a module takes as inputs, and mechanisms in which they have other values.
 #[derive(Clone, Default)]
 #[cfg_attr(
     not(feature = "modules"),
@@ -28,7 +28,7 @@ pub(crate) struct Inputs {
     pub(crate) variants: Vec<Variant>,
 }
 
-/// Other values of the inputs, and the functions of time with these.
+/// Other values of the inputs, and the functions of time with these values.
 #[derive(Clone)]
 pub(crate) struct Variant {
     pub(crate) values: Vec<f64>,
@@ -36,7 +36,7 @@ pub(crate) struct Variant {
 }
 
 impl Inputs {
-    /// None yet, of equations of this shape, for these keys.
+    /// An empty list of inputs, for equations of this shape and these keys.
     pub(crate) fn new(shape: u64, keys: Vec<String>) -> Self {
         Self {
             shape,
@@ -45,18 +45,18 @@ impl Inputs {
         }
     }
 
-    /// The index of the number at a place of the recording, if it is an input.
+    /// The index of the number at an index of the recording, if it is an input.
     pub(crate) fn at(&self, place: usize) -> Option<usize> {
         self.of_place.get(&place).copied()
     }
 
-    /// One more place of a number.
+    /// Adds an index in the recording to a number.
     pub(crate) fn add_place(&mut self, parameter: usize, place: usize) {
         self.list[parameter].places.push(place);
         self.of_place.insert(place, parameter);
     }
 
-    /// The values that are described.
+    /// The values in the described mechanism.
     pub(crate) fn described(&self) -> Vec<f64> {
         self.list.iter().map(|p| p.described).collect()
     }

@@ -1,17 +1,22 @@
-//! A program with its values at sampled states, by which an elimination chooses pivots that are
-//! suitable for a whole motion, and at states off any motion, by which equal values are found.
+//! A program with its values at sampled states. From the values at states of the motion, an
+//! elimination chooses pivots that are suitable for the whole motion. The values at states away
+//! from any motion show which values are equal.
+//!
+//! Values are compared instead of rewriting expressions: `Rᵀ·R = 1` is not a rule of polynomials,
+//! and joints of users need no second kernel. Tests and `with_code` compare every result with the
+//! interpreter.
 
 use symbolic::{Program, Value};
 
-/// Two values that differ by at most this share of the terms of one of them, at all states off the
-/// motion, are equal: both are rounded.
+/// Largest difference of two values that count as equal at all states away from the motion, as a
+/// share of the terms of one of them. Both values have rounding errors.
 const SAME: f64 = 1e-13;
 
 /// Straight-line code and the values of its operations at some states.
 pub(crate) struct SampledProgram {
     pub(crate) program: Program,
     motion: Samples,
-    /// States that satisfy no constraint, with arbitrary functions of time.
+    /// States that satisfy no constraint, with arbitrary values of the functions of time.
     anywhere: Samples,
 }
 
@@ -79,8 +84,8 @@ impl SampledProgram {
         })
     }
 
-    /// The same; a number, or a value that the program has already, if it is equal to that at all
-    /// states off the motion.
+    /// The same sum; or a constant, or an existing value of the program, if it is equal to the sum
+    /// at all states away from the motion.
     pub(crate) fn simplest_sum(&mut self, products: &[(Value, Value)]) -> Value {
         let is_zero = |p: &Program, (a, b): &(Value, Value)| p.is_zero(*a) || p.is_zero(*b);
         if products.iter().all(|pair| is_zero(&self.program, pair)) {
@@ -118,7 +123,7 @@ impl SampledProgram {
     }
 }
 
-/// A number with fifteen digits: the last one of a rounded value depends on the machine.
+/// A number with fifteen digits, because the last digit of a rounded value depends on the machine.
 fn short(x: f64) -> f64 {
     format!("{x:.14e}").parse().unwrap_or(x)
 }

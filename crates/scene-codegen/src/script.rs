@@ -1,4 +1,4 @@
-//! For build scripts: modules that are regenerated with their scenes.
+//! Functions for build scripts: modules are regenerated when their scenes change.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,8 @@ use crate::error::CodeError;
 use crate::module::Choices;
 
 /// Writes the module of a scene file as `NAME.rs` into the directory that cargo provides for build
-/// scripts, to be included as an item, and returns the lines that the script must print for cargo.
+/// scripts. The file can be included as an item. Returns the lines that the script must print for
+/// cargo.
 ///
 /// ```no_run
 /// // build.rs
@@ -20,7 +21,7 @@ use crate::module::Choices;
 /// ```
 ///
 /// # Errors
-/// As [`crate::scene()`]; also if the file cannot be written.
+/// Returns the same errors as [`crate::scene()`]; also if the file cannot be written.
 pub fn to_out_dir(
     scene: &Path,
     name: &str,

@@ -24,14 +24,14 @@ pub struct State {
     pub v: Vec<f64>,
 }
 
-/// A prepared mechanism and states of the motion that its code is made for.
+/// A prepared mechanism, and the states of the motion for which its code is generated.
 pub struct Subject<'a> {
-    /// The mechanism, its start and its kept rows.
+    /// The mechanism, its start and its independent rows.
     pub prepared: &'a PreparedMechanism,
-    /// States of the motion; the start is the first. After those of the described mechanism come
-    /// those of mechanisms in which the inputs have other values.
+    /// States of the motion; the start is the first one. The states of the described mechanism are
+    /// followed by those of mechanisms in which the inputs have other values.
     pub states: Vec<State>,
-    /// For each state, in which of these mechanisms it is; `None` for the described one.
+    /// For each state, the index of its mechanism; `None` for the described one.
     pub(crate) variants: Vec<Option<usize>>,
     /// The numbers that code takes as inputs.
     pub(crate) inputs: Inputs,
@@ -45,14 +45,14 @@ pub(crate) fn rotation(q: &[f64], body: usize) -> [[f64; 3]; 3] {
 }
 
 impl<'a> Subject<'a> {
-    /// The start alone.
+    /// The subject with the start as its only state.
     #[must_use]
     pub fn at_start(prepared: &'a PreparedMechanism) -> Self {
         let (q, v) = (prepared.q.clone(), prepared.v.clone());
         Self::at_states(prepared, vec![State { t: 0.0, q, v }])
     }
 
-    /// States without inputs.
+    /// The subject with these states and without inputs.
     pub(crate) fn at_states(prepared: &'a PreparedMechanism, states: Vec<State>) -> Self {
         Self {
             prepared,
@@ -65,7 +65,7 @@ impl<'a> Subject<'a> {
     /// The start and states of a run with these options.
     ///
     /// # Errors
-    /// If the run stops.
+    /// Returns an error if the run stops.
     pub fn of_run(
         prepared: &'a PreparedMechanism,
         options: &MotionOptions,
@@ -137,7 +137,7 @@ impl<'a> Subject<'a> {
     /// Accelerations of the interpreter at a state.
     ///
     /// # Errors
-    /// If there are none.
+    /// Returns an error if the equations have no solution at this state.
     pub fn acceleration(&self, state: &State) -> Result<Vec<f64>, CodeError> {
         let mut a = vec![0.0; state.v.len()];
         KeptRowMotion::new(self.prepared)?.acceleration(state.t, &state.q, &state.v, &mut a)?;

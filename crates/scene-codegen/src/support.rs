@@ -1,6 +1,6 @@
 //! Functions that are copied into generated modules, as text and, for tests, as code.
 
-/// Names and texts, in the order in which modules have them.
+/// Names and texts, in their order in modules.
 pub(crate) const SUPPORT: [(&str, &str); 9] = [
     ("cos_sin", include_str!("support/cos_sin.in")),
     ("rotation", include_str!("support/rotation.in")),
@@ -47,7 +47,8 @@ mod tests {
         }
     }
 
-    /// Of the unit quaternion cos ½θ + sin ½θ·n, times any length, by Rodrigues' formula.
+    /// The rotation of the unit quaternion cos ½θ + sin ½θ·n, times any length, by Rodrigues'
+    /// formula.
     #[test]
     fn rotations_are_those_of_axes_and_angles() {
         for k in 0..1000 {
@@ -74,7 +75,7 @@ mod tests {
         }
     }
 
-    /// The angle (0.3 − t)² + 0.2·t, of which everything is known.
+    /// The angle (0.3 − t)² + 0.2·t, whose derivatives are known exactly.
     #[test]
     fn cosine_and_sine_of_a_function_have_its_derivatives() {
         let angle = |t: f64| (0.3 - t) * (0.3 - t) + 0.2 * t;

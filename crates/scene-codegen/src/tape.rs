@@ -1,6 +1,6 @@
 //! The same code without a compiler: lists of instructions, executed for one state or for several
-//! at once, of several runs with numbers of their own. For scenes that are read at run time, for
-//! sweeps, and for tests of runs on generated code.
+//! states at once, which may belong to runs with different numbers. They are used for scenes that
+//! are read at run time, for sweeps, and for tests of runs with generated code.
 
 mod list;
 
@@ -21,7 +21,7 @@ use list::{List, PLACES, Place};
 include!("support/cos_sin.in");
 include!("support/rotation.in");
 
-/// Number of states that are evaluated at once where there are several: a line of the cache.
+/// Number of states that are evaluated together (a SIMD batch): they fill one cache line.
 pub const LANES: usize = 8;
 
 /// The code of one mechanism as lists of operations.
@@ -44,10 +44,10 @@ pub const LANES: usize = 8;
 #[derive(Clone)]
 pub struct Tape {
     spec: Arc<CodeSpec>,
-    /// In the order of [`CodeFunction::ALL`].
+    /// Lists in the order of [`CodeFunction::ALL`].
     lists: Arc<[List]>,
     times: Arc<[TimeFunction]>,
-    /// For each number of each function of time, the input that it is.
+    /// For each number of each function of time, the index of the input that replaces it.
     numbers_of_times: Arc<[Vec<Option<usize>>]>,
     /// The numbers of the mechanism that are inputs, and their values.
     inputs: Option<Arc<CodeInputs>>,
@@ -55,25 +55,25 @@ pub struct Tape {
     space: SpaceKind,
 }
 
-/// An evaluation of a function of a tape with its numbers, for one of several runs; it keeps its
-/// arrays from one evaluation to the next.
+/// A call of a function of an operation list with its numbers, for one of several runs; the arrays
+/// are reused by the next call.
 pub struct TapeCall {
-    /// The tape.
+    /// The operation list.
     pub tape: Tape,
     /// Time (s).
     pub t: f64,
     /// Coordinates.
     pub q: Vec<f64>,
-    /// Velocities, or what is missed, as the function takes it.
+    /// Velocities, or residuals, depending on the function.
     pub with: Vec<f64>,
     /// The results.
     pub out: Vec<f64>,
-    /// The health, for functions that have one.
+    /// Health, for functions that have one.
     pub health: f64,
 }
 
 impl TapeCall {
-    /// A call of a tape, without arguments yet.
+    /// A call of an operation list, without arguments yet.
     #[must_use]
     pub fn new(tape: Tape) -> Self {
         Self {
@@ -86,7 +86,7 @@ impl TapeCall {
         }
     }
 
-    /// Takes the arguments, and makes room for this number of results.
+    /// Sets the arguments, and allocates memory for this number of results.
     pub fn set(&mut self, t: f64, q: &[f64], with: &[f64], results: usize) {
         self.t = t;
         for (to, from) in [(&mut self.q, q), (&mut self.with, with)] {
@@ -98,7 +98,7 @@ impl TapeCall {
     }
 }
 
-/// A state with room for results.
+/// A state with memory for results.
 trait Evaluation {
     fn tape(&self) -> &Tape;
     fn t(&self) -> f64;
@@ -130,7 +130,7 @@ impl Evaluation for Box<TapeCall> {
     }
 }
 
-/// The same with arrays of a caller.
+/// A single evaluation with arrays of the caller.
 struct Alone<'a> {
     tape: &'a Tape,
     t: f64,
@@ -163,10 +163,10 @@ impl Evaluation for Alone<'_> {
     }
 }
 
-/// Values in the places of a list, for L states. Untouched ones take no memory.
+/// Stored values of a list, for L states. Unused storage places take no memory.
 type Places<const L: usize> = Box<[[f64; L]; PLACES]>;
 
-/// Zeros, on the heap from the beginning.
+/// Zeros, allocated on the heap from the start.
 fn places<const L: usize>() -> Places<L> {
     let all = vec![[0.0; L]; PLACES].into_boxed_slice();
     all.try_into()
@@ -182,7 +182,7 @@ impl Tape {
     /// The code of a subject.
     ///
     /// # Errors
-    /// As [`crate::generate`].
+    /// Returns the same errors as [`crate::generate`].
     pub fn of(subject: &Subject<'_>) -> Result<Self, CodeError> {
         let functions = Functions::new(subject)?;
         let prepared = subject.prepared;
@@ -239,7 +239,8 @@ impl Tape {
         })
     }
 
-    /// The same tape with these values of its inputs; `None` if there are not as many.
+    /// The same operation list with these values of its inputs; `None` if the number of values
+    /// differs.
     #[must_use]
     pub fn with_values(&self, values: &[f64]) -> Option<Self> {
         if self.values.len() != values.len() {
@@ -261,7 +262,7 @@ impl Tape {
         Some(tape)
     }
 
-    /// The tape with the numbers of a mechanism, which are no inputs any more.
+    /// The operation list with the numbers of a mechanism; the numbers are then no longer inputs.
     ///
     /// # Errors
     /// [`CodeMismatch`]: the mechanism has other equations.
@@ -282,9 +283,9 @@ impl Tape {
         })
     }
 
-    /// Evaluates a function of one tape for several runs, each with numbers of its own: the results
-    /// of each are the same bits as alone. Calls of a tape that is no clone of the first one, with
-    /// other values, get a health of NaN.
+    /// Evaluates a function of one operation list for several runs, each with its own numbers; the
+    /// results have the same bits as single evaluations. A call whose operation list is not a clone
+    /// of the first one, except for its values, gets a health of NaN.
     pub fn evaluate_all(function: CodeFunction, calls: &mut [Box<TapeCall>]) {
         let Some(lists) = calls.first().map(|call| Arc::clone(&call.tape.lists)) else {
             return;
@@ -329,13 +330,13 @@ impl Tape {
         call.health
     }
 
-    /// Value and derivatives of a function of time; NaN if there is no such function.
+    /// Value and derivatives of a function of time; NaN if the function does not exist.
     fn jet(&self, function: usize, t: f64) -> [f64; 3] {
         self.times.get(function).map_or([f64::NAN; 3], |f| f.jet(t))
     }
 }
 
-/// [`evaluate`] with the vectors of the processor that runs it.
+/// [`evaluate`] with the vector instructions of the present processor.
 fn wide(list: &List, places: &mut [[f64; LANES]; PLACES], calls: &mut [Box<TapeCall>]) {
     struct Task<'t> {
         list: &'t List,
@@ -357,8 +358,8 @@ fn wide(list: &List, places: &mut [[f64; LANES]; PLACES], calls: &mut [Box<TapeC
     });
 }
 
-/// Evaluates a list for at most L calls, at least one; places beyond those of the calls repeat the
-/// first one.
+/// Evaluates a list for at most L calls, at least one; unused states of the batch repeat the first
+/// call.
 #[inline(always)]
 fn evaluate<const L: usize>(
     list: &List,
@@ -427,7 +428,7 @@ fn evaluate<const L: usize>(
     }
 }
 
-/// The smaller one; NaN if one is.
+/// The smaller number; NaN if one of them is NaN.
 fn least(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }

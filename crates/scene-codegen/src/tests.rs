@@ -1,4 +1,4 @@
-//! Generated code compared with the interpreter, which solves the same equations by an elimination
+//! Compares generated code with the interpreter, which solves the same equations by an elimination
 //! in another order.
 
 use dynamics::KeptRowMotion;
@@ -34,7 +34,7 @@ force = [{ name = "s", type = "spring-damper", bodies = ["a", "b"], points = { a
 simulate = { t_end = 2.0 }
 "#;
 
-/// A crank without freedom, driven by a table with a kink in the drive's rate.
+/// A crank without a degree of freedom, driven by a table with a kink in the drive's rate.
 const DRIVEN: &str = r#"
 scene = { name = "driven", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "crank", mass = 1.0, inertia = 0.2, position = [0.5, 0.0] }]
@@ -44,7 +44,7 @@ force = [{ name = "T", type = "torque", body = "crank", torque = { type = "harmo
 simulate = { t_end = 2.0 }
 "#;
 
-/// A bead that slides along a line on the ground while it turns.
+/// A bead that slides along a line on the ground while it rotates.
 const BEAD: &str = r#"
 scene = { name = "bead", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "bead", mass = 1.0, inertia = 0.2, angular_velocity = 1.0 }]
@@ -97,7 +97,7 @@ fn run(
     (values, shares.into_iter().fold(f64::INFINITY, f64::min))
 }
 
-/// States near the motion; every second one is off the constraints.
+/// States near the motion; every second one violates the constraints.
 fn states(study: &Study, subject: &Subject<'_>, n: usize) -> Vec<State> {
     let mut motion = KeptRowMotion::new(&study.prepared).expect("moves");
     let (mechanism, size) = (&study.prepared.mechanism, study.prepared.assembly.size);
@@ -129,8 +129,8 @@ fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// Largest relative difference of accelerations and multipliers, over states where neither method
-/// is near a singular configuration.
+/// Largest relative difference of accelerations and multipliers, over states at which neither
+/// method is near a singular configuration.
 fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
     let study = study(name, text);
     let subject = subject(&study, name);
@@ -260,7 +260,7 @@ fn corrections_are_those_of_a_saddle_solve() {
     }
 }
 
-/// Number of operations of the robot: a change that needs more must update this test.
+/// Number of operations of the robot: a change that needs more operations must update this test.
 #[test]
 fn the_robot_needs_no_more_operations_than_it_did() {
     let study = study("robot-trolley", ROBOT);
@@ -283,7 +283,7 @@ fn the_robot_needs_no_more_operations_than_it_did() {
     }
 }
 
-/// A vehicle that has turned by any angle has the same equations: in the frames of its bodies the
+/// A vehicle that has rotated by any angle has the same equations: in the frames of its bodies the
 /// pivots are unchanged.
 #[test]
 fn it_does_not_matter_which_way_a_vehicle_points() {

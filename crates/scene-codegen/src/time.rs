@@ -7,7 +7,7 @@ use model::function::Parts;
 use model::record::{FunctionForm, TimeFunction};
 
 /// The expression of the jet of a function at `t`, and the support functions that it needs;
-/// `numbers` are the texts of its numbers, in the order of [`Parts::numbers`].
+/// `numbers` contains the texts of its numbers, in the order of [`Parts::numbers`].
 pub(crate) fn jet(function: &Function, numbers: &[String]) -> (String, &'static [&'static str]) {
     let list = numbers.join(", ");
     let points = |numbers: &[String], each: usize| {
@@ -28,8 +28,8 @@ pub(crate) fn jet(function: &Function, numbers: &[String]) -> (String, &'static 
     }
 }
 
-/// The body of the function that evaluates all jets: `[f, ḟ, f̈]` one after the other. `input`
-/// gives the text of a number that is an input, by function and place in the order of
+/// The body of the function that evaluates all jets, `[f, ḟ, f̈]` in sequence. `input` returns the
+/// text of a number that is an input, by function and index in the order of
 /// [`TimeFunction::numbers`].
 pub(crate) fn jets<'f>(
     functions: impl Iterator<Item = &'f TimeFunction>,
@@ -48,7 +48,7 @@ pub(crate) fn jets<'f>(
             format!(" - {last}")
         };
         if f.form() == FunctionForm::Sine {
-            // Evaluated with the cosine before it.
+            // The sine is evaluated together with the cosine before it.
             let _ = write!(names, "f{k}, d{k}, dd{k},");
             continue;
         }
@@ -75,7 +75,7 @@ pub(crate) fn jets<'f>(
 mod tests {
     use super::*;
 
-    /// Every number of a function is at its place in the text, whether it is an input or not.
+    /// Every number of a function is at its index in the text, whether it is an input or not.
     #[test]
     fn numbers_of_functions_stand_where_they_are_used() {
         let of = |function: Result<Function, model::FunctionError>| {

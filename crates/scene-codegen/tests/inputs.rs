@@ -1,5 +1,6 @@
-//! Modules that take numbers of their scene: at any values of these they are the interpreter of the
-//! scene that has them, and they belong to no scene that differs in another number.
+//! Modules with numbers of their scene as inputs. For any values of these numbers they equal the
+//! interpreter of the scene with the same values, and they reject a scene that differs in another
+//! number.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -49,14 +50,14 @@ const KEYS_OF_ARM: [&str; 10] = [
     "drive.motor.motion.amplitude",
 ];
 
-/// States of each of the mechanisms that differ in their inputs.
+/// Number of states of each of the mechanisms that differ in their inputs.
 const STATES: usize = 1000;
 
-/// Largest difference of two ways to solve the same equations, as a share of the terms that cancel
-/// in their results.
+/// Largest difference of two solutions of the same equations, as a fraction of the terms that
+/// cancel in their results.
 const SAME: f64 = 1e-13;
 
-/// Shares by which inputs differ from those of the scene, key by key in turn.
+/// Fractions by which inputs differ from those of the scene, key by key in turn.
 const SHARES: [[f64; 3]; 4] = [
     [0.0, 0.0, 0.0],
     [0.13, -0.08, 0.11],
@@ -64,7 +65,7 @@ const SHARES: [[f64; 3]; 4] = [
     [0.3, 0.17, -0.12],
 ];
 
-/// The numbers that the keys of a list stand for.
+/// Returns the numbers for the keys of a list.
 fn numbers(keys: &[&str], text: &str) -> Vec<String> {
     let opened = |key: &&str| match Template::new(text, &[key]) {
         Ok(_) => vec![(*key).to_owned()],
@@ -74,7 +75,7 @@ fn numbers(keys: &[&str], text: &str) -> Vec<String> {
     keys.iter().flat_map(opened).collect()
 }
 
-/// The scene with other values of these keys.
+/// Returns the scene with other values of these keys.
 fn changed(text: &str, keys: &[&str], shares: [f64; 3]) -> String {
     let keys = numbers(keys, text);
     let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
@@ -89,7 +90,7 @@ fn study(text: &str) -> Study {
         .unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The scene on the rows of code, which are not always those that it would choose alone.
+/// Returns the scene on the rows of the code, which may differ from its default rows.
 fn on_rows_of(code: &dyn SceneCode, mut study: Study) -> Study {
     let spec = code.spec();
     let moved = study.prepared.on_rows(&spec.kept, &spec.position_kept);
@@ -97,7 +98,7 @@ fn on_rows_of(code: &dyn SceneCode, mut study: Study) -> Study {
     study
 }
 
-/// The code with the numbers of a mechanism.
+/// Returns the code with the numbers of a mechanism.
 fn of(code: &dyn SceneCode, prepared: &PreparedMechanism) -> Arc<SharedCode> {
     let inputs = code.inputs().expect("it takes numbers");
     let values = inputs.of("code", &prepared.mechanism).expect("its numbers");
@@ -108,7 +109,7 @@ fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// States near the motion, every second one off the constraints.
+/// Returns states near the motion, every second one off the constraints.
 fn states(study: &Study) -> Vec<State> {
     let options = study.options.as_ref().expect("a run");
     let subject = Subject::of_run(&study.prepared, options).expect("runs");
@@ -237,7 +238,7 @@ fn a_module_with_inputs_is_the_interpreter_of_every_scene_with_other_numbers_in_
         let study = on_rows_of(&code, study);
         let own = of(&code, &study.prepared);
         compare(&format!("{shares:?}"), &*own, &study);
-        // Principal axes are those of the mechanism.
+        // The principal axes are those of the mechanism.
         let inputs = code.inputs().expect("numbers");
         let values = inputs
             .of("arm", &study.prepared.mechanism)
@@ -251,7 +252,7 @@ fn a_module_with_inputs_is_the_interpreter_of_every_scene_with_other_numbers_in_
     }
 }
 
-/// A run takes the numbers from its mechanism by itself.
+/// A run reads the numbers from its mechanism automatically.
 #[test]
 fn runs_take_the_numbers_of_their_scenes() {
     let ends = |prepared: &PreparedMechanism, study: &Study| {
@@ -285,8 +286,8 @@ fn runs_take_the_numbers_of_their_scenes() {
     }
 }
 
-/// Which of redundant rows are kept may hang on any number. Where nobody chose them they are those
-/// of the code; rows that somebody chose stay.
+/// The choice of independent rows may depend on any number. Without a choice by the user the rows
+/// are those of the code; rows that the user chose remain.
 #[test]
 fn rows_that_nobody_chose_are_those_of_the_code() {
     let code = || -> Arc<SharedCode> { Arc::new(arm::Code(arm::DESCRIBED)) };
@@ -303,7 +304,7 @@ fn rows_that_nobody_chose_are_those_of_the_code() {
     );
 }
 
-/// Far from the described values the code is either right or refused for its pivots.
+/// Far from the described values the code is either correct or rejected because of its pivots.
 #[test]
 fn far_values_are_served_or_refused() {
     let code = four_bar::Code(four_bar::DESCRIBED);
@@ -338,7 +339,7 @@ fn far_values_are_served_or_refused() {
     );
 }
 
-/// A whole tensor of inertia, in bodies whose frames are not principal.
+/// The input is a whole tensor of inertia, in bodies whose frames are not principal.
 #[test]
 fn tensors_of_inertia_are_inputs() {
     let text = include_str!("space/tumbling.toml");
@@ -357,7 +358,8 @@ fn tensors_of_inertia_are_inputs() {
     compare("tumbling", &*of(&tape, &study.prepared), &study);
 }
 
-/// Functions of time of every kind, by their values; the times of a module are its own.
+/// The inputs are the values of functions of time of every kind; the break times are constants of
+/// the module.
 #[test]
 fn functions_of_time_have_their_coefficients_as_inputs() {
     let text = r#"
@@ -418,7 +420,7 @@ t_end = 0.5
     }
 }
 
-/// Several states at once, each with its own numbers.
+/// Several states are evaluated at once, each with its own numbers.
 #[test]
 fn lanes_have_numbers_of_their_own() {
     let states = states(&study(FOUR_BAR));
@@ -465,8 +467,8 @@ fn a_list_of_operations_takes_the_same_numbers_as_a_module() {
     }
 }
 
-/// A number that is no input is folded in: a scene with another one is refused, by the value that
-/// shows it.
+/// A number that is not an input is a constant of the code: a scene with another value is rejected,
+/// and the error names a value that shows the difference.
 #[test]
 fn a_scene_that_differs_in_another_number_is_refused() {
     let code = || -> Arc<SharedCode> { Arc::new(four_bar::Code(four_bar::DESCRIBED)) };
@@ -497,7 +499,7 @@ fn a_scene_that_differs_in_another_number_is_refused() {
     );
 }
 
-/// Two springs of one stiffness are one number, until a scene gives one of them another stiffness.
+/// Two springs of one stiffness have one input, until a scene gives one of them another stiffness.
 #[test]
 fn numbers_that_are_one_input_may_not_differ_in_a_mechanism() {
     let text = r#"
@@ -526,12 +528,12 @@ simulate = { t_end = 0.5 }
         }
         other => panic!("{other:?}"),
     }
-    // As advised.
+    // The scene is changed as advised.
     let two = tape(&["force.first.stiffness", "force.second.stiffness"]);
     uneven().with_code(two).expect("its own");
 }
 
-/// What cannot be an input is refused with its key, and the advice serves.
+/// A number that cannot be an input is rejected with its key, and the advice is correct.
 #[test]
 fn what_is_no_number_of_the_equations_is_refused_by_name() {
     let refused = |text: &str, key: &str| {
@@ -575,7 +577,7 @@ fn what_is_no_number_of_the_equations_is_refused_by_name() {
         misspelt.contains("body `crank` has no key `mas`"),
         "{misspelt}"
     );
-    // As advised: with products it is one.
+    // As advised, the tensor with products of inertia can be an input.
     let described = round.replace("k = 0.0", "k = 0.01");
     let choices = Choices {
         inputs: vec!["k".to_owned()],
@@ -591,7 +593,7 @@ fn what_is_no_number_of_the_equations_is_refused_by_name() {
     .expect("an input");
 }
 
-/// The modules in the repository are those of their scenes.
+/// The modules in the repository equal those of their scenes.
 #[test]
 fn the_checked_in_modules_with_inputs_agree_with_their_scenes() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

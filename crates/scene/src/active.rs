@@ -1,16 +1,18 @@
-//! `active`: joints, drives, forces and groups that are read and checked, but take no part.
+//! `active`: joints, drives, forces and groups that are read and checked, but are not part of the
+//! mechanism.
 
 use crate::dimension::Dimension;
 use crate::key::{Key, Takes};
 use crate::table::Table;
 
-/// The key of joints, drives, forces and groups.
+/// The key `active` of joints, drives, forces and groups.
 pub(crate) const ACTIVE: Key = Key::optional("active", "true or false", Takes::Switch)
     .doc("Whether it is there; what is not is read and checked only. A number or an expression is false where it is zero")
     .or(|| true.into());
 
-/// Whether the item of a table takes part. What cannot be read is reported, and does.
-/// Its key is not marked as known: it is the last one of its table.
+/// Whether the item of a table is part of the mechanism. An unreadable value is reported and counts
+/// as `true`. This function does not mark the key as known, because the key is the last one of its
+/// table.
 pub(crate) fn read(table: &Table) -> bool {
     let Some(field) = table.field(ACTIVE.name) else {
         return true;
@@ -26,5 +28,5 @@ pub(crate) fn read(table: &Table) -> bool {
     value.unwrap_or(true)
 }
 
-/// Help for a reference to something that takes no part.
+/// Advice for a reference to an inactive item.
 pub(crate) const HELP: &str = "remove `active = false` there, or leave the name out here";

@@ -1,4 +1,4 @@
-//! Where points and directions of an element come from.
+//! Sources of the points and directions of an element.
 
 use std::ops::Range;
 
@@ -10,18 +10,18 @@ use crate::between::JointMarkers;
 use crate::bodies::Bodies;
 use crate::space::SceneSpace;
 
-/// Where points and directions of an element come from.
+/// Source of the points and directions of an element.
 pub(crate) enum ArgumentSource<'a> {
-    /// All are in its own table.
+    /// All points and directions are in the table of the element.
     Text,
-    /// From two markers.
+    /// They are taken from two markers.
     Markers(JointMarkers<'a>),
-    /// From two joints, but for the pitch point and the line of action.
+    /// They are taken from two joints, except the pitch point and the line of action.
     Bearings(Bearings<'a>),
 }
 
 impl ArgumentSource<'_> {
-    /// Whether the argument of a parameter is not in the table of the element.
+    /// Whether the argument of a parameter comes from outside the table of the element.
     pub(crate) fn gives(&self, spec: &Spec, parameter: usize) -> bool {
         match (self, spec.parameters[parameter].shape) {
             (Self::Text, _) => false,
@@ -38,8 +38,8 @@ impl ArgumentSource<'_> {
         }
     }
 
-    /// The argument of such a parameter, if it could be read, and the place of the markers or
-    /// joints. Returns `None` if the argument is in the table.
+    /// The argument of such a parameter, if it could be read, and the position of the markers or
+    /// joints in the text. Returns `None` if the argument is in the table.
     pub(crate) fn argument<S: SceneSpace>(
         &self,
         spec: &Spec,

@@ -26,7 +26,8 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Reads all parameters of a definition except the points, which are read with its place.
+    /// Reads all parameters of a definition except the points, which are read with its reference
+    /// point.
     pub(crate) fn read<S: SceneSpace>(
         table: &mut Table,
         spec: &'static Spec,
@@ -104,7 +105,8 @@ impl Arguments {
         self.spans.push(span);
     }
 
-    /// Axes like those of another parameter, and the place of these.
+    /// Axes that are parallel to those of another parameter, and the position of the latter in the
+    /// text.
     fn like<S: SceneSpace>(
         &self,
         spec: &Spec,
@@ -118,8 +120,8 @@ impl Arguments {
         (Some(axes), self.spans[other].clone())
     }
 
-    /// Builds the element and reports everything that its definition refuses. Returns `None` if
-    /// anything is wrong.
+    /// Builds the element and reports every fault that its definition finds. Returns `None` if
+    /// there is a fault.
     pub(crate) fn build<S: SceneSpace, E>(
         &mut self,
         table: &Table,
@@ -178,7 +180,7 @@ fn label(error: &ArgumentError) -> &'static str {
 fn value<S: SceneSpace>(field: &Field, shape: Shape) -> Option<Argument> {
     let expected = shape.words(S::DIM).to_string();
     match shape {
-        // Those have been read.
+        // Points, directions and axes have been read before.
         Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. } => None,
         Shape::GroundPlane => plane::<S>(field, &expected),
         Shape::GroundLine => {
@@ -196,7 +198,7 @@ fn value<S: SceneSpace>(field: &Field, shape: Shape) -> Option<Argument> {
     }
 }
 
-/// An axis, and its place.
+/// An axis, and its position in the text.
 fn axis<S: SceneSpace>(
     table: &mut Table,
     parameter: &Parameter,

@@ -1,5 +1,5 @@
-//! `bearings`: teeth between two wheels, each of which a joint bears on one carrier. These joints
-//! give the bodies, the axes and the points on them.
+//! `bearings`: a gear mesh between two wheels that two joints support on one carrier. These joints
+//! define the bodies, the axes and the points on them.
 
 mod line;
 
@@ -34,23 +34,24 @@ pub(crate) const BEARINGS: Key = Key::required("bearings", TWO_JOINTS, Takes::Te
 pub(crate) const PRESSURE_ANGLE: Key =
     Key::optional("pressure_angle", "a number", Takes::Number(Interval::Any))
         .unit(Dimension::ANGLE)
-        .doc("Angle by which the line of action is turned from the normal of the plane of both axes, about the line along which the wheels roll, towards the second wheel; not beside a line of action")
+        .doc("Angle by which the line of action is turned from the normal of the plane of both axes, about the line along which the wheels roll, towards the second wheel; not together with a line of action")
         .or(|| json!(0.0));
 
-/// The slot of the carrier, after those of the wheels.
+/// The slot of the carrier; it comes after the slots of the wheels.
 pub(crate) const CARRIER: usize = 2;
 
-/// The joints of teeth.
+/// The two joints that support the wheels of a gear mesh.
 pub(crate) struct Bearings<'a> {
-    /// Their place in the text.
+    /// Position of the two joint names in the text.
     pub(crate) span: Range<usize>,
-    /// Present if they bear two wheels on one carrier; otherwise that has been reported.
+    /// Present if the joints support two wheels on one carrier; otherwise the fault has been
+    /// reported.
     wheels: Option<Wheels<'a>>,
 }
 
 /// Two wheels and their carrier.
 struct Wheels<'a> {
-    /// The wheels, then the carrier.
+    /// The two wheels, followed by the carrier.
     bodies: [BodyRef; 3],
     /// Points and axes of both bearings, on the wheel and on the carrier.
     points: [[&'a Argument; 2]; 2],
@@ -94,8 +95,8 @@ impl<'a> Bearings<'a> {
         Some(argument.clone())
     }
 
-    /// The line of action and its place: it is written and read by `direction`, or follows from the
-    /// pressure angle.
+    /// The line of action and its position in the text. It is written in the text and read by
+    /// `direction`, or it follows from the pressure angle.
     pub(crate) fn line(
         &self,
         table: &mut Table,
@@ -157,8 +158,8 @@ fn xyz(argument: &Argument) -> Option<[f64; 3]> {
 }
 
 impl<'a> Wheels<'a> {
-    /// The wheels that two joints bear on the only body that both connect. Returns `None` and
-    /// reports if there are none.
+    /// The two wheels; their joints connect each of them to the carrier, the only body that both
+    /// joints have in common. Returns `None` and reports if there are no such wheels.
     fn of<S: SceneSpace>(
         field: &Field,
         named: [&'a JointRead<S>; 2],
@@ -246,7 +247,8 @@ impl<'a> Wheels<'a> {
         Some(Axis { point, along })
     }
 
-    /// The wheel on whose axis a force along this line through the pitch point has no lever.
+    /// The wheel for which a force along this line through the pitch point has no lever arm about
+    /// its axis.
     fn missed_by(&self, line: &Argument, pitch: &Argument) -> Option<&'static str> {
         let (line, pitch) = (xyz(line)?, xyz(pitch)?);
         let names = ["first", "second"].into_iter().enumerate();
@@ -254,7 +256,8 @@ impl<'a> Wheels<'a> {
         axes.find_map(|(name, axis)| (!axis.has_lever(line, pitch)).then_some(name))
     }
 
-    /// The line of action of wheels that meet at a pitch point of the carrier, if none is written.
+    /// The line of action of wheels that meet at a pitch point of the carrier, if the text gives no
+    /// line.
     fn line(&self, pitch: [f64; 3], pressure_angle: f64) -> Result<[f64; 3], &'static str> {
         match [0, 1].map(|k| self.axis(k)) {
             [Some(first), Some(second)] => line::of_action([first, second], pitch, pressure_angle),
@@ -263,7 +266,7 @@ impl<'a> Wheels<'a> {
     }
 }
 
-/// Whether a parameter is an axis, and the slot of its body, if it is a point or an axis.
+/// For a point or an axis: whether the parameter is an axis, and the slot of its body.
 fn slot_of(shape: Shape) -> Option<(bool, usize)> {
     match shape {
         Shape::Point { slot } => Some((false, slot)),
@@ -272,7 +275,7 @@ fn slot_of(shape: Shape) -> Option<(bool, usize)> {
     }
 }
 
-/// The parameters, point and axis of each of two bodies, of a definition that has one of each and
+/// The parameters for point and axis of each of two bodies, if the definition has one of each and
 /// one angle.
 fn parameters<S: SceneSpace>(definition: &ConstraintDefinition<S>) -> Option<[[usize; 2]; 2]> {
     let spec = definition.spec;

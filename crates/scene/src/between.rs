@@ -1,5 +1,5 @@
-//! `markers`: a joint between two oriented markers, z along its axis, x across; points and
-//! directions of both bodies are those of the markers.
+//! `markers`: a joint between two oriented markers, z along its axis, x across; the markers define
+//! the points and directions on both bodies.
 
 use std::ops::Range;
 
@@ -19,10 +19,10 @@ use crate::table::Table;
 /// The key of the markers of both bodies.
 pub(crate) const MARKERS: &str = "markers";
 
-/// What it takes.
+/// The expected value of the key.
 const EXPECTED: &str = "two markers [first, second]";
 
-/// Whether a definition connects two bodies at points or along axes, which markers can give.
+/// Whether a definition connects two bodies at points or along axes, which markers can define.
 pub(crate) fn takes_markers<S: SceneSpace>(spec: &Spec) -> bool {
     let is_given = |shape: Shape| {
         matches!(
@@ -36,7 +36,7 @@ pub(crate) fn takes_markers<S: SceneSpace>(spec: &Spec) -> bool {
         && spec.parameters.iter().any(|p| is_given(p.shape))
 }
 
-/// Keys that say the same as `markers`: the place, and parameters and keys of directions.
+/// Keys that `markers` replaces: the reference point, and parameters and keys of directions.
 fn replaced(spec: &'static Spec) -> Vec<&'static str> {
     let mut keys = Vec::new();
     if spec.slots_of_points().next().is_some() {
@@ -61,15 +61,15 @@ fn directions(spec: &'static Spec) -> impl Iterator<Item = &'static str> {
         .map(|p| p.name)
 }
 
-/// The markers of a joint, and their place in the text.
+/// The markers of a joint, and their position in the text.
 pub(crate) struct JointMarkers<'b> {
     markers: [Option<&'b Marker>; 2],
     pub(crate) span: Range<usize>,
 }
 
 impl<'b> JointMarkers<'b> {
-    /// Reads `markers` of a definition whose slots contain the bodies `slots`; `None` if it is not
-    /// written.
+    /// Reads `markers` of a definition whose slots contain the bodies `slots`; `None` if the key is
+    /// not written.
     pub(crate) fn read<S: SceneSpace>(
         table: &mut Table,
         spec: &'static Spec,
@@ -95,7 +95,7 @@ impl<'b> JointMarkers<'b> {
     }
 
     /// The argument of a point, or of a parameter along or across the axis: z of the marker of its
-    /// body, and x for what is called `cross`.
+    /// body, and x for the direction `cross`.
     pub(crate) fn argument<S: SceneSpace>(
         &self,
         parameter: &Parameter,

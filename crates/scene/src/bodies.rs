@@ -1,5 +1,5 @@
-//! The bodies that were read, with their names and markers: points relative to the centres of mass
-//! of their bodies.
+//! The bodies of the text, with their names and markers: points relative to the centres of mass of
+//! their bodies.
 
 use joints::{Plane, Space3};
 use model::{BodyRef, Marker, StartPose};
@@ -11,13 +11,13 @@ use crate::mistake::Mistake;
 use crate::space::SceneSpace;
 use crate::table::Table;
 
-/// The bodies that were read.
+/// The bodies of the text.
 pub(crate) struct Bodies<S: SceneSpace> {
     pub(crate) list: Vec<S::Body>,
-    /// Where some of them start, if not where they are described.
+    /// Start poses of the bodies that do not start at their described pose.
     pub(crate) poses: Vec<StartPose>,
     pub(crate) names: BodyNames,
-    /// Their places by name.
+    /// Markers by name.
     pub(crate) markers: Markers,
 }
 
@@ -33,7 +33,7 @@ impl<S: SceneSpace> Default for Bodies<S> {
 }
 
 impl<S: SceneSpace> Bodies<S> {
-    /// Reads one body. Numbers that cannot be read are zero; they have been reported.
+    /// Reads one body. Unreadable numbers are replaced by zero; they have been reported.
     pub(crate) fn read(&mut self, mut table: Table, name: &str)
     where
         S: SceneBody,
@@ -55,14 +55,14 @@ impl<S: SceneSpace> Bodies<S> {
         table.close();
     }
 
-    /// A point in the frame of a body relative to its centre of mass, as joints and forces take it;
-    /// for the ground the point itself.
+    /// A point in the frame of a body relative to its centre of mass, as joints and forces need it;
+    /// for the ground, the point itself.
     pub(crate) fn about_centre(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| self.list.get(at));
         described.map_or(point, |body| S::from_centre(body, point))
     }
 
-    /// A global point relative to the centre of mass of a body, in its axes.
+    /// A global point relative to the centre of mass of a body, in the axes of this body.
     pub(crate) fn to_local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| self.list.get(at));
         described.map_or(point, |body| S::to_local(body, point))
@@ -77,12 +77,12 @@ impl<S: SceneSpace> Bodies<S> {
         }
     }
 
-    /// Place of a marker relative to the centre of mass of its body.
+    /// Position of a marker relative to the centre of mass of its body.
     pub(crate) fn place_of(&self, marker: &Marker) -> S::Vector<f64> {
         self.about_centre(marker.body, S::vector(marker.point))
     }
 
-    /// Reports a marker where a point of another body is needed.
+    /// Reports a marker of a wrong body if a point of another body is needed.
     pub(crate) fn foreign(&self, marker: &Marker, needed: BodyRef, field: &Field) {
         let name = &marker.name;
         let advice = format!(
@@ -92,7 +92,7 @@ impl<S: SceneSpace> Bodies<S> {
         self.not_of_body(marker, &advice, field);
     }
 
-    /// Reports a marker that belongs to another body than the one that is needed.
+    /// Reports a marker that belongs to a wrong body.
     pub(crate) fn not_of_body(&self, marker: &Marker, needed: &str, field: &Field) {
         let (name, body) = (&marker.name, self.names.name(marker.body));
         let own = self.markers.list.iter().zip(&self.markers.entries);

@@ -19,35 +19,36 @@ use crate::source_map::Entry;
 use crate::space::SceneSpace;
 use crate::table::Table;
 
-/// A space of which bodies are read.
+/// A space whose bodies can be read.
 pub(crate) trait SceneBody: SceneSpace {
     /// Keys of a body in addition to its name.
     const BODY_KEYS: &'static [Key];
 
-    /// Reads one body; numbers that cannot be read are zero.
+    /// Reads one body; unreadable numbers are replaced by zero.
     fn read_body(table: &mut Table, name: &str) -> Self::Body;
 
-    /// The key for where a body starts if it does not start where it is described.
+    /// The key for the start pose of a body, if it differs from the described pose.
     const START: Key;
 
-    /// Reads its value; what it leaves out is as described.
+    /// Reads the value of this key; coordinates that it omits have their described values.
     fn read_start(start: &mut Table, body: &Self::Body) -> FramePose;
 }
 
-/// The names of the bodies, with their places.
+/// The names of the bodies, with their indices.
 #[derive(Default)]
 pub(crate) struct BodyNames {
     pub(crate) entries: Vec<Entry>,
     /// Indices by name; if a name is used twice, the first body.
     by_name: HashMap<String, usize>,
-    /// Number of bodies without a name. Each is assumed to have one of the unknown names.
+    /// Number of bodies without a name. The reader assumes that each of them has one of the unknown
+    /// names.
     unnamed: usize,
-    /// The names assumed for them.
+    /// The names assumed for bodies without a name.
     theirs: RefCell<BTreeSet<String>>,
 }
 
 impl BodyNames {
-    /// The body of a table.
+    /// Adds the body of a table.
     pub(crate) fn add(&mut self, name: &str, table: &Table) {
         let at = self.entries.len();
         let is_own = table.peek("name") == Some(name) && name != GROUND;
@@ -58,7 +59,7 @@ impl BodyNames {
         self.entries.push(Entry::of(name, table));
     }
 
-    /// The body with the name in this field; `ground` is the ground.
+    /// The body whose name this field contains; `ground` is the ground.
     pub(crate) fn find(&self, field: &Field) -> Option<BodyRef> {
         let name = field.text("the name of a body")?;
         if name == GROUND {
@@ -76,7 +77,8 @@ impl BodyNames {
         self.by_name.get(name).copied()
     }
 
-    /// Reports a body that does not exist, unless a problem reported for the bodies explains it.
+    /// Reports a body that does not exist, unless another problem reported for the bodies explains
+    /// it.
     pub(crate) fn unknown(&self, field: &Field, name: &str) {
         let Field {
             subject, findings, ..
@@ -110,7 +112,7 @@ impl BodyNames {
         self.entries.iter().map(|entry| entry.name.as_str())
     }
 
-    /// Whether an unknown name may belong to a body without a name.
+    /// Whether an unknown name may be the name of a body without a name.
     fn is_of_unnamed(&self, name: &str) -> bool {
         let mut theirs = self.theirs.borrow_mut();
         if theirs.len() < self.unnamed {

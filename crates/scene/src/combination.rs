@@ -8,37 +8,37 @@ use joints::{LARGEST, is_usable};
 
 use crate::nearest::{list, nearest};
 
-/// The terms of a sum; at least one.
+/// The terms of a sum, at least one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Combination {
     /// `Σ coefficient·component`: one number.
     Components(Vec<Term>),
-    /// `Σ coefficient·wrench`: force and torque, the torque about the place of the first joint or
-    /// drive.
+    /// `Σ coefficient·wrench`: force and torque, the torque about the reference point of the first
+    /// joint or drive.
     Wrenches(Vec<WrenchTerm>),
 }
 
 /// One component of the reaction of a joint or drive, times a number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
-    /// The factor; 1 if none is written.
+    /// The factor; 1 if the text has no factor.
     pub coefficient: f64,
     /// Name of the joint or drive.
     pub reaction: String,
-    /// `Fx`, `Fy`, `T`, or a named component, as `N`.
+    /// Name of the component: `Fx`, `Fy`, `T`, or a named component, such as `N`.
     pub component: String,
 }
 
 /// The wrench of the reaction of a joint or drive, times a number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrenchTerm {
-    /// The factor; 1 if none is written.
+    /// The factor; 1 if the text has no factor.
     pub coefficient: f64,
     /// Name of the joint or drive.
     pub reaction: String,
 }
 
-/// Reason why a text is not a combination.
+/// Reason why a text is not a valid combination.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{problem}")]
 pub struct CombinationError {
@@ -61,26 +61,26 @@ pub enum CombinationProblem {
         /// The character found instead of a sign.
         found: char,
     },
-    /// A whole reaction among components, or a component among whole reactions.
+    /// A whole reaction in a sum of components, or a component in a sum of whole reactions.
     #[error("`{text}` is {}; write all terms with a component, or none", mixed(.whole))]
     Mixed {
-        /// The term.
+        /// Text of the term.
         text: String,
-        /// Whether it is the whole reaction.
+        /// Whether the term is a whole reaction.
         whole: bool,
     },
     /// A number before a term without `*` between them.
     #[error("a factor is written with `*`: `{factor}*{term}`")]
     NoTimes {
-        /// The number.
+        /// Text of the number.
         factor: String,
-        /// The term.
+        /// Text of the term.
         term: String,
     },
     /// A joint or drive does not exist.
     #[error("there is no joint or drive `{name}`{}", suggestion(.nearest.as_deref()))]
     UnknownReaction {
-        /// The name.
+        /// The unknown name.
         name: String,
         /// The most similar name.
         nearest: Option<String>,
@@ -88,23 +88,23 @@ pub enum CombinationProblem {
     /// A joint or drive is not active.
     #[error("`{name}` is not active, so there is no reaction")]
     Inactive {
-        /// The name.
+        /// Name of the joint or drive.
         name: String,
     },
     /// The reaction does not have a component.
     #[error("the reaction of `{reaction}` has no component `{component}`; it has {available}")]
     UnknownComponent {
-        /// The joint or drive.
+        /// Name of the joint or drive.
         reaction: String,
-        /// The component.
+        /// Name of the component.
         component: String,
-        /// Its components.
+        /// Components of the reaction.
         available: String,
     },
     /// A factor that is too large.
     #[error("the factor `{text}` is not a finite number up to {LARGEST:e}")]
     NotFinite {
-        /// The factor.
+        /// Text of the factor.
         text: String,
     },
 }
@@ -121,13 +121,13 @@ fn mixed(whole: &bool) -> &'static str {
     }
 }
 
-/// A joint or drive with the components of its reaction, if its definition is known.
+/// A joint or drive with the components of its reaction, if its definition is available.
 pub(crate) struct ReactionNames<'a> {
     pub(crate) name: &'a str,
     pub(crate) components: Option<Vec<&'static str>>,
 }
 
-/// All joints and drives, found by name.
+/// All joints and drives, with a search by name.
 pub(crate) struct Reactions<'a> {
     list: Vec<ReactionNames<'a>>,
     /// Indices by name; if a name is used twice, the first one.
@@ -153,32 +153,33 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// These, and others that are not active.
+    /// Adds the names of inactive joints and drives.
     pub(crate) fn without(mut self, inactive: impl Iterator<Item = &'a str>) -> Self {
         self.inactive.extend(inactive);
         self
     }
 
-    /// Whether a name is that of a joint or drive that is not active.
+    /// Whether a name belongs to an inactive joint or drive.
     pub(crate) fn is_inactive(&self, name: &str) -> bool {
         self.inactive.contains(name)
     }
 
-    /// Their names, in the order of the file.
+    /// Names of the joints and drives, in the order of the file.
     pub(crate) fn names(&self) -> impl Iterator<Item = &'a str> + '_ {
         self.list.iter().map(|reaction| reaction.name)
     }
 
-    /// The stored name, if there is one.
+    /// The joint or drive with this name, if there is one.
     pub(crate) fn find(&self, name: &str) -> Option<&ReactionNames<'a>> {
         self.by_name.get(name).map(|&at| &self.list[at])
     }
 
-    /// The longest name at the beginning of a text, if a term may end there.
+    /// The joint or drive with the longest name at the start of a text, if a term may end after the
+    /// name.
     fn longest_at(&self, text: &str) -> Option<&ReactionNames<'a>> {
         let reach = text.floor_char_boundary(self.longest);
         let end = (reach == text.len()).then_some(reach);
-        // One letter more than the longest name: the letter after it.
+        // The search includes one letter after the longest name.
         let ends = text[reach..]
             .chars()
             .next()
@@ -234,7 +235,8 @@ impl Combination {
         }
     }
 
-    /// Adds a term of the same kind; otherwise returns whether it was a whole wrench.
+    /// Adds a term of the same kind; for a term of the other kind, returns whether it was a whole
+    /// wrench.
     fn push(&mut self, term: ParsedTerm) -> Result<(), bool> {
         match (self, term) {
             (Self::Components(terms), ParsedTerm::Component(term)) => terms.push(term),
@@ -309,7 +311,7 @@ impl<'a> Scanner<'a> {
         }))
     }
 
-    /// A number before `*`, with a sign of its own if it has one, or 1.
+    /// A number before `*`, with its own sign if there is one; 1 without a number.
     fn factor(&mut self) -> Result<f64, CombinationError> {
         let rest = self.rest();
         let in_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c) || c.is_whitespace();
@@ -346,7 +348,7 @@ impl<'a> Scanner<'a> {
         Some((number, term.split([' ', '+']).next().unwrap_or(term)))
     }
 
-    /// The error for a term that begins with no known name.
+    /// The error for a term that starts with an unknown name.
     fn unknown(&self, all: &Reactions) -> CombinationError {
         let rest = self.rest();
         let end = |c: char| c.is_whitespace() || c == '+';
@@ -416,13 +418,13 @@ mod tests {
             ),
             ("W3+W4", terms(&[(1.0, "W3"), (1.0, "W4")])),
             ("W3", terms(&[(1.0, "W3")])),
-            // The longest name that fits.
+            // The longest fitting name is used.
             (
                 "-W3-W4-left - 2*a.b",
                 terms(&[(-1.0, "W3"), (-1.0, "W4-left"), (-2.0, "a.b")]),
             ),
             ("W4-W3", terms(&[(1.0, "W4"), (-1.0, "W3")])),
-            // A factor with a sign of its own.
+            // A factor with its own sign.
             (
                 "W3.N + -1*W4.N - -2e+1*W4.Fy",
                 terms(&[(1.0, "W3|N"), (-1.0, "W4|N"), (20.0, "W4|Fy")]),

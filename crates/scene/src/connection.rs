@@ -1,6 +1,5 @@
 //! The bodies that a joint or force connects: `body`, `bodies`, and keys of further slots. The
-//! number of bodies selects among the definitions that share a scene type, and so does the key of a
-//! variant.
+//! number of bodies and the key of a variant select one of the definitions that share a scene type.
 
 use joints::spec::Spec;
 use model::BodyRef;
@@ -17,16 +16,16 @@ pub(crate) const BODY: &str = "body";
 /// Key for two bodies.
 pub(crate) const BODIES: &str = "bodies";
 
-/// Number of slots given by `body` or `bodies`; further slots have keys of their own.
+/// Number of slots that `body` or `bodies` defines; each further slot has its own key.
 pub(crate) fn listed(spec: &Spec) -> usize {
     spec.slots.len().min(2)
 }
 
-/// The bodies of the slots `body` or `bodies`, as far as they are known.
+/// The bodies of the slots `body` or `bodies`, as far as they could be read.
 pub(crate) type NamedBodies = Vec<Option<BodyRef>>;
 
-/// Reads `body` or `bodies`. Returns `None` and reports if they are missing or if no definition
-/// accepts them.
+/// Reads `body` or `bodies`. Returns `None` and reports if the key is missing or if no definition
+/// accepts its bodies.
 pub(crate) fn named(
     table: &mut Table,
     specs: &[&'static Spec],
@@ -38,8 +37,8 @@ pub(crate) fn named(
         (true, false) => "`body = …`",
         _ => "`bodies = [first, second]`",
     };
-    // A key that no definition accepts is read only if it is written; otherwise it would count as a
-    // key of the table.
+    // A key that no definition accepts is read only if the text contains it; otherwise it would
+    // count as a key of the table.
     let mut read = |key, is_taken| {
         let asked = is_taken || table.has(key);
         asked.then(|| table.optional(key)).flatten()
@@ -92,7 +91,7 @@ pub(crate) fn named(
     }
 }
 
-/// Checks only that the bodies exist, if the definition is not known.
+/// Checks only that the bodies exist, if the definition is unknown.
 pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames) {
     if let Some(one) = table.optional(BODY) {
         bodies.find(&one);
@@ -107,8 +106,8 @@ pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames) {
     }
 }
 
-/// The bodies of all slots of the definition: the named ones, then one key for each further slot,
-/// which is the ground if it is not given.
+/// The bodies of all slots of the definition: the listed bodies, followed by one key for each
+/// further slot; its default is the ground.
 pub(crate) fn slots(
     table: &mut Table,
     spec: &'static Spec,
@@ -130,7 +129,7 @@ pub(crate) fn choose(table: &mut Table, specs: &[&'static Spec], n_named: usize)
         .filter(|&k| listed(specs[k]) == n_named)
         .collect();
     if let [only] = fitting[..] {
-        // A variant without an alternative needs no selection, but its key may be written.
+        // A variant without an alternative needs no selection, but the text may contain its key.
         if specs[only].variant.is_none() {
             return Some(only);
         }
@@ -145,7 +144,7 @@ pub(crate) fn choose(table: &mut Table, specs: &[&'static Spec], n_named: usize)
             Mistake::Registry,
             table.header.clone(),
             format!(
-                "{}: nothing tells apart the definitions {} that are registered under this type",
+                "{}: it is not possible to distinguish the definitions {} that are registered under this type",
                 table.subject,
                 list(names)
             ),
@@ -178,7 +177,7 @@ pub(crate) fn choose(table: &mut Table, specs: &[&'static Spec], n_named: usize)
     chosen.map(|(k, _)| k)
 }
 
-/// Marks keys as known that depend on a selection which could not be made.
+/// Marks keys as known that depend on a selection which was not possible.
 pub(crate) fn forgive(table: &mut Table, specs: &[&'static Spec]) {
     for key in PLACE_KEYS {
         table.optional(key);

@@ -1,4 +1,5 @@
-//! Joints of the type `coupling`: a measure of one joint follows a measure of another.
+//! Joints of the type `coupling`: one joint coordinate depends on a joint coordinate of another
+//! joint.
 
 use model::coupling::AttachedConstraint;
 

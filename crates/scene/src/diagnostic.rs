@@ -1,4 +1,4 @@
-//! Problems of a file, as data. The command renders them with colours and source lines.
+//! Problems of a file, as data. The command prints them with colours and source lines.
 
 use std::fmt;
 use std::ops::Range;
@@ -14,11 +14,11 @@ use crate::text::SourceText;
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum Severity {
-    /// The scene cannot be used.
+    /// The program cannot use the scene.
     Error,
-    /// The scene can be used, but is probably not what was intended.
+    /// The program can use the scene, but the scene is probably not what the author intended.
     Warning,
-    /// Not a problem of its own: the number of further problems.
+    /// A message about other problems: the number of further problems.
     Note,
 }
 
@@ -28,38 +28,39 @@ pub enum Severity {
 pub struct Label {
     /// Range in the text (bytes).
     pub span: Range<usize>,
-    /// Line at which it begins, from 1.
+    /// Line of the start, from 1.
     pub line: usize,
-    /// Column at which it begins, from 1, in characters.
+    /// Column of the start, from 1, in characters.
     pub column: usize,
     /// Text shown at the mark.
     pub text: String,
 }
 
-/// One problem with its places.
+/// One problem with its positions in the text.
 ///
-/// `Display` writes it in one line, `file:line:column: error: message`, as compilers do.
+/// `Display` writes the problem in one line, `file:line:column: error: message`, in the format of
+/// compilers.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Diagnostic {
-    /// Its severity.
+    /// Severity of the problem.
     pub severity: Severity,
-    /// Its code.
+    /// Code of the problem.
     pub code: Code,
     /// Name of the file.
     pub file: String,
     /// The error, with the actual and the expected entry.
     pub message: String,
-    /// The place at fault.
+    /// Position of the fault.
     pub primary: Label,
-    /// Other relevant places, for example the first use of a name.
+    /// Other relevant positions, for example the first use of a name.
     pub secondary: Vec<Label>,
     /// Advice, if any.
     pub help: Option<String>,
 }
 
 impl Diagnostic {
-    /// An error with one place.
+    /// An error with one position.
     #[must_use]
     pub fn error(
         code: impl Into<Code>,
@@ -79,7 +80,8 @@ impl Diagnostic {
         }
     }
 
-    /// It with its line and advice, for reports without the text of the scene.
+    /// The problem as one sentence with its line and advice, for reports without the text of the
+    /// scene.
     #[must_use]
     pub fn sentence(&self) -> String {
         let help = self.help.as_ref().map(|help| format!("; {help}"));
@@ -87,7 +89,7 @@ impl Diagnostic {
         format!("line {line}: {}{help}", self.message)
     }
 
-    /// Adds another place.
+    /// Adds another position.
     #[must_use]
     pub fn and(mut self, label: Label) -> Self {
         self.secondary.push(label);

@@ -1,15 +1,16 @@
-//! Dimensions of numbers: what a suffix says, what a key takes, and whether both fit.
+//! Dimensions of numbers: the dimension of a suffix, the dimension that a key requires, and whether
+//! both agree.
 
 use std::fmt;
 
 use joints::spec::Unit;
 
-/// Exponents of kg, N, m, s and rad. A force stands for itself, so that bare numbers in mm have
-/// N/mm and N·mm, as drawings have; it is compared as kg·m/s².
+/// Exponents of kg, N, m, s and rad. Force has its own exponent, so that bare numbers in mm can
+/// mean N/mm and N·mm, as in drawings; comparisons use kg·m/s².
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Dimension([i8; 5]);
 
-/// The units in which values are kept.
+/// Units of stored values.
 const SYMBOLS: [&str; 5] = ["kg", "N", "m", "s", "rad"];
 
 impl Dimension {
@@ -25,12 +26,12 @@ impl Dimension {
     pub(crate) const ANGULAR_VELOCITY: Self = Self([0, 0, 0, -1, 1]);
     pub(crate) const PER_TIME: Self = Self([0, 0, 0, -1, 0]);
 
-    /// That of a place of which nothing is known, because what it belongs to is wrong: everything
-    /// fits.
+    /// The dimension of a value whose context is wrong, so that its dimension is unknown: every
+    /// dimension agrees with it.
     pub(crate) const UNKNOWN: Self = Self([i8::MIN; 5]);
 
-    /// The dimension of a product with a power of another one; exponents that no quantity has stay
-    /// at the ends of their range.
+    /// The dimension of a product with a power of another dimension. Exponents that no physical
+    /// quantity has are limited to the ends of their range.
     pub(crate) fn times(self, other: Self, power: i8) -> Self {
         if self == Self::UNKNOWN {
             return self;
@@ -42,13 +43,13 @@ impl Dimension {
         Self(product)
     }
 
-    /// The dimension of a square root, if it has one.
+    /// The dimension of a square root, if it exists.
     pub(crate) fn root(self) -> Option<Self> {
         let is_even = self.0.iter().all(|e| e % 2 == 0);
         is_even.then(|| Self(self.0.map(|e| e / 2)))
     }
 
-    /// Exponents of length and of angle: those whose units a scene may choose.
+    /// Exponents of length and of angle, the two quantities whose units a scene may choose.
     pub(crate) fn chosen(self) -> [i8; 2] {
         if self == Self::UNKNOWN {
             return [0; 2];
@@ -56,8 +57,8 @@ impl Dimension {
         [self.0[2], self.0[4]]
     }
 
-    /// Whether a value of this dimension may stand where `expected` is asked for. An angle is a
-    /// number of radians: r·ω is a velocity and s/r an angle, but an angle alone is no ratio.
+    /// Whether a value of this dimension is allowed if `expected` is required. An angle is a number
+    /// of radians: r·ω is a velocity and s/r an angle, but a single angle is not a ratio.
     pub(crate) fn fits(self, expected: Self) -> bool {
         let mechanical = |Self([kg, n, m, s, _]): Self| {
             let [kg, n, m, s] = [kg, n, m, s].map(i32::from);
@@ -69,7 +70,7 @@ impl Dimension {
         is_unknown || same && (angle == of || angle == 0 || mechanical(self) != [0; 3])
     }
 
-    /// What it is, with its unit.
+    /// Name of the quantity, with its unit.
     pub(crate) fn words(self) -> String {
         let name = match self {
             Self::NONE => return "a number without a unit".to_owned(),
@@ -88,7 +89,7 @@ impl Dimension {
     }
 }
 
-/// The unit in which values are kept, as `N·m/rad`.
+/// Prints the unit of stored values, such as `N·m/rad`.
 impl fmt::Display for Dimension {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let factors = |sign: i32| -> Vec<String> {

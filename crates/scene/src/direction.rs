@@ -1,6 +1,6 @@
 //! Directions and axes of joints and forces. In space they are written in the axes of the first
-//! body, or of the ground (`frame = "global"`), of the described start; what is not given for
-//! another body follows from that start, like a place.
+//! body, or of the ground (`frame = "global"`), at the described start. Directions that are not
+//! given for another body follow from this start, like a reference point.
 
 mod key;
 
@@ -29,18 +29,18 @@ pub(crate) struct Directions<'b, S: SceneSpace> {
     bodies: &'b Bodies<S>,
     slots: &'b [Option<BodyRef>],
     is_global: bool,
-    /// The direction across the axis, as it is written.
+    /// The direction across the axis, as written in the text.
     across: Option<S::Vector<f64>>,
     /// Whether the axis is given for both bodies.
     is_paired: bool,
     /// The axis in the frames of the bodies of the first two slots, if it could be read.
     own: Option<[S::Vector<f64>; 2]>,
-    /// Where they come from.
+    /// Source of the directions.
     pub(crate) source: ArgumentSource<'b>,
 }
 
 impl<'b, S: SceneSpace> Directions<'b, S> {
-    /// Reads the keys beside the parameters.
+    /// Reads the keys of directions that are not parameters.
     pub(crate) fn read(
         table: &mut Table,
         spec: &'static Spec,
@@ -56,7 +56,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             own: None,
             source,
         };
-        // Other keys have been refused.
+        // Other keys have already been rejected.
         if let ArgumentSource::Markers(_) = directions.source {
             return directions;
         }
@@ -126,7 +126,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         }
     }
 
-    /// The argument of a parameter that is not in the table of the element, and its place.
+    /// The argument of a parameter that is not in the table of the element, and its position in the
+    /// text.
     pub(crate) fn given(
         &self,
         spec: &Spec,
@@ -135,18 +136,19 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         self.source.argument(spec, parameter, self.bodies)
     }
 
-    /// Whether the axis is given by `axes` already.
+    /// Whether `axes` already gives the axis.
     pub(crate) fn has_own_axes(&self) -> bool {
         self.is_paired
     }
 
-    /// The body of a slot; `None` for the ground, or if it is unknown, which has been reported.
+    /// The body of a slot; `None` for the ground, or if the body is unknown, which has been
+    /// reported.
     fn body(&self, slot: usize) -> Option<&'b S::Body> {
         let at = self.slots.get(slot).copied().flatten()?.moving()?;
         self.bodies.list.get(at)
     }
 
-    /// A direction as it is written, in the axes of the body in a slot.
+    /// A direction as written in the text, in the axes of the body in a slot.
     fn placed(&self, direction: S::Vector<f64>, slot: usize) -> S::Vector<f64> {
         let home = match self.source {
             ArgumentSource::Bearings(_) => CARRIER,
@@ -166,7 +168,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         Some(S::argument(self.placed(direction, slot)))
     }
 
-    /// The axis of a parameter; without a field that of `axes`, or the axes of the body.
+    /// The axis of a parameter; without a field, the axis in `axes`, or the axes of the body.
     pub(crate) fn axis(&self, field: Option<&Field>, slot: usize) -> Option<Argument> {
         let axis = match (field, self.own) {
             (Some(field), _) => self.placed(direction::<S>(field)?, slot),
@@ -178,15 +180,15 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         Some(S::axis(axis, across))
     }
 
-    /// The axes of the body in `slot` that are parallel at the described start to those of another
-    /// one.
+    /// The axes of the body in `slot` that are parallel, at the described start, to given axes of
+    /// another body.
     pub(crate) fn like(&self, axes: &Argument, [from, slot]: [usize; 2]) -> Argument {
         let axes = match axes {
             Argument::Axes(axes) => Some(*axes),
             Argument::Axis(axis, across) => Axes::new(*axis, *across),
             _ => None,
         };
-        // An axis that is none is reported where it is given.
+        // An invalid axis is reported at its own key.
         let axes = axes.unwrap_or(Axes::FRAME);
         let [from, to] = [from, slot].map(|slot| self.body(slot));
         let carried = axes.map(|d| S::point(S::carried(S::vector(d), from, to)));
@@ -194,7 +196,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         let own = self.own.and_then(|own| own.get(slot).copied());
         let given = own.map(|axis| {
             let axis = S::point(axis);
-            // The axis that is given may lie along one of them.
+            // The given axis may be parallel to one of these directions.
             let [of_u, of_v] = [u, v].map(|across| dot(across, axis).abs());
             Argument::Axis(axis, Some(if of_u <= of_v { u } else { v }))
         });
@@ -208,7 +210,7 @@ fn direction<S: SceneSpace>(field: &Field) -> Option<S::Vector<f64>> {
     field.vector::<S>(&expected, Dimension::NONE)
 }
 
-/// Whether `frame` says that directions are written in ground axes.
+/// Whether `frame` states that directions are written in ground axes.
 fn is_global(field: &Field) -> bool {
     let [own, global] = FRAMES;
     let expected = format!("\"{own}\" or \"{global}\"");

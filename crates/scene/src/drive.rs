@@ -1,4 +1,5 @@
-//! `[[drive]]`: measures of joints that follow a function of time, or a law.
+//! `[[drive]]`: joint coordinates that follow a function of time, and loads along joint coordinates
+//! that follow a force law.
 
 use joints::spec::Unit;
 use model::codes::Code;
@@ -28,10 +29,10 @@ const TORQUE: Key = Key::optional("torque", LAW, Takes::Law).doc(
 );
 const LAW: &str = "a number or an expression of `measure`, `rate` and `t`";
 
-/// Keys of a drive in addition to its name and its type: a motion, or one of the laws.
+/// Keys of a drive in addition to its name and its type: a motion, or one of the force laws.
 pub(crate) const DRIVE_KEYS: [Key; 4] = [JOINT, MOTION, FORCE, TORQUE];
 
-/// Description of the type of a drive.
+/// Description of the value of the type of a drive.
 pub(crate) const MEASURE: &str = "a measure of the joint";
 
 /// A drive of the text, as far as it could be read.
@@ -39,12 +40,13 @@ pub(crate) struct DriveRead<S: SceneSpace> {
     pub(crate) name: String,
     pub(crate) is_active: bool,
     pub(crate) action: Action<S>,
-    /// The joint whose place it takes, because the rows of this joint keep the measure.
+    /// The joint that the drive replaces, because the rows of this joint keep the joint coordinate
+    /// constant.
     pub(crate) in_place_of: Option<String>,
 }
 
 impl<S: SceneSpace> DriveRead<S> {
-    /// The drive by a motion, if it could be read.
+    /// The drive with a prescribed motion, if it could be read.
     pub(crate) fn motion(&self) -> Option<&Drive<S>> {
         match &self.action {
             Action::Motion(Some((drive, _))) => Some(drive),
@@ -52,7 +54,7 @@ impl<S: SceneSpace> DriveRead<S> {
         }
     }
 
-    /// The drive by a motion with its place.
+    /// The drive with a prescribed motion, and its position in the text.
     pub(crate) fn into_motion(self) -> Option<(Drive<S>, Entry)> {
         match self.action {
             Action::Motion(motion) => motion,
@@ -61,15 +63,15 @@ impl<S: SceneSpace> DriveRead<S> {
     }
 }
 
-/// What a drive does to its measure, if it could be read.
+/// Action of a drive on its joint coordinate, if it could be read.
 pub(crate) enum Action<S: SceneSpace> {
-    /// It prescribes the measure.
+    /// The drive prescribes the joint coordinate.
     Motion(Option<(Drive<S>, Entry)>),
-    /// It applies a load along the measure.
+    /// The drive applies a load along the joint coordinate.
     Law(Option<(Force<S>, Entry)>),
 }
 
-/// Reads one drive. Two drives of one measure are redundant, which is not an error.
+/// Reads one drive. Two drives of one joint coordinate are redundant, but not an error.
 pub(crate) fn read<S: SceneSpace>(
     mut table: Table,
     name: &str,
@@ -147,7 +149,7 @@ pub(crate) fn read<S: SceneSpace>(
     }
 }
 
-/// Reads the motion of a measure of this dimension.
+/// Reads the motion of a joint coordinate of this dimension.
 fn motion_of(
     field: &Field,
     dimension: Option<Dimension>,
@@ -161,7 +163,7 @@ fn motion_of(
     Some(motion)
 }
 
-/// Reads a law along a measure of this dimension.
+/// Reads a force law along a joint coordinate of this dimension.
 fn read_law(field: &Field, of: Option<Dimension>) -> Option<Law> {
     let of = of?;
     let (result, key) = if of == Dimension::ANGLE {
@@ -181,8 +183,8 @@ fn read_law(field: &Field, of: Option<Dimension>) -> Option<Law> {
     field.law(LAW, of, result)
 }
 
-/// Warns of a motion that is a number other than zero: whoever writes one may expect a speed or a
-/// place, but a drive follows f(t) − f(0).
+/// Warns of a motion that is a constant other than zero. The author may expect a speed or a
+/// position, but a drive follows f(t) − f(0).
 fn warn_if_held(motion: &Field, function: &Function) {
     let [held, ..] = function.jet(0.0);
     if held == 0.0 {

@@ -1,5 +1,5 @@
-//! Common parts of joints and forces: a type from the registry, bodies, a place and parameters. No
-//! joint and no force is known by name here.
+//! Common parts of joints and forces: a type from the registry, bodies, a reference point and
+//! parameters. This module contains no names of individual joints and forces.
 
 use joints::ArgumentError;
 use joints::spec::Spec;
@@ -24,18 +24,18 @@ use crate::source_map::Entry;
 use crate::space::{self, SceneSpace};
 use crate::table::{Table, belongs};
 
-/// The type of joints that couple two measures, which have no definition in the registry.
+/// The type of joints that couple two joint coordinates; it has no definition in the registry.
 pub(crate) const COUPLING: &str = "coupling";
 
-/// A definition of the registry.
+/// A definition in the registry.
 pub(crate) trait Definition {
-    /// Its space.
+    /// The space of the definition.
     type Space: SceneSpace;
     /// The type of the element that it builds.
     type Element;
-    /// Its description.
+    /// The description of the definition.
     fn spec(&self) -> &'static Spec;
-    /// Its constructor.
+    /// The constructor of the definition.
     fn constructor(&self) -> fn(&[joints::Argument]) -> Result<Self::Element, ArgumentError>;
 }
 
@@ -61,10 +61,10 @@ impl<S: SceneSpace> Definition for ForceDefinition<S> {
     }
 }
 
-/// An element whose definition is known, complete or not.
+/// An element with a known definition, complete or not.
 pub(crate) struct ElementRead<'d, D: Definition> {
     pub(crate) definition: &'d D,
-    /// Its bodies and the element, if everything could be read.
+    /// Bodies and element, if everything could be read.
     pub(crate) element: Option<(Vec<BodyRef>, D::Element)>,
     pub(crate) arguments: Arguments,
 }
@@ -77,7 +77,7 @@ pub(crate) struct Types<'r, S: SceneSpace> {
     /// The kind of element in the section, for messages.
     pub(crate) kind: &'static str,
     pub(crate) known: Vec<&'static str>,
-    /// The other section: its table, its kind and its types.
+    /// The other section: its table, its kind of element and its types.
     pub(crate) other: (&'static str, &'static str, Vec<&'static str>),
 }
 
@@ -94,7 +94,7 @@ impl<'r, S: SceneSpace> Types<'r, S> {
         }
     }
 
-    /// The types of forces.
+    /// Scene types without repetitions.
     pub(crate) fn of_forces(all: &'r Registry) -> Self {
         let registry = S::definitions(all);
         Self {
@@ -115,7 +115,7 @@ fn names(specs: impl Iterator<Item = &'static Spec>) -> Vec<&'static str> {
     types
 }
 
-/// The types of joints with that of couplings.
+/// The types of joints, and the type of couplings.
 fn with_coupling(mut types: Vec<&'static str>) -> Vec<&'static str> {
     let at = types.partition_point(|known| *known < COUPLING);
     types.insert(at, COUPLING);
@@ -129,7 +129,7 @@ impl<S: SceneSpace> std::fmt::Display for Types<'_, S> {
     }
 }
 
-/// Reads `type`. Returns `None` and reports if it is missing or no definition has it.
+/// Reads `type`. Returns `None` and reports if it is missing or no definition has this type.
 pub(crate) fn scene_type<S: SceneSpace>(
     table: &mut Table,
     types: &Types<S>,
@@ -176,8 +176,8 @@ pub(crate) fn scene_type<S: SceneSpace>(
     None
 }
 
-/// Reads everything that the definitions of one scene type accept. Returns `None` and reports if
-/// none of them fits.
+/// Reads everything that the definitions of one scene type accept. Returns `None` and reports if no
+/// definition fits.
 pub(crate) fn read<'d, D: Definition>(
     table: &mut Table,
     definitions: &[&'d D],
@@ -228,7 +228,7 @@ pub(crate) fn read<'d, D: Definition>(
     })
 }
 
-/// The end of every table of an element: whether it takes part has been read.
+/// The end of every table of an element; the key `active` has been read before.
 pub(crate) fn end(mut table: Table, name: &str, is_active: bool) -> Entry {
     table.optional(&ACTIVE);
     let entry = Entry::switched(name, &table, is_active);

@@ -1,11 +1,16 @@
 //! Expressions: numbers with units, names, `+ - * / ^`, brackets and functions, from a text to a
 //! number with its dimension.
 //!
-//! A parser of our own (operator precedence after V. Pratt, 1973): it has to report all unknown
-//! names and all misfits of units with their places, and to end on any text. Parsers of expressions
-//! that can be had know neither units nor places, or are whole languages.
+//! This crate has its own parser (operator precedence after V. Pratt, 1973), because it must report
+//! all unknown names and all conflicts of units with their positions, and must terminate on any
+//! text. Available expression parsers support neither units nor positions, or are complete
+//! languages.
 //!
-//! Not here: where a text stands in a file, and what names mean.
+//! This module does not determine the position of a text in a file or the meaning of names.
+//!
+//! Other parsers were rejected: evalexpr has the AGPL licence, exmex and fasteval support neither
+//! units nor text positions, and numbat is a complete language. Nested input must end with an error
+//! at its position.
 
 mod problem;
 mod quantity;
@@ -25,11 +30,11 @@ pub(crate) use unit::{in_units_here, names_of};
 
 use crate::dimension::Dimension;
 
-/// Brackets, signs and powers inside of each other: more would be a danger for the stack, and
-/// nobody can read as many.
+/// Maximum nesting depth of brackets, signs and powers. A greater depth could overflow the stack,
+/// and people cannot read such expressions.
 const DEEPEST: usize = 60;
 
-/// Functions with what they take.
+/// Functions and their arguments.
 const FUNCTIONS: [(&str, &str); 13] = [
     ("sin", "an angle"),
     ("cos", "an angle"),
@@ -48,13 +53,13 @@ const FUNCTIONS: [(&str, &str); 13] = [
 
 const PI_NAME: &str = "pi";
 
-/// The units by name, each as a quantity.
+/// All units with their names, each as a quantity.
 pub(crate) fn units() -> impl Iterator<Item = (&'static str, Quantity)> {
     let unit = |&(name, times, over, of): &_| (name, Quantity::unit(times, over, of));
     UNITS.iter().map(unit)
 }
 
-/// The unit or constant of this name.
+/// The unit or constant with this name.
 fn constant(name: &str) -> Option<Quantity> {
     if name == PI_NAME {
         return Some(Quantity::pi());
@@ -67,7 +72,7 @@ fn function(name: &str) -> Option<(&'static str, &'static str)> {
     FUNCTIONS.iter().find(|(known, _)| *known == name).copied()
 }
 
-/// What a name means to every expression, if it means anything: parameters have other names.
+/// The meaning of a name in every expression, if it has one; parameters must have other names.
 pub(crate) fn reserved(name: &str) -> Option<&'static str> {
     match name {
         PI_NAME => Some("a constant"),
@@ -76,15 +81,15 @@ pub(crate) fn reserved(name: &str) -> Option<&'static str> {
     }
 }
 
-/// All names that expressions know.
+/// All names with a meaning in every expression.
 pub(crate) fn reserved_names() -> impl Iterator<Item = &'static str> {
     let units = UNITS.iter().map(|(name, ..)| *name);
     let functions = FUNCTIONS.iter().map(|(name, _)| *name);
     units.chain(functions).chain([PI_NAME])
 }
 
-/// The names in an expression that are no units, constants or functions; none if it cannot be
-/// taken apart.
+/// The names in an expression that are neither units nor constants nor functions; empty if the
+/// expression cannot be parsed.
 pub(crate) fn names(text: &str) -> Vec<(&str, Range<usize>)> {
     let words = tokens(text).unwrap_or_default().into_iter();
     let name = |(token, span)| match token {
@@ -94,33 +99,34 @@ pub(crate) fn names(text: &str) -> Vec<(&str, Range<usize>)> {
     words.filter_map(name).collect()
 }
 
-/// What names stand for.
+/// The meaning of names.
 pub(crate) trait Scope {
-    /// The value of a parameter; inside, `None` if it has none because its own text is wrong.
+    /// The value of a parameter; the inner value is `None` if the parameter has no value because
+    /// its own text is wrong.
     fn parameter(&self, name: &str) -> Option<Option<Quantity>>;
     /// Units of bare numbers.
     fn bases(&self) -> Bases;
 }
 
-/// The value of an expression, or everything that is wrong with it; nothing if only a parameter is
-/// wrong that it names.
+/// The value of an expression, or all of its faults. The list of faults is empty if the only cause
+/// is a wrong parameter in the expression.
 pub(crate) fn evaluate(text: &str, scope: &impl Scope) -> Result<Quantity, Vec<Fault>> {
     parse(text, scope, &[])
 }
 
-/// What expressions are made of: numbers, or terms with variables.
+/// Values from which expressions are computed: numbers, or terms with variables.
 trait Value: Clone + From<Quantity> {
     fn negated(self) -> Self;
 
-    /// A result of this and another value for the sign `+ - * / ^` between them.
+    /// Result of this and another value for the operator `+ - * / ^` between them.
     fn joined(self, sign: u8, other: Self, bases: Bases) -> Result<Self, Problem>;
 
-    /// A function of as many values as it takes; the problem comes with whether its first argument
-    /// is at fault.
+    /// Applies a function to the number of values that it requires; a problem is returned with a
+    /// flag whether the first argument is at fault.
     fn call(name: &'static str, values: &[Self], bases: Bases) -> Result<Self, (bool, Problem)>;
 }
 
-/// The value of an expression that may name these variables.
+/// The value of an expression that may contain these variables.
 fn parse<V: Value>(
     text: &str,
     scope: &impl Scope,
@@ -148,7 +154,7 @@ fn parse<V: Value>(
     }
 }
 
-/// How strongly signs bind, weakest first.
+/// Precedence of operators, lowest first.
 const SUM: u8 = 1;
 const PRODUCT: u8 = 2;
 const SIGNED: u8 = 3;
@@ -160,15 +166,15 @@ struct Parser<'s, S, V> {
     at: usize,
     scope: &'s S,
     variables: &'s [(&'static str, V)],
-    /// What is wrong with names and values; the text is read on after it.
+    /// Faults of names and values; reading continues after such a fault.
     faults: Vec<Fault>,
 }
 
-/// A value, `None` after a fault, with its place.
+/// A value, `None` after a fault, with its position in the text.
 type Part<V> = (Option<V>, Range<usize>);
 
 impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
-    /// The next word with its place; the last one is always the end.
+    /// The next token with its position; the last token is always the end.
     fn peek(&self) -> (Token<'s>, Range<usize>) {
         self.tokens[self.at.min(self.tokens.len() - 1)].clone()
     }
@@ -181,13 +187,13 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         self.text.get(span.clone()).unwrap_or_default().to_owned()
     }
 
-    /// Keeps a fault of names or values.
+    /// Stores a fault of names or values.
     fn judge(&mut self, span: Range<usize>, q: Result<V, Problem>) -> Option<V> {
         let keep = |problem| self.faults.push(Fault { span, problem });
         q.map_err(keep).ok()
     }
 
-    /// The whole text.
+    /// Parses the whole text.
     fn whole(&mut self) -> Result<Option<V>, Fault> {
         if let (Token::End, span) = self.peek() {
             let problem = Problem::Empty;
@@ -200,7 +206,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// What stands where an operator or the end is expected.
+    /// The fault of a token that is not the expected operator or end.
     fn unexpected(&self, span: Range<usize>) -> Fault {
         let problem = match self.peek().0 {
             Token::Sign(b')') => Problem::Closed,
@@ -212,14 +218,14 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         Fault { span, problem }
     }
 
-    /// Operands between signs that bind at least so strongly.
+    /// Operands between operators with at least this precedence.
     fn sum(&mut self, least: u8, depth: usize) -> Result<Part<V>, Fault> {
         let (mut left, mut span) = self.operand(depth)?;
         loop {
             let Token::Sign(sign) = self.peek().0 else {
                 return Ok((left, span));
             };
-            // A power binds to the right: 2^3^2 is 2^9.
+            // A power is right-associative: 2^3^2 is 2^9.
             let (binds, of_right) = match sign {
                 b'+' | b'-' => (SUM, PRODUCT),
                 b'*' | b'/' => (PRODUCT, SIGNED),
@@ -249,7 +255,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// A number, a name, a bracket or a sign before them.
+    /// A number, a name or a bracket, with the signs before it.
     fn operand(&mut self, depth: usize) -> Result<Part<V>, Fault> {
         let (token, span) = self.peek();
         if depth > DEEPEST {
@@ -280,7 +286,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// A number, with its unit if one follows; `2 mm^2` is twice a square of 1 mm.
+    /// A number, with the unit after it if there is one; `2 mm^2` is twice a square of 1 mm.
     fn number(&mut self, q: V, span: Range<usize>, depth: usize) -> Result<Part<V>, Fault> {
         match self.peek().0 {
             Token::Name(unit) if is_unit(unit) => {
@@ -294,7 +300,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// The end of a closing bracket.
+    /// The end position of a closing bracket.
     fn close(&mut self, open: &Range<usize>) -> Result<usize, Fault> {
         let (token, span) = self.peek();
         match token {
@@ -385,7 +391,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
     }
 }
 
-/// What a function takes in its place.
+/// The required dimension of the argument of a function.
 fn taken(name: &str) -> Option<Dimension> {
     match name {
         "sin" | "cos" | "tan" => Some(Dimension::ANGLE),
@@ -410,7 +416,8 @@ impl Value for Quantity {
     }
 
     fn call(name: &'static str, q: &[Self], bases: Bases) -> Result<Self, (bool, Problem)> {
-        // Functions of numbers and angles say what they need at the value, others at the whole.
+        // Functions of numbers and angles mark faults at the argument, other functions at the whole
+        // call.
         let x = match taken(name) {
             Some(of) => q[0].at(of, bases).map_err(|e| (true, e))?,
             None => q[0],
@@ -442,8 +449,8 @@ impl Value for Quantity {
     }
 }
 
-/// What 1 − x² is at least, near the ends of arcs: the error of x, so that the arc is off by its
-/// root at most.
+/// Lower limit of 1 − x² near the ends of arcs: the error of x, so that the error of the arc is at
+/// most its square root.
 fn x_error(x: Quantity) -> f64 {
     x.error.max(f64::EPSILON)
 }

@@ -1,4 +1,5 @@
-//! One value of the file, read as the expected type. If it has another type, both are reported.
+//! One value of the file, read as the expected type. If the value has another type, the message
+//! contains both types.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -24,7 +25,7 @@ use crate::space::{self, SceneSpace};
 use crate::table::Table;
 use crate::{expression, nearest, units};
 
-/// Share of a value to which it is accurate where half of its digits have cancelled.
+/// Relative accuracy of a value after half of its digits have cancelled.
 const CANCELLED: f64 = 1e-8;
 
 /// A value with its key.
@@ -32,13 +33,13 @@ const CANCELLED: f64 = 1e-8;
 pub(crate) struct Field<'t> {
     /// Description of the table that contains it.
     pub(crate) subject: Rc<str>,
-    /// Its key.
+    /// Key of the value.
     pub(crate) key: Cow<'t, str>,
     /// The value.
     pub(crate) value: &'t Spanned<DeValue<'t>>,
-    /// What its numbers mean.
+    /// Meaning of its numbers.
     pub(crate) language: &'t Language,
-    /// Where problems are reported.
+    /// The list to which problems are added.
     pub(crate) findings: &'t Findings<'t>,
 }
 
@@ -75,7 +76,7 @@ impl<'t> Field<'t> {
         self.is_not(expected, Mistake::Type, None);
     }
 
-    /// Reports a list of `found` values which is not the expected one of `n`.
+    /// Reports a list of `found` values where a list of `n` values is expected.
     pub(crate) fn miscount(&self, expected: &str, found: usize, n: usize) {
         let mistake = if found == n {
             Mistake::Type
@@ -112,7 +113,7 @@ impl<'t> Field<'t> {
         );
     }
 
-    /// A text.
+    /// Reads a text.
     pub(crate) fn text(&self, expected: &str) -> Option<&'t str> {
         let text = self.value.get_ref().as_str();
         if text.is_none() {
@@ -121,7 +122,7 @@ impl<'t> Field<'t> {
         text
     }
 
-    /// `true` or `false`.
+    /// Reads `true` or `false`.
     pub(crate) fn boolean(&self) -> Option<bool> {
         let value = self.value.get_ref().as_bool();
         if value.is_none() {
@@ -130,25 +131,25 @@ impl<'t> Field<'t> {
         value
     }
 
-    /// Whether a number is meant: one is written, or an expression.
+    /// Whether the value may be a number: it is a number or an expression.
     pub(crate) fn may_be_number(&self) -> bool {
         let value = self.value.get_ref();
         as_number(value).is_some() || (self.language.computes && value.is_str())
     }
 
-    /// A finite number of this dimension.
+    /// Reads a finite number of this dimension.
     pub(crate) fn number(&self, of: Dimension) -> Option<f64> {
         self.number_expected("a number", of)
     }
 
-    /// A finite number of this dimension; `expected` says more about it.
+    /// Reads a finite number of this dimension; `expected` describes it in more detail.
     pub(crate) fn number_expected(&self, expected: &str, of: Dimension) -> Option<f64> {
         let number = self.judged_later(expected, of)?;
         warn_of_degrees(slice::from_ref(self), &[number]);
         Some(number.value)
     }
 
-    /// A finite number of this dimension, before anybody asks whether it is plausible.
+    /// Reads a finite number of this dimension without the check of plausibility.
     fn judged_later(&self, expected: &str, of: Dimension) -> Option<Number> {
         let written = self.quantity(expected, self.language)?;
         let bases = self.language.bases();
@@ -170,7 +171,7 @@ impl<'t> Field<'t> {
         }
     }
 
-    /// A finite number, or the value of an expression; bare numbers have no dimension yet.
+    /// Reads a finite number, or the value of an expression; bare numbers have no dimension yet.
     pub(crate) fn quantity(&self, expected: &str, language: &Language) -> Option<Quantity> {
         if let Some(text) = self.value.get_ref().as_str().filter(|_| language.computes) {
             let faults = match expression::evaluate(text, language) {
@@ -203,7 +204,8 @@ impl<'t> Field<'t> {
         }))
     }
 
-    /// A law along a measure of dimension `of`, with a force or torque of dimension `result`.
+    /// Reads a force law along a joint coordinate of dimension `of`, with a force or torque of
+    /// dimension `result`.
     pub(crate) fn law(&self, expected: &str, of: Dimension, result: Dimension) -> Option<Law> {
         let Some(text) = self.value.get_ref().as_str() else {
             let value = self.number_expected(expected, result)?;
@@ -220,7 +222,7 @@ impl<'t> Field<'t> {
         }
     }
 
-    /// Reports what is wrong with an expression, at its place.
+    /// Reports a fault of an expression, at its position.
     fn report(&self, fault: Fault, language: &Language) {
         let Fault { span, problem } = fault;
         let mut label = problem.label().to_owned();
@@ -242,7 +244,7 @@ impl<'t> Field<'t> {
         );
     }
 
-    /// Warns of digits that cancel.
+    /// Warns if digits cancel.
     fn warn_if_cancelled(&self, q: Quantity) {
         let value = q.to_f64();
         let share = q.error / value.abs();
@@ -260,7 +262,7 @@ impl<'t> Field<'t> {
         }
     }
 
-    /// A whole number within the range of the type.
+    /// Reads an integer within the range of the type.
     pub(crate) fn integer(&self, expected: &str) -> Option<i64> {
         let value = match self.value.get_ref() {
             DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix()).ok(),
@@ -285,7 +287,7 @@ impl<'t> Field<'t> {
         Some(array.iter().map(item).collect())
     }
 
-    /// A list of `n` finite numbers.
+    /// Reads a list of `n` finite numbers.
     pub(crate) fn numbers(
         &self,
         n: usize,
@@ -301,12 +303,12 @@ impl<'t> Field<'t> {
         each(&items, of)
     }
 
-    /// A list of any number of finite numbers, with the dimension of each.
+    /// Reads a list of any number of finite numbers; `of` is the dimension of each number.
     pub(crate) fn any_numbers(&self, of: impl Fn(usize) -> Dimension) -> Option<Vec<f64>> {
         each(&self.items("a list of numbers")?, of)
     }
 
-    /// The components of a vector, finite numbers of one dimension.
+    /// Reads the components of a vector, finite numbers of one dimension.
     pub(crate) fn vector<S: SceneSpace>(
         &self,
         expected: &str,
@@ -324,7 +326,7 @@ impl<'t> Field<'t> {
         S::of_numbers(&numbers)
     }
 
-    /// A matrix: three rows of three numbers.
+    /// Reads a matrix: three rows of three numbers.
     pub(crate) fn matrix(&self, expected: &str, of: Dimension) -> Option<[[f64; 3]; 3]> {
         let rows = self.items(expected)?;
         if rows.len() != 3 {
@@ -337,7 +339,7 @@ impl<'t> Field<'t> {
         rows?.try_into().ok()
     }
 
-    /// `n` points.
+    /// Reads `n` points.
     pub(crate) fn points<S: SceneSpace>(
         &self,
         n: usize,
@@ -351,7 +353,7 @@ impl<'t> Field<'t> {
         all(&items, |item| item.vector::<S>(S::POINT, Dimension::LENGTH))
     }
 
-    /// A table.
+    /// Reads a table.
     pub(crate) fn table(&self, expected: &str) -> Option<Table<'t>> {
         let Some(entries) = self.value.get_ref().as_table() else {
             self.mismatch(expected);
@@ -366,8 +368,8 @@ impl<'t> Field<'t> {
         ))
     }
 
-    /// The place of a part of its text in the file; the whole value where the text is written with
-    /// escapes.
+    /// The position of a part of this text in the file; the position of the whole value if the text
+    /// is written with escapes.
     pub(crate) fn part(&self, part: Range<usize>) -> Range<usize> {
         let whole = self.span();
         let text = self.value.get_ref().as_str().unwrap_or_default();
@@ -390,7 +392,7 @@ fn each(items: &[Field], of: impl Fn(usize) -> Dimension) -> Option<Vec<f64>> {
     Some(numbers.iter().map(|number| number.value).collect())
 }
 
-/// Warns if numbers of these fields look like degrees.
+/// Warns if numbers in these fields look like degrees.
 fn warn_of_degrees(fields: &[Field], numbers: &[Number]) {
     let Some(language) = fields.first().map(|field| field.language) else {
         return;
@@ -407,7 +409,7 @@ fn warn_of_degrees(fields: &[Field], numbers: &[Number]) {
     }
 }
 
-/// Reads all values, even after one that cannot be read.
+/// Reads all values, even after a value that cannot be read.
 pub(crate) fn all<X, Y>(from: &[X], read: impl FnMut(&X) -> Option<Y>) -> Option<Vec<Y>> {
     let read: Vec<_> = from.iter().map(read).collect();
     read.into_iter().collect()
@@ -434,7 +436,7 @@ fn whole(n: &DeInteger) -> Option<f64> {
         .map(|n| n as f64)
 }
 
-/// Length of the longest text that a message repeats.
+/// Length of the longest text that a message quotes.
 const EXCERPT: usize = 40;
 
 /// Describes the type of a value.

@@ -1,4 +1,4 @@
-//! Problems found while reading. Reading continues after each of them.
+//! Problems that are found while a file is read. Reading continues after each of them.
 
 use std::cell::{Cell, RefCell};
 use std::collections::hash_map::Entry;
@@ -13,42 +13,43 @@ use crate::mistake::Mistake;
 use crate::nearest::nearest;
 use crate::text::SourceText;
 
-/// Largest number of problems with suggested names. Comparing every unknown name with all known
-/// ones would take minutes if thousands are wrong.
+/// Largest number of problems with suggested names. A comparison of every unknown name with all
+/// known names would take minutes if thousands are wrong.
 const SUGGESTIONS: usize = 100;
 
 /// Largest number of names compared for suggestions in one file.
 const COMPARED: usize = 1_000_000;
 
-/// Largest number of problems that are listed; the others are counted. If every line contains the
-/// same mistake, this is sufficient.
+/// Largest number of problems that are listed; the others are counted. Even if every line contains
+/// the same mistake, this number is enough.
 pub(crate) const LISTED: usize = 5000;
 
 /// Largest number of warnings of one kind that are listed; the others are counted.
 const WARNED: usize = 10;
 
-/// The problems of a file, in the order in which they are found. Tables and fields refer to them,
-/// so that each value can report what is wrong with it.
+/// The problems of a file, in the order of their detection. Tables and fields refer to this list,
+/// so that each value can report its own faults.
 pub(crate) struct Findings<'s> {
-    /// The text to which places refer.
+    /// The text to which positions refer.
     pub(crate) source: &'s SourceText,
     lists: RefCell<Lists>,
     compared: Cell<usize>,
 }
 
-/// What was found.
+/// The lists of problems.
 #[derive(Default)]
 struct Lists {
     problems: Vec<Diagnostic>,
-    /// Scenes with these can be used, but are probably not what was intended.
+    /// Problems with which a scene can be used, but is probably not what the author intended.
     warnings: Vec<Diagnostic>,
-    /// Numbers of warnings of each kind: listed, and more.
+    /// Numbers of warnings of each kind: listed and not listed.
     warned: BTreeMap<Code, (usize, usize)>,
-    /// Codes of warnings that are not wanted.
+    /// Codes of warnings that the user suppresses.
     silenced: Vec<Code>,
-    /// Numbers without a unit that are not in SI: where they begin, and what one of them is.
+    /// Numbers without a unit that are not in SI: their start positions, and the SI value of 1 in
+    /// their unit.
     scales: Vec<(usize, f64)>,
-    /// Indices of problems that are explained by another one.
+    /// Indices of problems that another problem explains.
     explained: Vec<usize>,
     /// Number of problems that are not listed.
     more: usize,
@@ -77,12 +78,13 @@ impl<'s> Findings<'s> {
         self.lists.borrow().problems.len()
     }
 
-    /// Removes a problem that is a consequence of another one: one mistake gives one message.
+    /// Removes a problem that is a consequence of another one, so that one mistake causes one
+    /// message.
     pub(crate) fn explain(&self, place: usize) {
         self.lists.borrow_mut().explained.push(place);
     }
 
-    /// Whether further problems are only counted, so that their places are not needed.
+    /// Whether further problems are only counted, so that their positions are not needed.
     pub(crate) fn is_full(&self) -> bool {
         self.next() >= LISTED
     }
@@ -92,7 +94,7 @@ impl<'s> Findings<'s> {
         self.lists.borrow_mut().more += more;
     }
 
-    /// Reports an error with one place.
+    /// Reports an error with one position.
     pub(crate) fn error(
         &self,
         code: impl Into<Code>,
@@ -106,7 +108,7 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(code, self.source, span, message, label));
     }
 
-    /// Reports an error with one place and advice.
+    /// Reports an error with one position and advice.
     pub(crate) fn error_with_help(
         &self,
         code: impl Into<Code>,
@@ -121,23 +123,23 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(code, self.source, span, message, label).help(help));
     }
 
-    /// Notes that a bare number at a place stands for `scale` in SI.
+    /// Records that the unit of a bare number at this position is `scale` in SI.
     pub(crate) fn scaled(&self, at: usize, scale: f64) {
         self.lists.borrow_mut().scales.push((at, scale));
     }
 
-    /// What was noted of bare numbers.
+    /// The recorded units of bare numbers.
     pub(crate) fn take_scales(&self) -> Vec<(usize, f64)> {
         std::mem::take(&mut self.lists.borrow_mut().scales)
     }
 
-    /// Leaves out warnings with this code.
+    /// Suppresses warnings with this code.
     pub(crate) fn silence(&self, code: Code) {
         self.lists.borrow_mut().silenced.push(code);
     }
 
-    /// Adds a warning, which does not make the file invalid; its advice ends with how to silence
-    /// it. After [`WARNED`] of a kind the others are counted.
+    /// Adds a warning; a file with warnings is still valid. The advice of the warning ends with the
+    /// way to suppress it. After [`WARNED`] warnings of one kind the others are counted.
     pub(crate) fn warning(
         &self,
         code: Code,
@@ -160,7 +162,8 @@ impl<'s> Findings<'s> {
         });
     }
 
-    /// The warnings in the order of the file. The last one of a kind says how many are not listed.
+    /// The warnings in the order of the file. The last one of a kind contains the number of
+    /// warnings that are not listed.
     pub(crate) fn take_warnings(&self) -> Vec<Diagnostic> {
         let lists = &mut *self.lists.borrow_mut();
         let mut warnings = std::mem::take(&mut lists.warnings);
@@ -175,7 +178,7 @@ impl<'s> Findings<'s> {
         warnings
     }
 
-    /// Reports an error with the place of the item with which it is in conflict.
+    /// Reports an error, with the position of the item that it conflicts with.
     pub(crate) fn collision(
         &self,
         code: impl Into<Code>,
@@ -192,8 +195,8 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(code, self.source, span, message, label).and(first));
     }
 
-    /// Whether something that may be named once is named for the first time, here; else reports
-    /// both places.
+    /// Whether this is the first use of something that may be named only once; otherwise reports
+    /// both positions.
     pub(crate) fn is_first<T: Eq + Hash>(
         &self,
         named: &mut HashMap<T, Range<usize>>,
@@ -222,7 +225,7 @@ impl<'s> Findings<'s> {
         }
     }
 
-    /// The known name that was probably meant, as long as there are few problems and few names.
+    /// The known name that was probably intended; only if there are few problems and few names.
     pub(crate) fn suggest<'a>(
         &self,
         name: &str,
@@ -238,13 +241,13 @@ impl<'s> Findings<'s> {
         found
     }
 
-    /// The line of an offset, for messages that refer to another place.
+    /// The line of an offset, for messages that refer to another position.
     pub(crate) fn line(&self, offset: usize) -> usize {
         self.source.line(offset)
     }
 
-    /// All problems in the order of the file, each once; if there are too many, the last one states
-    /// the number of the others.
+    /// All problems in the order of the file without repetitions; if there are too many, the last
+    /// one states the number of the others.
     pub(crate) fn sorted(self) -> Vec<Diagnostic> {
         let Lists {
             mut problems,

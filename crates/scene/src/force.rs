@@ -12,7 +12,7 @@ use crate::space::SceneSpace;
 use crate::spring;
 use crate::table::Table;
 
-/// Reads one force with its place; `None` if it could not be read.
+/// Reads one force with its position in the text; `None` if it could not be read.
 pub(crate) fn read<S: SceneSpace>(
     mut table: Table,
     name: &str,

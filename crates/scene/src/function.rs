@@ -114,12 +114,12 @@ const fn value(name: &'static str) -> Key {
     Key::optional(name, "a number", Takes::Number(Interval::Any))
 }
 
-/// The names of the kinds.
+/// Names of the kinds.
 fn names() -> impl Iterator<Item = &'static str> {
     KINDS.iter().map(|kind| kind.name)
 }
 
-/// The interval of the times of a table; the run must stay within it.
+/// The time interval of a table; the run must stay within it.
 pub(crate) struct Domain {
     pub(crate) subject: Rc<str>,
     pub(crate) span: Range<usize>,
@@ -127,7 +127,8 @@ pub(crate) struct Domain {
     pub(crate) last: f64,
 }
 
-/// Reads a function with values of this dimension. Tables leave their domain in `domains`.
+/// Reads a function with values of this dimension. The time intervals of tables are added to
+/// `domains`.
 pub(crate) fn read(field: &Field, of: Dimension, domains: &mut Vec<Domain>) -> Option<Function> {
     const EXPECTED: &str = "a number or a function of time { type = … }";
     if field.may_be_number() {
@@ -178,8 +179,8 @@ fn steps(table: &mut Table, of: Dimension) -> Option<Function> {
     let items = field.items(STEPS.expected)?;
     let read = all(&items, |item| step(item, of));
     let (start, mut steps) = (start?, read?);
-    // The function reports only its first fault: report it, replace the step by a valid one and try
-    // again.
+    // The constructor reports only its first fault: report it, replace the step by a valid one and
+    // try again.
     let mut faultless = true;
     for _ in 0..=items.len() {
         if table.findings.is_full() {
@@ -213,7 +214,7 @@ fn step(item: &Field, of: Dimension) -> Option<[f64; 3]> {
 fn polynomial(table: &mut Table, of: Dimension, field: &Field) -> Option<Function> {
     let list = table.required(&COEFFICIENTS)?;
     let of = COEFFICIENTS.unit_in(of);
-    // That of tᵏ is the k-th power of a second below the others.
+    // The dimension of the coefficient of tᵏ is the dimension of the values divided by s^k.
     let power = |k: usize| i8::try_from(k).unwrap_or(i8::MAX);
     let coefficients = list.any_numbers(|k| of.times(Dimension::PER_TIME, power(k)))?;
     accept(Function::polynomial(&coefficients), field)

@@ -15,7 +15,7 @@ use crate::space::SceneSpace;
 use crate::table::Table;
 use crate::tolerance;
 
-/// The spaces of scenes.
+/// Names of the spaces of scenes.
 fn spaces() -> Vec<&'static str> {
     vec![Plane::NAME, Space3::NAME]
 }
@@ -25,7 +25,7 @@ const NAME: Key = Key::required("name", "the name of the scene", Takes::Text)
 const SPACE: Key = Key::required("space", "\"plane\" or \"spatial\"", Takes::OneOf(spaces))
     .doc("The space of the bodies");
 
-/// Keys of `[scene]`, in addition to gravity and those of tolerances.
+/// Keys of `[scene]`, in addition to the keys for gravity and for tolerances.
 pub(crate) const SCENE_KEYS: [Key; 2] = [NAME, SPACE];
 
 /// `[scene]`
@@ -91,9 +91,9 @@ impl<S: SceneSpace> Heading<S> {
     }
 }
 
-/// Whether the scene says that its bodies move in space. Where it says nothing or another word, the
-/// first position or point tells by its numbers, so that one mistake is not followed by many; and
-/// without one, what the word may mean.
+/// Whether the bodies of the scene move in space. If the scene gives no space or an unknown one,
+/// the number of components of the first position or point decides, so that one mistake does not
+/// cause many. Without a position or point, the probable meaning of the unknown word decides.
 pub(crate) fn is_spatial(root: &DeTable) -> bool {
     let heading = root.get(section::SCENE.name);
     let space = heading.and_then(|heading| heading.get_ref().get(SPACE.name));

@@ -1,5 +1,5 @@
-//! `[[joint]]`: constraints of the registry, couplings, and teeth between wheels. Those that name
-//! other joints are read when the others are known.
+//! `[[joint]]`: constraints of the registry, couplings, and gear meshes between wheels. Joints that
+//! refer to other joints are read after these.
 
 use model::Joint;
 
@@ -47,7 +47,7 @@ pub(crate) fn read<'r, S: SceneSpace>(
     joints
 }
 
-/// What a joint is if it names other joints.
+/// The kind of a joint that refers to other joints.
 fn naming_others<'r, S: SceneSpace>(
     table: &Table,
     types: &Types<'r, S>,

@@ -1,4 +1,4 @@
-//! Measures of joints: a drive prescribes one, a coupling relates two, a spring acts on an angle.
+//! Joint coordinates: a drive prescribes one, a coupling relates two, a spring acts on an angle.
 
 use joints::Argument;
 use joints::spec::Measure;
@@ -13,21 +13,21 @@ use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
 use crate::space::SceneSpace;
 
-/// Why a table names a joint.
+/// Purpose for which a table refers to a joint.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
-    /// To prescribe one of its measures, or a load along it.
+    /// The table prescribes a joint coordinate, or a load along it.
     Drive,
-    /// To relate one of its measures to another one.
+    /// The table relates a joint coordinate to another one.
     Couple,
-    /// To spring one of its angles.
+    /// The table adds a spring to an angle of the joint.
     Spring,
-    /// To bear a wheel.
+    /// The table uses the joint as the bearing of a wheel.
     Bear,
 }
 
 impl Purpose {
-    /// What the table does, before the joint.
+    /// The verb for this purpose in messages, before the name of the joint.
     pub(crate) fn verb(self) -> &'static str {
         match self {
             Self::Drive => "drives",
@@ -37,17 +37,17 @@ impl Purpose {
         }
     }
 
-    /// Help for a joint without a suitable measure.
+    /// Advice for a joint without a suitable joint coordinate.
     fn without_measure(self) -> &'static str {
         match self {
             Self::Drive => "joints of this type cannot be driven",
             Self::Couple | Self::Bear => "joints of this type have no measure",
-            Self::Spring => "springs act on the angle of a revolute, cylindrical or screw joint",
+            Self::Spring => "springs need a joint with a measured angle, such as `revolute`",
         }
     }
 }
 
-/// The dimension of a measure of a definition, if its drive is registered.
+/// The dimension of a joint coordinate of a definition, if its drive is registered.
 pub(crate) fn dimension<S: SceneSpace>(
     definition: &ConstraintDefinition<S>,
     measure: usize,
@@ -56,7 +56,7 @@ pub(crate) fn dimension<S: SceneSpace>(
     functions.last().map(|(_, unit)| unit.into())
 }
 
-/// A measure of a joint.
+/// A joint coordinate.
 pub(crate) struct JointMeasure<'j, 'r, S: SceneSpace> {
     pub(crate) joint: &'j JointRead<'r, S>,
     pub(crate) spec: &'static Measure,
@@ -65,8 +65,8 @@ pub(crate) struct JointMeasure<'j, 'r, S: SceneSpace> {
 }
 
 impl<'r, S: SceneSpace> JointRead<'r, S> {
-    /// The measure of this name, or the first one that is suitable. Returns `None` and reports at
-    /// a field if there is none.
+    /// The joint coordinate with this name, or the first suitable one. Returns `None` and reports
+    /// at a field if there is none.
     pub(crate) fn measure(
         &self,
         name: Option<&str>,
@@ -144,11 +144,12 @@ impl<'r, S: SceneSpace> JointRead<'r, S> {
 }
 
 impl<S: SceneSpace> JointMeasure<'_, '_, S> {
-    /// The bodies of the joint, and the arguments of a drive of the measure, if all could be read.
+    /// The bodies of the joint, and the arguments of a drive of the joint coordinate, if all could
+    /// be read.
     fn arguments(&self) -> Option<(Vec<BodyRef>, Vec<Argument>)> {
         let complete = self.joint.complete.as_ref()?;
         let mut arguments = complete.arguments.clone();
-        // That of its motion.
+        // The argument for the motion.
         arguments.push(Argument::Absent);
         Some((complete.joint.bodies.clone(), arguments))
     }
@@ -158,8 +159,8 @@ impl<S: SceneSpace> JointMeasure<'_, '_, S> {
         self.joint.complete.as_ref()?.joint.tolerance
     }
 
-    /// The bodies of the joint and the rows that prescribe the measure. The joint accepted these
-    /// arguments, so only a definition that is registered wrongly is reported.
+    /// The bodies of the joint and the rows that prescribe the joint coordinate. The joint accepted
+    /// these arguments, so only a definition with a wrong registration is reported.
     pub(crate) fn rows(&self, field: &Field) -> Option<AttachedMeasure<S>> {
         let (bodies, arguments) = self.arguments()?;
         let built = (self.drive.build)(&arguments);
@@ -167,7 +168,7 @@ impl<S: SceneSpace> JointMeasure<'_, '_, S> {
         Some((bodies, element.ok()?))
     }
 
-    /// The force that follows a law along the measure.
+    /// The force that follows a force law along the joint coordinate.
     pub(crate) fn force(&self, name: &str, law: Law, field: &Field) -> Option<Force<S>> {
         let (bodies, arguments) = self.arguments()?;
         let built = (self.drive.law)(&arguments, law);

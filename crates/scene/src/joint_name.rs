@@ -1,4 +1,5 @@
-//! Joints and their measures as other tables name them: a joint, two joints, two measures.
+//! References to joints and their joint coordinates in other tables: one joint, two joints, two
+//! joint coordinates.
 
 use std::collections::HashMap;
 
@@ -10,15 +11,15 @@ use crate::mistake::Mistake;
 use crate::nearest;
 use crate::space::SceneSpace;
 
-/// What the table of an element may refer to.
+/// The items to which the table of an element may refer.
 pub(crate) struct References<'a, 'j, 'r, S: SceneSpace> {
     pub(crate) bodies: &'a Bodies<S>,
     pub(crate) joints: &'a JointNames<'j, 'r, S>,
-    /// Whether the element takes part.
+    /// Whether the element is part of the mechanism.
     pub(crate) is_active: bool,
 }
 
-/// The joints by name.
+/// The joints, with a search by name.
 pub(crate) struct JointNames<'j, 'r, S: SceneSpace> {
     list: &'j [JointRead<'r, S>],
     /// If a name is used twice, the first joint.
@@ -34,7 +35,7 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         Self { list, by_name }
     }
 
-    /// The joint of this name, which a field contains. An active table may only name active joints.
+    /// The joint whose name this field contains. An active table may only refer to active joints.
     pub(crate) fn find(
         &self,
         name: &str,
@@ -85,7 +86,7 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         );
     }
 
-    /// The joint whose name is the value of a field.
+    /// Reads the joint whose name is the value of a field.
     pub(crate) fn one(
         &self,
         field: &Field,
@@ -95,7 +96,7 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         self.find(name, field, usage)
     }
 
-    /// Two joints.
+    /// Reads two joints.
     pub(crate) fn two(
         &self,
         field: &Field,
@@ -108,7 +109,7 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         })
     }
 
-    /// Two measures, each written `joint.measure`; names of joints may have dots themselves.
+    /// Reads two joint coordinates, each written `joint.measure`; names of joints may contain dots.
     pub(crate) fn two_measures(
         &self,
         field: &Field,
@@ -131,7 +132,7 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
     }
 }
 
-/// Both values of a list of two.
+/// Reads both values of a list of two.
 fn pair<T>(field: &Field, expected: &str, read: impl Fn(&Field) -> Option<T>) -> Option<[T; 2]> {
     let items = field.items(expected)?;
     if items.len() != 2 {

@@ -13,29 +13,29 @@ use crate::table::Table;
 /// A joint of the text, as far as it could be read.
 pub(crate) struct JointRead<'r, S: SceneSpace> {
     pub(crate) name: String,
-    /// Place of its name.
+    /// Position of its name in the text.
     pub(crate) span: Range<usize>,
     pub(crate) kind: JointKind<'r, S>,
     pub(crate) is_active: bool,
-    /// Present if all of it could be read.
+    /// Present if the whole joint could be read.
     pub(crate) complete: Option<CompleteJoint<S>>,
 }
 
-/// What a joint is.
+/// Kind of a joint.
 pub(crate) enum JointKind<'r, S: SceneSpace> {
-    /// Its type is missing or wrong.
+    /// The type is missing or wrong.
     Unknown,
-    /// It couples measures of other joints.
+    /// The joint couples joint coordinates of other joints.
     Coupling,
-    /// It has a definition.
+    /// The joint has a definition.
     Defined(&'r ConstraintDefinition<S>),
 }
 
-/// A joint with its place in the text and its arguments.
+/// A joint with its position in the text and its arguments.
 pub(crate) struct CompleteJoint<S: SceneSpace> {
     pub(crate) joint: Joint<S>,
     pub(crate) entry: Entry,
-    /// Values of the parameters of its definition.
+    /// Values of the parameters of the definition.
     pub(crate) arguments: Vec<Argument>,
 }
 
@@ -51,7 +51,7 @@ impl<'r, S: SceneSpace> JointRead<'r, S> {
         }
     }
 
-    /// Its definition, if its type is known and has one.
+    /// Definition of the joint, if its type is known and has a definition.
     pub(crate) fn definition(&self) -> Option<&'r ConstraintDefinition<S>> {
         match self.kind {
             JointKind::Defined(definition) => Some(definition),

@@ -1,5 +1,5 @@
-//! The keys of the format, used both by the reader and by the schema. Keys of joints and forces
-//! come from their definitions instead.
+//! The keys of the format, used both by the reader and by the schema. The definitions of joints and
+//! forces contain their own keys.
 
 use serde_json::Value;
 
@@ -15,11 +15,11 @@ pub(crate) struct Key {
     /// The expected value, as stated in messages.
     pub(crate) expected: &'static str,
     pub(crate) takes: Takes,
-    /// The dimension of its numbers.
+    /// Dimension of the numbers.
     pub(crate) unit: Dimension,
-    /// Whether that is multiplied by the dimension of a function's values.
+    /// Whether `unit` is multiplied by the dimension of a function's values.
     is_of_values: bool,
-    /// What it means.
+    /// Meaning of the key.
     pub(crate) doc: &'static str,
     pub(crate) is_required: bool,
     /// The default value.
@@ -35,11 +35,11 @@ pub(crate) enum Takes {
     Text,
     /// One of these texts.
     OneOf(fn() -> Vec<&'static str>),
-    /// `true` or `false`
+    /// `true` or `false`.
     Flag,
-    /// `true` or `false`, or a number that is not zero or zero.
+    /// `true` or `false`, or a number, of which only zero means `false`.
     Switch,
-    /// A whole number between these.
+    /// An integer in this range.
     Whole(i64, i64),
     /// Units of bare numbers.
     Units,
@@ -47,7 +47,7 @@ pub(crate) enum Takes {
     Warnings,
     /// One number.
     Number(Interval),
-    /// So many numbers.
+    /// A vector of this number of components.
     Vector(usize, Interval),
     /// An orientation of a body.
     Orientation,
@@ -55,11 +55,11 @@ pub(crate) enum Takes {
     Table(&'static [Key]),
     /// Three moments of inertia, or a symmetric tensor.
     Tensor,
-    /// At least so many numbers.
+    /// At least this number of numbers.
     Numbers(usize),
-    /// At least this many texts.
+    /// At least this number of texts.
     Texts(usize),
-    /// All, none, or the names of some.
+    /// All, none, or the names of some items.
     Names,
     /// Rows, counted from 1.
     Rows,
@@ -124,12 +124,12 @@ impl Key {
         }
     }
 
-    /// With other words for what it takes.
+    /// Replaces the description of the expected value.
     pub(crate) const fn expecting(self, expected: &'static str) -> Self {
         Self { expected, ..self }
     }
 
-    /// Makes it required.
+    /// Makes the key required.
     pub(crate) const fn needed(self) -> Self {
         Self {
             is_required: true,
@@ -137,12 +137,12 @@ impl Key {
         }
     }
 
-    /// With numbers of this dimension.
+    /// Sets the dimension of the numbers.
     pub(crate) const fn unit(self, unit: Dimension) -> Self {
         Self { unit, ..self }
     }
 
-    /// With numbers of the dimension of a function's values, times `unit`.
+    /// Sets the dimension of the numbers to the dimension of a function's values times `unit`.
     pub(crate) const fn of_values(self) -> Self {
         Self {
             is_of_values: true,
@@ -150,7 +150,7 @@ impl Key {
         }
     }
 
-    /// The dimension of its numbers in a function whose values have this one.
+    /// The dimension of the numbers of this key in a function with values of dimension `values`.
     pub(crate) fn unit_in(&self, values: Dimension) -> Dimension {
         if self.is_of_values {
             values.times(self.unit, 1)
@@ -159,7 +159,7 @@ impl Key {
         }
     }
 
-    /// What it means.
+    /// Sets the meaning of the key.
     pub(crate) const fn doc(self, doc: &'static str) -> Self {
         Self { doc, ..self }
     }
@@ -181,7 +181,7 @@ impl Key {
     }
 }
 
-/// Its name.
+/// Name of the key.
 impl From<&Key> for &'static str {
     fn from(key: &Key) -> Self {
         key.name

@@ -1,4 +1,4 @@
-//! What the numbers of a file mean: its format, the units of bare numbers, and its parameters.
+//! Meaning of the numbers of a file: its format, the units of bare numbers, and its parameters.
 
 pub(crate) mod read;
 
@@ -8,23 +8,23 @@ use model::words::rounded;
 
 use crate::expression::{self, Bases, Quantity, Scope};
 
-/// What the numbers of a file mean.
+/// Meaning of the numbers of a file.
 pub(crate) struct Language {
-    /// Whether texts are computed.
+    /// Whether texts may be expressions.
     pub(crate) computes: bool,
     bases: Bases,
-    /// The names of these units.
+    /// Names of the units of bare numbers.
     pub(crate) units: Units,
-    /// `None` if its own text is wrong.
+    /// Values of the parameters; `None` if the text of a parameter is wrong.
     parameters: BTreeMap<String, Option<Quantity>>,
 }
 
 /// The units in which a scene writes lengths and angles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Units {
-    /// Unit of lengths, as `mm`.
+    /// Unit of lengths, such as `mm`.
     pub length: &'static str,
-    /// Unit of angles, as `deg`.
+    /// Unit of angles, such as `deg`.
     pub angle: &'static str,
 }
 
@@ -36,7 +36,7 @@ impl Units {
     };
 }
 
-/// The unit of lengths without one.
+/// The unit of lengths that are written without a unit.
 #[derive(Clone, Copy)]
 pub(crate) struct LengthUnit {
     pub(crate) name: &'static str,
@@ -44,7 +44,7 @@ pub(crate) struct LengthUnit {
 }
 
 impl LengthUnit {
-    /// A moment of inertia, given in kg·m².
+    /// A moment of inertia for a message, given in kg·m².
     pub(crate) fn inertia(self, si: f64) -> String {
         let number = rounded(si / self.metres.powi(2));
         format!("{number} kg·{}²", self.name)
@@ -69,7 +69,7 @@ impl Scope for Language {
 }
 
 impl Language {
-    /// Numbers in metres and radians, and nothing else.
+    /// Numbers in metres and radians, without expressions and parameters.
     pub(crate) const PLAIN: Self = Self {
         computes: false,
         bases: Bases::SI,
@@ -77,7 +77,7 @@ impl Language {
         parameters: BTreeMap::new(),
     };
 
-    /// The unit of lengths that have none.
+    /// The unit of lengths that are written without a unit.
     pub(crate) fn length_unit(&self) -> LengthUnit {
         LengthUnit {
             name: self.units.length,
@@ -85,7 +85,7 @@ impl Language {
         }
     }
 
-    /// The names that an expression may have been meant to say.
+    /// The names that the author of an expression may have intended.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> + '_ {
         self.own_names()
             .chain(expression::reserved_names().map(|name| name as &str))

@@ -5,23 +5,23 @@
 //! | module | content |
 //! | --- | --- |
 //! | `limits` | largest size of a text |
-//! | `read` | the whole file, and the checks by the mechanism |
+//! | `read` | reads the whole file, and checks it with the mechanism |
 //! | `heading`, `parts` | `[scene]`; the parts of the mechanism |
 //! | `section`, `names` | tables of the first level; names that may occur only once |
-//! | `language` | what numbers mean: format, units, parameters |
-//! | `expression`, `dimension` | a text to a number with its dimension; what fits where |
-//! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
-//! | `space` | what the plane and space have different names and numbers for |
-//! | `body`, `marker`, `bodies`, `measure` | a body, places on bodies, and their names elsewhere; all of them; quantities between places |
+//! | `language` | meaning of numbers: format, units, parameters |
+//! | `expression`, `dimension` | computes a number with its dimension from a text; dimensions that a key accepts |
+//! | `table`, `field`, `key` | a table and its known keys; a value read as the expected type; the values that a key accepts |
+//! | `space` | names and numbers that differ between plane and space |
+//! | `body`, `marker`, `bodies`, `measure` | a body; points on bodies, and their names elsewhere; all bodies; quantities between points |
 //! | `element` | common parts of joints and forces: type, `connection`, `place`, `direction`, `arguments` |
 //! | `argument_source`, `between`, `bearings` | points and axes from the table itself, from markers, from other joints |
-//! | `joint`, `drive`, `force` | joints, their drives, forces; `coupling` and `spring` are those without a definition |
-//! | `joint_read`, `joint_name`, `joint_measure` | joints as far as they could be read, as other tables name them, and their measures |
-//! | `active` | what is read and takes no part |
+//! | `joint`, `drive`, `force` | joints, their drives, forces; `coupling` and `spring` are types without a definition |
+//! | `joint_read`, `joint_name`, `joint_measure` | joints as far as they could be read, joint names in other tables, and joint coordinates |
+//! | `active` | items that are read but are not part of the mechanism |
 //! | `function` | functions of time |
 //! | `start`, `simulate`, `reactions`, `combination` | requested computations |
-//! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
-//! | `plausible`, `silence` | numbers that are probably not what was meant; warnings that are not wanted |
+//! | `scene`, `source_map`, `locate` | the resulting scene, positions in the text, and positions of later errors |
+//! | `plausible`, `silence` | numbers that were probably meant otherwise; warnings that the user suppresses |
 //! | `template` | the text with other numbers |
 //! | `schema` | the format as a JSON schema, from the same keys |
 //! | `diagnostic`, `mistake`, `text`, `findings`, `nearest` | problems, their kinds and codes, lines and columns, suggested names |

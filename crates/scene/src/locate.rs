@@ -1,4 +1,4 @@
-//! Places in the file for errors that name bodies, joints and rows.
+//! Positions in the file for errors that name bodies, joints and rows.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use model::{
 use crate::diagnostic::Diagnostic;
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
 
-/// An error with a code of its own.
+/// An error with its own code.
 trait CodedError: std::error::Error {
     fn code(&self) -> Code;
 }
@@ -37,7 +37,7 @@ impl CodedError for MotionError {
     }
 }
 
-/// The place of an error of [`model::Mechanism::build`].
+/// The position of an error of [`model::Mechanism::build`].
 pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> Diagnostic {
     let (span, label) = match error {
         BuildError::NoBodies => (map.section("scene", ""), "no `[[body]]` in this scene"),
@@ -120,7 +120,7 @@ pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> 
     at(map, span, error, label)
 }
 
-/// The place of an error of [`model::start`].
+/// The position of an error of [`model::start`].
 pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     let (span, label) = match error {
         StartError::NoAssembly { misfits, .. } => {
@@ -149,8 +149,8 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// The place of given velocities that are impossible: first the drives, then the velocity, or the
-/// table that contains it.
+/// The position of given velocities that are impossible: first the drives, then the velocity, or
+/// the table that contains it.
 fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) -> Diagnostic {
     let span = match (conflict.is_kept, conflict.coordinate) {
         (true, _) => map.section("start", "keep"),
@@ -180,7 +180,7 @@ fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) 
     }
 }
 
-/// The place of an error of a run.
+/// The position of an error of a run.
 pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     let (span, label) = match error {
         MotionError::Start(error) => return start(map, error),
@@ -213,7 +213,7 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
             MotionFault::NoConfiguration { limit } => {
                 let first = limit.drives.first().map(|drive| drive.name.as_str());
                 let span = first.map_or(0..0, |name| element_key(map, name, &[]));
-                (span, "cannot go on")
+                (span, "cannot continue")
             }
             MotionFault::Massless { body, .. } => {
                 let entry = map.body(body);
@@ -233,15 +233,15 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// The places of redundant rows that require different motions: the drives among them, or all rows
-/// if there are no drives.
+/// The positions of redundant rows that require different motions: the drives among them, or all
+/// rows if there are no drives.
 fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
     forcing: &[&str],
     error: &impl CodedError,
 ) -> Diagnostic {
-    // Rows that drives prevent from holding are not wrong themselves.
+    // Rows that are violated because of drives are not wrong themselves.
     let mut spans = forcing
         .iter()
         .take(MARKS)
@@ -265,15 +265,15 @@ fn contradicting(
     at_rows(map, rows, error, marks)
 }
 
-/// Largest number of marked places for one error.
+/// Largest number of marked positions for one error.
 const MARKS: usize = 20;
 
 fn at(map: &SourceMap, span: Range<usize>, error: &impl CodedError, label: &str) -> Diagnostic {
     Diagnostic::error(error.code(), &map.text, span, error.to_string(), label)
 }
 
-/// An error of several rows, marked at their joints and drives, each once. The first mark is for
-/// the first row.
+/// An error that involves several rows, marked once at each of their joints and drives. The first
+/// mark is for the first row.
 fn at_rows<'a>(
     map: &SourceMap,
     labels: impl IntoIterator<Item = &'a RowLabel>,
@@ -284,7 +284,7 @@ fn at_rows<'a>(
     at_joints(map, joints, error, marks)
 }
 
-/// The same of joints and drives.
+/// An error that involves several joints and drives, marked once at each of them.
 fn at_joints<'a>(
     map: &SourceMap,
     names: impl IntoIterator<Item = &'a str>,
@@ -300,24 +300,24 @@ fn at_joints<'a>(
     })
 }
 
-/// The place of the joint or drive of a row.
+/// The position of the joint or drive of a row.
 fn row(map: &SourceMap, label: &RowLabel) -> Range<usize> {
     element_key(map, &label.joint, &[])
 }
 
-/// The place of the first of these keys that a joint, drive or force has, or of its name.
+/// The position of the first of these keys that a joint, drive or force has, or of its name.
 fn element_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     let entry = map.element(name);
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
 }
 
-/// The place of the first of these keys that a body, marker or measure has, or of its name.
+/// The position of the first of these keys that a body, marker or measure has, or of its name.
 fn place_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     let entry = map.places().find(|entry| entry.name == name);
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
 }
 
-/// Places of a name in the two name spaces: bodies, markers and measures; joints, drives and
+/// Positions of a name in the two name spaces: bodies, markers and measures; joints, drives and
 /// forces.
 fn uses(map: &SourceMap, name: &str) -> [Vec<Range<usize>>; 2] {
     let of = |entries: &mut dyn Iterator<Item = &Entry>| {
@@ -344,7 +344,7 @@ pub(crate) fn duplicates(
     later.iter().map(again).collect()
 }
 
-/// The place of a wrong number of the body with this name.
+/// The position of a wrong number of the body with this name.
 fn body_key(
     map: &SourceMap,
     d: &AnyDescription,
@@ -361,7 +361,7 @@ fn body_key(
     found.map_or(0..0, |(_, entry)| entry.span(&key))
 }
 
-/// The place of the wrong bodies of the element with this name. A drive has the bodies of its
+/// The position of the wrong bodies of the element with this name. A drive has the bodies of its
 /// joint.
 fn connection(
     map: &SourceMap,

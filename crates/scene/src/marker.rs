@@ -1,4 +1,4 @@
-//! `[[marker]]`: places of bodies by name, and their names elsewhere in the file.
+//! `[[marker]]`: named points of bodies, and references to these names elsewhere in the file.
 
 use std::collections::HashMap;
 
@@ -38,9 +38,8 @@ const ORIENTATION: Key = Key::optional(
     Takes::Orientation,
 )
 .doc("Orientation of its axes in the frame of the body, written as that of a body: { quaternion }, { axis, angle }, { rpy } or { matrix }; z is the axis of a joint between markers, x lies across it");
-const TOLERANCE: Key = tolerance::length(
-    "What its point is known to, wherever it is used; that of its body, or of the scene, where it is not given",
-);
+const TOLERANCE: Key =
+    tolerance::length("Tolerance of its point [default: tolerance of its body or of the scene]");
 
 /// Keys of a marker in addition to its name.
 pub(crate) fn keys(space: SpaceKind) -> &'static [Key] {
@@ -58,10 +57,10 @@ fn all_keys() -> impl Iterator<Item = (&'static str, &'static str)> {
     of::<Plane>().chain(of::<Space3>())
 }
 
-/// What is said of a marker where another thing is expected.
+/// Description of a marker in messages that expect another value.
 const NAME: &str = "the name of a marker";
 
-/// The markers that were read, with their places.
+/// The markers of the text, with their indices.
 #[derive(Default)]
 pub(crate) struct Markers {
     pub(crate) list: Vec<Marker>,
@@ -106,8 +105,8 @@ impl Markers {
         }
     }
 
-    /// Whether a field that takes a place says the name of a marker: it has a text, which is not a
-    /// number with a unit where there are no markers.
+    /// Whether a field for a point contains the name of a marker: its value is a text, and it is
+    /// not a number with a unit in a scene without markers.
     pub(crate) fn may_be(&self, field: &Field) -> bool {
         let text = field.value.get_ref().as_str();
         text.is_some_and(|text| {
@@ -116,8 +115,8 @@ impl Markers {
         })
     }
 
-    /// The index of the marker with the name in this field. Returns `None` if it is unknown, which
-    /// is reported, or could not be read, which has been.
+    /// The index of the marker with the name in this field. Returns `None` if the name is unknown,
+    /// which is reported here, or if the marker could not be read, which has been reported before.
     pub(crate) fn index(&self, field: &Field) -> Option<usize> {
         let name = field.text(NAME)?;
         if let Some(found) = self.by_name.get(name) {
@@ -139,7 +138,7 @@ impl Markers {
         None
     }
 
-    /// Like [`Self::index`], the marker itself.
+    /// Like [`Self::index`], but returns the marker itself.
     pub(crate) fn find(&self, field: &Field) -> Option<&Marker> {
         self.index(field).map(|at| &self.list[at])
     }

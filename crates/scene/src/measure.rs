@@ -45,7 +45,7 @@ fn in_space() -> Vec<&'static str> {
     kinds(SpaceKind::Space3)
 }
 
-/// Reads one measure with its place; `None` if it could not be read.
+/// Reads one measure with its position in the text; `None` if it could not be read.
 pub(crate) fn read(
     mut table: Table,
     name: &str,

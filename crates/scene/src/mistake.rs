@@ -1,5 +1,5 @@
-//! The kinds of mistakes in the text of a scene, each with its code. Mistakes of the mechanism that
-//! is described, of its start and of its runs have the codes of their own errors.
+//! The kinds of mistakes in the text of a scene, each with its code. Mistakes of the described
+//! mechanism, of its start and of its runs have the codes of their own errors.
 
 use joints::ArgumentError;
 use model::codes::Code;
@@ -10,15 +10,15 @@ use crate::expression::Problem;
 /// A kind of mistake in the text of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mistake {
-    /// The text is not TOML.
+    /// The text is not valid TOML.
     NotToml,
     /// A table has no such key.
     UnknownKey,
-    /// A table lacks a key, or the scene a table.
+    /// A key is missing in a table, or a table is missing in the scene.
     Missing,
     /// A name or an entry is given twice.
     Twice,
-    /// A value is of another kind than its key requires.
+    /// The kind of a value differs from the kind that its key requires.
     Type,
     /// A text is not an expression.
     Syntax,
@@ -36,7 +36,7 @@ pub(crate) enum Mistake {
     NoDirection,
     /// A text that is too large to be read.
     TooLarge,
-    /// A word that is none of those which a key takes.
+    /// A text that is not one of the allowed values of a key.
     UnknownChoice,
     /// Keys of one table that exclude each other.
     Exclusive,
@@ -52,15 +52,15 @@ pub(crate) enum Mistake {
     UnknownMarker,
     /// A joint or drive that does not exist.
     UnknownJoint,
-    /// A measure that a joint does not have.
+    /// A joint does not have this joint coordinate.
     UnknownMeasure,
     /// A force along an angle, or a torque along a length.
     OtherLoad,
     /// A reference to something that is not active.
     Inactive,
-    /// A marker of another body than is needed.
+    /// A marker that belongs to a wrong body.
     ForeignMarker,
-    /// Joints that do not bear two wheels on one carrier.
+    /// Joints that do not support two wheels on one carrier.
     Bearings,
     /// An output with too many rows.
     TooManyRows,
@@ -74,7 +74,7 @@ pub(crate) enum Mistake {
     Units,
     /// An expression without a finite value.
     NoValue,
-    /// Definitions of joints that are not registered as the reader needs them.
+    /// Definitions of joints whose registration does not meet the requirements of the reader.
     Registry,
     /// A list without entries.
     EmptyList,
@@ -89,7 +89,7 @@ pub(crate) enum Mistake {
 }
 
 impl Mistake {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     pub(crate) fn code(self) -> Code {
         match self {
             Self::NotToml => const { Code::new(101) },
@@ -148,7 +148,7 @@ impl From<&ArgumentError> for Mistake {
             ArgumentError::NotFinite { .. } => Self::NotFinite,
             ArgumentError::Negative { .. } => Self::OutOfRange,
             ArgumentError::NoDirection { .. } => Self::NoDirection,
-            // What definitions may refuse later is a value.
+            // Further faults that definitions may report are faults of a value.
             _ => Self::OutOfRange,
         }
     }

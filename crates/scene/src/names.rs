@@ -1,5 +1,5 @@
-//! Names of bodies, markers and measures, of joints, drives and forces, and of groups: within each
-//! of these name spaces a name occurs once.
+//! Names of bodies, markers and measures, of joints, drives and forces, and of groups: each name
+//! may occur only once in each of these name spaces.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
@@ -24,7 +24,7 @@ pub(crate) struct Names {
     pub(crate) space: SpaceKind,
 }
 
-/// A name and its place.
+/// A name and its position in the text.
 pub(crate) struct NameUse {
     name: String,
     span: Range<usize>,
@@ -39,7 +39,7 @@ impl NameUse {
     }
 }
 
-/// The column of time.
+/// The name of the time column.
 const TIME: &str = "t";
 
 impl Names {

@@ -1,10 +1,10 @@
 //! Suggests the name that was probably intended.
 
-/// Longer names are not compared: the effort grows with the square of the length.
+/// Longer names are not compared, because the work grows with the square of the length.
 const LONGEST: usize = 80;
 
-/// What other programs and books call something, and its name here, as the book lists them. Words
-/// for suggestions only: those that are no candidates are passed over.
+/// Names in other programs and books, and the names used here, as listed in the book. These words
+/// are used only for suggestions; words that are not candidates are skipped.
 pub const ELSEWHERE: &[(&str, &str)] = &[
     ("pin", "revolute"),
     ("hinge", "revolute"),
@@ -97,8 +97,9 @@ pub const ELSEWHERE: &[(&str, &str)] = &[
     ("--dt", "--max-step"),
 ];
 
-/// The candidate nearest to `name`, if one is near enough: what other programs call by this name,
-/// or one of whose letters at most a third differ, and not all. A plural is near.
+/// The candidate nearest to `name`, if one is near enough. A candidate is near if other programs
+/// use `name` for it, or if one is the plural of the other. It is also near if at most a third of
+/// its letters (but not all) differ.
 ///
 /// ```
 /// assert_eq!(pfaff_scene::nearest("hinge", ["fixed", "revolute"]), Some("revolute"));
@@ -143,7 +144,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
-/// What other programs and books call by this name, and is called otherwise here.
+/// The name used here for a name of other programs and books, if it differs.
 pub(crate) fn meant(name: &str) -> Option<&'static str> {
     let mut known = ELSEWHERE.iter();
     known.find_map(|(said, here)| name.eq_ignore_ascii_case(said).then_some(*here))
@@ -173,7 +174,7 @@ pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// The compared letters: case is ignored.
+/// The letters that are compared: upper and lower case count as equal.
 fn lower(text: &str, out: &mut Vec<char>) {
     out.clear();
     if text.is_ascii() {
@@ -183,7 +184,7 @@ fn lower(text: &str, out: &mut Vec<char>) {
     }
 }
 
-/// Three rows of the table of distances between beginnings of two texts.
+/// Three rows of the table of distances between initial parts of two texts.
 #[derive(Default)]
 struct Rows {
     before: Vec<usize>,
@@ -205,8 +206,8 @@ impl Rows {
         for (j, x) in self.last.iter_mut().enumerate() {
             *x = j;
         }
-        // An exchange uses two rows before: no distance is below the smaller of the minima of the
-        // last two rows.
+        // An exchange of neighbours uses the second-last row: no distance is below the smaller of
+        // the minima of the last two rows.
         let mut least_before = 0;
         for i in 1..=a.len() {
             let Self { before, last, row } = self;
@@ -278,7 +279,7 @@ mod tests {
         assert_eq!(nearest("D", ["A", "B"]), None);
         assert_eq!(nearest("a", ["B", "A"]), Some("A"));
         assert_eq!(nearest("bodies", ["joint", "body"]), Some("body"));
-        // The first one if several are equally similar.
+        // The first candidate is used if several are equally similar.
         let near = nearest("crank-10", ["crank-1", "crank-20", "Crank-10", "crank-10"]);
         assert_eq!(near, Some("Crank-10"));
     }

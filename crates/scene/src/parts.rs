@@ -1,4 +1,4 @@
-//! The parts of the mechanism: bodies, places on them, joints, drives and forces.
+//! The parts of the mechanism: bodies, points on bodies, joints, drives and forces.
 
 use std::collections::HashSet;
 
@@ -90,8 +90,8 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         }
     }
 
-    /// Joints and drives by name, including those that could not be read: all, or those that take
-    /// part.
+    /// Joints and drives by name, including those that could not be read: all, or only the active
+    /// ones.
     pub(crate) fn reactions(&self, of: Participation) -> Reactions<'_> {
         let space = self.names.space;
         let joints = self.joints.iter().map(|joint| {
@@ -132,7 +132,7 @@ impl<'r, S: SceneBody> Parts<'r, S> {
     }
 }
 
-/// Which joints and drives may be named.
+/// Which joints and drives a reference may name.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Participation {
     Any,

@@ -1,6 +1,6 @@
-//! The place of a joint or force: `at`, a global point of the described configuration, or points in
-//! the frames of the bodies; or markers instead of these points. Points are stored relative to the
-//! centres of mass.
+//! The reference point of a joint or force: `at`, a global point of the described configuration, or
+//! points in the frames of the bodies; or markers instead of these points. Points are stored
+//! relative to the centres of mass.
 
 use std::ops::Range;
 
@@ -18,20 +18,20 @@ use crate::nearest::list;
 use crate::space::SceneSpace;
 use crate::table::Table;
 
-/// Points in the frames of their bodies, in the order of the point parameters, `None` if not
-/// readable; and their places in the text.
+/// Points in the frames of their bodies, in the order of the point parameters, `None` if they could
+/// not be read; and their positions in the text.
 pub(crate) struct Place<S: SceneSpace> {
     pub(crate) points: Vec<Option<S::Vector<f64>>>,
     pub(crate) span: Range<usize>,
 }
 
-/// The key of the place in global coordinates.
+/// The key of the reference point in global coordinates.
 pub(crate) const AT: &str = "at";
 
-/// The key of the place in the frame of one body.
+/// The key of the reference point in the frame of one body.
 pub(crate) const POINT: &str = "point";
 
-/// The key of the place in the frames of the bodies.
+/// The key of the reference point in the frames of the bodies.
 pub(crate) fn local_key(spec: &Spec) -> &'static str {
     if listed(spec) == 1 || spec.bearings {
         POINT
@@ -40,7 +40,7 @@ pub(crate) fn local_key(spec: &Spec) -> &'static str {
     }
 }
 
-/// The frames in which the points of such a key are, in words.
+/// Description of the frames for the points of such a key.
 fn frames(local_key: &str) -> &'static str {
     match local_key {
         POINT => "in the frame of the body",
@@ -48,8 +48,8 @@ fn frames(local_key: &str) -> &'static str {
     }
 }
 
-/// The slots of the bodies in whose frames the points are that a table gives: all of a definition,
-/// or the last one if bearings give the others.
+/// The slots of the bodies whose points a table gives: all slots of a definition, or the last one
+/// if bearings define the others.
 pub(crate) fn slots_of_points(spec: &Spec) -> Vec<usize> {
     let mut slots: Vec<usize> = spec.slots_of_points().collect();
     if spec.bearings {
@@ -58,8 +58,8 @@ pub(crate) fn slots_of_points(spec: &Spec) -> Vec<usize> {
     slots
 }
 
-/// Reads the place of a definition whose slots contain the bodies `slots`: points of the bodies in
-/// the slots `of`.
+/// Reads the reference point of a definition whose slots contain the bodies `slots`: points of the
+/// bodies in the slots `of`.
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     spec: &'static Spec,
@@ -116,7 +116,7 @@ pub(crate) fn read<S: SceneSpace>(
     }
 }
 
-/// `at`: one common point, or one for each parameter.
+/// Reads `at`: one common point, or one point for each parameter.
 fn global<S: SceneSpace>(
     at: &Field,
     spec: &Spec,
@@ -140,7 +140,7 @@ fn global<S: SceneSpace>(
     of.iter().enumerate().map(local).collect()
 }
 
-/// A point that `at` gives, in the frame of a body relative to its centre of mass.
+/// A point given by `at`, in the frame of a body relative to its centre of mass.
 fn local<S: SceneSpace>(
     at: &Field,
     point: &PointText<S>,
@@ -159,13 +159,13 @@ fn local<S: SceneSpace>(
     Some(local)
 }
 
-/// A point as it is written.
+/// A point as written in the text.
 enum PointText<'b, S: SceneSpace> {
     At(S::Vector<f64>),
     Of(&'b Marker),
 }
 
-/// A vector, or the name of a marker. Returns `None` and reports if it is neither.
+/// Reads a vector, or the name of a marker. Returns `None` and reports if the value is neither.
 fn point<'b, S: SceneSpace>(
     field: &Field,
     expected: &str,
@@ -178,7 +178,7 @@ fn point<'b, S: SceneSpace>(
     point.map(PointText::At)
 }
 
-/// The fields of `n` points. Returns `None` and reports if there are not as many.
+/// The fields of `n` points. Returns `None` and reports if the number of points differs.
 fn several<'t>(
     field: &Field<'t>,
     n: usize,
@@ -194,7 +194,8 @@ fn several<'t>(
     None
 }
 
-/// Points in the frame of one body, relative to its centre of mass; a list if there are several.
+/// Reads points in the frame of one body, relative to its centre of mass; a list if there are
+/// several.
 fn of_body<S: SceneSpace>(
     field: &Field,
     n: usize,
@@ -228,7 +229,7 @@ fn of_body<S: SceneSpace>(
     fields.iter().map(&mut local).collect()
 }
 
-/// `points`: a table whose keys are the names of the bodies that have points.
+/// Reads `points`: a table whose keys are the names of the bodies that have points.
 fn by_body<S: SceneSpace>(
     field: &Field,
     of: &[usize],
@@ -239,7 +240,7 @@ fn by_body<S: SceneSpace>(
     let Some(table) = field.table(S::BY_BODY) else {
         return points;
     };
-    // If a name is missing, it cannot be decided which keys are right.
+    // If a body has no name, the reader cannot decide which keys are right.
     let Some(owners) = of
         .iter()
         .map(|&slot| slots.get(slot).copied().flatten())
@@ -255,7 +256,7 @@ fn by_body<S: SceneSpace>(
     let foreign = given
         .iter()
         .filter(|(_, value)| !names.contains(&&*value.key));
-    // One point with another name is one mistake.
+    // One point with a wrong name is one mistake.
     let meant = match (missing.len(), foreign.count()) {
         (1, 1) => missing.pop(),
         _ => None,

@@ -1,9 +1,9 @@
-//! Warnings of numbers with which everything can be computed, but which were probably meant in
-//! another unit, or are a slip. The thresholds lie between what is built and what a wrong unit
-//! makes of it; whoever means such a number silences the warning by its code (`silence`).
+//! Warnings of numbers that are valid, but were probably meant in another unit or are typing
+//! errors. The thresholds lie between numbers of real machines and the numbers that result from a
+//! wrong unit. An author who intends such a number suppresses the warning by its code (`silence`).
 //!
-//! What one value shows is judged where it is read, angles by `angles`; what needs the mechanism is
-//! in `mechanism`.
+//! A check that needs only one value is made when the value is read, for angles in `angles`. Checks
+//! that need the mechanism are in `mechanism`.
 
 pub(crate) mod angles;
 mod mechanism;
@@ -19,16 +19,18 @@ use crate::field::Field;
 
 pub(crate) use mechanism::check;
 
-/// Acceleration of free fall on the Earth (m/s²): the standard value.
+/// Standard acceleration of free fall on the Earth (m/s²).
 const EARTH: f64 = 9.80665;
 
-/// Share by which a gravity of the Earth may differ from it: 10 m/s² is written, too.
+/// Share by which a gravity of the Earth may differ from the standard value, because 10 m/s² is
+/// also used.
 const NEAR_EARTH: f64 = 0.03;
 
-/// Largest gravity that is meant (m/s²): twice that of Jupiter, the largest of a planet.
+/// Largest plausible gravity (m/s²): twice the gravity of Jupiter, which is the largest of the
+/// planets.
 const LARGEST_GRAVITY: f64 = 50.0;
 
-/// Warns of a gravity that no planet has, and of one that is that of the Earth in another unit.
+/// Warns of a gravity that no planet has, and of the gravity of the Earth in another unit.
 pub(crate) fn gravity(field: &Field, gravity: &[f64]) {
     let size = norm(gravity);
     let is_earth = |x: f64| (x / EARTH - 1.0).abs() <= NEAR_EARTH;
@@ -37,7 +39,7 @@ pub(crate) fn gravity(field: &Field, gravity: &[f64]) {
     let lengths = || lengths().map(|(name, unit)| (name, unit.to_f64()));
     let mut others = lengths().filter(|(_, metres)| *metres != 1.0);
     let own = Some(base.metres).filter(|metres| *metres != 1.0);
-    // In another unit, or in metres where bare numbers are in another one.
+    // The number may be in another unit, or in metres although bare numbers are in another unit.
     let (meant, why) = if let Some((name, metres)) = others.find(|(_, u)| is_earth(size * u)) {
         (Some(metres), format!("it looks like {name}/s²"))
     } else if let Some(metres) = own.filter(|metres| is_earth(size / metres)) {
@@ -71,8 +73,8 @@ pub(crate) fn gravity(field: &Field, gravity: &[f64]) {
     );
 }
 
-/// Warns of rows that are farther apart than the run is long. A run of no time is a start with its
-/// reactions.
+/// Warns of output rows that are farther apart than the duration of the run. A run of zero duration
+/// is a start with its reactions.
 pub(crate) fn output_step(step: &Field, [each, end]: [f64; 2]) {
     if !(each > end && end > 0.0) {
         return;
@@ -89,7 +91,7 @@ pub(crate) fn output_step(step: &Field, [each, end]: [f64; 2]) {
     );
 }
 
-/// Warns of a measure between two places of one body, which never changes.
+/// Warns of a measure between two points of one body, which is constant.
 pub(crate) fn measure(field: &Field, between: [Option<usize>; 2], markers: &[Marker]) {
     let body = |k: Option<usize>| k.map_or(BodyRef::Ground, |k| markers[k].body);
     let [first, second] = between;

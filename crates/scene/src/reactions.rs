@@ -16,7 +16,7 @@ use crate::table::Table;
 /// A combination of reactions on which a verdict is requested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupRequest {
-    /// Its name.
+    /// Name of the group.
     pub name: String,
     /// The combined reactions.
     pub content: GroupContent,
@@ -25,9 +25,9 @@ pub struct GroupRequest {
 /// Content of a group.
 #[derive(Clone, Debug, PartialEq)]
 pub enum GroupContent {
-    /// The reactions of these joints and drives together.
+    /// The reactions of these joints and drives, analysed together.
     Members(Vec<String>),
-    /// A sum.
+    /// A sum of reactions.
     Combination(Combination),
 }
 
@@ -52,7 +52,7 @@ impl Default for Output {
     }
 }
 
-/// Which reactions are written.
+/// The reactions that are written to files.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum WantedReactions {
     /// Reactions of all joints and drives.
@@ -60,7 +60,7 @@ pub enum WantedReactions {
     All,
     /// No reactions.
     None,
-    /// Reactions of these joints and drives.
+    /// The reactions of these joints and drives.
     Of(Vec<String>),
 }
 
@@ -71,7 +71,7 @@ const COMBINE: Key =
         "A sum of components as \"W3.N + W4.N\" or of whole reactions as \"W3 + W4\", with factors where wanted",
     );
 
-/// Keys of which a group has one, in addition to its name.
+/// Keys that exclude each other in a group; it has exactly one of them, in addition to its name.
 pub(crate) const GROUP_KEYS: [Key; 2] = [MEMBERS, COMBINE];
 
 const TRAJECTORY: Key = Key::optional("trajectory", "true or false", Takes::Flag)
@@ -154,7 +154,7 @@ pub(crate) fn output(mut table: Table, names: &Reactions) -> Output {
     output
 }
 
-/// A list of joints and drives, each once.
+/// Reads a list of joints and drives without repetitions.
 fn members(field: &Field, names: &Reactions) -> Option<Vec<String>> {
     let expected = if field.key == REACTIONS.name {
         REACTIONS.expected

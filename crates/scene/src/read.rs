@@ -1,4 +1,4 @@
-//! From a text to a scene, or to all of its problems.
+//! Reads a text as a scene, or returns all of its problems.
 
 mod syntax;
 
@@ -39,7 +39,7 @@ use crate::text::SourceText;
 /// forces that the text may use.
 ///
 /// # Errors
-/// All problems of the text, in the order of the text. If a file is not TOML, only that is
+/// All problems of the text, in the order of the text. If a file is not TOML, only this problem is
 /// reported. A scene without problems is a description that [`model::Mechanism::build`] accepts.
 ///
 /// ```
@@ -57,10 +57,10 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     checked(source_name, text, registry).map(|(scene, _)| scene)
 }
 
-/// Like [`read()`], with the mechanism of the scene: it has been built to check the text.
+/// Like [`read()`], but also returns the mechanism of the scene, which was built to check the text.
 ///
 /// # Errors
-/// As [`read()`].
+/// Returns the same errors as [`read()`].
 ///
 /// ```
 /// use model::Registry;
@@ -79,7 +79,7 @@ pub fn read_and_build(
     if scene.inactive.is_empty() {
         return Ok((scene, mechanism));
     }
-    // The mechanism that was checked has what is not active, too.
+    // The mechanism that was checked also contains the inactive parts.
     match Mechanism::build(&scene.description) {
         Ok(mechanism) => Ok((scene, mechanism)),
         Err(errors) => Err(errors
@@ -118,7 +118,7 @@ fn checked(
     scene.units = language.units;
     let unit = language.length_unit();
     drop(language);
-    // Large compared with what was read from it.
+    // The parsed text is large compared with the scene read from it.
     drop(root);
     let mechanism = match &scene.source {
         Some(source) => check(&scene.description, source, unit, &findings),
@@ -214,7 +214,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
     }
 }
 
-/// Groups with their places.
+/// Reads the groups, with their positions in the text.
 fn groups<S: SceneBody>(root: &mut Table, parts: &mut Parts<S>) -> (Vec<GroupRequest>, Vec<Entry>) {
     let found = tables(root, &section::GROUP);
     let mut entries = Vec::with_capacity(found.len());
@@ -237,9 +237,9 @@ fn groups<S: SceneBody>(root: &mut Table, parts: &mut Parts<S>) -> (Vec<GroupReq
     (groups, entries)
 }
 
-/// Builds the mechanism. Reports what it refuses, or else what is not plausible in it. The
-/// existence of bodies has already been checked, and so have names, including those of tables that
-/// could not be read.
+/// Builds the mechanism. Reports the errors of the build, or otherwise implausible data of the
+/// mechanism. The existence of bodies and the names, including those of unreadable tables, have
+/// already been checked.
 fn check(
     description: &AnyDescription,
     source: &SourceMap,
@@ -261,12 +261,12 @@ fn check(
         }
         match error {
             BuildError::DuplicateName { .. } | BuildError::Ground | BuildError::NoBodies => {}
-            // Its joint has the same problem.
+            // The joint of the drive has the same problem.
             BuildError::Tolerance {
                 of: ToleranceScope::Drive(_),
                 ..
             } => {}
-            // Its joint has the same problem.
+            // The joint of the drive has the same problem.
             BuildError::SameBody { name, .. } | BuildError::GroundOnly { name }
                 if of_drive(name) => {}
             _ => findings.report(locate::build(source, description, error)),

@@ -1,5 +1,5 @@
-//! A mechanism with the requested computations: the result of reading a text, or written directly
-//! by a program.
+//! A mechanism with the requested computations: the result of reading a text, or a description that
+//! a program has created.
 
 use dynamics::{MotionError, MotionOptions};
 use model::{
@@ -15,8 +15,8 @@ use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
 use crate::source_map::{Entry, SourceMap};
 
-/// A mechanism, the requested computations, and the places of all of these in the file, if it was
-/// read from one.
+/// A mechanism, the requested computations, and the positions of all of these in the file, if it
+/// was read from a file.
 ///
 /// ```
 /// use dynamics::MotionOptions;
@@ -42,25 +42,25 @@ pub struct Scene {
     pub output: Output,
     /// Combinations of reactions on which verdicts are requested.
     pub groups: Vec<GroupRequest>,
-    /// Places in the text; `None` if there is no text.
+    /// Positions in the text; `None` if there is no text.
     pub source: Option<SourceMap>,
-    /// Units of the numbers of the text that have none.
+    /// Units of numbers that the text gives without a unit.
     pub units: Units,
-    /// Numbers of the text without a unit that are not in SI, because `units` chooses another one:
-    /// where they begin, and what a one there is in SI.
+    /// Numbers of the text without a unit that are not in SI, because `units` chooses another unit:
+    /// their start positions, and the SI value of 1 in their unit.
     pub scales: Vec<(usize, f64)>,
-    /// What the text says is not active: it was checked, and is in no list.
+    /// Inactive parts of the text: they were checked, but are not part of the mechanism.
     pub inactive: Vec<Inactive>,
-    /// Parts of the text that can be used, but are probably not what was intended.
+    /// Parts of the text that can be used, but are probably not what the author intended.
     pub warnings: Vec<Diagnostic>,
 }
 
-/// A part of a scene that is read and takes no part.
+/// A part of a scene that is read but is not part of the mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Inactive {
     /// `joint`, `drive`, `force` or `group`.
     pub kind: &'static str,
-    /// Its name.
+    /// Name of the part.
     pub name: String,
 }
 
@@ -70,7 +70,8 @@ impl std::fmt::Display for Inactive {
     }
 }
 
-/// A scene with the mechanism only: everything else by default, and no run.
+/// A scene that contains only the mechanism: all other settings have their defaults, and no run is
+/// requested.
 impl From<AnyDescription> for Scene {
     fn from(description: AnyDescription) -> Self {
         Self {
@@ -93,13 +94,13 @@ impl From<SpatialDescription> for Scene {
 }
 
 impl Scene {
-    /// Its name.
+    /// Name of the scene.
     #[must_use]
     pub fn name(&self) -> &str {
         self.description.name()
     }
 
-    /// Its text, if there is one.
+    /// Text of the scene, if there is one.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         self.source.as_ref().map(|source| source.text.text())
@@ -110,21 +111,22 @@ impl Scene {
         self.warnings.iter().map(Diagnostic::sentence)
     }
 
-    /// The place of an error of [`model::Mechanism::build`], for descriptions that were changed
-    /// after reading. Returns `None` if there is no text, as do the other functions for places.
+    /// The position of an error of [`model::Mechanism::build`], for descriptions that were changed
+    /// after reading. This function and the other functions for positions return `None` if there is
+    /// no text.
     #[must_use]
     pub fn locate_build(&self, error: &BuildError) -> Option<Diagnostic> {
         let source = self.source.as_ref()?;
         Some(locate::build(source, &self.description, error))
     }
 
-    /// The place of an error of [`model::start`].
+    /// The position of an error of [`model::start`].
     #[must_use]
     pub fn locate_start(&self, error: &StartError) -> Option<Diagnostic> {
         Some(locate::start(self.source.as_ref()?, error))
     }
 
-    /// The place of an error of a run.
+    /// The position of an error of a run.
     #[must_use]
     pub fn locate_motion(&self, error: &MotionError) -> Option<Diagnostic> {
         Some(locate::motion(self.source.as_ref()?, error))
@@ -134,8 +136,8 @@ impl Scene {
     /// group.
     ///
     /// # Errors
-    /// If the text is not a sum of terms, or refers to a reaction or component that the scene does
-    /// not have.
+    /// Returns an error if the text is not a sum of terms, or refers to a reaction or component
+    /// that does not exist in the scene.
     pub fn combination(&self, text: &str) -> Result<Combination, CombinationError> {
         let (d, space) = (&self.description, self.description.space());
         let names = d.joints().chain(d.drives());
@@ -147,7 +149,7 @@ impl Scene {
         combination::parse(text, &Reactions::new(names.collect()).without(inactive))
     }
 
-    /// Takes out everything that is not active, after the whole has been checked.
+    /// Removes all inactive parts, after the whole scene has been checked.
     pub(crate) fn take_out_inactive(&mut self) {
         let Some(source) = &mut self.source else {
             return;
@@ -160,7 +162,7 @@ impl Scene {
         retain("group", &mut self.groups, &mut source.groups, inactive);
     }
 
-    /// Whether a joint or drive with this name is in the text, but not active.
+    /// Whether the text contains an inactive joint or drive with this name.
     #[must_use]
     pub fn is_inactive(&self, name: &str) -> bool {
         let mut all = self.inactive.iter();
@@ -175,7 +177,7 @@ impl Scene {
     }
 }
 
-/// Keeps the active parts of a mechanism.
+/// Retains the active parts of a mechanism.
 fn retain_active<S: BodySpace>(
     d: &mut MechanismDescription<S>,
     source: &mut SourceMap,
@@ -186,7 +188,7 @@ fn retain_active<S: BodySpace>(
     retain("force", &mut d.forces, &mut source.forces, inactive);
 }
 
-/// Keeps the active items of a list, and their entries.
+/// Retains the active items of a list, and their entries.
 fn retain<T>(
     kind: &'static str,
     items: &mut Vec<T>,

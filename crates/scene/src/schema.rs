@@ -1,6 +1,6 @@
 //! The format as a JSON schema for editors, generated from the keys of the reader and the
-//! definitions of the registry. Conditions on a whole scene (names that exist, rows, a start that
-//! assembles) are not part of it.
+//! definitions of the registry. The schema contains no conditions on a whole scene (names that
+//! exist, rows, a start that assembles).
 
 mod element;
 mod value;
@@ -29,10 +29,10 @@ use crate::{coupling, marker, measure, simulate, spring, start, tolerance};
 use element::{ElementKind, elements};
 use value::{described, reference};
 
-/// The JSON schema (draft 2020-12) of scene files that name joints and forces of this registry.
+/// The JSON schema (draft 2020-12) of scene files that use joints and forces of this registry.
 ///
-/// A text that it refuses is also refused by [`read`](crate::read()). The reverse does not hold,
-/// because names, rows and the assembly of a start are not checked by a schema.
+/// The function [`read`](crate::read()) rejects every text that the schema rejects. The reverse is
+/// not true, because a schema does not check names, rows and the assembly of a start.
 ///
 /// ```
 /// let schema = pfaff_scene::schema(&model::Registry::standard());
@@ -59,7 +59,7 @@ pub fn schema(registry: &Registry) -> Value {
     }
     let plane = in_space::<Plane>(registry, &mut definitions);
     let space = in_space::<Space3>(registry, &mut definitions);
-    // What it is depends on the space.
+    // The content of these sections depends on the space.
     for section in OF_SPACE {
         properties.insert(
             section.name.to_owned(),
@@ -96,7 +96,7 @@ const OF_SPACE: [&Section; 7] = [
     &section::FORCE,
 ];
 
-/// The sections of a space; adds their definitions, those of space with a prefix.
+/// The sections of a space; adds their definitions, with a prefix for space.
 fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Value>) -> Value {
     let registry = S::definitions(registry);
     let tables = [
@@ -126,7 +126,7 @@ fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Val
     properties.into()
 }
 
-/// The elements of a section, with those of a type that has keys in place of a definition.
+/// The elements of a section, and the elements of a type that has keys instead of a definition.
 fn with_type(
     mut elements: Value,
     title: &str,
@@ -170,7 +170,7 @@ fn property(doc: &str, times: Times, definition: &str) -> Value {
     }
 }
 
-/// How often a section may occur in a file.
+/// Number of occurrences of a section in a file.
 enum Times {
     Once,
     Many,
@@ -214,7 +214,7 @@ fn named(title: &str, keys: &[Key]) -> Value {
 
 fn drive<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     let mut table = named("Drive", &[&DRIVE_KEYS[..], &[ACTIVE]].concat());
-    // Joints, grouped by the measures that can be prescribed.
+    // Joints, grouped by the joint coordinates that can be prescribed.
     let mut measures: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for spec in registry.constraint_specs() {
         for definition in registry.constraints(spec.scene_type) {
@@ -238,14 +238,14 @@ fn drive<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     table
 }
 
-/// Adds a key to the required ones.
+/// Adds a key to the required keys.
 fn require(table: &mut Value, key: &str) {
     if let Some(required) = table["required"].as_array_mut() {
         required.push(key.into());
     }
 }
 
-/// A name and one of two kinds of content.
+/// A table with a name and one of two kinds of content.
 fn group() -> Value {
     let either =
         GROUP_KEYS.map(|key| table(&format!("Group with `{}`", key.name), &[NAME, key, ACTIVE]));

@@ -1,4 +1,4 @@
-//! The tables of the first level: those that occur once, and lists of named items.
+//! The tables of the first level: tables that occur once, and lists of named items.
 
 use std::collections::BTreeMap;
 
@@ -126,12 +126,11 @@ fn named<'t>(item: &Field<'t>, kind: &str, number: usize) -> Option<(Table<'t>, 
     Some((table, name))
 }
 
-/// Number of letters of the longest name: it is repeated in every message and in the headers of
-/// columns.
+/// Number of letters of the longest name: every message and the column headers repeat it.
 pub(crate) const LONGEST_NAME: usize = 1000;
 
-/// The reason why a name cannot be used in the header of a column, if it cannot, and a suggestion:
-/// tables have one line for their header and are opened by spreadsheets.
+/// The reason why a name cannot be used in a column header, if there is one, and a suggestion:
+/// tables have one line for their header, and spreadsheets open them.
 pub(crate) fn unfit(name: &str) -> Option<(String, &'static str)> {
     if name.trim().is_empty() {
         return Some(("is empty".to_owned(), "expected a name"));

@@ -1,4 +1,4 @@
-//! `silence` of `[scene]`: the warnings that are not wanted, by their codes.
+//! `silence` of `[scene]`: the warnings that the user suppresses, by their codes.
 
 use model::codes::Code;
 use serde_json::json;
@@ -7,7 +7,7 @@ use crate::key::{Key, Takes};
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
-/// The warnings that a scene can have. They are never errors, and each can be silenced.
+/// The warnings that a scene can have. They are never errors, and each can be suppressed.
 const WARNINGS: [Code; 10] = [
     Code::new(190),
     Code::new(191),
@@ -21,7 +21,7 @@ const WARNINGS: [Code; 10] = [
     Code::new(199),
 ];
 
-/// The codes as they are written.
+/// The codes as written in the text.
 pub(crate) fn warnings() -> Vec<String> {
     WARNINGS.iter().map(ToString::to_string).collect()
 }
@@ -37,7 +37,7 @@ const SILENCE: Key = Key::optional(
 /// The key of `[scene]`.
 pub(crate) const SCENE_KEYS: [Key; 1] = [SILENCE];
 
-/// Silences what `[scene]` says.
+/// Suppresses the warnings that `[scene]` lists.
 pub(crate) fn read(table: &mut Table) {
     for item in table.items(&SILENCE) {
         let Some(text) = item.text(SILENCE.expected) else {
@@ -52,7 +52,7 @@ pub(crate) fn read(table: &mut Table) {
         table.findings.error_with_help(
             const { Code::new(180) },
             item.span(),
-            format!("`[scene]`: `silence` names `{text}`, which is no warning of a scene"),
+            format!("`[scene]`: `silence` contains `{text}`, which is not a warning of a scene"),
             "no such warning",
             did_you_mean(text, names()).or_else(|| Some(format!("there are {}", list(names())))),
         );

@@ -16,7 +16,7 @@ use crate::nearest::{did_you_mean, list};
 use crate::plausible;
 use crate::table::Table;
 
-/// The values of a key whose meaning is an enum of `dynamics`.
+/// The values of a key that correspond to an enum of `dynamics`.
 struct Choice<T: 'static> {
     key: Key,
     available: &'static [T],
@@ -105,15 +105,15 @@ fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
 /// Number of rows for the step that an error message proposes.
 const USEFUL_ROWS: f64 = 1e4;
 
-/// The section with the places that later checks need.
+/// The section with the positions that later checks need.
 pub(crate) struct Simulate {
     pub(crate) options: MotionOptions,
     pub(crate) t_end: Range<usize>,
-    /// Rows to drop, from 0, with their places.
+    /// Redundant rows (key `drop`), from 0, with their positions in the text.
     drop: Vec<(usize, Range<usize>)>,
 }
 
-/// Reads the section. `None` if the end of the run could not be read.
+/// Reads the section. `None` if the end time of the run could not be read.
 pub(crate) fn read(mut table: Table) -> Option<Simulate> {
     let end = table.needed(T_END.name, "the last time in s");
     let t_end = end.as_ref().and_then(|field| bounded(field, &T_END));
@@ -175,7 +175,7 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field) {
     step.findings.report(too_small);
 }
 
-/// A number within its bounds; errors have the text of `dynamics`.
+/// Reads a number within its bounds; errors have the text of `dynamics`.
 fn bounded(field: &Field, key: &Key) -> Option<f64> {
     let value = field.number(key.unit)?;
     if key.allows(value) {
@@ -230,8 +230,8 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T> {
     None
 }
 
-/// Rows to drop, counted from 1 in the file and from 0 in the result. Their existence is checked
-/// when the mechanism is built.
+/// Reads the rows to treat as redundant, counted from 1 in the file and from 0 in the result.
+/// Whether they exist is checked when the mechanism is built.
 fn rows(field: &Field) -> Vec<(usize, Range<usize>)> {
     const EXPECTED: &str = DROP.expected;
     let mut rows: Vec<(usize, Range<usize>)> = Vec::new();
@@ -257,7 +257,7 @@ fn rows(field: &Field) -> Vec<(usize, Range<usize>)> {
 }
 
 impl Simulate {
-    /// Reports dropped rows that the mechanism does not have.
+    /// Reports rows of the key `drop` that do not exist in the mechanism.
     pub(crate) fn check_rows(&self, n_rows: usize, findings: &Findings) {
         for (row, span) in self.drop.iter().filter(|(row, _)| *row >= n_rows) {
             findings.error(
@@ -272,7 +272,7 @@ impl Simulate {
         }
     }
 
-    /// Reports tables of functions that end before the run does.
+    /// Reports tables of functions that end before the run ends.
     pub(crate) fn check_domains(&self, domains: &[Domain], findings: &Findings) {
         let t_end = self.options.t_end;
         for domain in domains {

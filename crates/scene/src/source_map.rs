@@ -1,4 +1,4 @@
-//! Places of all items in the file, for problems that are found later.
+//! Positions of all items in the file, for problems that are found later.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -7,16 +7,16 @@ use std::ops::Range;
 use crate::table::Table;
 use crate::text::SourceText;
 
-/// Places of a table and of its values.
+/// Positions of a table and of its values.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Entry {
     /// The name of the item that the table describes; for a section, its own name.
     pub name: String,
-    /// Place of the header, such as `[[body]]`.
+    /// Position of the header, such as `[[body]]`.
     pub header: Range<usize>,
     /// The values with their keys, in the order of the keys.
     pub keys: Box<[(Cow<'static, str>, Range<usize>)]>,
-    /// Whether what it describes takes part.
+    /// Whether the item that the table describes is part of the mechanism.
     pub is_active: bool,
 }
 
@@ -30,7 +30,7 @@ impl Entry {
         }
     }
 
-    /// That of a table that may take no part.
+    /// The positions of a table that may be inactive.
     pub(crate) fn switched(name: &str, table: &Table, is_active: bool) -> Self {
         Self {
             is_active,
@@ -38,26 +38,26 @@ impl Entry {
         }
     }
 
-    /// Place of the value of `name`, or of the header if the table has no name.
+    /// Position of the value of `name`, or of the header if the table has no name.
     #[must_use]
     pub fn name_span(&self) -> Range<usize> {
         self.value("name").unwrap_or_else(|| self.header.clone())
     }
 
-    /// Place of the value of a key, or of the name if the key is not given.
+    /// Position of the value of a key, or of the name if the key is not given.
     #[must_use]
     pub fn span(&self, key: &str) -> Range<usize> {
         self.value(key).unwrap_or_else(|| self.name_span())
     }
 
-    /// Place of the value of a key, if it is given.
+    /// Position of the value of a key, if it is given.
     fn value(&self, key: &str) -> Option<Range<usize>> {
         let mut keys = self.keys.iter();
         keys.find(|(name, _)| name == key)
             .map(|(_, span)| span.clone())
     }
 
-    /// Place of the value of the first of these keys that is given, or of the name.
+    /// Position of the value of the first of these keys that is given, or of the name.
     #[must_use]
     pub fn first_of(&self, keys: &[&str]) -> Range<usize> {
         let given = keys.iter().find_map(|key| self.value(key));
@@ -65,29 +65,29 @@ impl Entry {
     }
 }
 
-/// Keys for the place of an element.
+/// Keys for the reference point of an element.
 pub(crate) const PLACE_KEYS: [&str; 4] = ["at", "points", "point", "markers"];
-/// Keys for its bodies.
+/// Keys for the bodies of an element.
 pub(crate) const BODY_KEYS: [&str; 2] = ["bodies", "body"];
 
-/// The places of a scene, in the order of its lists.
+/// The positions of a scene, in the order of its lists.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SourceMap {
     /// The text.
     pub text: SourceText,
-    /// In the order of the bodies of the description.
+    /// Bodies, in the order of the description.
     pub bodies: Vec<Entry>,
-    /// In the order of its markers.
+    /// Markers, in the order of the description.
     pub markers: Vec<Entry>,
-    /// In the order of its measures.
+    /// Measures, in the order of the description.
     pub measures: Vec<Entry>,
-    /// In the order of its joints.
+    /// Joints, in the order of the description.
     pub joints: Vec<Entry>,
-    /// In the order of its drives.
+    /// Drives, in the order of the description.
     pub drives: Vec<Entry>,
-    /// In the order of its forces.
+    /// Forces, in the order of the description.
     pub forces: Vec<Entry>,
-    /// In the order of the groups of the scene.
+    /// Groups, in the order of the scene.
     pub groups: Vec<Entry>,
     /// `scene`, `start`, `simulate` and `output`, if they are given.
     pub sections: BTreeMap<String, Entry>,
@@ -119,8 +119,8 @@ impl SourceMap {
         self.elements().find(|entry| entry.name == name)
     }
 
-    /// Place of the value of a key of a section; if it is not given, of the header of the section,
-    /// or of `[scene]`.
+    /// Position of the value of a key of a section; if it is not given, of the header of the
+    /// section, or of `[scene]`.
     #[must_use]
     pub fn section(&self, section: &str, key: &str) -> Range<usize> {
         self.sections

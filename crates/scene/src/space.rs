@@ -1,4 +1,4 @@
-//! What the format says differently in the plane and in space: vectors, names, and what bodies are.
+//! Differences of the format between plane and space: vectors, names, and bodies.
 
 mod plane;
 mod space3;
@@ -11,7 +11,7 @@ use model::{AnyDescription, BodySpace, Definitions, MechanismDescription, Regist
 
 use crate::key::Key;
 
-/// The name of the space, other than that with the name `here`, for which this holds.
+/// The name of the space other than `here` for which the flag is true.
 fn other(here: &str, holds: [(&'static str, bool); 2]) -> Option<&'static str> {
     let mut others = holds.into_iter().filter(|(name, _)| *name != here);
     others.find_map(|(name, holds)| holds.then_some(name))
@@ -36,10 +36,10 @@ pub(crate) fn of_type(here: &str, registry: &Registry, name: &str) -> Option<&'s
     )
 }
 
-/// What the start may hold of a body, by its name.
+/// A coordinate of a body that the start may keep, with its name.
 pub(crate) struct BodyCoordinate {
     pub(crate) name: &'static str,
-    /// Freedoms of the body.
+    /// Degrees of freedom of the body.
     pub(crate) dofs: Range<usize>,
     pub(crate) level: KeepLevel,
 }
@@ -52,29 +52,29 @@ impl BodyCoordinate {
 
 /// The space of a scene.
 pub(crate) trait SceneSpace: BodySpace {
-    /// Its name in `[scene]`.
+    /// Name of the space in `[scene]`.
     const NAME: &'static str;
-    /// A vector, as messages write it.
+    /// A vector, as written in messages.
     const VECTOR: &'static str;
-    /// A point.
+    /// A point, as written in messages.
     const POINT: &'static str;
-    /// A point in global coordinates.
+    /// A point in global coordinates, as written in messages.
     const GLOBAL_POINT: &'static str;
-    /// Points, one for each body.
+    /// Points, one for each body, as written in messages.
     const BY_BODY: &'static str;
-    /// The acceleration of free fall.
+    /// The key for the acceleration of free fall.
     const GRAVITY: Key;
-    /// What the start may hold of a body.
+    /// Coordinates of a body that the start may keep.
     const COORDINATES: &'static [BodyCoordinate];
 
-    /// Whether directions may be written in the axes of the ground (`frame = "global"`), and those
-    /// of a second body are written in the axes of the first one.
+    /// Whether directions may be written in the axes of the ground (`frame = "global"`), and
+    /// whether directions of a second body are written in the axes of the first one.
     const CARRIES: bool;
 
-    /// The description for programs that take those of both spaces.
+    /// The description for programs that accept both spaces.
     fn described(d: MechanismDescription<Self>) -> AnyDescription;
 
-    /// The definitions of a registry that belong here.
+    /// The definitions of a registry that belong to this space.
     fn definitions(registry: &Registry) -> &Definitions<Self>;
 
     /// A point in the frame of a body relative to its centre of mass.
@@ -83,8 +83,8 @@ pub(crate) trait SceneSpace: BodySpace {
     /// The inverse of [`BodySpace::to_local`].
     fn to_global(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
 
-    /// A direction that is written in the axes of a body, or of the ground, in those of another
-    /// one. In the plane all directions are written in the axes of their own body.
+    /// Converts a direction from the axes of a body, or of the ground, to the axes of another body.
+    /// In the plane each direction is written in the axes of its own body.
     fn carried(
         direction: Self::Vector<f64>,
         from: Option<&Self::Body>,

@@ -1,5 +1,5 @@
-//! Forces of the type `torsion-spring-damper` in space: on the angle of a joint. They name a joint,
-//! as drives do; in the plane the type is a definition between two bodies.
+//! Forces of the type `torsion-spring-damper` in space: they act on the angle of a joint. They
+//! refer to a joint, as drives do; in the plane this type is a definition between two bodies.
 
 use joints::spec::Unit;
 use model::law::{Join, Law, Operation};
@@ -70,7 +70,7 @@ pub(crate) fn read<S: SceneSpace>(
     angle.force(name, law?, field)
 }
 
-/// −(k·(angle − free) + c·rate)
+/// The force law −(k·(angle − free) + c·rate).
 fn law(stiffness: f64, damping: f64, free: f64) -> Option<Law> {
     Law::new(&[
         Operation::Number(-stiffness),

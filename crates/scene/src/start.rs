@@ -58,7 +58,7 @@ pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> Start
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,
         },
-        // Poses are given with the bodies.
+        // The bodies contain the start poses.
         poses: Vec::new(),
     }
 }

@@ -1,4 +1,4 @@
-//! A table of the file. It records which keys were read: all others are unknown.
+//! A table of the file. It records which keys were read: all other keys are unknown.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -15,26 +15,26 @@ use crate::mistake::Mistake;
 use crate::nearest::{list, nearest};
 use crate::space::SceneSpace;
 
-/// What is said of something that another space has.
+/// The message for an item that exists only in another space.
 pub(crate) fn belongs(what: &str, space: &str) -> String {
     format!("`{what}` belongs to `space = \"{space}\"`")
 }
 
 /// A table and what it describes.
 pub(crate) struct Table<'t> {
-    /// Description of the table at the beginning of messages: joint `A`, or `[simulate]`.
+    /// Description of the table at the start of messages: joint `A`, or `[simulate]`.
     pub(crate) subject: Rc<str>,
-    /// Its header, or the braces of an inline table.
+    /// Position of its header, or of the braces of an inline table.
     pub(crate) header: Range<usize>,
     entries: &'t DeTable<'t>,
-    /// What its numbers mean.
+    /// Meaning of its numbers.
     language: &'t Language,
-    /// Where problems are reported.
+    /// The list to which problems are added.
     pub(crate) findings: &'t Findings<'t>,
     known: Vec<&'static str>,
     /// Keys that are missing, with the index of the problem in the findings.
     absent: Vec<(&'static str, usize)>,
-    /// Keys that scenes of a space have, with its name.
+    /// Keys of the scenes of a space, with the name of the space.
     by_space: Vec<(&'static str, &'static str)>,
 }
 
@@ -57,13 +57,13 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// Keys of the spaces, each with the name of its space: those that are unknown here are told as
-    /// keys of another one.
+    /// Keys of the spaces, each with the name of its space. A key that is unknown here is reported
+    /// as a key of the other space.
     pub(crate) fn spaces(&mut self, keys: impl Iterator<Item = (&'static str, &'static str)>) {
         self.by_space.extend(keys);
     }
 
-    /// The value of an optional key.
+    /// Reads an optional key.
     pub(crate) fn optional(&mut self, key: impl Into<&'static str>) -> Option<Field<'t>> {
         let key = key.into();
         if !self.known.contains(&key) {
@@ -72,7 +72,7 @@ impl<'t> Table<'t> {
         self.field(key)
     }
 
-    /// The value of a key; this does not mark it as known.
+    /// The value of a key; the key is not marked as known.
     pub(crate) fn field(&self, key: &'static str) -> Option<Field<'t>> {
         let value = self.entries.get(key)?;
         Some(Field {
@@ -84,12 +84,12 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// The value of a required key.
+    /// Reads a required key.
     pub(crate) fn required(&mut self, key: &Key) -> Option<Field<'t>> {
         self.needed(key.name, key.expected)
     }
 
-    /// The value of a key, which is reported if it is required and missing.
+    /// Reads a key; a missing required key is reported.
     pub(crate) fn of_key(&mut self, key: &Key) -> Option<Field<'t>> {
         if key.is_required {
             self.required(key)
@@ -98,29 +98,30 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// The number under a key.
+    /// Reads the number of a key.
     pub(crate) fn number(&mut self, key: &Key) -> Option<f64> {
         self.of_key(key)?.number(key.unit)
     }
 
-    /// The vector under a key.
+    /// Reads the vector of a key.
     pub(crate) fn vector<S: SceneSpace>(&mut self, key: &Key) -> Option<S::Vector<f64>> {
         self.of_key(key)?.vector::<S>(key.expected, key.unit)
     }
 
-    /// `true` or `false` under a key.
+    /// Reads `true` or `false` of a key.
     pub(crate) fn flag(&mut self, key: &Key) -> Option<bool> {
         self.of_key(key)?.boolean()
     }
 
-    /// The list under a key; nothing if it is missing, or is no list, which is reported.
+    /// Reads the list of a key; empty if the key is missing or its value is not a list, which is
+    /// reported.
     pub(crate) fn items(&mut self, key: &Key) -> Vec<Field<'t>> {
         let field = self.of_key(key);
         let items = field.and_then(|field| field.items(key.expected));
         items.unwrap_or_default()
     }
 
-    /// The value of a required key whose type is stated by a definition.
+    /// Reads a required key whose type a definition states.
     pub(crate) fn needed(
         &mut self,
         key: &'static str,
@@ -134,7 +135,8 @@ impl<'t> Table<'t> {
         field
     }
 
-    /// Reports that a key is missing. If it turns out to be misspelt, that is reported instead.
+    /// Reports that a key is missing. If a similar unknown key is found later, the misspelling is
+    /// reported instead.
     pub(crate) fn lacks(
         &mut self,
         key: &'static str,
@@ -146,14 +148,14 @@ impl<'t> Table<'t> {
             .error(Mistake::Missing, self.header.clone(), message, label);
     }
 
-    /// Reports that something is missing; the message continues the description of the table.
+    /// Reports that an item is missing; the message continues the description of the table.
     pub(crate) fn missing(&self, message: impl Display, label: impl Into<String>) {
         let message = format!("{}{message}", self.subject);
         let at = self.header.clone();
         self.findings.error(Mistake::Missing, at, message, label);
     }
 
-    /// Reports two values that exclude each other, each with its label; `ways` are their keys.
+    /// Reports two values that exclude each other, each with its label; `ways` contains their keys.
     pub(crate) fn exclusive(&self, ways: impl Display, values: [(Range<usize>, &str); 2]) {
         let message = format!("{} takes {ways}, not both", self.subject);
         let [(first, of_first), (second, of_second)] = values;
@@ -184,17 +186,17 @@ impl<'t> Table<'t> {
         self.entries.iter().map(field).collect()
     }
 
-    /// Whether a key is written; this does not mark it as known.
+    /// Whether the table contains a key; the key is not marked as known.
     pub(crate) fn has(&self, key: &str) -> bool {
         self.entries.contains_key(key)
     }
 
-    /// The text of a key, if there is one; this does not mark it as known.
+    /// The text of a key, if there is one; the key is not marked as known.
     pub(crate) fn peek(&self, key: &str) -> Option<&'t str> {
         self.entries.get(key)?.get_ref().as_str()
     }
 
-    /// Places of all values by key. Known keys need no additional memory.
+    /// Positions of all values by key. Known keys need no additional memory.
     pub(crate) fn spans(&self) -> impl Iterator<Item = (Cow<'static, str>, Range<usize>)> {
         self.entries.iter().map(|(key, value)| {
             let name: &str = key.get_ref();
@@ -204,14 +206,14 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// Place of the value of a key, or of the header if there is none.
+    /// Position of the value of a key, or of the header if the key is missing.
     pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
         let value = self.entries.get(key);
         value.map_or_else(|| self.header.clone(), toml::Spanned::span)
     }
 
     /// Reports unknown keys. An unknown key that is similar to a missing key is reported together
-    /// with it.
+    /// with this key.
     pub(crate) fn close(self) {
         let known = || self.known.iter().copied();
         for key in self.entries.keys() {

@@ -1,8 +1,8 @@
-//! A scene in which some numbers are open: the text with other numbers or expressions in their
-//! places. The rest of the text stays as it is, so that [`read`](crate::read()) judges what comes
-//! out like any other scene, line by line.
+//! A scene in which some numbers are variable: its text with other numbers or expressions instead
+//! of them. The rest of the text does not change, so that [`read`](crate::read()) checks the result
+//! like any other scene, line by line.
 //!
-//! The values are chosen by the caller and are not checked here.
+//! The caller chooses the values; this module does not check them.
 
 mod key;
 mod rest;
@@ -26,10 +26,10 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// The text of a scene with variable numbers.
 ///
-/// A key is the name of a parameter, or written as people say it: `body.platform.mass`,
-/// `joint.H.axis[0]`, `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Things
-/// with names go by their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key
-/// that the text leaves out is added to its table, which must be there; a parameter is not.
+/// A key is the name of a parameter, or a path: `body.platform.mass`, `joint.H.axis[0]`,
+/// `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Items with names are
+/// selected by their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key that
+/// is missing in the text is added to its table, which must exist; a parameter is not added.
 /// `active` counts as a number: zero is false.
 ///
 /// ```
@@ -51,18 +51,18 @@ pub struct Template {
     slots: Vec<(usize, Slot)>,
 }
 
-/// By how much a number of a template changes.
+/// Change of a number of a template.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shift {
-    /// By a number, in the unit of the number itself.
+    /// A change by a number, in the unit of the number itself.
     By(f64),
-    /// By a number of a unit; the scene has to be of format 2.
+    /// A change by a number with a unit; the scene must be of format 2.
     Of(f64, String),
-    /// By a share of itself.
+    /// A change by a share of the number itself.
     Share(f64),
 }
 
-/// Place of a number, and other text that is written there.
+/// Position of a number, and other text to write there.
 #[derive(Clone, Debug)]
 struct Slot {
     span: Range<usize>,
@@ -71,10 +71,10 @@ struct Slot {
     old: OldValue,
 }
 
-/// What the text has at the place of a number.
+/// The text of the scene at the position of a number.
 #[derive(Clone, Debug)]
 enum OldValue {
-    /// Nothing, or something that is no number.
+    /// Nothing, or a value that is not a number.
     Other,
     /// A number.
     Number(f64),
@@ -89,13 +89,14 @@ impl Template {
     /// - [`KeyError::NotToml`]: the text cannot be parsed; [`read`](crate::read()) reports the
     ///   reason.
     /// - [`KeyError::Unknown`], [`KeyError::Index`]: a key does not exist.
-    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be added.
+    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: the value is not a number, or no number
+    ///   can be added.
     /// - [`KeyError::Repeated`]: two keys refer to the same number.
     pub fn new(text: &str, keys: &[&str]) -> Result<Self, KeyError> {
         Self::of(text, keys, SlotKind::Number)
     }
 
-    /// Finds the places of these keys.
+    /// Finds the positions of these keys.
     fn of(text: &str, keys: &[&str], kind: SlotKind) -> Result<Self, KeyError> {
         if limits::excess(text).is_some() {
             return Err(KeyError::NotToml);
@@ -124,7 +125,7 @@ impl Template {
     /// The text with these values, in the order of the keys.
     ///
     /// # Panics
-    /// If the number of values differs from the number of keys.
+    /// Panics if the number of values differs from the number of keys.
     #[must_use]
     pub fn with(&self, values: &[f64]) -> String {
         let texts: Vec<String> = values.iter().map(|x| number(*x)).collect();
@@ -143,16 +144,16 @@ impl Template {
     /// ```
     ///
     /// # Panics
-    /// If there are not as many expressions as keys.
+    /// Panics if the number of expressions differs from the number of keys.
     #[must_use]
     pub fn with_expressions(&self, expressions: &[&str]) -> String {
         self.placed(expressions).0
     }
 
-    /// The same, and where each of them begins in the text.
+    /// The same text, and the start position of each expression in it.
     ///
     /// # Panics
-    /// If there are not as many expressions as keys.
+    /// Panics if the number of expressions differs from the number of keys.
     #[must_use]
     pub fn placed(&self, expressions: &[&str]) -> (String, Vec<usize>) {
         let text = |text: &&str| match text.trim().parse() {
@@ -165,9 +166,9 @@ impl Template {
         (text, places)
     }
 
-    /// The text with every number changed by a share of itself, in the order of the keys; a zero,
-    /// or a number that the text leaves out, becomes the share. `None` if a key is of another
-    /// value.
+    /// The text with every number changed by a share of itself, in the order of the keys. A zero,
+    /// or a number that is missing in the text, becomes the share. `None` if the value of a key is
+    /// not a number.
     ///
     /// ```
     /// let head = "[scene]\nformat = 2\n[parameters]\n";
@@ -179,7 +180,7 @@ impl Template {
     /// ```
     ///
     /// # Panics
-    /// If there are not as many shares as keys.
+    /// Panics if the number of shares differs from the number of keys.
     #[must_use]
     pub fn changed_by(&self, shares: &[f64]) -> Option<String> {
         let mut texts = vec![String::new(); self.slots.len()];
@@ -215,7 +216,7 @@ impl Template {
     /// ```
     ///
     /// # Panics
-    /// If there are not as many shifts as keys.
+    /// Panics if the number of shifts differs from the number of keys.
     #[must_use]
     pub fn shifted(&self, shifts: &[Shift]) -> Option<String> {
         let mut texts = vec![String::new(); self.slots.len()];
@@ -247,7 +248,7 @@ impl Template {
         self.filled_at(texts, &mut vec![0; texts.len()])
     }
 
-    /// The same; `places` are where they begin.
+    /// The text with these values; their start positions are written to `places`.
     fn filled_at(&self, texts: &[String], places: &mut [usize]) -> String {
         let n = self.slots.len();
         assert!(
@@ -273,7 +274,7 @@ impl Template {
     }
 }
 
-/// The shortest text that reads back to the same bits.
+/// The shortest text that is read as the same bits.
 fn number(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < WHOLE {
         format!("{value:.0}")

@@ -1,11 +1,11 @@
-//! The text of a scene file: from byte offsets to lines and columns.
+//! The text of a scene file: converts byte offsets to lines and columns.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use crate::diagnostic::Label;
 
-/// The text of a file with its name and the beginnings of its lines.
+/// The text of a file with its name and the start positions of its lines.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SourceText {
     name: String,
@@ -25,7 +25,7 @@ impl SourceText {
         }
     }
 
-    /// Its name, usually a path.
+    /// Name of the file, usually a path.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
@@ -69,7 +69,7 @@ impl SourceText {
         }
     }
 
-    /// The beginning of the character at or before the offset.
+    /// The start of the character at or before the offset.
     fn boundary(&self, offset: usize) -> usize {
         self.text.floor_char_boundary(offset)
     }

@@ -13,14 +13,13 @@ pub(crate) const fn length(doc: &'static str) -> Key {
 
 /// The key of a joint.
 pub(crate) const OF_JOINT: Key = length(
-    "What the points, directions and numbers of the joint are known to; that of its bodies, or of the scene, where it is not given",
+    "Tolerance of the points, directions and numbers of the joint [default: tolerance of its bodies or of the scene]",
 );
-const OF_SCENE: Key = length(
-    "What points and lengths are known to where their joint or body says nothing; their rounding where it is not given",
-);
+const OF_SCENE: Key =
+    length("Tolerance of points and lengths whose joint or body states none [default: rounding]");
 const ANGLE: Key = positive("angle_tolerance")
     .unit(Dimension::ANGLE)
-    .doc("What directions, angles and ratios are known to; `tolerance` divided by the size of the mechanism where it is not given");
+    .doc("Tolerance of directions, angles and ratios [default: `tolerance` divided by the size of the mechanism]");
 
 /// The keys of `[scene]`.
 pub(crate) const SCENE_KEYS: [Key; 2] = [OF_SCENE, ANGLE];
@@ -29,7 +28,7 @@ const fn positive(name: &'static str) -> Key {
     Key::optional(name, "a number > 0", Takes::Number(Interval::Positive))
 }
 
-/// Reads a tolerance, if it is given. Its sign is checked with the mechanism.
+/// Reads a tolerance, if it is given. The sign is checked when the mechanism is built.
 pub(crate) fn read(table: &mut Table, key: &Key) -> Option<f64> {
     let field = table.optional(key)?;
     field.number_expected(key.expected, key.unit)

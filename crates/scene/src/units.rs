@@ -1,5 +1,5 @@
-//! Numbers with units, as people write them where none are read: what is meant is said in the units
-//! of the format, so that advice can be followed as it is.
+//! Numbers with units in values for which the format allows no units. Advice gives the intended
+//! value in the units of the format, so that the author can copy it.
 
 use linalg::Dd;
 
@@ -7,20 +7,20 @@ use crate::dimension::Dimension;
 use crate::expression::{evaluate, in_units_here};
 use crate::language::Language;
 
-/// A number with a unit, as `300 mm`.
+/// A number with a unit, such as `300 mm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WithUnit<'a> {
     /// The number.
     pub number: f64,
-    /// The unit, as it is written.
+    /// The unit, as written in the text.
     pub unit: &'a str,
-    /// The SI unit: what `number` times [`Self::factor`] is in.
+    /// The dimension of the SI unit of `number` times [`Self::factor`].
     dimension: Dimension,
     factor: Dd,
 }
 
 impl<'a> WithUnit<'a> {
-    /// Reads a number and a unit of expressions. Returns `None` for other texts.
+    /// Reads a number with a unit of expressions. Returns `None` for other texts.
     ///
     /// ```
     /// let length = pfaff_scene::WithUnit::read("300mm").unwrap();
@@ -49,15 +49,15 @@ impl<'a> WithUnit<'a> {
         (Dd::from(number) * self.factor).to_f64()
     }
 
-    /// Whether both are of the same kind.
+    /// Whether both have the same dimension.
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
         self.dimension == other.dimension
     }
 }
 
-/// Advice for a text that begins with a number and a unit: the number to write instead. `None` for
-/// other texts.
+/// Advice for a text that starts with a number and a unit: the suggested number. `None` for other
+/// texts.
 pub(crate) fn advice(text: &str) -> Option<String> {
     let (number, between, unit) = split(text)?;
     const RULE: &str =
@@ -77,7 +77,7 @@ pub(crate) fn advice(text: &str) -> Option<String> {
     ))
 }
 
-/// The number with its unit with which a text begins.
+/// The number with its unit at the start of a text.
 pub(crate) fn with_unit(text: &str) -> Option<&str> {
     let (number, between, unit) = split(text)?;
     text.get(..number.len() + between.len() + unit.len())
@@ -85,7 +85,7 @@ pub(crate) fn with_unit(text: &str) -> Option<&str> {
 
 /// A number, spaces, and the unit after them.
 fn split(text: &str) -> Option<(&str, &str, &str)> {
-    // The longest beginning that is a number: the `e` of `2 e` or `2eggs` is not an exponent.
+    // The longest initial part that is a number: the `e` of `2 e` or `2eggs` is not an exponent.
     let sign = |c: char| c.is_ascii_digit() || "+-.eE_".contains(c);
     let most = text.find(|c| !sign(c)).unwrap_or(text.len());
     let ends = (1..=most).rev();
@@ -106,7 +106,7 @@ pub(crate) fn is_number(text: &str) -> bool {
     text.ends_with(digits) && text.contains(digits) && text.replace('_', "").parse::<f64>().is_ok()
 }
 
-/// A finite number in SI, or one with a unit that is like this one.
+/// A finite number in SI, or one with a unit of the same dimension.
 ///
 /// ```
 /// use pfaff_scene::in_si;
@@ -150,7 +150,7 @@ mod tests {
             let said = advice(text).unwrap_or_default();
             assert!(said.ends_with(expected), "{text}: {said}");
         }
-        // No factor is guessed.
+        // The factor of an unknown unit is not guessed.
         let rule = "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
         assert_eq!(advice("3 furlongs").as_deref(), Some(rule));
         for silent in [

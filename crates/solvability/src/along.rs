@@ -1,16 +1,16 @@
-//! Verdicts along a motion: by stretches of time, with the instants at which others hold, and the
-//! singular configurations.
+//! Verdicts along a motion: by time interval, with the instants at which the verdicts differ, and
+//! the singular configurations.
 //!
 //! Rank and verdicts are constant on each component of the configuration set except on a nowhere
 //! dense part of it. Between break times, if the functions of time of the drives are analytic, they
-//! are therefore constant except at isolated instants, unless the whole stretch of the motion lies
-//! in the exceptional part. So a motion has verdicts by stretches ([`Stretches`]), special instants
-//! with other verdicts, and passages: singular configurations, at which the rank drops for an
-//! instant.
+//! are therefore constant except at isolated instants, unless a whole interval of the motion lies
+//! in the exceptional part. The result for a motion therefore consists of verdicts by time interval
+//! ([`Stretches`]), special instants with other verdicts, and singular configurations
+//! ([`Passage`]), at which the rank drops for an instant.
 //!
 //! States are moved onto the constraints before anything is decided. An instant between two sample
 //! times is found if the smallest singular value, or the margin of a component, decreases towards
-//! it at the sample times, or if the kept rows change their orientation.
+//! it at the sample times, or if the determinant of the independent rows changes its sign.
 
 mod border;
 mod compare;
@@ -38,8 +38,9 @@ pub use data::{
 };
 
 /// Computes the verdicts along a motion of a mechanism. `motion` returns the state at a given time;
-/// it is called only for times between the first and the last sample time. It may be a closed form
-/// or the dense output of a simulation. Break times of functions of time are sampled as well.
+/// it is called only for times between the first and the last sample time. The motion may be a
+/// closed form or the dense output of a simulation. Break times of functions of time are sampled as
+/// well.
 ///
 /// ```
 /// use joints::Revolute;
@@ -81,7 +82,7 @@ pub fn along_motion(
     let of_part = |t: f64, extent: &Extent| {
         let whole = match motion.lock() {
             Ok(mut motion) => motion(t),
-            // The lock is poisoned by a panic in another thread; that panic continues there.
+            // If another thread has panicked with the lock, its panic is propagated there.
             Err(poisoned) => poisoned.into_inner()(t),
         };
         if extent.is_whole() {
@@ -96,13 +97,13 @@ pub fn along_motion(
     along_motion_of_parts(mechanism, of_part, times, None)
 }
 
-/// Like [`along_motion`], for a motion that can return the coordinates and velocities of a single
-/// part. For large mechanisms it is called often, each time for a few parts only. The verdicts are
-/// those of the run that computed the motion, if they are given, with the instants that are found.
-/// Otherwise those at the sample times decide.
+/// Works like [`along_motion`], for a motion that can return the coordinates and velocities of a
+/// single part. For large mechanisms, `motion` is called often, each time for a few parts only. The
+/// verdicts are those of the simulation that computed the motion, if they are given; the search
+/// adds its special instants. Otherwise the verdicts at the sample times are used.
 ///
 /// # Errors
-/// As [`along_motion`].
+/// Same errors as [`along_motion`].
 pub fn along_motion_of_parts(
     mechanism: &Mechanism,
     motion: impl Fn(f64, &Extent) -> State + Sync,
@@ -123,7 +124,8 @@ pub fn along_motion_of_parts(
     }
 }
 
-/// [`along_motion`] for a mechanism that is a single part; `times` already include the break times.
+/// Works like [`along_motion`], for a mechanism that is a single part; `times` already include the
+/// break times.
 fn judged_as_one(
     mechanism: &Mechanism,
     motion: impl FnMut(f64) -> State,
@@ -166,10 +168,10 @@ fn judged_as_one(
 }
 
 /// Finds only the singular and nearly singular configurations of a motion, without the verdicts
-/// there: part of what [`along_motion`] finds, in a fraction of its time.
+/// there. This takes a fraction of the time of [`along_motion`].
 ///
 /// # Errors
-/// As [`along_motion`].
+/// Same errors as [`along_motion`].
 pub fn singular_passages(
     mechanism: &Mechanism,
     motion: impl FnMut(f64) -> State,
@@ -187,8 +189,8 @@ pub fn singular_passages(
     Ok(told.collect())
 }
 
-/// Returns the sample times, the break times between them, one time within each piece between break
-/// times, and the special instants of the run that computed the motion.
+/// Returns the sample times and the break times between them. It adds one time within each interval
+/// between break times, and the special instants of the simulation that computed the motion.
 fn with_break_times(
     mechanism: &Mechanism,
     times: &[f64],

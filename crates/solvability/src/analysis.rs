@@ -1,5 +1,5 @@
-//! Ranks and verdicts of one configuration of a mechanism of any size: the results of its parts,
-//! added up and numbered as in the whole mechanism.
+//! Ranks and verdicts at one configuration of a mechanism of any size. The results of its parts are
+//! combined and numbered as in the whole mechanism.
 
 use crate::error::AnalysisError;
 use crate::judged::{Dependency, PartResults, ReactionVerdict};
@@ -22,7 +22,7 @@ use crate::parts::{Extent, ListedRows, PartAnalysis, Partition};
 use crate::rows::{decide_rows, rows as rows_of, told_of_whole};
 use crate::state::check_configuration;
 
-/// The verdicts of one configuration.
+/// The verdicts at one configuration.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Analysis {
@@ -36,7 +36,7 @@ pub struct Analysis {
     pub velocities: usize,
     /// Size of the mechanism (m).
     pub size: f64,
-    /// Tolerance of its numbers, unless one is stated for their joint or body.
+    /// Tolerance of the data, unless a tolerance is stated for their joint or body.
     pub tolerance: Tolerance,
     /// Number of holonomic rows m.
     pub holonomic_rows: usize,
@@ -46,31 +46,31 @@ pub struct Analysis {
     pub rank_holonomic: usize,
     /// Rank of Ψ alone.
     pub rank_nonholonomic: usize,
-    /// Rank, redundancy and kept rows of C.
+    /// Rank, redundancy and independent (kept) rows of C.
     pub decision: RowDecision,
-    /// Kept rows that are independent by a small margin only, from the part in which they come
-    /// closest to a dependence.
+    /// Independent rows that are nearly dependent, from the part in which they are closest to a
+    /// dependency.
     pub nearly_redundant: Option<NearlyRedundant>,
     /// Verdicts of joints and drives in the order of their rows.
     pub reactions: Vec<ReactionVerdict>,
-    /// Dependencies, as many as the degree of redundancy, part by part, short ones first. There are
-    /// fewer if more rows depend on each other than can be analysed together.
+    /// Dependencies, ordered by part, short ones first. Their number is the degree of redundancy,
+    /// or less if more rows depend on each other than can be analysed together.
     pub dependencies: Vec<Dependency>,
-    /// Other remarks for the reader.
+    /// Further remarks for the user.
     pub warnings: Vec<String>,
     /// Parts that were analysed separately, ordered by their first joints.
     pub parts: Vec<PartAnalysis>,
 }
 
 impl Analysis {
-    /// Degrees of freedom: n_v − r.
+    /// Returns the number of degrees of freedom, n_v − r.
     #[must_use]
     pub fn mobility(&self) -> usize {
         self.velocities - self.decision.rank
     }
 
-    /// The part whose rank is least certain: an undecided one, or else the one with the smallest
-    /// σ_r. Every mechanism has one.
+    /// Returns the part with the least certain rank: an undecided part, or otherwise the part with
+    /// the smallest σ_r. Every mechanism has such a part.
     #[must_use]
     pub fn weakest(&self) -> &PartAnalysis {
         let least = |a: &&PartAnalysis, b: &&PartAnalysis| a.strength().total_cmp(&b.strength());
@@ -78,13 +78,13 @@ impl Analysis {
         weakest.unwrap_or_else(|| unreachable!("an analysis has a part"))
     }
 
-    /// The numbers behind the rank of the weakest part.
+    /// Returns the numbers that justify the rank of the weakest part.
     #[must_use]
     pub fn evidence(&self) -> &Evidence {
         self.weakest().decision.evidence()
     }
 
-    /// Index of the part that contains this joint or drive.
+    /// Returns the index of the part that contains this joint or drive.
     #[must_use]
     pub fn part_of(&self, id: ConstraintId) -> Option<usize> {
         let has = |part: &PartAnalysis| part.extent.own_group(id.0).is_some();
@@ -94,8 +94,8 @@ impl Analysis {
         }
     }
 
-    /// The decision on all rows with all dependencies, assembled from those of the parts. Returns
-    /// `None` if there are too many rows for that. Its evidence is that of the weakest part.
+    /// Returns the decision on all rows with all dependencies, assembled from the parts, or `None`
+    /// if there are too many rows. Its evidence is that of the weakest part.
     #[must_use]
     pub fn whole(&self) -> Option<Cow<'_, RankDecision>> {
         if let [one] = self.parts.as_slice()
@@ -138,7 +138,7 @@ impl Analysis {
         }))
     }
 
-    /// Adds up the results of the parts.
+    /// Combines the results of the parts.
     pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64], judged: Vec<PartResults>) -> Self {
         let layout = mechanism.layout();
         let mut analysis = Self {
@@ -199,23 +199,23 @@ impl Analysis {
     }
 }
 
-/// Computes the verdicts at time t and coordinates q, which must satisfy the constraints.
-/// Allocates.
+/// Computes the verdicts at time t and coordinates q, which must satisfy the constraints. The
+/// function allocates memory.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
 /// - [`AnalysisError::Rank`]: C is not finite.
-/// - [`AnalysisError::Large`]: joints on common cycles are joined too closely for a sparse
+/// - [`AnalysisError::Large`]: joints on common cycles are too densely connected for a sparse
 ///   decision.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
     analyse_known(mechanism, t, q, ConfigurationAccuracy::AsStored)
 }
 
-/// Like [`analyse`], for a configuration that is less accurate than it is stored: `known` states
-/// its accuracy, and whatever is zero within that accuracy counts as zero.
+/// Works like [`analyse`], for a configuration whose accuracy is lower than its storage format.
+/// `known` states the accuracy. Every value that is zero within this accuracy counts as zero.
 ///
 /// # Errors
-/// As [`analyse`].
+/// Same errors as [`analyse`].
 pub fn analyse_known(
     mechanism: &Mechanism,
     t: f64,
@@ -225,12 +225,12 @@ pub fn analyse_known(
     analyse_with_progress(mechanism, t, q, known, |_| ())
 }
 
-/// Like [`analyse_known`]; after each part it calls `progress` with the number of joints analysed
-/// so far. Parts run on the `rayon` thread pool of the caller; the result does not depend on the
-/// number of threads.
+/// Works like [`analyse_known`], but after each part the function calls `progress` with the number
+/// of joints analysed so far. Parts run on the `rayon` thread pool of the caller; the result does
+/// not depend on the number of threads.
 ///
 /// # Errors
-/// As [`analyse`].
+/// Same errors as [`analyse`].
 pub fn analyse_with_progress(
     mechanism: &Mechanism,
     t: f64,
@@ -249,10 +249,10 @@ pub fn analyse_with_progress(
     })
 }
 
-/// Like [`analyse_with_progress`], for ranks that have already been decided.
+/// Works like [`analyse_with_progress`], for ranks that have already been decided.
 ///
 /// # Errors
-/// As [`analyse`].
+/// Same errors as [`analyse`].
 pub fn analyse_decided(
     mechanism: &Mechanism,
     t: f64,
@@ -281,10 +281,10 @@ pub fn analyse_decided(
 }
 
 /// Analyses each set of joints on common cycles separately, even if the mechanism is small enough
-/// to be analysed as one. The verdicts are the same.
+/// to be analysed as one. The verdicts do not change.
 ///
 /// # Errors
-/// As [`analyse`].
+/// Same errors as [`analyse`].
 pub fn analyse_by_cycles(
     mechanism: &Mechanism,
     t: f64,
@@ -297,12 +297,12 @@ pub fn analyse_by_cycles(
     })
 }
 
-/// Like [`analyse`], with dependencies that express the dropped rows chosen by the caller (from 0).
-/// The verdicts do not depend on them.
+/// Works like [`analyse`], but the caller chooses the redundant rows (`dropped`, from 0), which the
+/// dependencies express by the other rows. The verdicts do not depend on this choice.
 ///
 /// # Errors
-/// As [`analyse`], and [`AnalysisError::Rows`]: the rows cannot be dropped without changing the
-/// motion.
+/// Same errors as [`analyse`], and [`AnalysisError::Rows`]: the motion would change without these
+/// rows.
 pub fn analyse_dropping(
     mechanism: &Mechanism,
     t: f64,
@@ -321,8 +321,8 @@ pub fn analyse_dropping(
         let own = extent.own_rows(&listed);
         if part.layout().rows() > ROWS_MAX {
             let found = judged_alone(part, t, q, ConfigurationAccuracy::AsStored)?;
-            // Either these are the rows that were dropped anyway, or there are too many rows to
-            // choose.
+            // Either the analysis already drops these rows, or there are too many rows for a
+            // choice.
             return if found.part.decision.rows().dropped == own {
                 Ok(found)
             } else {
@@ -335,7 +335,7 @@ pub fn analyse_dropping(
         let s = evaluated(part, t, q);
         let rows = UncertainRows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
         let certified = rows.decide()?;
-        // Within a stated tolerance the rank need not be that of the matrix.
+        // Within a stated tolerance, the rank may differ from that of the matrix.
         let decision = if part.has_tolerances() {
             rows.dropping(&certified, &own)
         } else {

@@ -1,9 +1,12 @@
-//! The rank of a mechanism with the strongest available evidence: decided in double-double at a
-//! configuration polished in double-double, for data that are accurate to the rounding with which a
-//! scene stores them.
+//! Decides the rank of a mechanism with the strongest available evidence. The decision uses
+//! double-double arithmetic at a configuration that is refined in double-double. It assumes data
+//! that are accurate to the rounding with which a scene stores them.
 //!
-//! Not for the motion: a run decides in `f64`, because a nearly redundant mechanism cannot be
-//! integrated in `f64` anyway.
+//! A simulation does not use this decision. It decides in `f64`, because a nearly redundant
+//! mechanism cannot be integrated in `f64` anyway.
+//!
+//! The decision does not move the start. Only rows that are certainly independent are refined, to
+//! distinguish numbers that vanish from small ones.
 
 use crate::error::AnalysisError;
 use crate::limits::{ASKED, COEFFICIENT_LARGE, ROWS_MAX, SAFELY, TOLERANCE_ROWS};
@@ -21,7 +24,7 @@ use rank::{
 use crate::numerical_rank::{Nearness, Question, Reading, UncertainMatrix};
 use crate::state::check_configuration;
 
-/// C of a mechanism without dimensions, with the accuracy of its entries.
+/// Dimensionless C of a mechanism, with the accuracy of its entries.
 pub(crate) struct UncertainRows<'a> {
     mechanism: &'a Mechanism,
     /// Φ and C evaluated at q.
@@ -31,13 +34,13 @@ pub(crate) struct UncertainRows<'a> {
     /// Numbers of the analysed rows in the mechanism, ascending.
     places: Vec<usize>,
     uncertain: UncertainMatrix,
-    /// C at a configuration polished in double-double. `None` if that does not help: there are too
-    /// many rows, or the kept rows are dependent to the last digit of `f64`.
+    /// C at a configuration refined in double-double. `None` if the refinement is not possible:
+    /// there are too many rows, or the kept rows are dependent to the last digit of `f64`.
     extended: Option<DdMatrix>,
 }
 
 impl<'a> UncertainRows<'a> {
-    /// C at the pose of the scratch, in `f64`; q are its coordinates.
+    /// Returns C at the configuration of the scratch in `f64`; q are its coordinates.
     pub(crate) fn in_double(mechanism: &'a Mechanism, s: &'a Scratch, q: &'a [f64]) -> Self {
         Self::at(
             mechanism,
@@ -47,8 +50,8 @@ impl<'a> UncertainRows<'a> {
         )
     }
 
-    /// C without dimensions of a mechanism of this size, and the accuracy of its entries, both
-    /// evaluated at the pose of the scratch, whose coordinates are q.
+    /// Returns the dimensionless C of a mechanism of this size and the accuracy of its entries.
+    /// Both are evaluated at the configuration of the scratch, whose coordinates are q.
     pub(crate) fn of_matrix(
         mechanism: &'a Mechanism,
         (s, q, size): (&'a Scratch, &'a [f64], f64),
@@ -62,7 +65,8 @@ impl<'a> UncertainRows<'a> {
         )
     }
 
-    /// C at the pose of the scratch, in `f64`, for coordinates q that are known like this.
+    /// Returns C at the configuration of the scratch in `f64`, for coordinates q of the given
+    /// accuracy.
     pub(crate) fn at(
         mechanism: &'a Mechanism,
         scratch: Cow<'a, Scratch>,
@@ -90,7 +94,7 @@ impl<'a> UncertainRows<'a> {
         }
     }
 
-    /// C at the configuration q, which satisfies the constraints to `f64`.
+    /// Computes C at the configuration q, which satisfies the constraints to `f64`.
     pub(crate) fn new(
         mechanism: &'a Mechanism,
         t: f64,
@@ -112,12 +116,12 @@ impl<'a> UncertainRows<'a> {
         Ok(rows)
     }
 
-    /// Size of the mechanism (m).
+    /// Returns the size of the mechanism (m).
     pub(crate) fn size(&self) -> f64 {
         self.size
     }
 
-    /// C rounded to `f64`.
+    /// Returns C rounded to `f64`.
     pub(crate) fn matrix(&self) -> Matrix {
         match &self.extended {
             Some(c) => c.hi(),
@@ -125,7 +129,7 @@ impl<'a> UncertainRows<'a> {
         }
     }
 
-    /// Rank, kept rows and evidence of all rows.
+    /// Returns rank, independent rows and evidence of all rows.
     pub(crate) fn decide(&self) -> Result<RankDecision, AnalysisError> {
         let failed = |source| AnalysisError::Rank {
             time: self.scratch.t,
@@ -147,8 +151,9 @@ impl<'a> UncertainRows<'a> {
         Ok(with_nearness(decision, nearness))
     }
 
-    /// Kept rows and evidence for a rank that is known otherwise; `None` if the uncertainty of the
-    /// data hides it. Where a tolerance is stated, the rank is decided again.
+    /// Returns independent rows and evidence for a rank from another source, or `None` if the
+    /// uncertainty of the data hides this rank. If a tolerance is stated, the rank is decided
+    /// again.
     pub(crate) fn of_rank(&self, rank: usize) -> Result<Option<RankDecision>, AnalysisError> {
         let is_finite = self.uncertain.c.first_non_finite().is_none();
         if !is_finite || self.question().tolerance().is_some() {
@@ -178,7 +183,7 @@ impl<'a> UncertainRows<'a> {
         }
     }
 
-    /// A decision on these rows with other dropped rows; its rank and evidence stay.
+    /// Returns a decision on these rows with other redundant rows; rank and evidence do not change.
     pub(crate) fn dropping(
         &self,
         decision: &RankDecision,
@@ -222,13 +227,13 @@ impl<'a> UncertainRows<'a> {
         }
     }
 
-    /// The decision for a rank that has been read, with the evidence from double-double.
+    /// Returns the decision for a determined rank, with the evidence from double-double.
     fn certified(&self, reading: &RankReading) -> Result<RankDecision, RankError> {
         if let Some(c) = &self.extended {
             let certified = certify_rank(c, &self.uncertain.uncertainty, reading)?;
             if let Some(mut decision) = certified {
-                // A force or lever arm that counts as zero is zero within the accuracy of the data
-                // only.
+                // A force or lever arm that counts as zero is zero only within the accuracy of the
+                // data.
                 if let Some(certificate) = &mut decision.evidence.certificate
                     && certificate.grounds == Grounds::Vanishes
                     && self.uncertain.has_zeros()
@@ -245,9 +250,9 @@ impl<'a> UncertainRows<'a> {
         }
     }
 
-    /// Whether the kept rows nearly depend on each other in the scaling of the bodies (rotations
-    /// times the arm of the body), at the pose of the scratch. Equilibration does not show this: it
-    /// may scale the only misaligned entry of a column up to size one.
+    /// Returns whether the kept rows are nearly dependent in the scaling of the bodies (rotations
+    /// times the arm of the body), at the configuration of the scratch. Equilibration does not show
+    /// this: it may scale the only misaligned entry of a column up to size one.
     pub(crate) fn nearly_redundant(
         &self,
         mechanism: &Mechanism,
@@ -259,7 +264,7 @@ impl<'a> UncertainRows<'a> {
         }
         let of_size = (self.size, &self.matrix());
         let physical = weakest_below(NEARLY_REDUNDANT, mechanism, s, of_size, decision);
-        // Below the resolution of `f64` the certificate is more accurate.
+        // Below the resolution of `f64`, the certificate is more accurate.
         let certified = decision.nearly_redundant().cloned();
         [physical, certified]
             .into_iter()
@@ -281,7 +286,7 @@ impl<'a> UncertainRows<'a> {
     }
 }
 
-/// Adds to the certificate by how much the data would have to be wrong for a lower rank.
+/// Adds the smallest error of the data that would lower the rank to the certificate.
 fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> RankDecision {
     if let (Some(certificate), Some(near)) = (&mut decision.evidence.certificate, nearness) {
         certificate.lower_rank_here = Some(near.here);
@@ -291,15 +296,15 @@ fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> Rank
     decision
 }
 
-/// The combination of kept rows that comes closest to zero at the pose of the scratch, if it does
-/// so to less than `limit`, with each row scaled to largest entry 1. `c` is C without dimensions
-/// for a mechanism of this size.
+/// Returns the combination of kept rows that is closest to zero at the configuration of the
+/// scratch, if its size is below `limit`. Each row is scaled to largest entry 1. `c` is
+/// dimensionless C for a mechanism of this size.
 ///
 /// The rotations of a body have two natural units: the arm of the body, and the size of the
-/// mechanism. Each makes rows parallel that are not: the size, those of a small part of a large
-/// mechanism; the arms, those that compare the angles of bodies of different size, in which the
-/// larger body then takes no part. So both have to show the combination. The weights are those by
-/// the arms.
+/// mechanism. Each unit can make rows look parallel that are not. The size of the mechanism does so
+/// for rows of a small part of a large mechanism. The arms do so for rows that compare the angles
+/// of bodies of different size, because the larger body then has no influence. Therefore a
+/// combination counts only if both units show it. The weights are computed with the arms.
 fn weakest_below(
     limit: f64,
     mechanism: &Mechanism,
@@ -321,7 +326,7 @@ fn weakest_below(
     })
 }
 
-/// The weakest combination of the kept rows of a matrix, each scaled to largest entry 1.
+/// Returns the weakest combination of the kept rows of a matrix, each scaled to largest entry 1.
 fn weakest_kept(c: &Matrix, decision: &RankDecision) -> Option<WeakestCombination> {
     let mut kept = c.select_rows(&decision.kept);
     for i in 0..kept.nrows() {
@@ -333,12 +338,12 @@ fn weakest_kept(c: &Matrix, decision: &RankDecision) -> Option<WeakestCombinatio
     rank::weakest_combination(&kept)
 }
 
-/// Returns the combination of kept rows that cannot be distinguished from a dependence in `f64` at
-/// the pose of the scratch, with rotations measured by the arms of the bodies and by the size of
-/// the mechanism; C must have been evaluated at coordinates q. The rank may be decided
+/// Returns the combination of kept rows that cannot be distinguished from a dependency in `f64` at
+/// the configuration of the scratch. Rotations are measured by the arms of the bodies and by the
+/// size of the mechanism. C must have been evaluated at coordinates q. The rank may be decided
 /// nevertheless, because equilibration scales up a column whose only entries are the misalignment.
 /// The misalignment is part of the data as read, but velocities along these rows are accurate only
-/// to the rounding of the state divided by σ. Allocates.
+/// to the rounding of the state divided by σ. The function allocates memory.
 #[must_use]
 pub fn inseparable(
     mechanism: &Mechanism,
@@ -351,9 +356,10 @@ pub fn inseparable(
     weakest_below(NEARLY_SINGULAR, mechanism, s, (size, &c), decision)
 }
 
-/// Those of these rows that can hold together away from q, ascending: all of them, unless a
-/// tolerance is stated. Within it some may be redundant although they contradict each other at
-/// other configurations, as they do at q by their misfits; then those are returned that are kept.
+/// Returns those of these rows that can be satisfied together at other configurations than q,
+/// ascending. Without a stated tolerance these are all rows. Within a tolerance, some rows may be
+/// redundant although they contradict each other at other configurations, and by their residuals
+/// also at q. Then the kept rows are returned.
 pub(crate) fn holding_together(
     mechanism: &Mechanism,
     t: f64,
@@ -374,7 +380,8 @@ pub(crate) fn holding_together(
 }
 
 /// Decides the rank of C at time t and coordinates q, which satisfy the constraints. Uses
-/// double-double if possible (up to 600 rows); the evidence then has a certificate. Allocates.
+/// double-double if possible (up to 600 rows); the evidence then has a certificate. The function
+/// allocates memory.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.

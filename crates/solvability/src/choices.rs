@@ -1,6 +1,6 @@
-//! Choices of one of the solutions `λ₀ + Z·y` if the model determines none. No choice is *the*
-//! reaction: every number that is not unique is given with the choice on which it depends, and
-//! cannot be read without that label.
+//! Choices of one of the solutions `λ₀ + Z·y`, if the model does not determine the solution. No
+//! choice gives *the* reaction: every number that is not unique is returned with the name of its
+//! choice and cannot be read without this label.
 
 mod carried;
 mod chosen;
@@ -40,29 +40,31 @@ pub(crate) use multipliers::FreeMultipliers;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
     /// Minimises `Σ (force·F)² + (torque·T)²` over all joints and drives, with the wrench on the
-    /// first body at the place of the joint.
+    /// first body at the reference point of the joint.
     MinimumNorm(NormWeights),
-    /// The forces that elastic supports of these compliances would carry, in the limit of stiff
-    /// supports: minimises the complementary energy `½·Σ (Σ along_k·F_k² + rotation·T²)`, with T²
-    /// the square of the torque vector. Joints and drives that are not listed are rigid.
+    /// The forces that elastic supports with these compliances would carry, in the limit of stiff
+    /// supports. The choice minimises the complementary energy
+    /// `½·Σ (Σ along_k·F_k² + rotation·T²)`, where T² is the square of the torque vector. Joints
+    /// and drives that are not listed are rigid.
     Compliance(Vec<Compliance>),
     /// Sets the reactions in these rows (from 0) to zero.
     Elimination(Vec<usize>),
 }
 
 impl Choice {
-    /// The share of a part: its own joints, drives and rows, numbered in the part.
+    /// Returns the share of a part: the choice with the joints, drives and rows of the part,
+    /// numbered within the part.
     #[must_use]
     pub fn share(&self, extent: &Extent) -> Self {
         self.share_of(extent, &self.listed_rows())
     }
 
-    /// The rows that it lists.
+    /// Returns the rows that the choice lists.
     pub(crate) fn listed_rows(&self) -> ListedRows<'_> {
         ListedRows::new(self.eliminated())
     }
 
-    /// Rows (from 0) whose multipliers it sets to zero.
+    /// Returns the rows (from 0) whose multipliers are set to zero.
     #[must_use]
     pub fn eliminated(&self) -> &[usize] {
         match self {
@@ -71,7 +73,7 @@ impl Choice {
         }
     }
 
-    /// As [`Self::share`], for many parts.
+    /// Works like [`Self::share`], for many parts.
     pub(crate) fn share_of(&self, extent: &Extent, listed: &ListedRows<'_>) -> Self {
         match self {
             Self::MinimumNorm(weights) => Self::MinimumNorm(*weights),
@@ -93,26 +95,26 @@ impl Choice {
 /// Weights of forces and torques in a norm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NormWeights {
-    /// 1/N
+    /// Weight of forces (1/N).
     pub force: f64,
-    /// 1/(N·m)
+    /// Weight of torques (1/(N·m)).
     pub torque: f64,
 }
 
 impl NormWeights {
-    /// The norm of the numbers in N and N·m.
+    /// Norm of the values in N and N·m.
     pub const NEWTON_METRE: Self = Self {
         force: 1.0,
         torque: 1.0,
     };
 
-    /// The norm of the numbers in N and N·mm.
+    /// Norm of the values in N and N·mm.
     pub const NEWTON_MILLIMETRE: Self = Self {
         force: 1.0,
         torque: 1e3,
     };
 
-    /// Divides torques by this arm (m), so that they count as forces.
+    /// Returns weights that divide torques by this arm (m), so that they compare with forces.
     #[must_use]
     pub fn with_arm(length: f64) -> Self {
         Self {
@@ -122,14 +124,14 @@ impl NormWeights {
     }
 }
 
-/// Compliance of a joint or drive, in global components at its place.
+/// Compliance of a joint or drive, in global components at its reference point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Compliance {
     /// The joint or drive.
     pub reaction: ConstraintId,
-    /// Along x, y and z (m/N); in the plane nothing acts along z.
+    /// Compliance along x, y and z (m/N); in the plane no force acts along z.
     pub along: [f64; 3],
-    /// In rotation, in space about every axis (rad/(N·m)).
+    /// Rotational compliance (rad/(N·m)), in space about every axis.
     pub rotation: f64,
 }
 
@@ -148,22 +150,22 @@ pub struct Distribution {
     no_finite: Vec<Arc<NoFiniteReaction>>,
 }
 
-/// A reaction on the first body, at the place of the joint.
+/// A reaction on the first body, at the reference point of the joint.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionValues {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
-    /// Components (N, N·m) that are not identically zero, with their names, and the named component
-    /// as in [`crate::ReactionVerdict`].
+    /// Components (N, N·m) that are not identically zero, with their names. The list includes the
+    /// named component, as in [`crate::ReactionVerdict`].
     pub components: Vec<(&'static str, Value)>,
 }
 
 impl Distribution {
-    /// Another number of the same solution, given as a linear form of the multipliers.
+    /// Returns a number of this solution, defined by a linear form of the multipliers.
     ///
     /// # Errors
     /// [`RequestError::Length`]: the form belongs to another mechanism.
@@ -175,7 +177,7 @@ impl Distribution {
         self.value_in(&Extent::Whole, configuration, form)
     }
 
-    /// Another number of a part.
+    /// Returns a number of a part, defined by a linear form of its multipliers.
     pub(crate) fn value_in(
         &self,
         extent: &Extent,
@@ -188,7 +190,7 @@ impl Distribution {
         if let Some(why) = not_finite(&self.no_finite, extent, form) {
             return Ok(Value::not_finite(verdict, why));
         }
-        // A unique number is computed from λ₀, the most accurate solution, whatever the choice.
+        // A unique number is computed from λ₀, the most accurate solution, for every choice.
         let value = if verdict.is_unique() {
             configuration.value(form, &extent.of_rows(&self.lambda_0))
         } else {
@@ -197,7 +199,7 @@ impl Distribution {
         Ok(Value::new(value, verdict, Some(&self.label)))
     }
 
-    /// The same without the numbers of reactions that have no finite value.
+    /// Returns the solution without the numbers of reactions that have no finite value.
     pub(crate) fn without(mut self, no_finite: &[Arc<NoFiniteReaction>]) -> Self {
         let remove = |value: &mut Value, why: &Arc<NoFiniteReaction>| {
             *value = Value::not_finite(value.verdict().clone(), Arc::clone(why));
@@ -248,8 +250,8 @@ impl Distribution {
     }
 }
 
-/// Why a linear form of the multipliers of a part has no value, if it contains a row without a
-/// finite multiplier.
+/// Returns why a linear form of the multipliers of a part has no value, if it contains a row
+/// without a finite multiplier.
 pub(crate) fn not_finite(
     no_finite: &[Arc<NoFiniteReaction>],
     extent: &Extent,
@@ -263,7 +265,7 @@ pub(crate) fn not_finite(
     no_finite.iter().find(is_in).map(Arc::clone)
 }
 
-/// The error for rows that cannot be without reaction.
+/// Returns the error for rows whose reactions cannot be zero.
 pub(crate) fn rows_refused(
     layout: &Layout,
     rows: &[usize],
@@ -280,7 +282,7 @@ pub(crate) fn rows_refused(
 }
 
 impl Configuration<'_> {
-    /// The solution selected by a choice, starting from one solution λ₀ as returned by
+    /// Returns the solution that a choice selects, starting from one solution λ₀ as returned by
     /// [`Equations::multipliers`].
     ///
     /// # Errors
@@ -302,7 +304,7 @@ impl Configuration<'_> {
         self.distribute_as(lambda_0, choice, label(self.layout(), choice, &rigid))
     }
 
-    /// Like [`Self::distribute`], with this label.
+    /// Works like [`Self::distribute`], with this label.
     pub(crate) fn distribute_as(
         &self,
         lambda_0: &[f64],
@@ -349,10 +351,11 @@ impl Configuration<'_> {
         Ok(distribution)
     }
 
-    /// The value of a linear form of the multipliers; zero if it is below their rounding error.
+    /// Returns the value of a linear form of the multipliers; zero if it is below their rounding
+    /// error.
     ///
     /// # Panics
-    /// If there is not one multiplier for each row.
+    /// The function panics if the number of multipliers differs from the number of rows.
     #[must_use]
     pub fn value(&self, form: &LinearForm, lambda: &[f64]) -> f64 {
         let value = form.value(lambda);
@@ -367,7 +370,7 @@ impl Configuration<'_> {
         }
     }
 
-    /// The λ of least norm with these weights among all solutions `λ₀ + Z·y`.
+    /// Returns the λ of least norm with these weights among all solutions `λ₀ + Z·y`.
     ///
     /// # Errors
     /// - [`ChoiceError::Hidden`]: some free direction does not change the wrenches on the first
@@ -377,7 +380,7 @@ impl Configuration<'_> {
         self.choosing().least_norm(lambda_0, w)
     }
 
-    /// All solutions at this configuration.
+    /// Returns all solutions at this configuration.
     fn choosing(&self) -> Choosing<'_> {
         let b_x = |rows: &RowRanges| Ok(self.solvability.b_x(rows.clone())?);
         Choosing {
@@ -387,10 +390,10 @@ impl Configuration<'_> {
         }
     }
 
-    /// The solution that is exactly zero in these rows (from 0).
+    /// Returns the solution that is exactly zero in these rows (from 0).
     ///
     /// # Errors
-    /// [`ChoiceError::Rows`]: the other rows are not independent, or not enough.
+    /// [`ChoiceError::Rows`]: the other rows are dependent, or their number is below the rank.
     pub fn eliminated(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
         let c = dimensionless(
             &self.reactions.mechanism,
@@ -402,8 +405,8 @@ impl Configuration<'_> {
         Ok(self.eliminated_unchecked(lambda_0, rows))
     }
 
-    /// The same for rows of which the caller knows that the others are independent and enough:
-    /// nothing is decided.
+    /// Works like [`Self::eliminated`], without a check. The caller must ensure that the other rows
+    /// are independent and that their number is the rank.
     #[must_use]
     pub fn eliminated_unchecked(&self, lambda_0: &[f64], rows: &[usize]) -> Vec<f64> {
         FreeMultipliers::of(&self.solvability).eliminated(lambda_0, rows)
@@ -415,7 +418,8 @@ impl Configuration<'_> {
         rows_refused(self.layout(), rows, is_unique, source)
     }
 
-    /// Joints and drives that share loads with others but are not listed: they count as rigid.
+    /// Returns joints and drives that share loads with others but are not listed: they count as
+    /// rigid.
     pub(crate) fn rigid(&self, listed: &[Compliance]) -> Vec<ConstraintId> {
         let groups = &self.layout().groups;
         let shares = |id: &ConstraintId| {

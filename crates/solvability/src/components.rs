@@ -1,5 +1,4 @@
-//! The components of reactions on which verdicts are given over motions and at several
-//! configurations.
+//! The components of reactions that have verdicts along motions and at several configurations.
 
 use linalg::Matrix;
 use model::reaction::ConstraintGroup;
@@ -9,16 +8,17 @@ use crate::matrices::{Basis, QueryError};
 use crate::mechanism::component_map;
 use crate::verdict::{Judgement, Verdict};
 
-/// The names of the numbers of a joint or drive that a run has verdicts on: its components that are
-/// not identically zero, and the named one of its definition, as `N` or `drive`, which
-/// [`ConstraintGroup::component_names`] has only for couplings.
+/// Returns the names of the numbers of a joint or drive for which a simulation computes verdicts.
+/// They are its components that are not identically zero, and the named component of its
+/// definition, such as `N` or `drive`. [`ConstraintGroup::component_names`] lists named components
+/// only for couplings.
 pub(crate) fn number_names(group: &ConstraintGroup) -> impl Iterator<Item = &'static str> {
     let names = group.space.components();
     let own = group.components().into_iter().map(|c| names[c]);
     own.chain(group.spec.component)
 }
 
-/// The joint or drive and the name of each component of a mechanism, in the order of rows.
+/// Returns the joint or drive and the name of each component of a mechanism, in the order of rows.
 pub(crate) fn all_components(
     layout: &Layout,
 ) -> impl Iterator<Item = (ConstraintId, &'static str)> {
@@ -26,8 +26,8 @@ pub(crate) fn all_components(
     ids.flat_map(|id| number_names(&layout.groups[id.0]).map(move |name| (id, name)))
 }
 
-/// The verdicts on the components of a joint or drive at the pose of the scratch, in the order of
-/// their names. Its rows are at these places of the basis.
+/// Returns the verdicts on the components of a joint or drive at the configuration of the scratch,
+/// in the order of their names. Its rows have these indices in the basis.
 pub(crate) fn judge_components(
     mechanism: &Mechanism,
     id: ConstraintId,
@@ -58,7 +58,8 @@ pub(crate) fn judge_components(
     Ok(judged)
 }
 
-/// The same for all joints and drives of a mechanism that is one part, with a basis of all rows.
+/// Returns the verdicts on the components of all joints and drives of a mechanism that is one part,
+/// with a basis of all rows.
 pub(crate) fn judge_all(
     mechanism: &Mechanism,
     s: &Scratch,

@@ -1,15 +1,15 @@
-//! Bases of directions for readers: as many directions as possible along one component.
+//! Readable bases of directions, with as many directions as possible along one component.
 
 use crate::limits::{SHARE_OF_PIVOT, VISIBLE};
 use model::space::norm;
 
-/// The same space with a basis in which every component that lies in it alone is a direction of its
-/// own: reduced rows, as unit vectors whose largest entry is positive. The first components with
-/// entries of some size serve to eliminate.
+/// Returns a basis of the same space in which every component that lies in the space by itself is a
+/// separate basis vector. The basis consists of reduced rows, as unit vectors whose largest entry
+/// is positive. The elimination uses the first components with sufficiently large entries.
 pub(crate) fn readable(mut directions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let components = directions.first().map_or(0, Vec::len);
     for done in 0..directions.len() {
-        // The largest entry of a component, with its row.
+        // Returns the largest entry of a component, with its row.
         let largest = |c: usize| {
             let sizes = directions[done..]
                 .iter()
@@ -58,7 +58,7 @@ fn normalise(row: &mut [f64]) {
 mod tests {
     use super::readable;
 
-    /// The plane of (1, 0, 0, 0), (0, 1, 0, 0) and (0, 0, 3, 4), given by other vectors.
+    /// The plane of (1, 0, 0, 0), (0, 1, 0, 0) and (0, 0, 3, 4), defined by other vectors.
     #[test]
     fn components_that_are_unique_alone_stand_alone() {
         let given = vec![
@@ -79,8 +79,8 @@ mod tests {
         assert!(readable(Vec::new()).is_empty());
     }
 
-    /// The plane of the second and the third component, both vectors off by what data are off by:
-    /// nothing is divided by that.
+    /// The plane of the second and the third component. Both vectors have data errors, and the
+    /// elimination must not divide by these errors.
     #[test]
     fn what_the_data_miss_is_not_multiplied() {
         let found = readable(vec![

@@ -28,12 +28,12 @@ pub enum AnalysisError {
     Large {
         /// Time (s).
         time: f64,
-        /// Number of their rows.
+        /// Number of rows that share cycles.
         rows: usize,
         /// Cause.
         source: rank::SparseRankError,
     },
-    /// The rows to drop can be chosen only in a part with fewer rows.
+    /// The redundant rows can be chosen only in a part with fewer rows.
     #[error(
         "at t = {time} s: the rows that are dropped cannot be chosen where {rows} rows share cycles; up to {max} rows they can, and elsewhere in \
          this mechanism",
@@ -53,7 +53,7 @@ pub enum AnalysisError {
         /// Cause.
         source: QueryError,
     },
-    /// A group has no numbers.
+    /// A requested combination of reactions has no numbers.
     #[error("at t = {time} s: {source}")]
     Group {
         /// Time (s).
@@ -61,7 +61,7 @@ pub enum AnalysisError {
         /// Cause.
         source: Box<RequestError>,
     },
-    /// The rows that were to be dropped cannot be dropped.
+    /// The rows to drop are not redundant.
     #[error("at t = {time} s these rows cannot be dropped: {source}")]
     Rows {
         /// Time (s).
@@ -72,7 +72,7 @@ pub enum AnalysisError {
 }
 
 impl AnalysisError {
-    /// Its code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {

@@ -1,11 +1,11 @@
-//! Existence before uniqueness: redundant rows must agree. For each circuit `Σ z_i·row_i = 0` the
-//! right-hand sides must satisfy the same sum: `Σ z_i·b_i = 0` or no velocity exists,
-//! `Σ z_i·Γ_i = 0` or no acceleration does. At position level the residuals of Φ take the place of
-//! the right-hand sides: their sum over a circuit does not vanish if a row was redundant only at
-//! another configuration.
+//! Tests whether reactions exist, before their uniqueness: redundant rows must be consistent. For
+//! each circuit `Σ z_i·row_i = 0`, the right-hand sides must satisfy the same sum. If
+//! `Σ z_i·b_i ≠ 0`, no velocity exists; if `Σ z_i·Γ_i ≠ 0`, no acceleration exists. At position
+//! level the residuals of Φ replace the right-hand sides. Their sum over a circuit is not zero if a
+//! row is redundant only at another configuration.
 //!
-//! The rank is not decided here: the circuits are those of ranks that have been decided. Drives in
-//! a contradiction are named, together with the motion that each of them prescribes.
+//! This module does not decide ranks; it uses the circuits of decided ranks. A contradiction names
+//! its drives, together with the motion that each drive prescribes.
 
 mod demands;
 mod drives;
@@ -36,26 +36,26 @@ pub struct Contradiction {
     pub rows: Vec<RowLabel>,
     /// Position, velocity or acceleration.
     pub level: ConstraintLevel,
-    /// How much one row would have to change to agree with the others: the last row that depends on
-    /// time, or else the last row. At position level it is accurate to first order.
+    /// Change of one row that would remove the contradiction: of the last row that depends on time,
+    /// or otherwise of the last row. At position level it is accurate to first order.
     pub size: f64,
     /// Unit of `size`.
     pub unit: &'static str,
-    /// A `size` up to this value would be rounding.
+    /// Values of `size` up to this limit are rounding.
     pub tolerance: f64,
-    /// Number of joints and drives with functions of time that take part.
+    /// Number of joints and drives with functions of time among the rows.
     pub drives: usize,
-    /// The motions that the drives among them prescribe, in the order of their rows. For a
-    /// contradiction of accelerations without a drive: the motions prescribed by the drives that
-    /// leave the bodies no other velocities.
+    /// The motions that the drives among the rows prescribe, in the order of their rows. For a
+    /// contradiction of accelerations without a drive, these are the motions prescribed by the
+    /// drives that determine the velocities of the bodies.
     pub demands: Vec<Demand>,
-    /// Whether these drives are not among the rows, but prescribe velocities with which the rows
-    /// cannot continue to hold.
+    /// Whether these drives are not among the rows, but prescribe velocities that the rows cannot
+    /// follow.
     pub is_forced: bool,
 }
 
 impl Contradiction {
-    /// Whether a drive takes part.
+    /// Returns whether a drive is among the rows.
     #[must_use]
     pub fn is_of_drives(&self) -> bool {
         !self.demands.is_empty()
@@ -68,8 +68,8 @@ impl Contradiction {
         self.rows.iter().partition(is_drive)
     }
 
-    /// Names of the drives that force the contradicting rows; empty if the drives are among the
-    /// rows.
+    /// Returns the names of the drives that force the contradicting rows; the list is empty if the
+    /// drives are among the rows.
     #[must_use]
     pub fn forcing(&self) -> Vec<&str> {
         let demands = self.demands.iter().filter(|_| self.is_forced);
@@ -156,7 +156,7 @@ impl Contradiction {
     }
 }
 
-/// "row 1 (`A`, x)" or "rows 1 (`A`, x) and 2 (`A`, y)".
+/// Returns "row 1 (`A`, x)" or "rows 1 (`A`, x) and 2 (`A`, y)".
 fn of_rows(rows: &[String]) -> String {
     let word = if rows.len() == 1 { "row" } else { "rows" };
     format!("{word} {}", words::list(rows))
@@ -165,25 +165,25 @@ fn of_rows(rows: &[String]) -> String {
 /// Rank decisions at one configuration.
 #[derive(Clone, Copy, Debug)]
 pub struct Ranks<'a> {
-    /// Decision on all rows of C.
+    /// Rank decision on all rows of C.
     pub all: &'a RankDecision,
-    /// Decision on the rows of Φq alone.
+    /// Rank decision on the rows of Φq alone.
     pub holonomic: &'a RankDecision,
 }
 
-/// Contradictions between redundant rows at time t, coordinates q and velocities v, at all three
-/// levels, the largest excess over the tolerance first. The kept rows must be satisfied: `Φ_K = 0`
-/// and `C_K·v = b_K` to rounding.
+/// Returns the contradictions between redundant rows at time t, coordinates q and velocities v at
+/// all three levels, the largest excess over the tolerance first. The independent rows K must be
+/// satisfied: `Φ_K = 0` and `C_K·v = b_K` to rounding.
 ///
 /// The sum over a circuit is compared with the size of the terms that are added in its rows
-/// ([`model::Scales::terms`]), times the noise of the coefficients, [`rank::support_tolerance`]:
-/// near a singular configuration the coefficients that express dropped rows by kept rows have
-/// errors of 1/σ_r roundings, and the agreement cannot be better than that. Only rows that are
-/// coupled with those of the circuit count, so that large terms elsewhere do not hide a
-/// contradiction.
+/// ([`model::Scales::terms`]), times the noise of the coefficients, [`rank::support_tolerance`].
+/// Near a singular configuration, the coefficients that express redundant rows by independent rows
+/// have errors of 1/σ_r roundings, and the agreement cannot be better. Only rows that are coupled
+/// with those of the circuit count, so that large terms elsewhere do not hide a contradiction.
 ///
 /// # Errors
-/// If the state has the wrong number of values, or one of them is not finite.
+/// The function returns an error if the state has the wrong number of values, or if a value is not
+/// finite.
 pub fn contradictions(
     mechanism: &Mechanism,
     t: f64,
@@ -212,7 +212,8 @@ pub fn contradictions(
         };
         comparison.contradictions(mechanism, t)
     };
-    // Rows that are redundant within a tolerance may part: then what they miss decides.
+    // Rows that are redundant within a tolerance may become inconsistent; their residuals then
+    // decide.
     let mut found = [
         compared(Level::positions(), ranks.holonomic, &s.phi),
         compared(Level::velocities(mechanism, size, v), ranks.all, &s.b),
@@ -228,10 +229,10 @@ pub fn contradictions(
     Ok(found)
 }
 
-/// Whether redundant rows may ask for other accelerations than the rows that imply them, and miss
-/// by what follows: where a tolerance is stated, rows may be redundant within it only. A motion on
-/// the kept rows then exists, and so do its reactions, until a row misses by more than data within
-/// the tolerance explain.
+/// Returns whether redundant rows may require accelerations that differ from those of the rows that
+/// imply them, and may therefore be violated later. If a tolerance is stated, rows may be redundant
+/// only within it. A motion on the independent rows then exists with its reactions, until the
+/// violation of a row exceeds what data within the tolerance explain.
 #[must_use]
 pub fn may_miss(mechanism: &Mechanism) -> bool {
     mechanism.has_tolerances()
@@ -240,17 +241,18 @@ pub fn may_miss(mechanism: &Mechanism) -> bool {
 /// Values of all rows at one level, and the size of their terms.
 struct LevelValues<'a> {
     level: Level<'a>,
-    /// Scratch in which functions of time have been evaluated.
+    /// Scratch in which the functions of time have been evaluated.
     prescribed: &'a Scratch,
     decision: &'a RankDecision,
     values: &'a [f64],
     scale: &'a dyn Fn(usize) -> f64,
-    /// Contradictions below this fraction of the terms are not reported, even if above rounding.
+    /// Contradictions below this fraction of the terms are not reported, even if they exceed
+    /// rounding.
     share: f64,
 }
 
 impl LevelValues<'_> {
-    /// Contradictions of the shortest circuits.
+    /// Returns the contradictions of the shortest circuits.
     fn contradictions(&self, mechanism: &Mechanism, time: f64) -> Vec<Contradiction> {
         match self.decision.redundancy {
             0 => Vec::new(),
@@ -258,7 +260,7 @@ impl LevelValues<'_> {
         }
     }
 
-    /// Contradictions of the given circuits.
+    /// Returns the contradictions of the given circuits.
     fn among(
         &self,
         circuits: Vec<Circuit>,
@@ -268,7 +270,7 @@ impl LevelValues<'_> {
         let rows = rank::components(self.decision);
         let noise = rank::support_tolerance(self.decision);
         let term = |&i: &usize| self.decision.scaling.row_factor(i) * (self.scale)(i);
-        // Rows in no dependency: the remainder of their coefficients is rounding.
+        // Rows without a dependency: the remainder of their coefficients is rounding.
         let left = self.decision.equilibrated_dependence();
         let coefficient = |i: &usize| {
             let k = self.decision.kept.binary_search(i).ok();
@@ -348,8 +350,8 @@ impl LevelValues<'_> {
         })
     }
 
-    /// How much data within a stated tolerance change the sum over a circuit; zero if no tolerance
-    /// is stated.
+    /// Returns how much data within a stated tolerance change the sum over a circuit; zero if no
+    /// tolerance is stated.
     fn within_data(&self, mechanism: &Mechanism, circuit: &Circuit) -> f64 {
         if !mechanism.has_tolerances() {
             return 0.0;
@@ -363,9 +365,9 @@ impl LevelValues<'_> {
         data.explained(s, &data.blocks(s), &weights, &self.level, &mut gradient)
     }
 
-    /// Drives that move the bodies of these rows and, together with the joints, leave them no other
-    /// velocities; numbers of groups. Empty if other velocities exist, with which the rows might
-    /// continue to hold.
+    /// Returns the drives (numbers of groups) that move the bodies of these rows and, together with
+    /// the joints, determine their velocities. The set is empty if the bodies have other possible
+    /// velocities with which the rows might remain satisfied.
     fn forcing(&self, mechanism: &Mechanism, rows: &[usize]) -> BTreeSet<usize> {
         let layout = mechanism.layout();
         let group = |row: usize| layout.owners[row].0;

@@ -1,14 +1,14 @@
-//! Explains why reactions are not unique, as text and as directions that can be drawn: which joints
-//! share loads, which loads they can put on each other without any effect on the motion, and which
-//! part of a reaction is determined nevertheless.
+//! Explains why reactions are not unique, as text and as directions that can be drawn. The
+//! explanation names joints that share loads, loads between joints that do not affect the motion,
+//! and the part of a reaction that is determined nevertheless.
 //!
-//! A statement about a sum or a component is made only after a test against all dependencies.
+//! Every statement about a sum or a component is tested against all dependencies.
 
 mod sentence;
 
 pub(crate) use sentence::describe;
 
-use crate::limits::VISIBLE;
+use crate::limits::{MANY_LOADS, VISIBLE};
 use model::codes::Code;
 use model::space::norm;
 use model::start::scene_size;
@@ -16,6 +16,7 @@ use model::{BodyRef, ConstraintId, Layout, Mechanism, Scratch, SpaceKind, System
 use rank::{Circuit, StructureVerdict};
 
 use crate::directions::readable;
+use crate::groups::{LinearForm, ReactionForms};
 use crate::loads::{self, LoadDescription};
 use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Verdict;
@@ -37,17 +38,17 @@ pub struct Explanation {
     pub settled: Vec<(ConstraintId, StructureVerdict)>,
 }
 
-/// Loads that joints can put on each other while the total force on each body is zero.
+/// Loads that joints can exert on each other while the total force on each body is zero.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SelfStress {
     /// Rows of C, from 0: a minimal dependent set.
     pub rows: Vec<usize>,
-    /// `Σ coefficient·row = 0`, the largest coefficient 1.
+    /// Coefficients of `Σ coefficient·row = 0`; the largest coefficient is 1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient (rows scaled) that counts as zero only within the tolerance of the
-    /// scene; zero if there is none.
+    /// The largest coefficient (for scaled rows) that counts as zero only within the tolerance of
+    /// the scene; zero if there is no such coefficient.
     pub left_out: f64,
     /// Load on each joint, in the order of rows. The largest force is 1 N, or the largest torque is
     /// 1 N·m if there is no force.
@@ -63,18 +64,18 @@ pub struct SelfStress {
 pub struct FreeDirection {
     /// The joint or drive.
     pub joint: ConstraintId,
-    /// Its bodies; the force acts on the first one.
+    /// Bodies of the joint or drive; the force acts on the first one.
     pub bodies: Vec<BodyRef>,
     /// The space of the mechanism.
     pub space: SpaceKind,
-    /// Point at which the force acts (m), ground axes.
+    /// Point at which the force acts (m), in ground axes.
     pub place: [f64; 3],
-    /// Force (N), ground axes.
+    /// Force (N), in ground axes.
     pub force: [f64; 3],
-    /// Torque (N·m) about the place, ground axes.
+    /// Torque about this point (N·m), in ground axes.
     pub torque: [f64; 3],
-    /// The named component of its definition: `N` of a knife edge (N), `drive` of a drive (N or
-    /// N·m).
+    /// The named component of the definition of the joint: `N` of a knife edge (N), or `drive` of a
+    /// drive (N or N·m).
     pub component: Option<f64>,
 }
 
@@ -100,7 +101,8 @@ pub struct Mixing {
 pub struct ReactionExplanation {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// Joints with which it shares loads, and the part of the reaction that is determined.
+    /// Text that names the joints with which it shares loads, and the determined part of the
+    /// reaction.
     pub text: String,
 }
 
@@ -114,13 +116,13 @@ pub enum ExplanationError {
     /// The rank is undecided, so every sentence would depend on one of two possible ranks.
     #[error("nothing can be explained while the rank is undecided: {0}")]
     Undecided(rank::Doubt),
-    /// The solvability belongs to another constraint matrix.
+    /// The solvability was computed from another constraint matrix.
     #[error(transparent)]
     Query(#[from] QueryError),
 }
 
 impl ExplanationError {
-    /// Its code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -174,7 +176,7 @@ impl Explanation {
 /// Explains the verdicts at the configuration q of the scratch, where Φ and C have been evaluated.
 ///
 /// # Errors
-/// If C is not finite, or its rank is undecided.
+/// The function returns an error if C is not finite, or if its rank is undecided.
 pub fn explain(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -197,7 +199,7 @@ pub fn explain(
         .filter(|circuit| is_known(&circuit.rows))
         .map(|circuit| stress(mechanism, s, q, solvability, circuit))
         .collect();
-    // A reaction that the structure makes unique for the exact numbers may be undecided within a
+    // A reaction that is unique because of the structure for exact data may be undecided within a
     // tolerance.
     let is_unique = |id: &ConstraintId| {
         let rows = mechanism.layout().groups[id.0].rows.clone();
@@ -217,8 +219,8 @@ pub fn explain(
     })
 }
 
-/// Components of coupled rows. In space, those of the same joints are one: rows that are separate
-/// there are parts of the same loads.
+/// Returns the components of coupled rows. In space, components of the same joints are merged:
+/// their separate rows are parts of the same loads.
 fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvability) -> Vec<Mixing> {
     let layout = mechanism.layout();
     let decision = solvability.decision();
@@ -231,7 +233,7 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
         layout.constraint_ids().filter(touched).collect()
     };
     let mut coupled: Vec<(Vec<ConstraintId>, Vec<usize>)> = Vec::new();
-    // Rows left open by the tolerance are not reported as decided.
+    // Rows that are undecided within the tolerance are not reported as decided.
     let all = rank::components(decision).coupled.into_iter();
     for rows in all.filter(|rows| !rows.iter().any(|row| open.binary_search(row).is_ok())) {
         let reactions = touching(&rows);
@@ -250,38 +252,42 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
             .iter()
             .filter(|row| rows.contains(row))
             .count();
-        let missing = match redundancy {
-            1 => "one number is".to_owned(),
-            p => format!("{p} numbers are"),
-        };
         let names = names(layout, &reactions);
         let text = match names.as_slice() {
-            [one] => format!("inside {one} {missing} missing to determine its multipliers"),
+            [one] => {
+                let number = match redundancy {
+                    1 => "one multiplier".to_owned(),
+                    p => format!("{p} multipliers"),
+                };
+                format!("the rows of {one} depend on each other: {number} can be chosen freely")
+            }
             several => {
                 let spanning = spanning(solvability, &rows);
-                let told = loads::tell(
-                    mechanism,
-                    s,
-                    scene_size(mechanism, q),
-                    &reactions,
-                    &spanning,
-                );
-                let share = match told {
-                    None => "share loads".to_owned(),
-                    Some(LoadDescription::Common(load)) => {
-                        format!("can carry {load} that the bodies cannot tell apart")
-                    }
-                    Some(LoadDescription::Each(load)) => {
-                        format!("can each carry {load} that the bodies cannot tell apart")
-                    }
-                    Some(LoadDescription::Various(loads)) => {
-                        format!("share loads that the bodies cannot tell apart ({loads})")
-                    }
+                let size = scene_size(mechanism, q);
+                let loads = loads::tell(mechanism, s, size, &reactions, &spanning);
+                let loads = match loads {
+                    None => String::new(),
+                    Some(LoadDescription::Common(load)) => format!(" ({load})"),
+                    Some(LoadDescription::Each(load)) => format!(" ({load} at each)"),
+                    // Of many components the sums say more.
+                    Some(LoadDescription::Various(_)) if redundancy > MANY_LOADS => String::new(),
+                    Some(LoadDescription::Various(loads)) => format!(" ({loads})"),
                 };
-                format!(
-                    "{} {share}: {missing} missing to determine all of them",
-                    list(several)
-                )
+                let components = match redundancy {
+                    1 => "one load component that equilibrium does not determine".to_owned(),
+                    p => format!("{p} load components that equilibrium does not determine"),
+                };
+                let forms = ReactionForms::at(mechanism, s, size);
+                let sums = determined_sums(&forms, solvability, &reactions);
+                let sums = match sums.as_slice() {
+                    [] => String::new(),
+                    [one] => format!("; of the sums over these joints, {one} is determined"),
+                    all => format!(
+                        "; of the sums over these joints, {} are determined",
+                        list(all)
+                    ),
+                };
+                format!("{} share {components}{loads}{sums}", list(several))
             }
         };
         Mixing {
@@ -294,8 +300,55 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
     coupled.into_iter().map(of).collect()
 }
 
-/// Multipliers of these rows that leave every body without a load, one solution in each column; all
-/// other rows are zero.
+/// Returns the components of the total wrench of these reactions that are unique although a
+/// reaction's own is not, as "Fx, Fz and T about (1, 2)"; forces are those on the first bodies.
+fn determined_sums(
+    forms: &ReactionForms<'_>,
+    solvability: &Solvability,
+    reactions: &[ConstraintId],
+) -> Vec<String> {
+    // A sum of loads on different bodies has no meaning.
+    let groups = &forms.mechanism.layout().groups;
+    let mut on_body = reactions.iter().map(|id| groups[id.0].bodies.first());
+    let first = on_body.next();
+    if on_body.any(|body| Some(body) != first) {
+        return Vec::new();
+    }
+    let space = forms.mechanism.space();
+    let is_unique = |form: &LinearForm| {
+        let judged = form.judge(solvability);
+        judged.is_ok_and(|judged| judged.verdict.is_unique())
+    };
+    let sum_of = |ids: &[ConstraintId]| {
+        let terms: Vec<(f64, ConstraintId)> = ids.iter().map(|id| (1.0, *id)).collect();
+        forms.wrench_sum(&terms).unwrap_or_default()
+    };
+    let own: Vec<Vec<LinearForm>> = reactions.iter().map(|id| sum_of(&[*id])).collect();
+    let total = sum_of(reactions).into_iter().enumerate();
+    let found = total.filter(|(k, form)| {
+        let is_trivial = own.iter().all(|forms| is_unique(&forms[*k]));
+        !is_trivial && is_unique(form)
+    });
+    let found: Vec<usize> = found.map(|(k, _)| k).collect();
+    let mut names: Vec<String> = found
+        .iter()
+        .map(|&k| space.components()[k].to_owned())
+        .collect();
+    let is_torque = |k: &usize| space.torques().contains(k);
+    if let (Some(last), true, Ok(place)) = (
+        names.last_mut(),
+        found.iter().any(is_torque),
+        forms.place(reactions[0]),
+    ) {
+        let place = &place[..space.forces().len()];
+        let numbers: Vec<String> = place.iter().map(|x| words::short(*x)).collect();
+        last.push_str(&format!(" about ({})", numbers.join(", ")));
+    }
+    names
+}
+
+/// Returns multipliers of these rows without resultant load on any body, one solution in each
+/// column; they are zero in all other rows.
 fn spanning(solvability: &Solvability, rows: &[usize]) -> linalg::Matrix {
     let (z, scaling) = (solvability.null_space(), &solvability.decision().scaling);
     let mut own = linalg::Matrix::zeros(z.nrows(), z.ncols());
@@ -365,17 +418,19 @@ fn reaction(
     let told = directions.map(|each| {
         each.map(|directions| -> Vec<String> { directions.iter().map(combination).collect() })
     });
-    // What no load of the joint has is unique, and says nothing of the loads.
+    // A component that does not occur in any load of the joint is unique, and does not describe the
+    // loads.
     let determined = match &told {
-        None => "what of it is determined is not decided".to_owned(),
+        None => "the determined part of it is undecided".to_owned(),
         Some([live, unique]) => match (&live[..], &unique[..]) {
-            ([], []) => "nothing of it is determined".to_owned(),
-            ([], [one]) => format!("determined is {one} only, which is zero whatever the loads"),
+            ([], []) => "no part of it is determined".to_owned(),
+            ([], [one]) => format!("only {one} is determined, and it is zero under every load"),
             ([], unique) => format!(
-                "determined are {} only, which are zero whatever the loads",
+                "only {} are determined, and they are zero under every load",
                 list(unique)
             ),
-            (live, _) => format!("determined is {}", list(live)),
+            ([one], _) => format!("only {one} is determined"),
+            (live, _) => format!("only {} are determined", list(live)),
         },
     };
     let is_open = group
@@ -383,7 +438,9 @@ fn reaction(
         .iter()
         .any(|row| open.binary_search(&row).is_ok());
     let shared = match others.as_slice() {
-        _ if is_open => "within the tolerance it is open what it shares loads with".to_owned(),
+        _ if is_open => {
+            "the joints that share its loads are undecided within the tolerance".to_owned()
+        }
         [] => "its rows depend on each other".to_owned(),
         others => format!("it shares loads with {}", list(&names(layout, others))),
     };
@@ -443,8 +500,9 @@ fn stress(
     }
 }
 
-/// Scales the loads to largest force 1, or to largest torque 1 if all forces are rounding relative
-/// to the torques divided by the size; the first number is positive. Rounding is set to zero.
+/// Scales the loads to largest force 1. If all forces are rounding relative to the torques divided
+/// by the size, the loads are scaled to largest torque 1. The first number is positive. Rounding is
+/// set to zero.
 fn normalise(layout: &Layout, directions: &mut [FreeDirection], size: f64) {
     let force = |d: &FreeDirection| norm(&d.force);
     let force = directions.iter().map(force).fold(0.0, f64::max);
@@ -460,7 +518,7 @@ fn normalise(layout: &Layout, directions: &mut [FreeDirection], size: f64) {
     if unit == 0.0 {
         return;
     }
-    // The first number that is told is positive.
+    // The first printed number is positive.
     let first = directions.first().and_then(|d| {
         let numbers = d.component.into_iter().chain(d.force).chain(d.torque);
         numbers.into_iter().find(|x| x.abs() > VISIBLE * unit)
@@ -486,7 +544,7 @@ fn normalise(layout: &Layout, directions: &mut [FreeDirection], size: f64) {
     }
 }
 
-/// Whether the named component of a joint or drive is a torque.
+/// Returns whether the named component of a joint or drive is a torque.
 fn is_turned(layout: &Layout, id: ConstraintId) -> bool {
     let rows = &layout.groups[id.0].rows;
     rows.iter().all(|row| layout.is_angular(row))

@@ -1,16 +1,17 @@
-//! Do finite reactions exist?
+//! Decides whether finite reactions exist.
 //!
 //! `M·a + Cᵀ·λ = Q` and `C·a = Γ` are equations of first order: a is the acceleration that the
-//! loads cause along the velocities with `C·v = 0`. From rest, a motion begins as `q(t) = q +
-//! ½·a·t² + …`, so its acceleration satisfies the equations of second order, `z·Γ(a) = 0` for every
-//! z of the left null space. If the acceleration above does not, no motion has these reactions: two
-//! bars in line between two pins cannot sag, and no finite force holds a load across them. Pins
-//! that are a little out of line carry it with forces that grow without bound as the sag vanishes.
+//! loads cause along the velocities with `C·v = 0`. From rest, a motion begins as
+//! `q(t) = q + ½·a·t² + …`, so its acceleration satisfies the equations of second order,
+//! `z·Γ(a) = 0` for every z of the left null space. If the acceleration above does not, no motion
+//! has these reactions: two bars in line between two pins cannot sag, and no finite force holds a
+//! load across them. Pins that are slightly out of line carry the load with forces that grow
+//! without bound as the sag vanishes.
 //!
-//! This concerns all joints of a set of connected bodies, because the acceleration of each of them
-//! is wrong. Of bodies that move, and of bodies that functions of time move, the equations of
-//! second order restrict other terms, too; there the result is undecided wherever a freedom is
-//! restricted.
+//! The result concerns all joints of a set of connected bodies, because the acceleration of each of
+//! these bodies is wrong. For bodies that move, or that functions of time move, the equations of
+//! second order contain further terms. The result for such bodies is undecided wherever a freedom
+//! is restricted.
 
 use model::{ConstraintId, Mechanism, System};
 use rank::RankDecision;
@@ -24,12 +25,13 @@ use crate::second_order::{AccelerationVerdict, RestrictedVelocities, SecondOrder
 use crate::state::{StateError, check};
 use crate::value::NoFiniteReaction;
 
-/// The sets of connected bodies whose reactions have no finite value at time t, coordinates q and
-/// velocities v, which must satisfy the constraints. Empty if the rank is undecided, or if there is
-/// no solution of the equations of motion at all.
+/// Returns the sets of connected bodies whose reactions have no finite value at time t, coordinates
+/// q and velocities v, which must satisfy the constraints. The list is empty if the rank is
+/// undecided, or if the equations of motion have no solution.
 ///
 /// # Errors
-/// If the state has the wrong number of values, or one of them is not finite.
+/// The function returns an error if the state has the wrong number of values, or if a value is not
+/// finite.
 pub fn no_finite_reactions(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -58,7 +60,7 @@ struct Instant<'a> {
     v: &'a [f64],
     units: Vec<f64>,
     acceleration: Vec<f64>,
-    /// Generalised forces of each load, n_v.
+    /// Generalised forces of each load, n_v values.
     loads: Vec<(String, Vec<f64>)>,
 }
 
@@ -84,7 +86,7 @@ impl<'a> Instant<'a> {
         }
     }
 
-    /// What is said of the reactions of a set of bodies; `None` if they are finite.
+    /// Returns the report on the reactions of a set of bodies; `None` if the reactions are finite.
     fn set(&self, set: &RestrictedVelocities) -> Result<Option<NoFiniteReaction>, StateError> {
         let groups = self.groups(set);
         let prescribed = groups
@@ -126,7 +128,7 @@ impl<'a> Instant<'a> {
         v.iter().zip(&self.units).map(|(v, u)| v / u).collect()
     }
 
-    /// Joints and drives of the bodies of a set.
+    /// Returns the joints and drives of the bodies of a set.
     fn groups(&self, set: &RestrictedVelocities) -> Vec<ConstraintId> {
         let layout = self.mechanism.layout();
         let is_own = |id: &ConstraintId| {
@@ -143,16 +145,16 @@ impl<'a> Instant<'a> {
         columns.any(|j| (self.v[j] / self.units[j]).abs() > AT_REST_SPEED)
     }
 
-    /// Whether the part of the acceleration along the restricted velocities, w, is more than the
-    /// rounding of the loads: `wᵀ·M·w = wᵀ·(Q − M·(a − w))`.
+    /// Returns whether the component of the acceleration along the restricted velocities, w,
+    /// exceeds the rounding of the loads: `wᵀ·M·w = wᵀ·(Q − M·(a − w))`.
     fn pushes(&self, w: &[f64]) -> bool {
         let mass = self.mechanism.mass();
         let own: f64 = (0..w.len()).map(|j| mass[j] * w[j] * w[j]).sum();
         own > PUSHES * (self.load_terms(w) + self.inertia_terms(w)) + self.rounding(w)
     }
 
-    /// The power along w that is rounding of loads of this size. If w is rounding itself, so are
-    /// the terms of its power.
+    /// Returns the power along w that is rounding of loads of this size. If w itself is rounding,
+    /// the terms of its power are rounding, too.
     fn rounding(&self, w: &[f64]) -> f64 {
         let mass = self.mechanism.mass();
         let of_column = |j: usize| {
@@ -176,7 +178,7 @@ impl<'a> Instant<'a> {
             .sum()
     }
 
-    /// The loads with a power along one of these velocities.
+    /// Returns the loads with a power along one of these velocities.
     fn pushing(&self, velocities: &[Vec<f64>]) -> Vec<String> {
         let pushes = |force: &Vec<f64>| {
             velocities.iter().any(|w| {

@@ -1,7 +1,7 @@
-//! Components of reactions in the frames that engineers use: global, of the first body, along and
-//! across an edge. Components that are coupled in one frame may be independent in another: the
-//! bearing force of a crank has a unique component across the crank, whatever its global components
-//! are.
+//! Components of reactions in the frames that engineers use: global axes, axes of the first body,
+//! and axes along and across an edge. Components that are coupled in one frame may be independent
+//! in another. For example, the bearing force of a crank has a unique component across the crank,
+//! even if no global component is unique.
 
 use model::{Axes, ConstraintId, Frame, Mechanism};
 use rank::RankDecision;
@@ -16,25 +16,25 @@ use crate::judged::ComponentVerdict;
 pub struct FrameVerdict {
     /// The frame.
     pub frame: Frame,
-    /// Unit vectors of its axes, global components.
+    /// Unit vectors of the axes of the frame, in global components.
     pub axes: Axes,
-    /// Verdicts on the components along the axes, and of the torque about the place of the joint;
-    /// named as in [`model::SpaceKind::components_in`]. A component that is identically zero is
-    /// unique.
+    /// Verdicts on the components along the axes, and on the torque about the reference point of
+    /// the joint. The names are those of [`model::SpaceKind::components_in`]. A component that is
+    /// identically zero is unique.
     pub components: Vec<ComponentVerdict>,
 }
 
 /// The components of a reaction in one frame, as numbers linear in the multipliers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameForms {
-    /// Unit vectors of the axes, global components.
+    /// Unit vectors of the axes, in global components.
     pub axes: Axes,
     /// The components with their names, in the order of [`FrameVerdict`].
     pub components: Vec<(&'static str, LinearForm)>,
 }
 
 /// Determines the verdicts on the reaction of a joint or drive at time t and coordinates q, in all
-/// frames that it has.
+/// frames of this reaction.
 ///
 /// ```
 /// use joints::Revolute;
@@ -62,7 +62,7 @@ pub struct FrameForms {
 /// ```
 ///
 /// # Errors
-/// As [`Configuration::new`], and [`RequestError::UnknownReaction`].
+/// Same errors as [`Configuration::new`], and [`RequestError::UnknownReaction`].
 pub fn judge_frames(
     mechanism: &Mechanism,
     t: f64,
@@ -74,10 +74,10 @@ pub fn judge_frames(
 }
 
 impl Configuration<'_> {
-    /// The verdicts of a reaction in all frames that it has.
+    /// Returns the verdicts on a reaction in all of its frames.
     ///
     /// # Errors
-    /// [`RequestError::UnknownReaction`]
+    /// [`RequestError::UnknownReaction`]: the mechanism does not contain the joint or drive.
     pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, RequestError> {
         let mut verdicts = Vec::new();
         for frame in Frame::ALL {
@@ -99,10 +99,11 @@ impl Configuration<'_> {
 }
 
 impl ReactionForms<'_> {
-    /// The components of a reaction in a frame; `None` if the reaction has no such frame.
+    /// Returns the components of a reaction in a frame, or `None` if the reaction has no such
+    /// frame.
     ///
     /// # Errors
-    /// [`RequestError::UnknownReaction`]
+    /// [`RequestError::UnknownReaction`]: the mechanism does not contain the joint or drive.
     pub fn in_frame(
         &self,
         id: ConstraintId,
@@ -118,7 +119,7 @@ impl ReactionForms<'_> {
             forms.push(self.force(id, *along)?);
         }
         match space.n_rotations() {
-            // In the plane a torque has the direction of z in all axes.
+            // In the plane, the direction of a torque is z in all axes.
             1 => forms.push(self.torque(id, [0.0, 0.0, 1.0], place)?),
             _ => {
                 for along in axes.iter() {

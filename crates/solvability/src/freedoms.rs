@@ -1,14 +1,14 @@
-//! Degrees of freedom: rank, redundancy and mobility of the rows without those of drives, and the
-//! free motions as text and numbers.
+//! Degrees of freedom: rank, redundancy and mobility of the rows without drives, and the free
+//! motions as text and numbers.
 //!
 //! A drive adds to the rank like any other row: with its drive, a four-bar has mobility 0, like a
-//! truss. Without drives the two differ, and the remaining motions show how. The ranks are those of
-//! [`crate::analyse`]; nothing is decided here. Free motions are of first order at one
-//! configuration: velocities v with `C·v = 0`.
+//! truss. Without drives, the two mechanisms differ, and the remaining motions show the difference.
+//! The ranks come from [`crate::analyse`]; this module decides no rank. Free motions are of first
+//! order at one configuration: velocities v with `C·v = 0`.
 //!
-//! A basis of these velocities is a matter of choice. Bodies that no joint connects move
-//! separately. Of connected bodies, each motion moves as few joints as a search finds, and then as
-//! few bodies. A body that is attached to nothing is reported as free.
+//! The basis of these velocities is not unique. Bodies that no joint connects move separately. For
+//! connected bodies, each motion moves as few joints as a search finds, and then as few bodies. A
+//! body without joints is reported as free.
 
 mod basis;
 mod component;
@@ -32,7 +32,7 @@ pub use motions::{FreeMotion, FreeMotions, LeftOut};
 pub(crate) use ranks::PartialRanks;
 pub use ranks::WithoutDrives;
 
-/// The possible motions at a configuration, with the drives and without them.
+/// The possible motions at a configuration, with and without the drives.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -41,16 +41,17 @@ pub struct Freedoms {
     pub mobility: usize,
     /// Motions that are possible while the drives are locked.
     pub motions: FreeMotions,
-    /// A basis of those that second order excludes, as far as it decides: they are free at first
-    /// order only, and no motion has such a velocity.
+    /// A basis of the motions that second order excludes, as far as this is decided. They are free
+    /// only at first order, and no finite motion has such a velocity.
     pub blocked: Vec<FreeMotion>,
-    /// A basis of those for which second order neither excludes a motion nor proves one.
+    /// A basis of the motions for which second order neither excludes nor proves a finite motion.
     pub undecided: Vec<FreeMotion>,
     /// The freedoms without the drives. `None` if there are no drives.
     pub without_drives: Option<FreedomsWithoutDrives>,
-    /// Whether no motion is possible: no velocity is free without the drives, or second order
-    /// excludes every velocity that is free without them, or every one that they leave free while
-    /// none of them moves. `None` if this is not decided.
+    /// Whether no motion is possible. This is true if no velocity is free without the drives, or if
+    /// second order excludes every velocity that is free without the drives. It is also true if
+    /// second order excludes every free velocity while the drives do not move. `None` if this is
+    /// not decided.
     pub cannot_move: Option<bool>,
 }
 
@@ -65,14 +66,14 @@ pub struct FreedomsWithoutDrives {
     pub ranks: WithoutDrives,
     /// Mobility n_v − r of these rows.
     pub mobility: usize,
-    /// Motions that are possible.
+    /// Possible motions without the drives.
     pub motions: FreeMotions,
 }
 
-/// Describes velocities (n_v each) that the rows at q allow, as motions that span them.
+/// Describes velocities (n_v values each) that the rows at q allow, as motions that span them.
 ///
 /// # Errors
-/// If q is not a configuration of this mechanism.
+/// The function returns an error if q is not a configuration of this mechanism.
 pub fn motions_among(
     mechanism: &Mechanism,
     t: f64,
@@ -87,10 +88,10 @@ pub fn motions_among(
 }
 
 impl Analysis {
-    /// Determines what can move at the configuration q of the analysis.
+    /// Determines the possible motions at the configuration q of the analysis.
     ///
     /// # Errors
-    /// If q is not a configuration of this mechanism.
+    /// The function returns an error if q is not a configuration of this mechanism.
     pub fn freedoms(&self, mechanism: &Mechanism, q: &[f64]) -> Result<Freedoms, StateError> {
         let decided = self.parts.iter().map(|part| PartRank {
             rows: (0..part.rows()).map(|k| part.extent.row(k)).collect(),
@@ -112,7 +113,7 @@ impl Analysis {
         Ok(found)
     }
 
-    /// Adds what second order says of the free motions; returns whether none is left.
+    /// Adds the second-order results on the free motions; returns whether no free motion remains.
     fn restrict(
         &self,
         found: &mut Freedoms,
@@ -132,13 +133,13 @@ impl Analysis {
         found.undecided = described(SecondOrder::Undecided);
         let mut ids = mechanism.layout().constraint_ids();
         let moves = ids.any(|id| mechanism.prescribes_motion(id));
-        // Second order says nothing of the motion that functions of time prescribe.
+        // The second-order test does not apply to the motion that functions of time prescribe.
         Ok(restricted.exclude_all().filter(|all| !all || !moves))
     }
 }
 
-/// Whether second order excludes every velocity of the mechanism without its drives, which hold it
-/// at first order.
+/// Returns whether second order excludes every velocity of the mechanism without its drives, which
+/// prevent these velocities at first order.
 fn blocked_without_drives(
     mechanism: &Mechanism,
     t: f64,

@@ -1,11 +1,11 @@
-//! Is a redundancy permanent, or present at this configuration only? The rank is constant on each
-//! connected component of the configuration set except on a nowhere dense part of it, so the ranks
-//! at a few other points of the same component decide.
+//! Decides whether a redundancy is permanent or present at this configuration only. The rank is
+//! constant on each connected component of the configuration set except on a nowhere dense part of
+//! it. Therefore the ranks at a few other points of the same component decide.
 //!
-//! Other points are reached by steps along the free directions of the constraints, without those
-//! that second order excludes: another branch may be near, and its rank says nothing of this one.
-//! Drives are left out, because the values they prescribe change with time. If other constraints
-//! depend on time, time changes as well.
+//! Other points are reached by steps along the free directions of the constraints. The steps
+//! exclude directions that second order blocks, because another branch may be near, and its rank
+//! does not describe this branch. Drives are omitted, because their prescribed values change with
+//! time. If other constraints depend on time, time changes as well.
 
 mod leaving;
 mod walker;
@@ -28,7 +28,8 @@ use walker::{LastingRows, Walker, has_lasting_function};
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generic {
-    /// The smallest redundancy found, which holds at almost all configurations.
+    /// The smallest redundancy of the compared configurations, which is the redundancy at almost
+    /// all configurations.
     pub redundancy: usize,
     /// The configurations that were compared.
     pub points: Vec<OtherConfiguration>,
@@ -49,7 +50,7 @@ pub struct OtherConfiguration {
     pub redundancy: usize,
 }
 
-/// The verdicts on a joint or drive that hold at nearly all configurations.
+/// The verdicts on a joint or drive at nearly all configurations.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -64,7 +65,8 @@ pub struct GenericVerdict {
 }
 
 impl GenericVerdict {
-    /// The verdict on a component, by its name; `None` for one that is zero under any load.
+    /// Returns the verdict on a component, by its name; `None` for a component that is zero under
+    /// any load.
     #[must_use]
     pub fn component(&self, name: &str) -> Option<&Verdict> {
         let mut own = self.components.iter();
@@ -72,18 +74,18 @@ impl GenericVerdict {
     }
 }
 
-/// Ranks at configurations other than (t, q), which must satisfy the constraints. Returns `None` if
-/// no configuration was found at which the rank is decided (a structure that cannot move has no
-/// others), if there are no rows or more than [`ONE_PART`], or if t and q are not a configuration
-/// of this mechanism.
+/// Returns ranks at configurations other than (t, q), which must satisfy the constraints. Returns
+/// `None` if no configuration with a decided rank was found (a structure that cannot move has only
+/// one configuration). Also returns `None` if there are no rows or more than [`ONE_PART`], or if t
+/// and q are not a configuration of this mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     Some(Comparison::of(mechanism, t, q)?.found)
 }
 
-/// Like [`generic`], with the verdicts on all joints and drives at these configurations: of those
-/// with the smallest redundancy that was found, the worst. They are `None` if they are not known
-/// there.
+/// Works like [`generic`], with the verdicts on all joints and drives. They are the worst verdicts
+/// at the configurations with the smallest redundancy, or `None` if the verdicts there are not
+/// known.
 #[must_use]
 pub fn generic_with_verdicts(
     mechanism: &Mechanism,
@@ -98,13 +100,13 @@ pub fn generic_with_verdicts(
 /// Other configurations, with their decisions.
 struct Comparison {
     found: Generic,
-    /// Of the rows that are compared, one for each configuration.
+    /// Decisions on the compared rows, one for each configuration.
     decided: Vec<DecidedRows>,
     /// Rows whose rank is compared, ascending.
     compared: Vec<usize>,
 }
 
-/// The decision on rows of C, and C without dimensions as it was decided.
+/// The decision on rows of C, and the dimensionless C on which it is based.
 struct DecidedRows {
     decision: RankDecision,
     c: Matrix,
@@ -113,7 +115,7 @@ struct DecidedRows {
 impl Comparison {
     fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Self> {
         crate::state::check_configuration(mechanism, t, q).ok()?;
-        // Without rows there is nothing to compare.
+        // Without rows there is no comparison.
         if !(1..=ONE_PART).contains(&mechanism.layout().rows()) {
             return None;
         }
@@ -157,7 +159,7 @@ impl Comparison {
         })
     }
 
-    /// The worst verdicts at the configurations with the smallest redundancy.
+    /// Returns the worst verdicts at the configurations with the smallest redundancy.
     fn verdicts(&self, mechanism: &Mechanism) -> Option<Vec<GenericVerdict>> {
         let points = self.found.points.iter().zip(&self.decided);
         let typical = points.filter(|(p, _)| p.redundancy == self.found.redundancy);
@@ -183,9 +185,9 @@ impl Comparison {
         Some(mechanism.layout().constraint_ids().map(of).collect())
     }
 
-    /// The verdicts on all components at one of them. Rows that were not compared are redundant
-    /// there within a stated tolerance: where the decision on all rows does not find them so, it is
-    /// one of another rank, and the verdicts are not known.
+    /// Returns the verdicts on all components at one of these configurations. Rows that were not
+    /// compared are redundant there within a stated tolerance. If the decision on all rows does not
+    /// find them redundant, its rank differs, and the verdicts are not known.
     fn verdicts_at(
         &self,
         mechanism: &Mechanism,
@@ -206,7 +208,7 @@ impl Comparison {
     }
 }
 
-/// Whether the degree of redundancy is the same at other configurations. Returns `None` if
+/// Returns whether the degree of redundancy is the same at other configurations. Returns `None` if
 /// [`generic`] does, or if the rank at this configuration is undecided.
 #[must_use]
 pub fn is_permanent(
@@ -219,9 +221,9 @@ pub fn is_permanent(
     Some(found.redundancy == decision.redundancy)
 }
 
-/// The rows whose rank is compared: all, but of the rows that are dropped at (t, q) only those that
-/// are dependent to rounding. The others are redundant within a stated tolerance, which has been
-/// found at several configurations.
+/// Returns the rows whose rank is compared: the independent rows at (t, q), and those redundant
+/// rows that are dependent to rounding. The other rows are redundant within a stated tolerance, and
+/// this was found at several configurations.
 fn compared_rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Vec<usize>> {
     let all = (0..mechanism.layout().rows()).collect();
     if !mechanism.has_tolerances() {

@@ -1,6 +1,6 @@
 //! Verdicts on groups that the user defines: several reactions, one number computed from their
-//! components, a sum of wrenches, everything that acts on a set of bodies. The meaning of a group
-//! is up to the user, so each kind states its own.
+//! components, a sum of wrenches, or all loads on a set of bodies. The user decides the purpose of
+//! a group, so each kind defines its own verdict.
 
 mod configuration;
 mod error;
@@ -40,12 +40,12 @@ pub struct GroupVerdict {
     pub about: Option<[f64; 3]>,
 }
 
-/// Determines the verdicts of groups at time t and coordinates q, at which the rank has been
+/// Determines the verdicts on groups at time t and coordinates q, at which the rank has been
 /// decided.
 ///
 /// # Errors
 /// - [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`],
-///   [`RequestError::UnknownBody`]: a group names what does not exist.
+///   [`RequestError::UnknownBody`]: a group names an element that does not exist.
 /// - [`RequestError::Empty`]: a group is empty.
 /// - [`RequestError::NotFinite`], [`RequestError::Length`]: a coefficient is not a finite number,
 ///   or t, q and the decision do not fit the mechanism.
@@ -61,15 +61,15 @@ pub fn judge_groups(
 }
 
 impl Configuration<'_> {
-    /// The verdict of a group.
+    /// Returns the verdict on a group.
     ///
     /// # Errors
-    /// As [`judge_groups`].
+    /// Same errors as [`judge_groups`].
     pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
         self.group_about(group, self.reactions.about(group)?)
     }
 
-    /// Like [`Self::group`], with T of wrenches about this point.
+    /// Works like [`Self::group`], with the torques T of wrenches about this point.
     pub(crate) fn group_about(
         &self,
         group: &Group,
@@ -108,8 +108,8 @@ impl Configuration<'_> {
         }
     }
 
-    /// The total of the reactions of several joints on each body: `Σ C_Xᵀ·λ_X`, each joint counted
-    /// once.
+    /// Returns the total of the reactions of several joints on each body: `Σ C_Xᵀ·λ_X`, with each
+    /// joint counted once.
     fn one_joint(&self, members: &[ConstraintId]) -> Result<GroupVerdict, RequestError> {
         let mut rows: Vec<usize> = self
             .reactions

@@ -1,4 +1,4 @@
-//! Results for a part: verdicts on its joints and drives, and its dependencies.
+//! Results for one part: verdicts on its joints and drives, and its dependencies.
 
 use model::{ConstraintId, Mechanism, SpaceKind, System};
 use rank::RankStatus;
@@ -15,39 +15,40 @@ use crate::verdict::Judgement;
 pub struct ReactionVerdict {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
     /// The space of the mechanism.
     pub space: SpaceKind,
-    /// Its type in scene files.
+    /// Type of the joint or drive in scene files.
     pub kind: &'static str,
-    /// Verdict on the wrench: unique iff `B_X = 0` and no component is free because a row moves no
-    /// body, as between two parts of the ground.
+    /// Verdict on the wrench: unique iff `B_X = 0` and no component is free because of a row that
+    /// moves no body, such as a row between two parts of the ground.
     pub wrench: Judgement,
     /// Verdict on all its multipliers together: unique iff `Z_X = 0`.
     pub multipliers: Judgement,
-    /// Verdicts on each of its rows.
+    /// Verdicts on each row of the joint or drive.
     pub rows: Vec<RowVerdict>,
     /// Verdicts on each component of the reaction that is not identically zero, and on the `load`
     /// of a coupling.
     pub components: Vec<ComponentVerdict>,
     /// The components that are zero at this configuration under any load, such as the force along a
-    /// knife edge: unique, but not informative.
+    /// knife edge. They are unique, but not informative.
     pub zero_components: Vec<&'static str>,
     /// Basis of the unique directions, in these components.
     pub unique_directions: Vec<Vec<f64>>,
-    /// Basis of the unique directions that are not zero under any load: perpendicular to the
-    /// directions along which there is no reaction here. `None` if their number is undecided; then
-    /// there are no unique directions either.
+    /// Basis of the unique directions that are not zero under any load. They are perpendicular to
+    /// the directions in which the reaction is zero at this configuration. `None` if their number
+    /// is undecided; then there are no unique directions, either.
     pub live_directions: Option<Vec<Vec<f64>>>,
-    /// The largest part of the reaction that had to count as zero within the tolerance of the scene
-    /// for these directions to be unique; zero if there is none.
+    /// The largest component of the reaction that counts as zero within the tolerance of the scene,
+    /// so that these directions are unique. It is zero if there is no such component.
     pub directions_left_out: f64,
 }
 
 impl ReactionVerdict {
-    /// Whether a component of the reaction is unique, by its name: one that is zero under any load
-    /// is; the named component of a definition, as `N` of a knife edge, is if the wrench is.
+    /// Returns whether the named component of the reaction is unique. A component that is zero
+    /// under any load is unique. The named component of a definition, such as `N` of a knife edge,
+    /// is unique if the wrench is unique.
     #[must_use]
     pub fn determines(&self, component: &str) -> bool {
         if self.wrench.verdict.is_unique() || self.zero_components.contains(&component) {
@@ -64,7 +65,7 @@ impl ReactionVerdict {
 pub struct RowVerdict {
     /// Row of C, from 0.
     pub row: usize,
-    /// Verdict on its multiplier.
+    /// Verdict on the multiplier of the row.
     pub judgement: Judgement,
 }
 
@@ -74,7 +75,7 @@ pub struct RowVerdict {
 pub struct ComponentVerdict {
     /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
     pub name: &'static str,
-    /// Its verdict.
+    /// Verdict on the component.
     pub judgement: Judgement,
 }
 
@@ -84,16 +85,16 @@ pub struct ComponentVerdict {
 pub struct Dependency {
     /// Rows of C, from 0.
     pub rows: Vec<usize>,
-    /// `Σ coefficient·row = 0`, the largest coefficient 1.
+    /// Coefficients of `Σ coefficient·row = 0`; the largest coefficient is 1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient (rows scaled) that counts as zero only within the tolerance of the
-    /// scene; zero if there is none.
+    /// The largest coefficient (for scaled rows) that counts as zero only within the tolerance of
+    /// the scene; zero if there is no such coefficient.
     pub left_out: f64,
     /// Explanation as text.
     pub text: String,
 }
 
-/// Results for a part, in the numbers of the part until [`Self::placed`] is called.
+/// Results for a part. The numbering is that of the part until [`Self::placed`] is called.
 pub(crate) struct PartResults {
     pub(crate) part: PartAnalysis,
     pub(crate) reactions: Vec<ReactionVerdict>,
@@ -102,8 +103,8 @@ pub(crate) struct PartResults {
 }
 
 impl PartResults {
-    /// A part by itself at time t: its decided rank, the ranks of some of its rows, and what
-    /// `verdict` says of each joint and drive. Dependencies are not listed.
+    /// Creates the results of a part at time t from its decided rank and the ranks of some of its
+    /// rows. `verdict` returns the verdict on each joint and drive. Dependencies are not listed.
     pub(crate) fn new(
         mechanism: &Mechanism,
         t: f64,
@@ -139,7 +140,7 @@ impl PartResults {
         })
     }
 
-    /// The same in numbers of the whole; warnings say of which part they are.
+    /// Returns the results in the numbering of the whole mechanism; warnings name the part.
     pub(crate) fn placed(mut self, whole: &Mechanism, extent: Extent) -> Self {
         if extent.is_whole() {
             return self;

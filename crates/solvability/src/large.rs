@@ -1,9 +1,9 @@
 //! A large set of joints on common cycles: its rank, and verdicts from random combinations of its
 //! left null space.
 //!
-//! The verdict on a joint is read from its own rows of `W = Z·Ω` alone, as it is read from its rows
-//! of Z in a small mechanism; the cost does not depend on the degree of redundancy. Dependencies
-//! are reported if the dependent rows split into small sets of cycles.
+//! The verdict on a joint uses only its own rows of `W = Z·Ω`, as it uses its rows of Z in a small
+//! mechanism. The cost does not depend on the degree of redundancy. Dependencies are reported if
+//! the dependent rows split into small sets of cycles.
 
 use crate::error::AnalysisError;
 use crate::judged::{Dependency, PartResults, ReactionVerdict};
@@ -20,11 +20,11 @@ use crate::mechanism::reaction;
 use crate::parts::{PartDecision, parts};
 use crate::sparse::{SparseDecision, decide_some};
 
-/// Ranks and verdicts of a large mechanism at the pose of the scratch, in which Φ and C have been
-/// evaluated at coordinates q.
+/// Returns ranks and verdicts of a large mechanism at the configuration of the scratch, in which Φ
+/// and C have been evaluated at coordinates q.
 ///
 /// # Errors
-/// If C is not finite, or too dense for a sparse decision.
+/// Returns an error if C is not finite, or too dense for a sparse decision.
 pub(crate) fn judge_sparse(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -53,7 +53,7 @@ pub(crate) fn judge_sparse(
         let told = judged.dependencies.len();
         if told < redundancy {
             judged.warnings.push(format!(
-                "{told} of {redundancy} dependencies are listed: {} rows share cycles, and more than {ROWS_MAX} of them depend on each other",
+                "{told} of {redundancy} dependencies are listed: {} rows share cycles, and more than {ROWS_MAX} of them are dependent",
                 layout.rows()
             ));
         }
@@ -61,7 +61,7 @@ pub(crate) fn judge_sparse(
     Ok(judged)
 }
 
-/// Minimal dependent sets of rows, for those joints with dependent rows that share small sets of
+/// Returns minimal dependent sets of rows, for joints whose dependent rows share small sets of
 /// cycles.
 fn dependencies(
     mechanism: &Mechanism,

@@ -4,36 +4,36 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`verdict`] | unique, not unique, undecided: with the number behind it |
+//! | [`verdict`] | the verdicts unique, not unique and undecided, with their evidence |
 //! | [`matrices`] | solvability of a plain constraint matrix |
-//! | [`mod@rows`] | what a motion needs: independent rows, also of large mechanisms |
-//! | [`state`] | a state that the caller gives |
-//! | [`existence`] | whether the rows contradict each other |
-//! | [`finite`] | whether the loads push along a freedom that second order excludes |
-//! | [`mod@generic`] | whether a redundancy is permanent, or of this configuration only |
-//! | [`freedoms`] | what can move, with drives and without |
+//! | [`mod@rows`] | independent rows for simulations, also of large mechanisms |
+//! | [`state`] | checks of coordinates and velocities that the caller passes |
+//! | [`existence`] | existence of a solution: contradictions between redundant rows |
+//! | [`finite`] | whether finite reactions exist where second order blocks a freedom |
+//! | [`mod@generic`] | whether a redundancy is permanent or exists at one configuration only |
+//! | [`freedoms`] | free motions with and without the drives |
 //! | [`groups`] | combinations of reactions, resultants |
 //! | [`frames`] | components in global, body and edge frames |
-//! | [`moments`] | moments about other points than the place |
+//! | [`moments`] | moments about points other than the reference point |
 //! | [`choices`] | one solution among many, labelled |
 //! | [`mod@analysis`] | ranks and verdicts of a mechanism of any size |
 //! | [`mod@parts`] | the parts of a mechanism on common cycles, each analysed separately |
 //! | `mechanism` | one part: joints, wrenches, directions |
-//! | `directions` | bases of directions for readers |
+//! | `directions` | readable bases of free directions |
 //! | `pose` | C at one configuration, without dimensions |
-//! | `judged` | results for a part |
-//! | `certificate` | the rank in double-double at a polished point |
-//! | [`questions`] | sums, frames, choices and deletions, answered by the parts that they involve |
-//! | [`mod@structure`] | reactions that the structure makes unique, before any rank |
-//! | `sparse`, `large` | one large set of joints, decided sparsely |
-//! | [`mod@explain`] | mixing, free directions and sentences |
+//! | `judged` | verdicts on the reactions of one part |
+//! | `certificate` | rank in double-double arithmetic at a refined configuration |
+//! | [`questions`] | sums, frames, choices and deletions, computed from the parts involved |
+//! | [`mod@structure`] | reactions that are unique because of the structure alone |
+//! | `sparse`, `large` | analysis of a large set of joints with sparse matrices |
+//! | [`mod@explain`] | explanations: coupled reactions, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
 //! | [`sensitivity`] | how much unique numbers of reactions depend on the data |
-//! | [`mod@second_order`] | whether the motion is unique at a drop of rank |
-//! | [`mod@stretches`] | verdicts of a run, by stretches of time and component |
-//! | [`along`] | verdicts along a motion by stretches of time, and its singular configurations |
-//! | `words` | lists, numbers and vectors in sentences |
-//! | `loads` | forces and moments in space that joints share, as sentences |
+//! | [`mod@second_order`] | whether the motion is unique where the rank drops |
+//! | [`mod@stretches`] | verdicts of a simulation, by time interval and component |
+//! | [`along`] | verdicts along a motion by time interval, and its singular configurations |
+//! | `words` | text formatting of lists, numbers and vectors |
+//! | `loads` | sentences about spatial forces and moments that joints share |
 
 pub mod along;
 pub mod analysis;

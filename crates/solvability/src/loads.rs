@@ -1,8 +1,12 @@
-//! Loads in space that joints can put on each other while the bodies feel nothing, as sentences: of
-//! each joint the forces and moments that it can carry, a space of wrenches.
+//! Describes spatial loads that joints can exert on each other without a resultant load on the
+//! bodies. The description of each joint lists the forces and moments that it can carry, which form
+//! a space of wrenches.
 //!
-//! In one loop of joints all carry the same: a wrench is handed round. What is told of it does not
-//! depend on the rows of the joints, only on the space that they leave.
+//! In one loop, all joints carry the same wrench. Its description depends on the space of these
+//! wrenches, and not on the choice of rows of the joints.
+//!
+//! The sentences use twists and wrenches, not rows, so they do not depend on the equations by which
+//! a joint is defined.
 
 use linalg::{Matrix, PivotedQr, small_svd};
 use model::space::{cross, difference, dot, norm};
@@ -11,13 +15,13 @@ use model::{ConstraintId, Mechanism, Scratch, System};
 use crate::limits::{SAME_PLACE, TOLD_LOADS, VISIBLE};
 use crate::words::{list, names, short, vector};
 
-/// Loads on some joints, in words.
+/// Description of the loads on some joints.
 pub(crate) enum LoadDescription {
-    /// One load, or loads of one space, that all joints hand round.
+    /// One load, or the loads of one space, that all joints carry.
     Common(String),
-    /// The same of every joint, at its own place.
+    /// The same load at every joint, at its own reference point.
     Each(String),
-    /// Joints with what they carry: "`A` and `B` a moment about x, `C` a force along z".
+    /// Joints with their loads: "`A` and `B` a moment about x, `C` a force along z".
     Various(String),
 }
 
@@ -54,7 +58,7 @@ pub(crate) fn tell(
     for (&id, image) in joints.iter().zip(&images) {
         let own = Wrenches::spanned(image, VISIBLE * largest);
         if own.0.ncols() == 0 {
-            // Its rows move no body.
+            // The rows of this joint move no body.
             continue;
         }
         match sets.iter_mut().find(|(other, _)| other.is_same(&own)) {
@@ -93,7 +97,7 @@ pub(crate) fn tell(
     }
 }
 
-/// The joints of a sentence, and the point about which moments are taken.
+/// The joints of a sentence, and the reference point of the moments.
 struct Places {
     about: [f64; 3],
     size: f64,
@@ -104,11 +108,11 @@ struct Places {
 /// A space of wrenches: orthonormal columns of force and moment divided by the size, 6 × d.
 struct Wrenches(Matrix);
 
-/// A force and its moment, without dimensions.
+/// A force and its moment, both dimensionless.
 type Wrench = [[f64; 3]; 2];
 
 impl Wrenches {
-    /// What these columns span; columns up to `nothing` are rounding.
+    /// Returns the space that these columns span; columns up to `nothing` are rounding.
     fn spanned(columns: &Matrix, nothing: f64) -> Self {
         let qr = PivotedQr::of_columns(columns);
         let rank = qr.r_diagonal().filter(|r| r.abs() > nothing).count();
@@ -122,7 +126,7 @@ impl Wrenches {
             && apart.map(|(a, b)| (a - b).abs()).all(|x| x <= SAME_PLACE)
     }
 
-    /// Wrenches with independent forces, and a basis of those without a force.
+    /// Returns wrenches with independent forces, and a basis of the wrenches without a force.
     fn split(&self) -> (Vec<Wrench>, Vec<[f64; 3]>) {
         let d = self.0.ncols();
         let qr = PivotedQr::of_rows(self.0.select_rows(&[0, 1, 2]));
@@ -141,7 +145,8 @@ impl Wrenches {
         )
     }
 
-    /// "a force along z through `D`", "forces in all directions and moments about x and y".
+    /// Describes the space, for example "a force along z through `D`" or "forces in all directions
+    /// and moments about x and y".
     fn words(&self, at: &Places, own: &[bool]) -> String {
         let (loads, couples) = self.split();
         let forces: Vec<[f64; 3]> = loads.iter().map(|[force, _]| *force).collect();
@@ -173,11 +178,11 @@ impl Wrenches {
 }
 
 impl Places {
-    /// The common point of forces, up to moments that are free themselves: a joint of the sentence
-    /// if one is there, nothing if the own places of all joints that carry them would do. Else the
-    /// moments that remain.
+    /// Describes the common point of forces, up to free moments: a joint of the sentence if there
+    /// is one at this point. The text is empty if the forces act at the reference points of all
+    /// their joints. Otherwise it lists the remaining moments.
     fn through(&self, own: &[bool], loads: &[Wrench], couples: &[[f64; 3]]) -> String {
-        // Unit forces, so that moments are lengths.
+        // The forces are unit vectors, so that moments are lengths.
         let sizes = loads.iter().map(|[force, _]| norm(force));
         let units = loads.iter().zip(sizes);
         let units: Vec<Wrench> = units
@@ -185,7 +190,7 @@ impl Places {
             .collect();
         let free = Matrix::from_fn(3, couples.len(), |i, j| couples[j][i]);
         let held = PivotedQr::of_columns(&free).q_columns(couples.len()..3);
-        // Moments about a point (relative, without dimensions), as far as they are not free.
+        // Returns the moments about a point (relative, dimensionless) that are not free.
         let moments = |p: [f64; 3]| -> Vec<f64> {
             let about = |[force, moment]: &Wrench| difference(*moment, cross(p, *force));
             units
@@ -203,7 +208,7 @@ impl Places {
         if let Some((name, _)) = named.into_iter().next() {
             return format!(" through {name}");
         }
-        // The moments vanish, or are least, where the gradient of their square is zero.
+        // The moments vanish, or have a minimum, where the gradient of their square is zero.
         let zero = moments([0.0; 3]);
         let unit = |k: usize| moments(std::array::from_fn(|i| f64::from(u8::from(i == k))));
         let columns = [0, 1, 2].map(unit);
@@ -221,7 +226,7 @@ impl Places {
         }
         let mut point: [f64; 3] = std::array::from_fn(|k| self.about[k] + self.size * p[k]);
         if let [[force, _]] = units.as_slice() {
-            // Of the line of action, the point nearest to the origin.
+            // The point of the line of action that is nearest to the origin.
             let along = dot(point, *force);
             point = std::array::from_fn(|k| point[k] - along * force[k]);
         }
@@ -240,7 +245,7 @@ impl Places {
     }
 }
 
-/// "along x and y" for the directions across z, or "across (0.6, 0.8, 0)".
+/// Returns "along x and y" for the directions perpendicular to z, or "across (0.6, 0.8, 0)".
 fn across(normal: [f64; 3], word: &str) -> String {
     match direction(normal).as_str() {
         "x" => format!("{word} y and z"),
@@ -250,7 +255,8 @@ fn across(normal: [f64; 3], word: &str) -> String {
     }
 }
 
-/// An axis of the ground, or the components of a unit vector, of which the first is positive.
+/// Returns an axis of the ground, or the components of a unit vector with a positive first
+/// component.
 fn direction(v: [f64; 3]) -> String {
     let size = norm(&v);
     let unit = v.map(|x| {

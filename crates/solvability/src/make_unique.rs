@@ -1,9 +1,9 @@
-//! Rows to delete so that a given reaction becomes unique while the motion stays the same.
+//! Finds rows to delete so that a given reaction becomes unique and the motion does not change.
 //!
-//! Deleting rows makes the others unique by decision: the designer assumes that these rows carry no
-//! load; it is not a result of the model. The rule for proposals: any row may be relaxed as long as
-//! its joint keeps one row (a revolute becomes a pin in a slot), and a joint or drive with a single
-//! row may be deleted. If nothing of this kind is enough, whole joints may go as well.
+//! The uniqueness then follows from a decision of the designer, who assumes that these rows carry
+//! no load. It is not a result of the model. The rule for proposals: any row may be relaxed as long
+//! as its joint keeps one row (a revolute becomes a pin in a slot). A joint or drive with a single
+//! row may be deleted. If such deletions do not suffice, whole joints may be deleted as well.
 
 use linalg::Matrix;
 use model::{ConstraintId, ConstraintKind, Layout, Mechanism, RowRanges, System};
@@ -14,8 +14,8 @@ use crate::matrices::Solvability;
 /// Rows that may be proposed for deletion.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum DeletableRows {
-    /// Single rows, but never all rows of a joint with several rows; any rows if that is not
-    /// enough.
+    /// Single rows, but not all rows of a joint with several rows. If this does not suffice, any
+    /// rows.
     #[default]
     Sensible,
     /// Whole joints and drives.
@@ -45,8 +45,8 @@ pub struct Proposals {
     pub ways: Vec<Proposal>,
     /// Whether all proposals of that size are listed.
     pub complete: bool,
-    /// Whether joints of several rows lose all of them, since nothing is enough that leaves them
-    /// one.
+    /// Whether joints with several rows lose all of them, because no deletion that leaves them a
+    /// row suffices.
     pub whole: bool,
 }
 
@@ -54,8 +54,8 @@ pub struct Proposals {
 /// motion.
 ///
 /// # Errors
-/// If the rank is undecided, if it is undecided whether a deletion is sufficient, or if a row does
-/// not exist.
+/// Returns an error if the rank is undecided, if it is undecided whether a deletion is sufficient,
+/// or if a row does not exist.
 pub fn make_unique(
     mechanism: &Mechanism,
     solvability: &Solvability,
@@ -104,8 +104,8 @@ pub fn make_unique(
 }
 
 impl Solvability {
-    /// The combinations of all multipliers that give `C_Xᵀ·λ_X` (n × m), each in the scale of its
-    /// equilibrated column.
+    /// Returns the combinations of all multipliers that give `C_Xᵀ·λ_X` (n × m), each in the scale
+    /// of its equilibrated column.
     fn wrench_combinations(&self, rows: &RowRanges) -> Matrix {
         let decision = self.decision();
         let m = decision.rank + decision.redundancy;
@@ -120,7 +120,7 @@ impl Solvability {
     }
 }
 
-/// "delete `W4` and relax row 4 (`B`, y)"
+/// Returns, for example, "delete `W4` and relax row 4 (`B`, y)".
 fn sentence(layout: &Layout, rows: &[usize]) -> String {
     let mut words: Vec<String> = Vec::new();
     for group in &layout.groups {

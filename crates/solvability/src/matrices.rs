@@ -49,23 +49,23 @@ pub struct Solvability {
 }
 
 impl Solvability {
-    /// Decides the rank of `c` (m × n) and keeps what verdicts need; `uncertainty` is the
-    /// uncertainty of its entries beyond rounding.
+    /// Decides the rank of `c` (m × n) and stores the data for verdicts. `uncertainty` is the
+    /// uncertainty of its entries in addition to rounding.
     ///
     /// # Errors
-    /// If an entry or the uncertainty is not finite.
+    /// Returns an error if an entry or the uncertainty is not finite.
     pub fn of<'a>(c: &Matrix, uncertainty: impl Into<Accuracy<'a>>) -> Result<Self, RankError> {
         Ok(Self::from_decision(c, rank::decide(c, uncertainty)?))
     }
 
-    /// Like [`Self::of`], for a matrix whose entries are exact: every verdict is exact, and none is
-    /// undecided.
+    /// Works like [`Self::of`], for a matrix with exact entries: every verdict is exact and
+    /// decided.
     ///
-    /// Tests for zero are made modulo primes; margins are computed in `f64` and are upper estimates
-    /// below 1e-15.
+    /// Tests for zero use arithmetic modulo primes. Margins are computed in `f64`; below 1e-15 they
+    /// are upper estimates.
     ///
     /// # Errors
-    /// If an entry is not finite.
+    /// Returns an error if an entry is not finite.
     pub fn of_exact(c: &Matrix) -> Result<Self, RankError> {
         Ok(Self::from_decision(c, rank::certify_exact(c)?))
     }
@@ -74,7 +74,7 @@ impl Solvability {
     /// that was rounded to it.
     ///
     /// # Panics
-    /// If the decision belongs to a matrix of another shape.
+    /// Panics if the decision belongs to a matrix of another shape.
     #[must_use]
     pub fn from_decision(c: &Matrix, decision: RankDecision) -> Self {
         // An exact decision always has a finite matrix.
@@ -108,24 +108,24 @@ impl Solvability {
         Self { decision, basis }
     }
 
-    /// The rank and its evidence.
+    /// Returns the rank and its evidence.
     #[must_use]
     pub fn decision(&self) -> &RankDecision {
         &self.decision
     }
 
-    /// Orthonormal basis of the left null space of the equilibrated matrix, m × p.
+    /// Returns an orthonormal basis of the left null space of the equilibrated matrix, m × p.
     #[must_use]
     pub fn null_space(&self) -> &Matrix {
         &self.basis.z
     }
 
-    /// Row factors of the equilibration, D_r.
+    /// Returns the row factors of the equilibration, D_r.
     pub(crate) fn row_factors(&self) -> &[f64] {
         &self.basis.known.row_factor
     }
 
-    /// The values of a linear form of the multipliers along the columns of the null space.
+    /// Returns the values of a linear form of the multipliers along the columns of the null space.
     pub(crate) fn along_null_space(&self, form: &[f64]) -> Vec<f64> {
         let (z, factors) = (&self.basis.z, &self.basis.known.row_factor);
         let value = |k: usize| {
@@ -135,29 +135,29 @@ impl Solvability {
         (0..z.ncols()).map(value).collect()
     }
 
-    /// The rows and null space from which verdicts are read.
+    /// Returns the rows and the null space on which verdicts are based.
     pub(crate) fn basis(&self) -> &Basis {
         &self.basis
     }
 
-    /// `D_r·C·D_c`, the matrix to which verdicts refer.
+    /// Returns `D_r·C·D_c`, the matrix to which verdicts refer.
     pub(crate) fn equilibrated(&self) -> &Matrix {
         &self.basis.c
     }
 
-    /// Verdict on the multiplier of one row: unique iff `Z_i = 0`.
+    /// Returns the verdict on the multiplier of one row: unique iff `Z_i = 0`.
     ///
     /// # Errors
-    /// If there is no such row.
+    /// Returns an error if the row does not exist.
     pub fn row(&self, i: usize) -> Result<Judgement, QueryError> {
         self.basis.row(i)
     }
 
-    /// Verdict on all multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than
-    /// [`Solvability::group`] if the rows depend on each other.
+    /// Returns the verdict on all multipliers of a group of rows: unique iff `Z_X = 0`. This
+    /// condition is stronger than that of [`Solvability::group`] if the rows depend on each other.
     ///
     /// # Errors
-    /// If a row does not exist.
+    /// Returns an error if a row does not exist.
     pub fn multipliers(
         &self,
         rows: impl IntoIterator<Item = usize>,
@@ -165,40 +165,40 @@ impl Solvability {
         self.basis.multipliers(rows)
     }
 
-    /// `B_X = C_Xᵀ·Z_X` (n × p) of a group of rows, equilibrated.
+    /// Returns `B_X = C_Xᵀ·Z_X` (n × p) of a group of equilibrated rows.
     ///
     /// # Errors
-    /// If a row does not exist.
+    /// Returns an error if a row does not exist.
     pub fn b_x(&self, rows: impl IntoIterator<Item = usize>) -> Result<Matrix, QueryError> {
         self.basis.b_x(rows)
     }
 
-    /// Verdict on the reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖
-    /// (Frobenius).
+    /// Returns the verdict on the reaction of a group of rows: unique iff `B_X = 0`; the margin is
+    /// ‖B_X‖ (Frobenius).
     ///
     /// # Errors
-    /// If a row does not exist.
+    /// Returns an error if a row does not exist.
     pub fn group(&self, rows: impl IntoIterator<Item = usize>) -> Result<Judgement, QueryError> {
         self.basis.group(rows)
     }
 
-    /// Verdict on a linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin
-    /// is relative to ‖ℓ‖, both for equilibrated rows.
+    /// Returns the verdict on a linear combination `ℓᵀ·λ` of all multipliers: unique iff
+    /// `ℓᵀ·Z = 0`. The margin is relative to ‖ℓ‖. Both are computed for equilibrated rows.
     ///
     /// # Errors
-    /// If there are not m coefficients, or one is not finite.
+    /// Returns an error if the number of coefficients is not m, or if a coefficient is not finite.
     pub fn combination(&self, l: &[f64]) -> Result<Judgement, QueryError> {
         self.basis.combination(l)
     }
 
-    /// Verdict on component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero. The
-    /// margin is relative to the largest row of W. A row of W that is only rounding relative to the
-    /// others counts as zero, unless the entries are exact. Column l of W belongs to row l of the
-    /// list.
+    /// Returns the verdict on component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is
+    /// zero. The margin is relative to the largest row of W. A row of W that is only rounding
+    /// relative to the others counts as zero, unless the entries are exact. Column l of W belongs
+    /// to row l of the list.
     ///
     /// # Errors
-    /// If a row or the component does not exist, or W does not have a column for each row, or is
-    /// not finite.
+    /// Returns an error if a row or the component does not exist, if W does not have a column for
+    /// each row, or if W is not finite.
     pub fn component(
         &self,
         map: &Matrix,
@@ -208,12 +208,13 @@ impl Solvability {
         self.basis.mapped(map, rows)?.component(k)
     }
 
-    /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the
-    /// map W (k × |X|) from multipliers to components. Unit vectors with k entries whose largest
-    /// entry is positive.
+    /// Returns the directions in which a reaction is unique: a basis of the left null space of
+    /// `W·Z_X` for the map W (k × |X|) from multipliers to components. The directions are unit
+    /// vectors with k entries, the largest of which is positive.
     ///
     /// # Errors
-    /// As [`Solvability::component`], and if the number of directions is undecided.
+    /// Same errors as [`Solvability::component`]. The function also returns an error if the number
+    /// of directions is undecided.
     pub fn unique_directions(
         &self,
         map: &Matrix,
@@ -223,8 +224,8 @@ impl Solvability {
     }
 }
 
-/// An orthonormal basis, in equilibrated rows with these factors, of what dependencies of rows span
-/// in some of the rows; the first columns, each taken from the longest dependency that is left.
+/// Returns an orthonormal basis of the span of dependencies, restricted to some of the rows, in
+/// equilibrated rows with these factors. Each column comes from the longest remaining dependency.
 pub(crate) fn orthonormal(
     dependencies: &[&[f64]],
     rows: &[usize],

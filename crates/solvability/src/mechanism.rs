@@ -15,8 +15,8 @@ use crate::parts::PartDecision;
 use crate::verdict::Verdict;
 use crate::{explain, words};
 
-/// Verdicts of a mechanism that is one part, at the pose of the scratch, in which Φ and C have been
-/// evaluated and for which the rank has been decided.
+/// Returns the verdicts of a mechanism that is one part, at the configuration of the scratch. Φ and
+/// C have been evaluated there, and the rank has been decided.
 pub(crate) fn part_verdicts(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -45,7 +45,7 @@ pub(crate) fn part_verdicts(
     Ok(found)
 }
 
-/// Like [`part_verdicts`], without dependencies and near dependencies.
+/// Works like [`part_verdicts`], without dependencies and near dependencies.
 fn reaction_verdicts(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -70,7 +70,7 @@ fn reaction_verdicts(
     PartResults::new(mechanism, s.t, rows.size(), decision, ranks, verdict)
 }
 
-/// The verdict on a joint or drive with these rows of the basis.
+/// Returns the verdict on a joint or drive with these rows of the basis.
 pub(crate) fn reaction(
     mechanism: &Mechanism,
     id: ConstraintId,
@@ -110,13 +110,13 @@ pub(crate) fn reaction(
         (Some(free), true) => free.judgement.clone(),
         _ => on_bodies,
     };
-    // In the plane the directions of three components are readable as they are.
+    // In the plane, directions with three components are readable without a change of basis.
     let told = |directions| match group.space.n_rotations() {
         1 => directions,
         _ => readable(directions),
     };
-    // If the number of directions is undecided, none are given; the verdicts above say that it is
-    // undecided.
+    // If the number of directions is undecided, no directions are returned. The verdicts above
+    // state that the number is undecided.
     let unique_directions = match mapped.unique_directions() {
         Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
         known => Some(told(known?)),
@@ -151,8 +151,9 @@ pub(crate) fn reaction(
     })
 }
 
-/// The components of a reaction that are not identically zero, as indices of
-/// [`model::SpaceKind::components`], and the map to them from the multipliers of its rows.
+/// Returns the components of a reaction that are not identically zero, as indices of
+/// [`model::SpaceKind::components`], and the map from the multipliers of its rows to these
+/// components.
 pub(crate) fn component_map(
     mechanism: &Mechanism,
     id: ConstraintId,
@@ -166,7 +167,7 @@ pub(crate) fn component_map(
     (components, map)
 }
 
-/// The verdict on the load of a coupling.
+/// Returns the verdict on the load of a coupling.
 fn own_load(
     mechanism: &Mechanism,
     id: ConstraintId,

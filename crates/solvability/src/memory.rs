@@ -12,31 +12,32 @@ use rank::SparsePattern;
 use crate::parts::parts;
 use crate::sparse::{blocks, rows_of, sketch_of};
 
-/// Estimated memory (bytes) of a mechanism with its ranks, kept rows and verdicts.
+/// Estimated memory (bytes) of a mechanism with its ranks, independent rows and verdicts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct VerdictMemory {
-    /// The mechanism.
+    /// Memory of the mechanism.
     pub mechanism: usize,
-    /// What only the decision takes: the largest parts, one on each thread.
+    /// Additional memory during the decision: the largest parts, one on each thread.
     pub work: usize,
-    /// What is found, after the decision: verdicts and what explains them.
+    /// Memory of the results after the decision: verdicts and their explanations.
     pub results: usize,
 }
 
 impl VerdictMemory {
-    /// Up to the results, and with so much that is needed besides these.
+    /// Returns the maximum memory up to the results, given the additional memory that is needed at
+    /// the same time as the results.
     #[must_use]
     pub fn most(self, besides: usize) -> usize {
         self.mechanism + self.work.max(self.results + besides)
     }
 }
 
-/// Estimates the memory of a mechanism with its ranks, kept rows and verdicts on this number of
-/// threads: proportional to the numbers of its velocities, its joints, drives and couplings, its
-/// rows and their entries; and the matrices of the largest parts.
+/// Estimates the memory of a mechanism with its ranks, independent rows and verdicts on this number
+/// of threads. The estimate is proportional to the numbers of its velocities, its joints, drives
+/// and couplings, its rows and their entries. It also includes the matrices of the largest parts.
 ///
 /// # Errors
-/// [`AnalysisError::Large`]: rows are joined too closely for a sparse decision.
+/// [`AnalysisError::Large`]: the rows are too densely connected for a sparse decision.
 pub fn memory_of_verdicts(
     mechanism: &Mechanism,
     threads: usize,

@@ -1,6 +1,6 @@
-//! Moments of reactions about points other than their place. Where the force of a reaction is not
-//! unique, its moment may be unique about one point and not about another: in a spherical linkage
-//! about the centre.
+//! Moments of reactions about points other than their reference point. If the force of a reaction
+//! is not unique, its moment may be unique about one point and not unique about another. In a
+//! spherical linkage, for example, it is unique about the centre.
 
 use linalg::{Matrix, small_svd};
 use model::ConstraintId;
@@ -19,15 +19,15 @@ const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MomentVerdict {
-    /// The point (m), ground axes.
+    /// The reference point of the moment (m), in ground axes.
     pub about: [f64; 3],
-    /// Verdicts on its components along the axes of the ground, named as in
+    /// Verdicts on the components of the moment along the axes of the ground, named as in
     /// [`model::SpaceKind::components`].
     pub components: Vec<ComponentVerdict>,
 }
 
 impl MomentVerdict {
-    /// Whether all components are unique.
+    /// Returns whether all components are unique.
     #[must_use]
     pub fn is_unique(&self) -> bool {
         let mut components = self.components.iter();
@@ -36,7 +36,7 @@ impl MomentVerdict {
 }
 
 impl Configuration<'_> {
-    /// The verdict on the moment of a reaction about a point (m, ground axes).
+    /// Returns the verdict on the moment of a reaction about a point (m, ground axes).
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::NotFinite`]
@@ -55,9 +55,9 @@ impl Configuration<'_> {
         })
     }
 
-    /// A point about which the moment of a reaction is unique, while it is not about its place: the
-    /// nearest one. `None` if there is none nearby, or if the force is unique, so that the point
-    /// makes no difference.
+    /// Returns the nearest point about which the moment of a reaction is unique, if the moment is
+    /// not unique about the reference point. Returns `None` if there is no such point nearby, or if
+    /// the force is unique and the point therefore has no influence.
     ///
     /// ```
     /// use joints::space3::{Axes, Revolute};
@@ -101,7 +101,7 @@ impl Configuration<'_> {
         };
         let (forces, torques) = (free(forces)?, free(torques)?);
         let count = forces[0].len();
-        // x × F = T for every free wrench, x from the place.
+        // Solves x × F = T for every free wrench, with x relative to the reference point.
         let mut equations = Matrix::zeros(3 * count, 3);
         let mut right = vec![0.0; 3 * count];
         for k in 0..count {
@@ -124,7 +124,7 @@ impl Configuration<'_> {
     }
 }
 
-/// The least solution of equations in the sense of least squares; `None` without a free force.
+/// Returns the smallest least-squares solution of the equations; `None` without a free force.
 fn least(equations: &Matrix, right: &[f64]) -> Option<[f64; 3]> {
     if equations.nrows() < 3 {
         return None;

@@ -1,19 +1,20 @@
-//! The rank of the intended mechanism: the data are uncertain by their rounding, or by a tolerance
-//! that the scene states, and the rank is the lowest that data within this uncertainty have.
+//! Decides the rank of the intended mechanism. The data are uncertain by their rounding, or by a
+//! tolerance that the scene states. The rank is the lowest rank of all data within this
+//! uncertainty.
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `matrix` | C without dimensions; forces and levers within their uncertainty are set to zero |
+//! | `matrix` | dimensionless C; forces and levers within their uncertainty are set to zero |
 //! | `reading` | the rank of such a matrix |
 //! | `share` | change of the data for a lower rank, as a fraction of their uncertainty |
-//! | `near` | the same change in metres, and the least rank within a stated tolerance |
+//! | `near` | this change in metres, and the lowest rank within a stated tolerance |
 //! | `pose` | how C changes with the data at one pose |
 //! | `support` | which rows certainly belong to a dependency |
-//! | `walk` | other poses of the same mechanism |
-//! | `follow` | how poses, and the path to them, change with the data |
+//! | `walk` | other configurations of the same mechanism |
+//! | `follow` | changes of configurations, and of the paths to them, with the data |
 //! | `cone` | the smallest change of data that satisfies equations |
 //!
-//! The proof in double-double is in `certificate`. This module does not say what the rank means for
+//! The module `certificate` contains the proof in double-double. This module does not determine
 //! reactions.
 
 mod cone;

@@ -1,13 +1,15 @@
 //! Parts of a mechanism that are analysed separately.
 //!
-//! Self-stresses live on cycles of the graph of bodies, ground and joints: every `z` with
-//! `Cᵀ·z = 0` is a sum of such vectors on single sets of [`rank::cycles`]. So each set can be
-//! analysed as a separate mechanism with its own evidence; the redundancy of the whole is the sum
-//! of their redundancies, and no verdict depends on another set. The work is linear in their
-//! number.
+//! Self-stresses exist only on cycles of the graph of bodies, ground and joints: every `z` with
+//! `Cᵀ·z = 0` is a sum of such vectors on single sets of [`rank::cycles`]. Therefore each set can
+//! be analysed as a separate mechanism with its own evidence. The redundancy of the whole is the
+//! sum of the redundancies of the sets, and no verdict depends on another set. The work is linear
+//! in the number of sets.
 //!
 //! Each part has its own size as unit of length, so margins do not depend on the length of the
 //! chain to which it belongs. The analysis of a part is in other modules.
+//!
+//! A mechanism with at most `ONE_PART` rows is a single part, for any cycles.
 
 use crate::limits::{FIRST_NAMED, ONE_PART};
 use crate::pose::evaluated;
@@ -25,13 +27,13 @@ use crate::words;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Extent {
-    /// All of them: the part is the whole mechanism.
+    /// The whole mechanism is one part.
     Whole,
-    /// The joints, bodies and rows at these places.
+    /// The joints, bodies and rows with these indices.
     Places(Places),
 }
 
-/// Selects the numbers of the whole that belong to a part; `None` selects all.
+/// Selects the numbers of the whole mechanism that belong to a part; `None` selects all.
 fn own<'a>(x: &'a [f64], places: Option<&[usize]>) -> Cow<'a, [f64]> {
     match places {
         None => Cow::Borrowed(x),
@@ -47,28 +49,28 @@ impl Extent {
         }
     }
 
-    /// Whether the part is the whole.
+    /// Returns whether the part is the whole mechanism.
     #[must_use]
     pub fn is_whole(&self) -> bool {
         *self == Self::Whole
     }
 
-    /// The number in the whole mechanism of a row of the part.
+    /// Returns the number of a row of the part in the whole mechanism.
     #[must_use]
     pub fn row(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.rows[own])
     }
 
-    /// The number in the part of a row of the whole mechanism; `None` if it belongs to another
-    /// part.
+    /// Returns the number of a row of the whole mechanism in the part; `None` if the row belongs to
+    /// another part.
     #[must_use]
     pub fn own_row(&self, row: usize) -> Option<usize> {
         self.places()
             .map_or(Some(row), |p| p.rows.binary_search(&row).ok())
     }
 
-    /// The listed rows of the whole mechanism that belong to the part, numbered in the part, in the
-    /// order of the list.
+    /// Returns the listed rows of the whole mechanism that belong to the part, numbered in the
+    /// part, in the order of the list.
     pub(crate) fn own_rows(&self, listed: &ListedRows<'_>) -> Vec<usize> {
         match self.places() {
             None => listed.rows.to_vec(),
@@ -76,59 +78,59 @@ impl Extent {
         }
     }
 
-    /// The number in the whole mechanism of a joint or drive of the part.
+    /// Returns the number of a joint or drive of the part in the whole mechanism.
     #[must_use]
     pub fn group(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.groups[own])
     }
 
-    /// The number in the part of a joint or drive of the whole mechanism; `None` if it belongs to
-    /// another part.
+    /// Returns the number of a joint or drive of the whole mechanism in the part; `None` if it
+    /// belongs to another part.
     #[must_use]
     pub fn own_group(&self, group: usize) -> Option<usize> {
         self.places()
             .map_or(Some(group), |p| p.groups.binary_search(&group).ok())
     }
 
-    /// Joints and drives of the whole mechanism that belong to the part; empty if the part is the
-    /// whole.
+    /// Returns the joints and drives of the whole mechanism that belong to the part; empty if the
+    /// part is the whole mechanism.
     pub(crate) fn groups(&self) -> &[usize] {
         self.places().map_or(&[], |p| &p.groups)
     }
 
-    /// The number in the part of a body of the whole mechanism; `None` if no joint of the part acts
-    /// on it.
+    /// Returns the number of a body of the whole mechanism in the part; `None` if no joint of the
+    /// part acts on it.
     #[must_use]
     pub fn own_body(&self, body: usize) -> Option<usize> {
         self.places()
             .map_or(Some(body), |p| p.bodies.binary_search(&body).ok())
     }
 
-    /// The number in the whole mechanism of a body of the part.
+    /// Returns the number of a body of the part in the whole mechanism.
     #[must_use]
     pub fn body(&self, own: usize) -> usize {
         self.places().map_or(own, |p| p.bodies[own])
     }
 
-    /// Coordinates of the part.
+    /// Returns the coordinates of the part.
     #[must_use]
     pub fn coordinates<'a>(&self, q: &'a [f64]) -> Cow<'a, [f64]> {
         own(q, self.places().map(|p| &p.coordinates[..]))
     }
 
-    /// Velocities of the part, or other values with one number for each velocity.
+    /// Returns the velocities of the part, or other values with one number for each velocity.
     #[must_use]
     pub fn velocities<'a>(&self, v: &'a [f64]) -> Cow<'a, [f64]> {
         own(v, self.places().map(|p| &p.velocities[..]))
     }
 
-    /// Multipliers of the part, or other values with one number for each row.
+    /// Returns the multipliers of the part, or other values with one number for each row.
     #[must_use]
     pub fn of_rows<'a>(&self, lambda: &'a [f64]) -> Cow<'a, [f64]> {
         own(lambda, self.places().map(|p| &p.rows[..]))
     }
 
-    /// Places the numbers of the rows of the part in a vector for all `rows` rows of the whole
+    /// Copies the numbers of the rows of the part to a vector for all `rows` rows of the whole
     /// mechanism.
     pub(crate) fn spread(&self, x: &[f64], rows: usize) -> Vec<f64> {
         let mut all = vec![0.0; rows];
@@ -138,7 +140,7 @@ impl Extent {
         all
     }
 
-    /// Velocities of the whole mechanism with those of the part replaced.
+    /// Returns the velocities of the whole mechanism after those of the part are replaced.
     pub(crate) fn put_velocities(&self, own: &[f64], mut all: Vec<f64>) -> Vec<f64> {
         match self.places() {
             None => own.to_vec(),
@@ -151,7 +153,7 @@ impl Extent {
         }
     }
 
-    /// The part as a separate mechanism.
+    /// Returns the part as a separate mechanism.
     #[must_use]
     pub fn mechanism<'a>(&self, whole: &'a Mechanism) -> Cow<'a, Mechanism> {
         match self {
@@ -160,7 +162,7 @@ impl Extent {
         }
     }
 
-    /// The part as text: the names of its first joints and drives.
+    /// Returns the name of the part: the names of its first joints and drives.
     pub(crate) fn name(&self, whole: &Mechanism) -> String {
         let groups = &whole.layout().groups;
         let count = self.places().map_or(groups.len(), |p| p.groups.len());
@@ -175,11 +177,11 @@ impl Extent {
     }
 }
 
-/// Rows of the whole mechanism in the order in which a caller lists them, indexed by row number, so
-/// that each of many parts finds its own rows without reading the whole list.
+/// Rows of the whole mechanism in the order in which a caller lists them, indexed by row number.
+/// With this index, each of many parts finds its own rows without a search through the whole list.
 pub(crate) struct ListedRows<'a> {
     rows: &'a [usize],
-    /// Pairs of row and place in the list, ascending.
+    /// Pairs of row and index in the list, ascending.
     by_number: Vec<(usize, usize)>,
 }
 
@@ -191,8 +193,8 @@ impl<'a> ListedRows<'a> {
         Self { rows, by_number }
     }
 
-    /// Places in `own` (ascending) of the listed rows, in the order of the list and repeated if the
-    /// list repeats them.
+    /// Returns indices into `own` (ascending) of the listed rows, in the order of the list and
+    /// repeated if the list repeats them.
     fn among(&self, own: &[usize]) -> Vec<usize> {
         let mut found: Vec<(usize, usize)> = Vec::new();
         for (k, row) in own.iter().enumerate() {
@@ -218,18 +220,18 @@ pub struct PartAnalysis {
     pub rank_holonomic: usize,
     /// Rank of Ψ alone.
     pub rank_nonholonomic: usize,
-    /// Rank and redundancy of the rows without those of drives. `None` if the part has no drives.
+    /// Rank and redundancy of the rows without drives. `None` if the part has no drives.
     pub without_drives: Option<WithoutDrives>,
-    /// Rank and kept rows of C; rows are numbered in the part.
+    /// Rank and independent (kept) rows of C; rows are numbered in the part.
     pub decision: PartDecision,
-    /// The proof of the rank; present also if the caller chose the dropped rows.
+    /// The proof of the rank. It is also present if the caller chose the redundant rows.
     pub certificate: Option<Certificate>,
-    /// Kept rows that are independent by a small margin only. Always `None` in parts decided
-    /// sparsely.
+    /// Independent rows that are nearly dependent. Always `None` in parts that are decided with
+    /// sparse matrices.
     pub nearly_redundant: Option<NearlyRedundant>,
 }
 
-/// The rank of a part, decided by a dense matrix or by sparse factors.
+/// The rank of a part, decided with a dense matrix or with sparse factors.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum PartDecision {
@@ -237,7 +239,7 @@ pub enum PartDecision {
     Dense(Box<RankDecision>),
     /// Sparse decision.
     Sparse {
-        /// Rank and kept rows.
+        /// Rank and independent rows.
         rows: RowDecision,
         /// Evidence for the rank.
         evidence: Box<Evidence>,
@@ -245,7 +247,7 @@ pub enum PartDecision {
 }
 
 impl PartDecision {
-    /// Rank and kept rows.
+    /// Returns rank and independent rows.
     #[must_use]
     pub fn rows(&self) -> RowDecision {
         match self {
@@ -254,7 +256,7 @@ impl PartDecision {
         }
     }
 
-    /// Rank r.
+    /// Returns the rank r.
     #[must_use]
     pub fn rank(&self) -> usize {
         match self {
@@ -263,7 +265,7 @@ impl PartDecision {
         }
     }
 
-    /// Degree of redundancy p.
+    /// Returns the degree of redundancy p.
     #[must_use]
     pub fn redundancy(&self) -> usize {
         match self {
@@ -272,7 +274,7 @@ impl PartDecision {
         }
     }
 
-    /// Whether the rank is decided, or why it is not.
+    /// Returns whether the rank is decided, or otherwise the reason.
     #[must_use]
     pub fn status(&self) -> RankStatus {
         match self {
@@ -281,7 +283,7 @@ impl PartDecision {
         }
     }
 
-    /// Evidence for the rank.
+    /// Returns the evidence for the rank.
     #[must_use]
     pub fn evidence(&self) -> &Evidence {
         match self {
@@ -290,7 +292,8 @@ impl PartDecision {
         }
     }
 
-    /// The decision with all dependencies; `None` if the part was decided sparsely.
+    /// Returns the decision with all dependencies; `None` if the part was decided with sparse
+    /// matrices.
     #[must_use]
     pub fn dense(&self) -> Option<&RankDecision> {
         match self {
@@ -301,13 +304,13 @@ impl PartDecision {
 }
 
 impl PartAnalysis {
-    /// Rows of the part.
+    /// Returns the number of rows of the part.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.decision.rank() + self.decision.redundancy()
     }
 
-    /// Whether the lower bound of the rank is proved.
+    /// Returns whether the lower bound of the rank is proved.
     #[must_use]
     pub fn is_proved(&self) -> bool {
         let proved = |c: &Certificate| c.rank_at_least == self.decision.rank();
@@ -315,7 +318,7 @@ impl PartAnalysis {
             && self.certificate.as_ref().is_some_and(proved)
     }
 
-    /// Certainty of the rank: σ_r, or a negative number if it is undecided.
+    /// Returns the certainty of the rank: σ_r, or a negative number if the rank is undecided.
     pub(crate) fn strength(&self) -> f64 {
         match self.decision.status() {
             RankStatus::Decided => self.decision.evidence().sigma_r,
@@ -324,8 +327,8 @@ impl PartAnalysis {
     }
 }
 
-/// Joints and drives that lie on common cycles, at the pose of the scratch, in which C has been
-/// evaluated: sets that can be analysed separately.
+/// Returns sets of joints and drives on common cycles, at the configuration of the scratch, in
+/// which C has been evaluated. Each set can be analysed separately.
 #[must_use]
 pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
     let ground = mechanism.bodies().len();
@@ -343,16 +346,16 @@ pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
     cycles(ground + 1, &touched)
 }
 
-/// How a mechanism is divided into parts.
+/// Division of a mechanism into parts.
 pub(crate) enum Partition {
-    /// Not divided.
+    /// The mechanism is not divided.
     One,
-    /// Divided into these sets of joints and drives.
+    /// The mechanism is divided into these sets of joints and drives.
     Several(Vec<Vec<usize>>),
 }
 
 impl Partition {
-    /// The parts at time t and coordinates q.
+    /// Returns the parts at time t and coordinates q.
     pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
         if mechanism.layout().rows() <= ONE_PART {
             Self::One
@@ -361,7 +364,7 @@ impl Partition {
         }
     }
 
-    /// The parts at the pose of the scratch, where C has been evaluated.
+    /// Returns the parts at the configuration of the scratch, where C has been evaluated.
     pub(crate) fn at(mechanism: &Mechanism, s: &Scratch) -> Self {
         if mechanism.layout().rows() <= ONE_PART {
             Self::One
@@ -370,7 +373,7 @@ impl Partition {
         }
     }
 
-    /// The parts at time t and coordinates q, even if the mechanism is small.
+    /// Returns the parts at time t and coordinates q, even if the mechanism is small.
     pub(crate) fn by_cycles(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
         Self::of_sets(mechanism, parts(mechanism, &evaluated(mechanism, t, q)))
     }
@@ -384,7 +387,7 @@ impl Partition {
     }
 
     /// Applies `f` to each part, ordered by their first joints, on the `rayon` thread pool of the
-    /// caller. If several parts return errors, that of the first part is returned.
+    /// caller. If several parts return errors, the function returns the error of the first part.
     pub(crate) fn map<T: Send, E: Send>(
         &self,
         mechanism: &Mechanism,
@@ -403,8 +406,8 @@ impl Partition {
     }
 }
 
-/// The parts of a mechanism at time t and coordinates q in which rows are dropped, each as a
-/// mechanism with the number of these rows.
+/// Returns the parts of a mechanism at time t and coordinates q that contain dropped rows. Each
+/// part is a mechanism with the number of these rows.
 pub(crate) fn open_parts<'m>(
     mechanism: &'m Mechanism,
     (t, q): (f64, &[f64]),
@@ -447,8 +450,8 @@ mod tests {
         }
     }
 
-    /// The result equals that of a search through the whole list: in its order, and repeated if it
-    /// repeats.
+    /// The result equals that of a search through the whole list: the order is that of the list,
+    /// and repeated rows are repeated.
     #[test]
     fn listed_rows_of_a_part() {
         let listed = [9, 4, 7, 4, 30, 0];

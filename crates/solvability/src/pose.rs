@@ -1,5 +1,5 @@
-//! The constraint matrix of a mechanism at one configuration, without dimensions, the uncertainty
-//! of its entries, and its rank in `f64`.
+//! The dimensionless constraint matrix of a mechanism at one configuration, the uncertainty of its
+//! entries, and its rank in `f64`.
 
 use linalg::Matrix;
 use model::start::scene_size;
@@ -8,7 +8,7 @@ use rank::{KeptRowsError, RankDecision};
 
 use crate::error::AnalysisError;
 
-/// C without dimensions, for a mechanism of this size.
+/// Returns the dimensionless C, for a mechanism of this size.
 pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism
         .layout()
@@ -16,7 +16,7 @@ pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Ma
         .apply(&mechanism.layout().dense(s))
 }
 
-/// Uncertainty in `f64` of the entries of the [`dimensionless`] C.
+/// Returns the uncertainty in `f64` of the entries of the [`dimensionless`] C.
 pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism.layout().dimension_scaling(size).apply(
         &mechanism
@@ -25,18 +25,19 @@ pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matr
     )
 }
 
-/// The velocities that correspond to 1 without dimensions: 1 m/s for translations. For rotations it
-/// is the rate that moves a point at the size of the mechanism by about as much; a power of two.
+/// Returns the velocities with the dimensionless value 1. For translations this is 1 m/s. For
+/// rotations it is the rate that moves a point at the size of the mechanism by about as much,
+/// rounded to a power of two.
 pub(crate) fn velocity_units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let scaling = mechanism.layout().dimension_scaling(size);
     scaling.cols.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
-/// Decides the rank of C at the pose of the scratch, in which Φ and C have been evaluated at
-/// coordinates q.
+/// Decides the rank of C at the configuration of the scratch, in which Φ and C have been evaluated
+/// at coordinates q.
 ///
 /// # Errors
-/// If C is not finite.
+/// Returns an error if C is not finite.
 pub fn decide(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -50,10 +51,11 @@ pub fn decide(
     .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
-/// Like [`decide`], for the holonomic rows alone: which rows of Φ constrain the configuration.
+/// Works like [`decide`], only for the holonomic rows: the result shows which rows of Φ constrain
+/// the configuration.
 ///
 /// # Errors
-/// If C is not finite.
+/// Returns an error if C is not finite.
 pub fn decide_holonomic(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -63,7 +65,7 @@ pub fn decide_holonomic(
     rank::decide(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
-/// Holonomic rows that are candidates for polishing a configuration.
+/// Returns holonomic rows that are candidates for the refinement of a configuration.
 pub(crate) fn promising_holonomic(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -73,7 +75,7 @@ pub(crate) fn promising_holonomic(
     rank::promising_rows(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
-/// Φq without dimensions, and the uncertainty of its entries.
+/// Returns the dimensionless Φq, and the uncertainty of its entries.
 fn holonomic(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> (Matrix, Matrix) {
     let size = scene_size(mechanism, q);
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
@@ -82,11 +84,11 @@ fn holonomic(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> (Matrix, Matrix) 
     (phi_q, known)
 }
 
-/// Like [`decide`], with given dropped rows (from 0): their number must equal the redundancy, and
-/// the other rows must be independent.
+/// Works like [`decide`], with given redundant rows (`dropped`, from 0). Their number must equal
+/// the redundancy, and the other rows must be independent.
 ///
 /// # Errors
-/// If the given rows do not satisfy this, or C is not finite.
+/// Returns an error if the given rows do not satisfy these conditions, or if C is not finite.
 pub fn decide_dropping(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -99,7 +101,7 @@ pub fn decide_dropping(
     rank::decide_dropping(&c, &known, dropped)
 }
 
-/// Φ and C at a configuration.
+/// Evaluates Φ and C at a configuration.
 pub(crate) fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);

@@ -1,10 +1,10 @@
-//! Requests about the reactions of an analysed configuration of any size, each answered by the
-//! parts that it involves.
+//! Requests about the reactions of an analysed configuration of any size. The result of a request
+//! is computed from the parts that it involves.
 //!
-//! The left null space of C is the direct sum of those of the parts. So a number that depends on
-//! reactions of several parts is unique iff its contribution from each part is; a choice among the
-//! solutions is a separate choice in each part; and rows may be deleted together iff those of each
-//! part may be deleted.
+//! The left null space of C is the direct sum of the left null spaces of the parts. Therefore a
+//! number that depends on reactions of several parts is unique iff its contribution from each part
+//! is unique. A choice among the solutions is a separate choice in each part. Rows may be deleted
+//! together iff the rows of each part may be deleted.
 
 mod eliminations;
 
@@ -29,7 +29,7 @@ use crate::verdict::{Judgement, Verdict, worst};
 
 pub use eliminations::EliminationError;
 
-/// An analysed configuration that answers requests about its reactions.
+/// An analysed configuration that accepts requests about its reactions.
 ///
 /// ```
 /// use joints::{Direction, KnifeEdge};
@@ -58,7 +58,7 @@ pub struct Questions<'a> {
     mechanism: &'a Mechanism,
     q: Vec<f64>,
     analysis: Arc<Analysis>,
-    /// Configuration of each part, created at first use.
+    /// Configuration of each part, created on first use.
     configurations: Vec<OnceLock<Configuration<'a>>>,
     /// The part of each joint and drive.
     part_of: Vec<usize>,
@@ -68,7 +68,7 @@ pub struct Questions<'a> {
 pub type Numbers = Vec<(&'static str, Value)>;
 
 impl<'a> Questions<'a> {
-    /// Takes a mechanism and the analysis of its configuration q.
+    /// Combines a mechanism with the analysis of its configuration q.
     #[must_use]
     pub fn new(mechanism: &'a Mechanism, q: &[f64], analysis: Arc<Analysis>) -> Self {
         let mut part_of = vec![0; mechanism.layout().groups.len()];
@@ -91,7 +91,7 @@ impl<'a> Questions<'a> {
         &self.analysis.parts
     }
 
-    /// The configuration of a part.
+    /// Returns the configuration of a part.
     fn configuration(&self, k: usize) -> Result<&Configuration<'a>, RequestError> {
         let cell = &self.configurations[k];
         if let Some(made) = cell.get() {
@@ -109,7 +109,7 @@ impl<'a> Questions<'a> {
         Ok(cell.get_or_init(|| made))
     }
 
-    /// The part of a joint or drive, and its number in that part.
+    /// Returns the part of a joint or drive, and its number in that part.
     fn place(&self, id: ConstraintId) -> Result<(usize, ConstraintId), RequestError> {
         let reactions = self.part_of.len();
         let part = self.part_of.get(id.0).copied();
@@ -121,7 +121,7 @@ impl<'a> Questions<'a> {
             })
     }
 
-    /// The contribution of each part that a group involves.
+    /// Returns the contribution of each part that a group involves.
     fn shares(&self, group: &Group) -> Result<Vec<(usize, Group)>, RequestError> {
         if let [one] = self.parts()
             && one.extent.is_whole()
@@ -176,7 +176,8 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// The point about which T of a sum of wrenches or a resultant is taken; checks the bodies.
+    /// Returns the reference point for the torques T of a sum of wrenches or a resultant; checks
+    /// the bodies.
     fn about(&self, group: &Group) -> Result<Option<[f64; 3]>, RequestError> {
         match group {
             Group::WrenchSum(terms) => {
@@ -198,12 +199,12 @@ impl<'a> Questions<'a> {
         }
     }
 
-    /// The verdict on a group: unique iff its contribution from each part is unique; the margin is
-    /// the largest of the parts.
+    /// Returns the verdict on a group: unique iff its contribution from each part is unique. The
+    /// margin is the largest one of the parts.
     ///
     /// # Errors
-    /// As [`crate::judge_groups`], and [`RequestError::Large`]: it involves a part with too many
-    /// rows.
+    /// Same errors as [`crate::judge_groups`], and [`RequestError::Large`]: the group involves a
+    /// part with too many rows.
     pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
         let about = self.about(group)?;
         let judged = self.shares(group)?.into_iter();
@@ -229,8 +230,8 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// The verdict on a group without reactions: the resultant on bodies without joints is unique;
-    /// any other empty group is an error.
+    /// Returns the verdict on a group without reactions. The resultant on bodies without joints is
+    /// unique; any other empty group is an error.
     fn of_nothing(
         &self,
         group: &Group,
@@ -254,11 +255,11 @@ impl<'a> Questions<'a> {
         }
     }
 
-    /// The numbers of a group with their names and verdicts, without those that are not the same in
-    /// every solution; a group of several separate reactions has none.
+    /// Returns the numbers of a group with their names and verdicts. Values that differ between the
+    /// solutions are omitted. A group of several separate reactions has no numbers.
     ///
     /// # Errors
-    /// As [`Questions::group`].
+    /// Same errors as [`Questions::group`].
     pub fn determined(&self, group: &Group, solution: &Solution) -> Result<Numbers, RequestError> {
         let lambda = solution.multipliers.as_chosen();
         self.numbers(group, |k, configuration, form| {
@@ -272,11 +273,11 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// The components of all joints and drives that are not identically zero, with their verdicts,
-    /// without the numbers that are not the same in every solution.
+    /// Returns the components of all joints and drives that are not identically zero, with their
+    /// verdicts. Values that differ between the solutions are omitted.
     ///
     /// # Errors
-    /// As [`Questions::group`].
+    /// Same errors as [`Questions::group`].
     pub fn determined_reactions(
         &self,
         solution: &Solution,
@@ -304,10 +305,10 @@ impl<'a> Questions<'a> {
         layout.constraint_ids().map(of).collect()
     }
 
-    /// All numbers of a group for a given choice.
+    /// Returns all numbers of a group for a given choice.
     ///
     /// # Errors
-    /// As [`Questions::group`].
+    /// Same errors as [`Questions::group`].
     pub fn chosen(
         &self,
         group: &Group,
@@ -319,7 +320,7 @@ impl<'a> Questions<'a> {
         })
     }
 
-    /// Sums over parts.
+    /// Sums the numbers over the parts.
     fn numbers(
         &self,
         group: &Group,
@@ -344,7 +345,7 @@ impl<'a> Questions<'a> {
         Ok(sums)
     }
 
-    /// The verdicts of a reaction in all frames that it has.
+    /// Returns the verdicts on a reaction in all of its frames.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::Large`]
@@ -353,28 +354,30 @@ impl<'a> Questions<'a> {
         self.configuration(k)?.frames(own)
     }
 
-    /// The verdict on the moment of a reaction about a point (m, ground axes).
+    /// Returns the verdict on the moment of a reaction about a point (m, ground axes).
     ///
     /// # Errors
-    /// As [`Configuration::moment`], and [`RequestError::Large`].
+    /// Same errors as [`Configuration::moment`], and [`RequestError::Large`].
     pub fn moment(&self, id: ConstraintId, about: [f64; 3]) -> Result<MomentVerdict, RequestError> {
         let (k, own) = self.place(id)?;
         self.configuration(k)?.moment(own, about)
     }
 
-    /// The nearest point about which the moment of a reaction is unique, if its place is none.
+    /// Returns the nearest point about which the moment of a reaction is unique, if the moment is
+    /// not unique about the reference point of the joint.
     ///
     /// # Errors
-    /// As [`Configuration::centre_of_moments`], and [`RequestError::Large`].
+    /// Same errors as [`Configuration::centre_of_moments`], and [`RequestError::Large`].
     pub fn centre_of_moments(&self, id: ConstraintId) -> Result<Option<[f64; 3]>, RequestError> {
         let (k, own) = self.place(id)?;
         self.configuration(k)?.centre_of_moments(own)
     }
 
-    /// The distribution that a choice selects for a solution: one choice in each part.
+    /// Returns the distribution that a choice selects, starting from one solution. The choice is
+    /// applied in each part.
     ///
     /// # Errors
-    /// As [`Configuration::distribute`], and [`RequestError::Large`].
+    /// Same errors as [`Configuration::distribute`], and [`RequestError::Large`].
     pub fn distribute(
         &self,
         solution: &Solution,
@@ -441,7 +444,7 @@ impl<'a> Questions<'a> {
         Ok(())
     }
 
-    /// Joints and drives that share loads and have no compliance in a choice.
+    /// Returns the joints and drives that share loads and have no compliance in a choice.
     fn rigid(&self, choice: &Choice) -> Result<Vec<ConstraintId>, RequestError> {
         let mut rigid = Vec::new();
         for (k, part) in self.parts().iter().enumerate() {
@@ -457,8 +460,8 @@ impl<'a> Questions<'a> {
         Ok(rigid)
     }
 
-    /// Explains why the reactions are not unique. Parts whose rank is undecided, or that are too
-    /// large, are left out. Returns `None` if no part can be explained.
+    /// Explains why the reactions are not unique. Parts with an undecided rank, and parts that are
+    /// too large, are omitted. Returns `None` if no part can be explained.
     ///
     /// # Errors
     /// [`ExplanationError::Rank`], [`ExplanationError::Query`]

@@ -1,8 +1,8 @@
-//! A rank, and which rows to keep.
+//! A rank, with the independent and the redundant rows.
 
 use rank::{RankDecision, RankStatus, SparseRank};
 
-/// Rank and rows to keep.
+/// Rank, independent rows (`kept`) and redundant rows (`dropped`).
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RowDecision {
@@ -10,24 +10,24 @@ pub struct RowDecision {
     pub rank: usize,
     /// Degree of redundancy p.
     pub redundancy: usize,
-    /// r independent rows, ascending.
+    /// Independent rows, ascending; their number is r.
     pub kept: Vec<usize>,
     /// The other rows, ascending.
     pub dropped: Vec<usize>,
-    /// Whether the rank is decided, or why it is not.
+    /// Whether the rank is decided, or otherwise the reason.
     pub status: RankStatus,
     /// Largest coefficient of a dependency that counts as zero.
     pub support_tolerance: f64,
 }
 
 impl RowDecision {
-    /// Whether the rank is decided.
+    /// Returns whether the rank is decided.
     #[must_use]
     pub fn is_decided(&self) -> bool {
         self.status == RankStatus::Decided
     }
 
-    /// Decision on zero rows.
+    /// Returns the decision on zero rows.
     pub(crate) fn empty() -> Self {
         Self {
             rank: 0,
@@ -51,8 +51,8 @@ impl RowDecision {
         self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
     }
 
-    /// The decision restricted to some rows (ascending) on which no other row depends: rows of
-    /// bodies that are not connected to others.
+    /// Returns the decision restricted to some rows (ascending) on which no other row depends: rows
+    /// of bodies that are not connected to other bodies.
     #[must_use]
     pub fn of_rows(&self, rows: &[usize]) -> Self {
         let own = |all: &[usize]| -> Vec<usize> {

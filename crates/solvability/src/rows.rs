@@ -1,6 +1,6 @@
-//! The rows that a motion needs: which are independent, of C and of Φq alone, and whether the
-//! others agree with them. At the start they are those of the certificate; during the motion other
-//! rows are chosen in `f64`, at the same rank.
+//! Independent rows of C and of Φq alone for a simulation, and the consistency of the other rows
+//! with them. At the start, the rows are those of the certificate. During the motion, other rows
+//! are chosen in `f64` at the same rank.
 
 use crate::error::AnalysisError;
 use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
@@ -20,12 +20,12 @@ use crate::row_decision::RowDecision;
 use crate::sparse::decide_some;
 use crate::state::{StateError, check, check_configuration};
 
-/// Rows of C, and of Φq alone, decided at one configuration, part by part. The motion, the verdicts
-/// and the texts all use these decisions.
+/// Rows of C, and of Φq alone, decided at one configuration, part by part. The simulation, the
+/// verdicts and the texts all use these decisions.
 #[derive(Clone, Debug)]
 pub struct Rows {
     /// Decision on all rows of C. It may be undecided although the rank is certified, if the matrix
-    /// is too close to another rank for a motion in `f64`.
+    /// is too close to another rank for a simulation in `f64`.
     pub all: RowDecision,
     /// Decision on the rows of Φq alone.
     pub holonomic: RowDecision,
@@ -38,8 +38,8 @@ pub(crate) struct DecidedPart {
     pub(crate) extent: Extent,
     all: RowDecision,
     holonomic: RowDecision,
-    /// Certified decisions on all rows and on the holonomic ones; `None` in a part that is decided
-    /// sparsely.
+    /// Certified decisions on all rows and on the holonomic rows; `None` in a part that is decided
+    /// with sparse matrices.
     pub(crate) certified: Option<Box<[RankDecision; 2]>>,
 }
 
@@ -77,8 +77,9 @@ impl DecidedPart {
     }
 }
 
-/// The certified decisions, as far as they are valid for `f64` numbers at the pose of the scratch:
-/// for velocities and residuals of a motion, which are accurate to the rounding of its coordinates.
+/// Returns the certified decisions, as far as they are valid for `f64` numbers at the configuration
+/// of the scratch. Velocities and residuals of a motion are accurate to the rounding of its
+/// coordinates.
 fn in_double(
     certified: &[RankDecision; 2],
     part: &Mechanism,
@@ -91,8 +92,8 @@ fn in_double(
         let known = ONE_ROUNDING * decision.scaling.apply(&known.select_rows(&rows)).max_abs();
         let entries = (rows.len() * decision.scaling.cols.len()) as f64;
         let tolerance = rank::NOISE_FACTOR * known.max(f64::EPSILON * entries.sqrt());
-        // The rank is that of the certificate, but `f64` may be too inaccurate for a motion with
-        // it.
+        // The rank is that of the certificate, but `f64` may be too inaccurate for a simulation
+        // with this rank.
         let required = (MOTION_CLEARANCE * tolerance).max(NEARLY_SINGULAR);
         let sigma = decision.evidence.sigma_r;
         let status = match decision.status {
@@ -124,7 +125,7 @@ fn in_double(
 /// Decides the rows at time t and coordinates q, which satisfy the constraints.
 ///
 /// # Errors
-/// As [`crate::analyse`].
+/// Same errors as [`crate::analyse`].
 pub fn rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Rows, AnalysisError> {
     check_configuration(mechanism, t, q)?;
     let parts = Partition::of(mechanism, t, q).map(mechanism, |part, extent| {
@@ -145,10 +146,10 @@ pub fn rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Rows, AnalysisEr
     })
 }
 
-/// Rank and kept rows of C alone, at the pose of the scratch.
+/// Returns rank and independent rows of C alone, at the configuration of the scratch.
 ///
 /// # Errors
-/// If C is not finite.
+/// Returns an error if C is not finite.
 pub fn decide_rows(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -157,10 +158,10 @@ pub fn decide_rows(
     of_small_and_large(mechanism, s, q, decide, Layout::rows)
 }
 
-/// Rank and kept rows of Φq alone.
+/// Returns rank and independent rows of Φq alone.
 ///
 /// # Errors
-/// If C is not finite.
+/// Returns an error if C is not finite.
 pub fn decide_holonomic_rows(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -169,7 +170,7 @@ pub fn decide_holonomic_rows(
     of_small_and_large(mechanism, s, q, decide_holonomic, |layout| layout.m)
 }
 
-/// Small parts by `small`, the first rows of large ones sparsely.
+/// Decides small parts by `small`, and the first rows of large parts with sparse matrices.
 fn of_small_and_large(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -186,10 +187,10 @@ fn of_small_and_large(
     })
 }
 
-/// Rank and kept rows of C with the given dropped rows, from 0.
+/// Returns rank and independent rows of C with the given redundant rows (`dropped`, from 0).
 ///
 /// # Errors
-/// As [`decide_dropping`].
+/// Same errors as [`decide_dropping`].
 pub fn decide_rows_dropping(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -213,12 +214,13 @@ pub fn decide_rows_dropping(
     found.map_err(|e| told_of_whole(e, dropped, || decide_rows(mechanism, s, q)))
 }
 
-/// Rows kept at a rank that is known from the start, among the first `count` rows: within a stated
-/// tolerance more rows may be redundant than the matrix shows. `dropped` are given, or chosen. Not
-/// for sparse matrices.
+/// Returns independent rows among the first `count` rows, for a rank that was decided at the start.
+/// Within a stated tolerance, more rows may be redundant than the matrix shows. The caller passes
+/// the redundant rows in `dropped`, or the function chooses them. The function does not support
+/// sparse matrices.
 ///
 /// # Errors
-/// As [`decide_dropping`].
+/// Same errors as [`decide_dropping`].
 pub fn rows_of_rank(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -229,11 +231,11 @@ pub fn rows_of_rank(
     Ok((&decide_of_rank(mechanism, s, q, count_and_rank, dropped)?).into())
 }
 
-/// Like [`rows_of_rank`], with the dependencies of the dropped rows, as they are nearest to the
-/// kept ones.
+/// Works like [`rows_of_rank`], with the dependencies of the redundant rows: the combinations of
+/// independent rows that are nearest to them.
 ///
 /// # Errors
-/// As [`decide_dropping`].
+/// Same errors as [`decide_dropping`].
 pub fn decide_of_rank(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -252,8 +254,8 @@ pub fn decide_of_rank(
 }
 
 /// Converts an error with rows of one part to the numbers of the whole mechanism. If the number of
-/// dropped rows equals the redundancy of the whole but not that of each part, the kept rows are
-/// dependent.
+/// dropped rows equals the redundancy of the whole mechanism, but differs from that of a part, the
+/// kept rows are dependent.
 pub(crate) fn told_of_whole(
     error: KeptRowsError,
     dropped: &[usize],
@@ -281,7 +283,8 @@ pub(crate) fn told_of_whole(
     }
 }
 
-/// Merges the decisions of all parts; each is decided from its mechanism, scratch and coordinates.
+/// Merges the decisions of all parts; each part is decided from its mechanism, scratch and
+/// coordinates.
 fn of_parts<E: Send>(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -307,8 +310,8 @@ fn of_parts<E: Send>(
 }
 
 impl Rows {
-    /// Kept rows that cannot be distinguished from dependent ones in `f64`; the direction is over
-    /// all rows. See [`inseparable`].
+    /// Returns kept rows that cannot be distinguished from dependent rows in `f64`; the direction
+    /// covers all rows. See [`inseparable`].
     #[must_use]
     pub fn inseparable(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<NearlyRedundant> {
         self.parts.iter().find_map(|part| {
@@ -326,8 +329,8 @@ impl Rows {
         })
     }
 
-    /// Whether the rank of all rows is decided, if only by a certificate: then the kept rows are
-    /// independent, even if `f64` cannot show it.
+    /// Returns whether the rank of all rows is decided, possibly only by a certificate. The kept
+    /// rows are then independent, even if `f64` cannot show it.
     #[must_use]
     pub fn are_certified(&self) -> bool {
         self.parts.iter().all(|part| match &part.certified {
@@ -336,11 +339,11 @@ impl Rows {
         })
     }
 
-    /// Redundant rows that contradict each other, the largest contradiction of a part first. See
-    /// [`contradictions`].
+    /// Returns redundant rows that contradict each other, the largest contradiction of a part
+    /// first. See [`contradictions`].
     ///
     /// # Errors
-    /// As [`contradictions`].
+    /// Same errors as [`contradictions`].
     pub fn contradictions(
         &self,
         mechanism: &Mechanism,
@@ -351,7 +354,7 @@ impl Rows {
         check(mechanism, t, q, v)?;
         let mut all = Vec::new();
         for part in &self.parts {
-            // For larger parts the monitors of the motion compare the rows.
+            // For larger parts, the monitors of the simulation compare the rows.
             let Some(certified) = &part.certified else {
                 continue;
             };

@@ -1,13 +1,13 @@
-//! Is the motion unique at a configuration at which the rank drops? There more velocities satisfy
-//! `C·v = b` than elsewhere, but a velocity can continue only if accelerations exist: `z·Γ(v) = 0`
-//! for every z of the left null space, both for self-stresses that exist everywhere and for new
-//! ones. These are quadratic equations in the velocities, and the motion through the point solves
-//! them.
+//! Decides whether the motion is unique at a configuration where the rank drops. There, more
+//! velocities satisfy `C·v = b` than elsewhere, but a motion with such a velocity requires
+//! accelerations: `z·Γ(v) = 0` for every z of the left null space. This applies to self-stresses
+//! that exist everywhere and to new ones. These are quadratic equations in the velocities, and the
+//! motion through the point solves them.
 //!
 //! If there is no other solution, the new motions are blocked at second order. If there is one, the
-//! motion branches. If second order does not decide, the result says so.
+//! motion branches. If second order does not decide, the result is undecided.
 //!
-//! The same equations restrict the freedoms of a mechanism whose functions of time are held
+//! The same equations restrict the freedoms of a mechanism with locked functions of time
 //! ([`restrictions()`]): a locked drive is a row like any other.
 //!
 //! Source: S. Pellegrino, C. R. Calladine, Matrix analysis of statically and kinematically
@@ -44,8 +44,9 @@ pub enum Continuation {
     /// Other velocities are compatible to second order: the constraints do not determine on which
     /// branch the mechanism continues.
     Bifurcation {
-        /// Velocities of other branches, n_v each. Without drives they are as fast as the motion,
-        /// and may be reversed. If a branch has several degrees of freedom, these are examples.
+        /// Velocities of other branches, n_v values each. Without drives they are as fast as the
+        /// motion, and may be reversed. If a branch has several degrees of freedom, these are
+        /// examples.
         branches: Vec<Vec<f64>>,
     },
     /// Second order does not decide.
@@ -74,15 +75,15 @@ impl std::fmt::Display for Continuation {
     }
 }
 
-/// Second-order test at time t, coordinates q on the constraints and velocities v with `C·v = b`;
-/// `decision` is the rank at this configuration.
+/// Performs the second-order test at time t, coordinates q on the constraints and velocities v with
+/// `C·v = b`. `decision` is the rank at this configuration.
 ///
-/// `regular` (n_v × k) holds the velocities `w` with `C·w = 0` that the mechanism also has at
-/// neighbouring configurations: the column v for a mechanism with one degree of freedom and without
-/// drives, no column for a driven one without freedom.
+/// `regular` (n_v × k) contains the velocities `w` with `C·w = 0` that are also possible at
+/// neighbouring configurations. It is the column v for a mechanism with one degree of freedom and
+/// without drives. It has no column for a driven mechanism without freedom.
 ///
 /// # Errors
-/// If the state has the wrong number of values, or one of them is not finite.
+/// Returns an error if the state has the wrong number of values, or if a value is not finite.
 pub fn second_order(
     mechanism: &Mechanism,
     t: f64,
@@ -115,7 +116,7 @@ pub fn second_order(
     })
 }
 
-/// Whether the forms exclude every other velocity.
+/// Returns whether the forms exclude every other velocity.
 fn is_unique(forms: &Forms, mechanism: &Mechanism, q: &[f64]) -> bool {
     match (forms.x(), forms.y()) {
         (_, 0) => true,
@@ -124,14 +125,15 @@ fn is_unique(forms: &Forms, mechanism: &Mechanism, q: &[f64]) -> bool {
     }
 }
 
-/// What second order says of the velocities with `C·v = 0` while functions of time are held:
-/// without the rows of moving drives nothing changes, and a locked drive is a row like any other.
+/// Returns the second-order restrictions on the velocities with `C·v = 0` while functions of time
+/// are locked. A locked drive is a row like any other.
 ///
-/// Rows that are redundant within a stated tolerance only restrict nothing within it. If the rank
-/// is undecided there is no restriction, either.
+/// Rows that are redundant only within a stated tolerance impose no restriction within it. If the
+/// rank is undecided, there is no restriction, either.
 ///
 /// # Errors
-/// If the configuration has the wrong number of values, or one of them is not finite.
+/// Returns an error if the configuration has the wrong number of values, or if a value is not
+/// finite.
 pub fn restrictions(
     mechanism: &Mechanism,
     t: f64,
@@ -161,12 +163,12 @@ pub fn restrictions(
     })
 }
 
-/// Whether the mechanism cannot move although C leaves velocities free, while functions of time are
-/// held: second order excludes every velocity with `C·v = 0`, so its mobility exists to first order
-/// only. `None` if second order does not decide, or the rank is undecided.
+/// Returns whether the mechanism cannot move although C leaves velocities free, while functions of
+/// time are locked. If so, second order excludes every velocity with `C·v = 0`, so its mobility
+/// exists only to first order. `None` if second order does not decide, or the rank is undecided.
 ///
 /// # Errors
-/// As [`restrictions()`].
+/// Same errors as [`restrictions()`].
 pub fn is_locked(
     mechanism: &Mechanism,
     t: f64,
@@ -177,12 +179,12 @@ pub fn is_locked(
     Ok(found.exclude_all().filter(|_| decision.is_decided()))
 }
 
-/// Velocities with `C·v = 0` that second order excludes while functions of time are held, n_v each.
-/// They are orthogonal, without dimensions, to the velocities that no form contains. Empty if
-/// second order does not decide.
+/// Returns velocities with `C·v = 0` that second order excludes while functions of time are locked,
+/// n_v values each. In dimensionless form, they are orthogonal to the velocities that no form
+/// contains. The list is empty if second order does not decide.
 ///
 /// # Errors
-/// As [`restrictions()`].
+/// Same errors as [`restrictions()`].
 pub fn blocked_velocities(
     mechanism: &Mechanism,
     t: f64,
@@ -192,10 +194,10 @@ pub fn blocked_velocities(
     Ok(restrictions(mechanism, t, q, decision)?.velocities(SecondOrder::Blocked))
 }
 
-/// Whether second order can exclude velocities at all.
+/// Returns whether second order can exclude velocities at all.
 fn may_block(mechanism: &Mechanism, decision: &RankDecision) -> bool {
     let has_freedom = decision.is_decided() && decision.rank < mechanism.layout().n_v;
-    // Rows that are redundant within a tolerance only block nothing within it.
+    // Rows that are redundant only within a tolerance block no motion within it.
     let certificate = decision.evidence.certificate.as_ref();
     let is_within = certificate.is_some_and(|c| c.grounds == Grounds::WithinTolerance);
     has_freedom && decision.redundancy > 0 && !is_within

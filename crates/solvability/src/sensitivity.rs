@@ -1,26 +1,29 @@
-//! How strongly numbers of reactions depend on the data: by what fraction a component, a direction,
-//! a sum or a moment changes if one point moves slightly. A number may be unique and yet be
-//! determined by the last digits of a drawing.
+//! Computes how strongly numbers of reactions depend on the data: the fraction by which a
+//! component, a direction, a sum or a moment changes if one point moves slightly. A number may be
+//! unique and nevertheless depend on the last digits of a drawing.
 //!
-//! With the rank and the applied loads held, `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` change with a point
-//! through its own entries in C and Γ, through the pose, which follows so that `Φ_K = 0`, and
-//! through the velocities, which follow so that `C_K·v = b`. For a number `w(q, d)ᵀ·λ` one solution
-//! y of the same symmetric equations with right-hand side (0, w) gives the change with respect to
-//! all points at once: `−y_aᵀ·δCᵀ·λ + y_λᵀ·(δΓ − δC·a) + δwᵀ·λ`.
+//! The rank and the applied loads are constant. The equations `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` then
+//! depend on a point in three ways. The point has its own entries in C and Γ. The configuration
+//! changes with the point so that `Φ_K = 0`. The velocities change so that `C_K·v = b`. For a
+//! number `w(q, d)ᵀ·λ`, one solution y of the same symmetric equations with right-hand side (0, w)
+//! gives the derivatives with respect to all points: `−y_aᵀ·δCᵀ·λ + y_λᵀ·(δΓ − δC·a) + δwᵀ·λ`.
 //!
-//! That is first order. Near a limit position reactions grow faster: where the kept rows are nearly
-//! dependent, and a number changes by 1 % to 10 % to first order, the mechanism with the displaced
-//! point is solved (`displaced`), and the larger of both changes is told.
+//! This estimate is of first order. Near a limit position, reactions grow faster. If the
+//! independent rows are nearly dependent and a number changes by 1 % to 10 % to first order, the
+//! mechanism with the displaced point is also solved (`displaced`). The larger of the two changes
+//! is reported.
 //!
-//! Size and loads are those of a set of connected bodies: the result for a robot is the same alone
-//! and in a fleet, even if springs couple it to others. The load of a spring does not change, so a
-//! stiff spring makes no reaction fragile that the constraints determine well.
+//! Size and loads are those of a set of connected bodies. The result for a robot is therefore the
+//! same for the robot alone and in a fleet, even if springs couple it to other robots. The load of
+//! a spring is constant, so a stiff spring does not make a reaction sensitive that the constraints
+//! determine well.
 //!
-//! Without any load no reaction could change. Then the result is computed for a load of 1 N on each
-//! body, in directions without symmetry, at rest and with equal masses: a combination of rows of
-//! norm σ has reactions of about 1/σ of it, which change by the fraction moved/(σ·size).
+//! Without any load, no reaction could change. In this case the result is computed for a load of 1
+//! N on each body, in directions without symmetry, at rest and with equal masses. A combination of
+//! rows of norm σ has reactions of about 1/σ of this load, which change by the fraction
+//! moved/(σ·size).
 //!
-//! Data whose uncertainty changes the rank itself are the subject of `numerical_rank`.
+//! The module `numerical_rank` considers data whose uncertainty changes the rank itself.
 
 mod by_sets;
 mod displaced;

@@ -1,5 +1,6 @@
-//! Spatial mechanisms for tests: bodies and joints are placed in ground coordinates of a pose to
-//! which the whole mechanism is moved. Frames of bodies are turned and off the centre of mass.
+//! Spatial mechanisms for tests. Bodies and joints are described in ground coordinates of a home
+//! pose, from which the whole mechanism is moved. Body frames are rotated and have an offset from
+//! the centre of mass.
 
 use joints::space3::{Axes, Cylindrical, Direction, Planar, Pose, Revolute, Spherical};
 use joints::space3::{Distance, GroundPlane, PointOnPlane, Translational, Wheel};
@@ -12,10 +13,10 @@ pub(crate) const X: [f64; 3] = [1.0, 0.0, 0.0];
 pub(crate) const Y: [f64; 3] = [0.0, 1.0, 0.0];
 pub(crate) const Z: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// The centre of mass of every body in its frame.
+/// Centre of mass of every body in its frame.
 const CENTRE: [f64; 3] = [0.1, -0.2, 0.3];
 
-/// Kinds of joints with an axis at most.
+/// Kinds of joints with at most one axis.
 #[derive(Clone, Copy)]
 pub(crate) enum Kind {
     Revolute,
@@ -34,18 +35,18 @@ pub(crate) struct Sketch {
 }
 
 impl Sketch {
-    /// At home.
+    /// Creates a mechanism in the home pose.
     pub(crate) fn new() -> Self {
         Self::at(Pose::GROUND)
     }
 
-    /// Moved as a whole.
+    /// Creates a mechanism that is moved as a whole.
     pub(crate) fn at(moved: Pose) -> Self {
         let d = SpatialDescription::new("sketch");
         Self { d, moved }
     }
 
-    /// A body with its centre of mass at a point.
+    /// Adds a body with its centre of mass at a point.
     pub(crate) fn body(&mut self, name: &str, centre: [f64; 3]) -> BodyRef {
         let turn = 0.2 * self.d.bodies.len() as f64;
         let orientation = [0.9, 0.3 + turn, -0.2, 0.5];
@@ -60,14 +61,14 @@ impl Sketch {
         })
     }
 
-    /// A direction of the home pose in the frame of a body.
+    /// Returns a direction of the home pose in the frame of a body.
     fn direction(&self, body: BodyRef, v: [f64; 3]) -> [f64; 3] {
         let v = self.moved.direction_to_global(v);
         let [origin, tip] = [[0.0; 3], v].map(|p| self.d.local(body, p));
         std::array::from_fn(|k| tip[k] - origin[k])
     }
 
-    /// A joint at a point, with its axis or normal along w.
+    /// Adds a joint at a point, with its axis or normal along w.
     pub(crate) fn joint(
         &mut self,
         name: &str,
@@ -135,7 +136,7 @@ impl Sketch {
         };
     }
 
-    /// A bar of fixed length between a point of each body.
+    /// Adds a bar of fixed length between a point of each body.
     pub(crate) fn bar(&mut self, name: &str, bodies: [BodyRef; 2], ends: [[f64; 3]; 2]) {
         let end = |k: usize| self.d.local(bodies[k], self.moved.to_global(ends[k]));
         let [s_i, s_j] = [end(0), end(1)];
@@ -143,14 +144,14 @@ impl Sketch {
         self.d.joint(name, &bodies, bar);
     }
 
-    /// A wheel of this radius on the plane z = 0 of the home pose, which the mechanism must be at.
+    /// Adds a wheel of this radius on the plane z = 0; the mechanism must be in the home pose.
     pub(crate) fn wheel(&mut self, name: &str, wheel: BodyRef, axis: [f64; 3], radius: f64) {
         let axis = Direction::new(self.direction(wheel, axis)).expect("a direction");
         let rolls = Wheel::new([0.0; 3], axis, radius, GroundPlane::Z);
         self.d.joint(name, &[wheel], rolls);
     }
 
-    /// The mechanism, its configuration and its verdicts.
+    /// Returns the mechanism, its configuration and its verdicts.
     pub(crate) fn judged(&self) -> (Mechanism, Vec<f64>, Analysis) {
         let mechanism = Mechanism::build(&self.d).expect("builds");
         let (q, _) = mechanism.described_state();
@@ -159,7 +160,7 @@ impl Sketch {
     }
 }
 
-/// A door on hinges, of this kind each, along z.
+/// Returns a door on hinges of these kinds along z.
 pub(crate) fn door(kinds: &[Kind], moved: Pose) -> Sketch {
     let mut s = Sketch::at(moved);
     let door = s.body("door", [0.5, 0.1, 1.0]);
@@ -170,7 +171,7 @@ pub(crate) fn door(kinds: &[Kind], moved: Pose) -> Sketch {
     s
 }
 
-/// A closed chain of three links: its joints are named in turn.
+/// Returns a closed chain of three links; its joints are named in order.
 pub(crate) fn loop_of_four(
     names: [&str; 7],
     kinds: [Kind; 4],
@@ -203,20 +204,20 @@ const FOUR_BAR: [[f64; 3]; 4] = [
     [1.4, 0.0, 0.0],
 ];
 
-/// The planar four-bar A(0, 0), B(.3, .8), C(1.5, 1.1), D(1.4, 0), all axes along z.
+/// Returns the planar four-bar A(0, 0), B(.3, .8), C(1.5, 1.1), D(1.4, 0), with all axes along z.
 pub(crate) fn four_bar(kinds: [Kind; 4], moved: Pose) -> Sketch {
     let names = ["crank", "coupler", "rocker", "A", "B", "C", "D"];
     loop_of_four(names, kinds, FOUR_BAR, [Z; 4], moved)
 }
 
-/// The four-bar of revolutes, all lengths times `size`.
+/// Returns the four-bar with revolute joints, with all lengths times `size`.
 pub(crate) fn scaled_four_bar(size: f64, moved: Pose) -> Sketch {
     let names = ["crank", "coupler", "rocker", "A", "B", "C", "D"];
     let points = FOUR_BAR.map(|p| p.map(|x| size * x));
     loop_of_four(names, [Kind::Revolute; 4], points, [Z; 4], moved)
 }
 
-/// Bennett's linkage in rational numbers.
+/// Returns Bennett's linkage with rational dimensions.
 pub(crate) fn bennett(moved: Pose) -> Sketch {
     let names = ["first", "middle", "last", "J0", "J1", "J2", "J3"];
     let points = [
@@ -229,7 +230,7 @@ pub(crate) fn bennett(moved: Pose) -> Sketch {
     loop_of_four(names, [Kind::Revolute; 4], points, axes, moved)
 }
 
-/// Places to which a mechanism is moved.
+/// Returns poses to which a mechanism is moved.
 pub(crate) fn places() -> [Pose; 3] {
     [
         Pose::GROUND,

@@ -1,4 +1,4 @@
-//! Sparse decisions on the rows of a large mechanism.
+//! Decisions on the rows of a large mechanism with sparse matrices.
 
 use std::ops::Range;
 
@@ -13,16 +13,16 @@ use crate::matrices::{self, Basis};
 
 /// A sparse decision on rows of C, with these rows.
 pub(crate) struct SparseDecision {
-    /// Without dimensions.
+    /// Dimensionless rows.
     c: SparseMatrix,
     pub(crate) found: SparseRank,
 }
 
-/// Rank and kept rows of some rows of C, ascending, at the pose of the scratch, where Φ and C have
-/// been evaluated at coordinates q.
+/// Returns rank and kept rows of some rows of C (ascending) at the configuration of the scratch,
+/// where Φ and C have been evaluated at coordinates q.
 ///
 /// # Errors
-/// If C is not finite, or too dense for a sparse decision.
+/// Returns an error if C is not finite, or too dense for a sparse decision.
 pub(crate) fn decide_some(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -69,7 +69,7 @@ impl SparseDecision {
         Ok(Self { c, found })
     }
 
-    /// What verdicts of a group of the decided rows are read from: the rows alone.
+    /// Returns the basis for verdicts on a group of the decided rows, which uses only these rows.
     pub(crate) fn basis(&self, own: &[usize]) -> Basis {
         let of_rows = own.iter().flat_map(|&i| self.c.row(i).0);
         let mut columns: Vec<usize> = of_rows.copied().collect();
@@ -95,7 +95,7 @@ impl SparseDecision {
         }
     }
 
-    /// The accuracy of what is read of these rows, which have so many entries.
+    /// Returns the accuracy of results from these rows, which have this number of entries.
     pub(crate) fn known(&self, own: &[usize], entries: usize) -> matrices::RowAccuracy {
         let (e, noise) = (&self.found.evidence, self.found.noise());
         let row_factor = own.iter().map(|&i| self.found.scaling.row_factor(i));
@@ -113,7 +113,7 @@ impl SparseDecision {
     }
 }
 
-/// Rows of C at the pose of the scratch, with columns in the given units.
+/// Returns rows of C at the configuration of the scratch, with columns in the given units.
 pub(crate) fn rows_of(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -127,14 +127,14 @@ pub(crate) fn rows_of(
         .unwrap_or_else(|e| unreachable!("columns of a pattern: {e}"))
 }
 
-/// The columns of each body.
+/// Returns the columns of each body.
 pub(crate) fn blocks(mechanism: &Mechanism) -> Vec<Range<usize>> {
     let bodies = 0..mechanism.bodies().len();
     bodies.map(|b| mechanism.layout().columns(b)).collect()
 }
 
-/// A sketch with enough combinations for the joint with most rows, and some more so that a random
-/// failure is improbable.
+/// Returns a sketch with enough combinations for the joint with most rows, and a few more so that a
+/// random failure is improbable.
 pub(crate) fn sketch_of(mechanism: &Mechanism) -> Sketch {
     let groups = mechanism.layout().groups.iter();
     let most = groups.map(|group| group.rows.len()).max().unwrap_or(0);
@@ -152,11 +152,11 @@ mod tests {
     use linalg::PivotedQr;
     use model::{BodyRef, SpatialBody, SpatialDescription};
 
-    /// The rank of six rows is read from as many random combinations as the mechanism gets. The
-    /// least pivot of two thousand such reads is far above that of nearly square matrices, whose
-    /// smallest singular value is below δ with a probability of the order of δ to the power of one
-    /// more than the number of spare columns (A. Edelman, SIAM J. Matrix Anal. Appl. 9 (1988)
-    /// 543–560).
+    /// The rank of six rows is determined from as many random combinations as the mechanism uses.
+    /// The smallest pivot of two thousand such trials is far above that of nearly square matrices.
+    /// The smallest singular value of a nearly square matrix is below δ with a probability of about
+    /// δ to the power of one more than the number of spare columns (A. Edelman, SIAM J. Matrix
+    /// Anal. Appl. 9 (1988) 543–560).
     #[test]
     fn random_combinations_show_the_rank_of_the_largest_joint() {
         let mut d = SpatialDescription::new("plate");
@@ -174,7 +174,7 @@ mod tests {
         let rows = mechanism.layout().rows();
         let combinations = sketch_of(&mechanism).columns;
         let mut state = 1_u64;
-        // The sum of twelve uniform numbers.
+        // Approximates a normal variable by the sum of twelve uniform numbers.
         let mut normal = || {
             let mut sum = -6.0;
             for _ in 0..12 {

@@ -1,4 +1,4 @@
-//! A state given by the caller, and the check that it fits the mechanism.
+//! A state that the caller passes, and the check that it fits the mechanism.
 
 use model::codes::Code;
 use model::{Mechanism, System};
@@ -6,9 +6,9 @@ use model::{Mechanism, System};
 /// Coordinates and velocities at one instant.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
-    /// Coordinates, n_q.
+    /// Coordinates, n_q values.
     pub q: Vec<f64>,
-    /// Velocities, n_v.
+    /// Velocities, n_v values.
     pub v: Vec<f64>,
 }
 
@@ -23,9 +23,9 @@ pub enum StateError {
         time: f64,
         /// "coordinates" or "velocities".
         what: &'static str,
-        /// Number of values given.
+        /// Number of passed values.
         found: usize,
-        /// Number of values required.
+        /// Number of required values.
         expected: usize,
     },
     /// A number is NaN or infinite.
@@ -49,7 +49,7 @@ pub enum StateError {
 }
 
 impl StateError {
-    /// Its code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {

@@ -1,16 +1,17 @@
-//! Verdicts of a run: on stretches of time, one component at a time.
+//! Verdicts of a simulation by time interval (stretch), separately for each component.
 //!
 //! At constant rank, and between breaks of the functions of time, the coefficients of a component
-//! in the left null space are analytic in time. So the component is determined throughout such a
-//! stretch or, but for isolated instants, nowhere in it. A run is cut into stretches at its events
-//! and at break times. On a stretch the verdict is
+//! in the left null space are analytic in time. A component is therefore determined either
+//! throughout such an interval or only at isolated instants in it. A simulation is divided into
+//! intervals at its events and at break times. On an interval the verdict is
 //!
-//! - unique if it is unique at every instant that was looked at inside,
-//! - not unique if it is not unique at one of them,
+//! - unique if it is unique at every examined instant inside,
+//! - not unique if it is not unique at one of these instants,
 //! - undecided otherwise.
 //!
-//! Instants with another verdict are special: they are listed and decide nothing. An instant on a
-//! cut belongs to the stretch that begins there, the last instant to the last stretch.
+//! Instants with a different verdict are special: they are listed, but do not affect the verdict on
+//! the interval. An instant between two intervals belongs to the later one, and the last instant
+//! belongs to the last interval.
 
 mod all;
 mod carried;
@@ -26,39 +27,39 @@ use crate::verdict::Verdict;
 pub use carried::{CarriedState, CarriedVerdicts};
 pub use recorder::{InstantOrder, VerdictRecorder};
 
-/// The verdict on a number over an interval of time.
+/// The verdict on a number over a time interval.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VerdictStretch {
-    /// Begin (s).
+    /// Start time (s).
     pub from: f64,
-    /// End (s).
+    /// End time (s).
     pub to: f64,
     /// The verdict.
     pub verdict: Verdict,
 }
 
-/// An instant at which another verdict holds than on its stretch.
+/// An instant at which the verdict differs from that of its interval.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SpecialInstant {
     /// Time (s).
     pub time: f64,
-    /// The verdict there.
+    /// The verdict at this instant.
     pub verdict: Verdict,
 }
 
-/// The verdicts on one number during a run.
+/// The verdicts on one number during a simulation.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct VerdictTrack {
-    /// In the order of time, without gaps; neighbours differ in their verdicts.
+    /// Intervals in chronological order, without gaps; neighbours differ in their verdicts.
     stretches: Vec<VerdictStretch>,
     special: Vec<SpecialInstant>,
 }
 
 impl VerdictTrack {
-    /// One verdict from begin to end.
+    /// Creates one verdict from start to end.
     #[must_use]
     pub fn constant([from, to]: [f64; 2], verdict: Verdict) -> Self {
         Self {
@@ -67,14 +68,14 @@ impl VerdictTrack {
         }
     }
 
-    /// These stretches in the order of time, without gaps; neighbours with the same verdict are
-    /// joined.
+    /// Creates a track from these intervals in chronological order, without gaps. Neighbours with
+    /// the same verdict are merged.
     #[must_use]
     pub fn of(stretches: impl IntoIterator<Item = VerdictStretch>) -> Self {
         Self::new(stretches, Vec::new())
     }
 
-    /// The same, with special instants.
+    /// Creates a track with special instants.
     pub(crate) fn new(
         stretches: impl IntoIterator<Item = VerdictStretch>,
         special: Vec<SpecialInstant>,
@@ -92,25 +93,26 @@ impl VerdictTrack {
         }
     }
 
-    /// The stretches in the order of time, without gaps.
+    /// Returns the intervals in chronological order, without gaps.
     #[must_use]
     pub fn stretches(&self) -> &[VerdictStretch] {
         &self.stretches
     }
 
-    /// The instants at which another verdict holds than on their stretch, in the order of time.
+    /// Returns the instants at which the verdict differs from that of their interval, in
+    /// chronological order.
     #[must_use]
     pub fn special(&self) -> &[SpecialInstant] {
         &self.special
     }
 
-    /// Leaves out all special instants.
+    /// Removes all special instants.
     pub(crate) fn forget_special(&mut self) {
         self.special.clear();
     }
 
-    /// Adds another instant that was looked at, if a verdict is decided there and differs from that
-    /// of its stretch.
+    /// Adds another examined instant, if its verdict is decided and differs from that of its
+    /// interval.
     pub(crate) fn look(&mut self, time: f64, verdict: &Verdict) {
         let place = self.special.partition_point(|s| s.time < time);
         let is_known = self.special.get(place).is_some_and(|s| s.time == time);
@@ -121,36 +123,39 @@ impl VerdictTrack {
         }
     }
 
-    /// The verdict on the stretch that contains the time: of two that meet there, the later one.
+    /// Returns the verdict on the interval that contains the time. If two intervals meet there, the
+    /// later one counts.
     #[must_use]
     pub fn at(&self, t: f64) -> &Verdict {
         let begun = self.stretches.partition_point(|s| s.from <= t);
         &self.stretches[begun.max(1) - 1].verdict
     }
 
-    /// A number of a solution at a time with the verdict on the stretch that contains it.
+    /// Returns a number of a solution at a time with the verdict on the interval that contains the
+    /// time.
     #[must_use]
     pub fn value(&self, t: f64, number: f64) -> Value {
         Value::new(number, self.at(t).clone(), None)
     }
 
-    /// The verdict on the run: unique if it is on all stretches, not unique if it is not on one.
+    /// Returns the verdict on the simulation: unique if it is unique on all intervals, not unique
+    /// if it is not unique on one.
     #[must_use]
     pub fn of_run(&self) -> &Verdict {
         worst(self.stretches.iter().map(|s| &s.verdict))
     }
 
-    /// The intervals on which the number is determined.
+    /// Returns the intervals on which the number is determined.
     #[must_use]
     pub fn determined(&self) -> Vec<[f64; 2]> {
         let unique = self.stretches.iter().filter(|s| s.verdict.is_unique());
         unique.map(|s| [s.from, s.to]).collect()
     }
 
-    /// The verdicts on several numbers together: the worst of theirs at each time.
+    /// Returns the verdicts on several numbers together: the worst of their verdicts at each time.
     ///
     /// # Panics
-    /// If there is no number.
+    /// Panics if the list is empty.
     #[must_use]
     pub fn together(tracks: &[&Self]) -> Self {
         let mut ends: Vec<f64> = tracks
@@ -194,14 +199,14 @@ impl VerdictTrack {
             .collect()
     }
 
-    /// The verdict at an instant that was looked at.
+    /// Returns the verdict at an examined instant.
     fn exactly_at(&self, t: f64) -> &Verdict {
         let special = self.special.iter().find(|s| s.time == t);
         special.map_or_else(|| self.at(t), |s| &s.verdict)
     }
 }
 
-/// The worst of verdicts, the first of equals.
+/// Returns the worst of the verdicts, the first of equal ones.
 pub(crate) fn worst<'v>(verdicts: impl Iterator<Item = &'v Verdict>) -> &'v Verdict {
     let mut worst: Option<&Verdict> = None;
     for verdict in verdicts {
@@ -212,7 +217,7 @@ pub(crate) fn worst<'v>(verdicts: impl Iterator<Item = &'v Verdict>) -> &'v Verd
     worst.unwrap_or(&Verdict::Unique)
 }
 
-/// The verdicts on a joint or drive during a run.
+/// The verdicts on a joint or drive during a simulation.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionStretches {
@@ -226,7 +231,8 @@ pub struct ReactionStretches {
 }
 
 impl ReactionStretches {
-    /// The verdicts on a component, by its name; `None` for one that is zero under any load.
+    /// Returns the verdicts on a component, by its name; `None` for a component that is zero under
+    /// any load.
     #[must_use]
     pub fn component(&self, name: &str) -> Option<&VerdictTrack> {
         let mut own = self.components.iter();
@@ -234,8 +240,8 @@ impl ReactionStretches {
             .map(|(_, track)| track)
     }
 
-    /// A component of a solution at a time with the verdict on the stretch that contains it. One
-    /// that is zero under any load is unique.
+    /// Returns a component of a solution at a time with the verdict on the interval that contains
+    /// the time. A component that is zero under any load is unique.
     ///
     /// ```
     /// use pfaff_solvability::{ReactionStretches, Verdict, VerdictTrack};
@@ -255,7 +261,7 @@ impl ReactionStretches {
     }
 }
 
-/// The verdicts on a group during a run.
+/// The verdicts on a group during a simulation.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GroupStretches {
@@ -265,14 +271,14 @@ pub struct GroupStretches {
     pub numbers: Vec<(&'static str, VerdictTrack)>,
 }
 
-/// The verdicts of a run.
+/// The verdicts of a simulation.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Stretches {
-    /// Begin and end of the run (s).
+    /// Start and end of the simulation (s).
     pub extent: [f64; 2],
     /// Joints and drives in the order of their rows.
     pub reactions: Vec<ReactionStretches>,
-    /// Groups in the order in which they were asked for.
+    /// Groups in the order of the request.
     pub groups: Vec<GroupStretches>,
 }

@@ -1,5 +1,5 @@
-//! Reactions that are unique because of the structure of the mechanism, before any rank is decided.
-//! No verdict needs this; it explains some verdicts.
+//! Reactions that are unique because of the structure of the mechanism, independent of any rank
+//! decision. Verdicts do not use this analysis; it explains some of them.
 
 use crate::pose::{dimensionless, uncertainty};
 use model::start::scene_size;
@@ -7,10 +7,10 @@ use model::{Mechanism, Scratch, System};
 use rank::{RankError, RowGroup, Structure};
 
 /// Analyses the structure: its groups are joints and drives in the order of the layout, its blocks
-/// are bodies. The scratch must hold Φ and C at coordinates q.
+/// are bodies. The scratch must contain Φ and C at coordinates q.
 ///
 /// # Errors
-/// If C is not finite.
+/// Returns an error if C is not finite.
 pub fn structure(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Structure, RankError> {
     let layout = mechanism.layout();
     let size = scene_size(mechanism, q);

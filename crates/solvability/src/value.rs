@@ -1,4 +1,4 @@
-//! A number of a reaction and its verdict: one value.
+//! A number of a reaction together with its verdict.
 
 mod label;
 mod no_finite;
@@ -17,13 +17,14 @@ pub(crate) use sensitivity::change_in_words;
 pub use sensitivity::{Datum, Sensitivity, length};
 
 /// A number of a reaction (a component, a sum, a multiplier) with its verdict and with how strongly
-/// it depends on the data. A number that is not unique has the choice on which it depends, or is
-/// left out.
+/// it depends on the data. A number that is not unique is stored with the choice on which it
+/// depends, or is omitted.
 ///
-/// As data it is `{ value, verdict, fragile, sensitivity, reason, choice, no_finite_reaction }`:
-/// `value` is `null` where there is no number, `choice` is there if and only if the number is one
-/// of a choice, `reason` states why the verdict is undecided or why a number is missing for another
-/// reason than its verdict.
+/// Serialised, it is
+/// `{ value, verdict, fragile, sensitivity, reason, choice, no_finite_reaction }`. `value` is
+/// `null` if there is no number. `choice` is present if and only if the number belongs to a choice.
+/// `reason` states why the verdict is undecided, or why a number is missing for a reason other than
+/// its verdict.
 ///
 /// ```
 /// use pfaff_solvability::{Value, Verdict};
@@ -38,23 +39,23 @@ pub struct Value {
     sensitivity: Option<Sensitivity>,
 }
 
-/// What there is of a number.
+/// Stored number, if there is one.
 #[derive(Clone, Debug, PartialEq)]
 enum Number {
-    /// The same in every solution.
+    /// The number is the same in every solution.
     Determined(f64),
-    /// One of many.
+    /// The number belongs to one of many solutions.
     Chosen { value: f64, by: Label },
-    /// Left out, because it would be one of many.
+    /// The number is omitted, because it would belong to one of many solutions.
     Open,
-    /// None, whatever verdict and choice: the equations have solutions, but the motion does not
-    /// have finite reactions, or it is not decided whether it has.
+    /// There is no number, for every verdict and choice. The equations have solutions, but the
+    /// motion does not have finite reactions, or their existence is undecided.
     NotFinite(Arc<NoFiniteReaction>),
 }
 
 impl Value {
-    /// A number of a solution. If it is not unique it is one `by` a choice; without a choice it is
-    /// left out.
+    /// Creates a number of a solution. If it is not unique, `by` is the choice on which it depends;
+    /// without a choice, the number is omitted.
     #[must_use]
     pub fn new(value: f64, verdict: Verdict, by: Option<&Label>) -> Self {
         let number = match (verdict.is_unique(), by) {
@@ -72,13 +73,13 @@ impl Value {
         }
     }
 
-    /// A number that is the same in every solution.
+    /// Creates a number that is the same in every solution.
     #[must_use]
     pub fn unique(value: f64) -> Self {
         Self::new(value, Verdict::Unique, None)
     }
 
-    /// No number, whatever the verdict.
+    /// Creates a value without a number, for every verdict.
     #[must_use]
     pub fn not_finite(verdict: Verdict, why: Arc<NoFiniteReaction>) -> Self {
         Self {
@@ -88,18 +89,18 @@ impl Value {
         }
     }
 
-    /// Adds how strongly it depends on the data. Only a determined number has a sensitivity.
+    /// Adds the sensitivity to data. Only a determined number has a sensitivity.
     pub fn add_sensitivity(&mut self, sensitivity: Option<Sensitivity>) {
         self.sensitivity = sensitivity.filter(|_| self.determined().is_some());
     }
 
-    /// The verdict.
+    /// Returns the verdict.
     #[must_use]
     pub fn verdict(&self) -> &Verdict {
         &self.verdict
     }
 
-    /// The number, if it is determined.
+    /// Returns the number, if it is determined.
     #[must_use]
     pub fn determined(&self) -> Option<f64> {
         match self.number {
@@ -108,7 +109,8 @@ impl Value {
         }
     }
 
-    /// The number and the choice on which it depends, if it is one of many.
+    /// Returns the number and the choice on which it depends, if it belongs to one of many
+    /// solutions.
     #[must_use]
     pub fn of_choice(&self) -> Option<(f64, &Label)> {
         match &self.number {
@@ -117,14 +119,14 @@ impl Value {
         }
     }
 
-    /// The number in the one solution to which it belongs, determined or chosen.
+    /// Returns the number in the solution to which it belongs, determined or chosen.
     #[must_use]
     pub fn in_solution(&self) -> Option<f64> {
         self.determined()
             .or(self.of_choice().map(|(value, _)| value))
     }
 
-    /// Why there is no number although the verdict would allow one.
+    /// Returns the reason why there is no number although the verdict would allow one.
     #[must_use]
     pub fn no_finite_reaction(&self) -> Option<&NoFiniteReaction> {
         match &self.number {
@@ -133,13 +135,13 @@ impl Value {
         }
     }
 
-    /// How strongly the number depends on the data, if that is known.
+    /// Returns the sensitivity of the number to data, if it is known.
     #[must_use]
     pub fn sensitivity(&self) -> Option<&Sensitivity> {
         self.sensitivity.as_ref()
     }
 
-    /// Whether a small change of the data changes the number by more than the limit.
+    /// Returns whether a small change of the data changes the number by more than the limit.
     #[must_use]
     pub fn is_fragile(&self) -> bool {
         self.sensitivity
@@ -165,8 +167,9 @@ impl fmt::Display for Value {
 impl std::ops::Add for Value {
     type Output = Self;
 
-    /// The sum of numbers of different parts: it is unique if both are, and one of many if one of
-    /// them is. The sensitivity of a sum is not that of its terms.
+    /// Returns the sum of numbers of different parts. It is unique if both numbers are unique, and
+    /// chosen if one of them is chosen. The sensitivity of a sum does not follow from those of its
+    /// terms.
     fn add(self, other: Self) -> Self {
         let verdict = self.verdict.worse(other.verdict);
         let number = match (self.number, other.number) {
@@ -198,21 +201,21 @@ impl std::ops::Add for Value {
     schemars(rename = "Value")
 )]
 struct Data<'a> {
-    /// The number; `null` if none is given.
+    /// The number; `null` if there is no number.
     value: Option<f64>,
     /// `unique`, `not_unique` or `undecided`.
     verdict: &'static str,
-    /// Whether it is unique, but made of the last digits of the data.
+    /// Whether the number is unique, but sensitive to the data.
     fragile: bool,
-    /// Largest change by one point, as a share.
+    /// Largest relative change for a displacement of one point.
     sensitivity: Option<f64>,
-    /// Why it is undecided, or why no finite reaction exists.
+    /// Reason why the verdict is undecided, or why no finite reaction exists.
     #[serde(skip_serializing_if = "Option::is_none")]
     reason: Option<String>,
-    /// The choice that the number depends on.
+    /// The choice on which the number depends.
     #[serde(skip_serializing_if = "Option::is_none")]
     choice: Option<&'a Label>,
-    /// Why no finite reaction exists.
+    /// Reason why no finite reaction exists.
     #[serde(skip_serializing_if = "Option::is_none")]
     no_finite_reaction: Option<&'a NoFiniteReaction>,
 }
@@ -268,7 +271,7 @@ mod tests {
         })
     }
 
-    /// A number without a choice is there if and only if its verdict is unique.
+    /// A number without a choice is present if and only if its verdict is unique.
     #[test]
     fn a_number_is_given_with_a_verdict_or_with_a_choice() {
         let by = Label::new("supports");
@@ -283,7 +286,7 @@ mod tests {
         }
     }
 
-    /// A sum is as good as its worst term.
+    /// A sum has the worst verdict of its terms.
     #[test]
     fn a_sum_has_the_worst_verdict_and_the_label_of_a_chosen_term() {
         let by = Label::new("supports");

@@ -1,4 +1,4 @@
-//! Verdicts and the numbers behind them.
+//! Verdicts and the numbers that justify them.
 
 use rank::CoefficientReading;
 
@@ -7,11 +7,11 @@ use rank::CoefficientReading;
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum Verdict {
-    /// The same for every solution of the equations.
+    /// The reaction is the same for every solution of the equations.
     Unique,
-    /// Free to change without any effect on the motion.
+    /// The reaction can change without any effect on the motion.
     NotUnique,
-    /// The numbers do not decide between the two.
+    /// The numbers do not decide between unique and not unique.
     Undecided {
         /// Reason, with the numbers.
         reason: String,
@@ -19,7 +19,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The word for the verdict in output files.
+    /// Returns the word for the verdict in output files.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
@@ -29,7 +29,7 @@ impl Verdict {
         }
     }
 
-    /// How much it leaves open: unique, undecided, not unique.
+    /// Returns the rank of a verdict by its severity: unique, undecided, not unique.
     pub(crate) fn severity(&self) -> u8 {
         match self {
             Self::Unique => 0,
@@ -38,7 +38,7 @@ impl Verdict {
         }
     }
 
-    /// The verdict that leaves more open.
+    /// Returns the verdict with the higher severity.
     #[must_use]
     pub fn worse(self, other: Self) -> Self {
         if other.severity() > self.severity() {
@@ -48,13 +48,13 @@ impl Verdict {
         }
     }
 
-    /// Whether it is decided.
+    /// Returns whether the verdict is decided.
     #[must_use]
     pub fn is_decided(&self) -> bool {
         !matches!(self, Self::Undecided { .. })
     }
 
-    /// Whether it is [`Verdict::Unique`].
+    /// Returns whether the verdict is [`Verdict::Unique`].
     #[must_use]
     pub fn is_unique(&self) -> bool {
         *self == Self::Unique
@@ -67,15 +67,15 @@ impl Verdict {
 pub struct Judgement {
     /// The verdict.
     pub verdict: Verdict,
-    /// Distance of the reaction from being unique, dimensionless; 0 for a unique reaction.
+    /// Distance of the reaction from uniqueness, dimensionless; 0 for a unique reaction.
     pub margin: f64,
-    /// Whether it is unique only within the tolerance that the scene states: rounding of the data
-    /// does not explain the margin.
+    /// Whether the reaction is unique only within the tolerance that the scene states. In this
+    /// case, rounding of the data does not explain the margin.
     pub within_tolerance: bool,
 }
 
 impl Judgement {
-    /// A judgement without a stated tolerance.
+    /// Creates a judgement without a stated tolerance.
     #[must_use]
     pub fn new(verdict: Verdict, margin: f64) -> Self {
         Self {
@@ -85,8 +85,9 @@ impl Judgement {
         }
     }
 
-    /// Converts a margin classified by [`rank::RankDecision::read_coefficient`]. A margin that
-    /// counts as zero counts so within the tolerance of the scene only if it is above the rounding.
+    /// Converts a margin that [`rank::RankDecision::read_coefficient`] has classified. A margin
+    /// that counts as zero is zero within the tolerance of the scene only if it exceeds the
+    /// rounding.
     pub(crate) fn of(margin: f64, reading: CoefficientReading, is_above_rounding: bool) -> Self {
         let within_tolerance = is_above_rounding && reading == CoefficientReading::Zero;
         let verdict = match reading {
@@ -108,8 +109,8 @@ impl Judgement {
         }
     }
 
-    /// The judgement for exact data: the margin is zero if the value vanishes, otherwise the given
-    /// margin, however small.
+    /// Returns the judgement for exact data: the margin is zero if the value vanishes, otherwise
+    /// the given margin, even if it is very small.
     pub(crate) fn exact(margin: f64, vanishes: bool) -> Self {
         if vanishes {
             Self::new(Verdict::Unique, 0.0)
@@ -118,16 +119,17 @@ impl Judgement {
         }
     }
 
-    /// The judgement if the rank itself is undecided.
+    /// Returns the judgement if the rank itself is undecided.
     pub(crate) fn without_rank(margin: f64, doubt: &rank::Doubt) -> Self {
         let reason = format!("rank undecided: {doubt}");
         Self::new(Verdict::Undecided { reason }, margin)
     }
 }
 
-/// The verdict on all together: not unique if one is not unique, otherwise undecided if one is
-/// undecided. Among equal verdicts the one with the largest margin counts (NaN is the largest).
-/// Margins of different verdicts cannot be compared, because each was compared with its own noise.
+/// Returns the verdict on all judgements together: not unique if one is not unique, otherwise
+/// undecided if one is undecided. Among equal verdicts, the one with the largest margin counts (NaN
+/// is the largest). Margins of different verdicts cannot be compared, because each was compared
+/// with its own noise.
 pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
     let severity = |j: &Judgement| j.verdict.severity();
     let mut within_tolerance = false;
@@ -147,7 +149,8 @@ pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judge
 mod tests {
     use super::*;
 
-    /// Noise differs from row to row: a small margin may be certain where a larger one is rounding.
+    /// The noise differs from row to row: a small margin may be certain where a larger one is
+    /// rounding.
     #[test]
     fn one_part_that_is_not_unique_decides_whatever_the_margins() {
         let judged = Judgement::new;

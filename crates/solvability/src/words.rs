@@ -1,9 +1,9 @@
-//! Lists, numbers and vectors in sentences.
+//! Text formatting of lists, numbers and vectors.
 
 use crate::limits::VISIBLE;
 use model::{ConstraintId, Layout, Mechanism, System};
 
-/// "`a`, `b` and `c`" without the quotes.
+/// Formats a list as "`a`, `b` and `c`" without the quotes.
 pub(crate) fn list(words: &[String]) -> String {
     match words {
         [] => String::new(),
@@ -12,12 +12,13 @@ pub(crate) fn list(words: &[String]) -> String {
     }
 }
 
-/// "(0.25, −1, 0)" without the quotes. Numbers below a share of `size` are zero.
+/// Formats a vector as "(0.25, −1, 0)" without the quotes. Numbers below a share of `size` are
+/// zero.
 pub(crate) fn vector(p: [f64; 3], size: f64) -> String {
     components(&p, size)
 }
 
-/// The same for any number of components.
+/// Formats any number of components in this way.
 pub(crate) fn components(p: &[f64], size: f64) -> String {
     let shown = p
         .iter()
@@ -25,13 +26,13 @@ pub(crate) fn components(p: &[f64], size: f64) -> String {
     format!("({})", shown.collect::<Vec<_>>().join(", "))
 }
 
-/// Names of joints and drives, in quotes.
+/// Returns the names of joints and drives, in quotes.
 pub(crate) fn names(layout: &Layout, ids: &[ConstraintId]) -> Vec<String> {
     let name = |id: &ConstraintId| format!("`{}`", layout.groups[id.0].name);
     ids.iter().map(name).collect()
 }
 
-/// A sentence on rows of which a stated tolerance leaves open which depend on each other.
+/// Returns a sentence on rows whose dependencies are undecided because of a stated tolerance.
 pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
     let layout = mechanism.layout();
     let touched = |id: &ConstraintId| {
@@ -44,7 +45,7 @@ pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
         .filter(touched)
         .collect();
     format!(
-        "within the tolerance it is open which rows of {} depend on each other; those dependencies are not listed",
+        "within the tolerance it is undecided which rows of {} depend on each other; these dependencies are not listed",
         list(&names(layout, &ids))
     )
 }

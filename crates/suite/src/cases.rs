@@ -1,4 +1,4 @@
-//! The cases by name.
+//! The cases of the suite by name.
 
 use crate::closed_forms;
 use crate::reference::Reference;
@@ -7,12 +7,12 @@ use crate::table;
 /// A mechanism with a known motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Its name, which is that of its scene.
+    /// Name of the case, which is that of its scene.
     pub name: &'static str,
     /// A short description.
     pub title: &'static str,
-    /// The scene; it states the duration and an output step of which all times of the reference are
-    /// multiples.
+    /// The scene; it states the duration and an output step, and all times of the reference are
+    /// multiples of this step.
     pub scene: &'static str,
     known: Known,
 }
@@ -25,7 +25,7 @@ enum Known {
 }
 
 impl Case {
-    /// The reference values of its motion.
+    /// Returns the reference values of its motion.
     ///
     /// ```
     /// // The three cranks start from the angle of 30° with the angular acceleration −(1.5·mc + M)·g·sin θ/((mc + M)·L).
@@ -42,7 +42,7 @@ impl Case {
     }
 }
 
-/// A case of this crate: the names of its files are derived from its name.
+/// Defines a case of this crate: the names of its files are derived from its name.
 macro_rules! case {
     ($name:literal, $title:literal) => {
         case!(
@@ -72,7 +72,7 @@ macro_rules! case {
 /// The scene of the robot with its trolley.
 pub const ROBOT: &str = include_str!("../scenes/robot-trolley.toml");
 
-/// Cases by which methods are compared: they have different requirements, and a run takes less than
+/// Cases for the comparison of methods: they have different requirements, and a run takes less than
 /// a second.
 pub const COMPARED: [Case; 11] = [
     case!(
@@ -113,7 +113,7 @@ pub fn all() -> impl Iterator<Item = &'static Case> {
     COMPARED.iter().chain(&CHECKED)
 }
 
-/// The case with this name.
+/// Finds the case with this name.
 #[must_use]
 pub fn find(name: &str) -> Option<&'static Case> {
     all().find(|case| case.name == name)

@@ -53,7 +53,7 @@ pub fn knife_edge() -> Reference {
     )
 }
 
-/// A vertical disk that rolls with spin rate `Ω` while it turns with heading rate `ω`, on a circle:
+/// A vertical disk rolls with spin rate `Ω` while its heading changes with rate `ω`, on a circle:
 ///
 /// `x = RΩ/ω·sin ωt`, `y = RΩ/ω·(1 − cos ωt)`; the contact force is perpendicular to the heading,
 /// `N = m·ω·RΩ`, without a component along it.

@@ -1,16 +1,16 @@
-//! Large scenes with known answers: families of mechanisms of any size, written as text in
+//! Large scenes with known results: families of mechanisms of any size, written as text in
 //! sequence.
 //!
-//! An [`Order`] is a request; [`Order::generate`] checks it; a [`Generator`] contains the answer
-//! and writes the scene. The same order gives the same bytes. No scene is read here, and no motion
-//! is computed.
+//! An [`Order`] is a request; [`Order::generate`] checks it; a [`Generator`] contains the known
+//! results and writes the scene. The same order gives the same bytes. This module reads no scene
+//! and computes no motion.
 //!
 //! | module | content |
 //! | --- | --- |
 //! | `order` | requests, and the size of their scenes |
 //! | `answer` | counts, ranks, and which reactions are not determined |
 //! | `family` | the common interface of the families |
-//! | [`n_four_bar`], `parallelograms`, `lattice`, `fleet`, `random` | the families, each with the derivation of its answer |
+//! | [`n_four_bar`], `parallelograms`, `lattice`, `fleet`, `random` | the families, each with the derivation of its results |
 //! | `text`, `points`, `share` | a scene as text; points and directions; cells distributed evenly |
 
 mod answer;

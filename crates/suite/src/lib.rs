@@ -8,7 +8,7 @@
 //! | [`reference`](mod@reference) | named values at instants, and their accuracy |
 //! | `table` | reference values as text |
 //! | [`closed_forms`] | motions with a closed form |
-//! | [`generate`] | scenes of any size, with their answers |
+//! | [`generate`] | scenes of any size, with their results |
 //! | [`numbers`] | seeded numbers, the same on every machine |
 
 pub mod cases;

@@ -5,13 +5,13 @@
 pub struct Numbers(u64);
 
 impl Numbers {
-    /// The sequence of a seed.
+    /// Creates the sequence of a seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
-    /// The next 64 bits.
+    /// Returns the next 64 bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -19,44 +19,44 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
-    /// A number between two others; the upper one is only reached by rounding.
+    /// Returns a number between two others; the upper one is reached only by rounding.
     pub fn within(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         low + unit * (high - low)
     }
 
-    /// A number in [−1, 1).
+    /// Returns a number in [−1, 1).
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    /// An integer in 0..n.
+    /// Returns an integer in 0..n.
     ///
     /// # Panics
-    /// If n is 0.
+    /// Panics if n is 0.
     pub fn below(&mut self, n: usize) -> usize {
         assert!(n > 0, "nothing is below 0");
         (self.bits() % n as u64) as usize
     }
 
-    /// An integer in low..=high.
+    /// Returns an integer in low..=high.
     ///
     /// # Panics
-    /// If low > high.
+    /// Panics if low > high.
     pub fn between(&mut self, low: i32, high: i32) -> i32 {
         assert!(low <= high, "nothing lies between {low} and {high}");
         low + self.below((high - low + 1) as usize) as i32
     }
 
-    /// True with probability 1/n.
+    /// Returns true with probability 1/n.
     ///
     /// # Panics
-    /// If n is 0.
+    /// Panics if n is 0.
     pub fn once_in(&mut self, n: usize) -> bool {
         self.below(n) == 0
     }
 
-    /// 0..n in a random order.
+    /// Returns 0..n in a random order.
     pub fn order(&mut self, n: usize) -> Vec<usize> {
         let mut order: Vec<usize> = (0..n).collect();
         for i in (1..n).rev() {

@@ -4,29 +4,29 @@
 /// forces on the first body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
-    /// Centre of mass, x.
+    /// Coordinate x of the centre of mass.
     X,
-    /// Centre of mass, y.
+    /// Coordinate y of the centre of mass.
     Y,
     /// Angle of the body.
     Angle,
-    /// Rate of x.
-    Vx,
     /// Time derivative of x.
-    Vy,
+    Vx,
     /// Time derivative of y.
-    Omega,
+    Vy,
     /// Time derivative of the angle.
-    Ax,
+    Omega,
     /// Time derivative of vx.
-    Ay,
+    Ax,
     /// Time derivative of vy.
-    Alpha,
+    Ay,
     /// Time derivative of omega.
+    Alpha,
+    /// Force along x.
     Fx,
     /// Force along y.
     Fy,
-    /// Torque about the place of the joint.
+    /// Torque about the reference point of the joint.
     Torque,
     /// Force along the normal of a knife edge.
     Normal,
@@ -54,7 +54,7 @@ impl Kind {
         Self::Reaction,
     ];
 
-    /// Its name in tables.
+    /// Returns the name of the kind in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -85,7 +85,7 @@ impl Quantity {
         (Self::Normal, "N"),
     ];
 
-    /// The kind of the quantity.
+    /// Returns the kind of the quantity.
     #[must_use]
     pub fn kind(self) -> Kind {
         match self {
@@ -140,7 +140,7 @@ impl Trust {
         reaction: f64::INFINITY,
     };
 
-    /// The error of one kind.
+    /// Returns the error of one kind.
     #[must_use]
     pub fn of(&self, kind: Kind) -> f64 {
         match kind {

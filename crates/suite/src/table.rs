@@ -1,4 +1,4 @@
-//! Reference values as text: `# source`, `trusted KIND BOUND`, `t TIME`, then
+//! Reads reference values from text: `# source`, `trusted KIND BOUND`, `t TIME`, then
 //! `OWNER.QUANTITY VALUE` until the next time.
 
 use crate::reference::{Fact, Instant, Kind, Quantity, Reference, Trust};
@@ -6,7 +6,7 @@ use crate::reference::{Fact, Instant, Kind, Quantity, Reference, Trust};
 /// Reads a table.
 ///
 /// # Panics
-/// If a line is none of the above. The tables are part of this crate.
+/// Panics if a line has none of these forms. The tables are part of this crate.
 pub(crate) fn read(text: &str) -> Reference {
     let mut reference = Reference {
         source: String::new(),

@@ -1,6 +1,6 @@
 //! Straight-line code, built operation by operation. Known values are folded: numbers, zeros and
-//! ones, signs, `x − x`. Nothing is regrouped, so that the order of operations, which determines
-//! the rounding, stays that of the caller.
+//! ones, signs, `x − x`. Terms are not regrouped, so that the order of operations, which determines
+//! the rounding, is that of the caller.
 
 use rotation::angle_over_sine;
 
@@ -9,7 +9,7 @@ use crate::graph::{Function, Symbol};
 use crate::program::{Binary, Op, Program, Value};
 
 impl Program {
-    /// A program without operations.
+    /// Creates a program without operations.
     ///
     /// ```
     /// use pfaff_symbolic::{Graph, Program};
@@ -29,7 +29,7 @@ impl Program {
         Self::default()
     }
 
-    /// A program with these outputs and only the operations that they need.
+    /// Returns a program with these outputs and only the operations that they need.
     #[must_use]
     pub fn with_outputs(&self, outputs: &[Value]) -> Self {
         let mut needed = vec![false; self.ops().len()];
@@ -54,18 +54,18 @@ impl Program {
         kept
     }
 
-    /// An input.
+    /// Adds an input.
     pub fn input(&mut self, s: Symbol) -> Value {
         self.push(Op::Input(s))
     }
 
-    /// A constant.
+    /// Adds a constant.
     pub fn number(&mut self, x: f64) -> Value {
-        // −0 and 0 are one constant.
+        // The numbers −0 and 0 are one constant.
         self.push(Op::Number(if x == 0.0 { 0.0_f64 } else { x }.to_bits()))
     }
 
-    /// The constant that a handle refers to, if it is one.
+    /// Returns the constant that a handle refers to, if it is one.
     #[must_use]
     pub fn as_number(&self, v: Value) -> Option<f64> {
         match self.op(v) {
@@ -74,13 +74,13 @@ impl Program {
         }
     }
 
-    /// Whether a value is the constant 0.
+    /// Returns whether a value is the constant 0.
     #[must_use]
     pub fn is_zero(&self, v: Value) -> bool {
         self.as_number(v) == Some(0.0)
     }
 
-    /// `a + b`
+    /// Adds the sum `a + b`.
     pub fn add(&mut self, a: Value, b: Value) -> Value {
         match (self.as_number(a), self.as_number(b)) {
             (Some(x), Some(y)) => return self.number(x + y),
@@ -95,7 +95,7 @@ impl Program {
         }
     }
 
-    /// `a − b`
+    /// Adds the difference `a − b`.
     pub fn sub(&mut self, a: Value, b: Value) -> Value {
         match (self.as_number(a), self.as_number(b)) {
             (Some(x), Some(y)) => return self.number(x - y),
@@ -114,7 +114,7 @@ impl Program {
         }
     }
 
-    /// `−a`
+    /// Adds the negative value `−a`.
     pub fn neg(&mut self, a: Value) -> Value {
         match self.op(a) {
             Op::Number(bits) => self.number(-f64::from_bits(bits)),
@@ -124,7 +124,7 @@ impl Program {
         }
     }
 
-    /// `a · b`
+    /// Adds the product `a · b`.
     pub fn mul(&mut self, a: Value, b: Value) -> Value {
         match (self.as_number(a), self.as_number(b)) {
             (Some(x), Some(y)) => return self.number(x * y),
@@ -146,7 +146,7 @@ impl Program {
         }
     }
 
-    /// A number times a value that is not a constant.
+    /// Adds the product of a number and a value that is not a constant.
     fn scale(&mut self, x: f64, v: Value) -> Value {
         match (x, self.op(v)) {
             (0.0, _) => self.number(0.0),
@@ -164,7 +164,7 @@ impl Program {
         }
     }
 
-    /// `a / b`; if `b` is a constant, the product with its reciprocal.
+    /// Adds the quotient `a / b`; if `b` is a constant, it is the product with its reciprocal.
     pub fn div(&mut self, a: Value, b: Value) -> Value {
         match self.as_number(b) {
             Some(y) if y != 0.0 => {
@@ -187,7 +187,7 @@ impl Program {
         }
     }
 
-    /// `f(a)`
+    /// Adds the function value `f(a)`.
     pub fn call(&mut self, f: Function, a: Value) -> Value {
         match (f, self.as_number(a)) {
             (Function::Sqrt, Some(x)) if x >= 0.0 => self.number(x.sqrt()),
@@ -200,8 +200,8 @@ impl Program {
         }
     }
 
-    /// The values of the outputs if each input has the value `input(symbol)`: the results of the
-    /// printed code, bit for bit.
+    /// Returns the values of the outputs if each input has the value `input(symbol)`. They equal
+    /// the results of the printed code bit for bit.
     #[must_use]
     pub fn run(&self, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.ops().len());
@@ -213,8 +213,8 @@ impl Program {
 }
 
 impl Op {
-    /// The value of the operation for operands with the values `of` and inputs with the values
-    /// `input`.
+    /// Returns the value of the operation for operands with the values `of` and inputs with the
+    /// values `input`.
     pub fn evaluate(&self, of: impl Fn(Value) -> f64, input: impl Fn(Symbol) -> f64) -> f64 {
         match *self {
             Self::Number(bits) => f64::from_bits(bits),

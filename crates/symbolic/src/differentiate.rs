@@ -1,6 +1,7 @@
 //! Exact derivatives. A derivation is defined by its values for the inputs; sum, product and chain
-//! rule do the rest. A partial derivative, a derivative along a rotation (`cos ↦ −sin`,
-//! `sin ↦ cos`) and a total time derivative differ only in these values.
+//! rule determine all other values. A partial derivative, a derivative along a rotation
+//! (`cos ↦ −sin`, `sin ↦ cos`) and a total time derivative differ only in the values for the
+//! inputs.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -28,10 +29,10 @@ pub struct Derivation {
 }
 
 impl Derivation {
-    /// The derivation with these images of inputs.
+    /// Creates the derivation with these images of inputs.
     ///
     /// # Panics
-    /// If the first entry of a pair is not an input of `g`.
+    /// Panics if the first entry of a pair is not an input of `g`.
     #[must_use]
     pub fn new(g: &Graph, images: &[(Expr, Expr)]) -> Self {
         let images = images
@@ -46,10 +47,10 @@ impl Derivation {
         Self { images }
     }
 
-    /// The derivation with these images in addition.
+    /// Returns the derivation with these additional images.
     ///
     /// # Panics
-    /// As [`Derivation::new`].
+    /// Panics under the same conditions as [`Derivation::new`].
     #[must_use]
     pub fn with(&self, g: &Graph, images: &[(Expr, Expr)]) -> Self {
         let mut all = Self::new(g, images);
@@ -57,14 +58,14 @@ impl Derivation {
         all
     }
 
-    /// The partial derivative with respect to one input.
+    /// Returns the partial derivative with respect to one input.
     #[must_use]
     pub fn partial(g: &mut Graph, by: Expr) -> Self {
         let one = g.number(1.0);
         Self::new(g, &[(by, one)])
     }
 
-    /// `D(e)`
+    /// Returns `D(e)`.
     pub fn apply(&self, g: &mut Graph, e: Expr) -> Expr {
         self.derive(g, e, &mut HashMap::new())
     }
@@ -87,7 +88,7 @@ impl Derivation {
                 g.sum(&terms)
             }
             Node::Product(c, factors) => {
-                // Σ_k n_k · D(f_k)/f_k · product
+                // The derivative is Σ_k n_k · D(f_k)/f_k · product.
                 let terms: Vec<_> = (0..factors.len())
                     .map(|k| {
                         let (base, n) = factors[k];
@@ -102,8 +103,8 @@ impl Derivation {
             Node::Call(f, u) => {
                 let du = self.derive(g, u, done);
                 let outer = match f {
-                    // Zero at zero, so that the length of a vector has a finite derivative where it
-                    // vanishes.
+                    // The value is zero at zero, so that the length of a vector has a finite
+                    // derivative where it vanishes.
                     Function::Sqrt => {
                         let recip = g.call(Function::RecipOrZero, e);
                         g.product(0.5, &[(recip, 1)])

@@ -1,5 +1,5 @@
-//! Direct evaluation of an expression for any number type: for constants of definitions, and as the
-//! reference against which printed code is tested.
+//! Direct evaluation of an expression for any number type. It is used for constants of definitions,
+//! and as the reference in tests of printed code.
 
 use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg};
@@ -12,7 +12,7 @@ use crate::graph::{Expr, Function, Graph, Node, Symbol};
 pub trait Number:
     Copy + From<f64> + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// `f(self)`
+    /// Returns `f(self)`.
     fn call(self, f: Function) -> Self;
 }
 
@@ -35,7 +35,7 @@ impl Number for f64 {
 }
 
 impl Graph {
-    /// The value of `e` if each input has the value `input(symbol)`.
+    /// Returns the value of `e` if each input has the value `input(symbol)`.
     pub fn evaluate<T: Number>(&self, e: Expr, input: &impl Fn(Symbol) -> T) -> T {
         self.value(e, input, &mut HashMap::new())
     }

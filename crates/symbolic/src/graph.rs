@@ -1,14 +1,18 @@
 //! Expressions as nodes of one graph. Every constructor returns the canonical form, so that equal
 //! expressions have equal handles, and a derivative shares the subexpressions of its original.
 //!
-//! The simplifications are: like terms and like factors are merged, numbers are folded, a factor
-//! common to all terms of a sum is moved out of it, the first term of a sum is positive, `√u²` is
-//! `u`. Products are never multiplied out, and nested sums stay nested unless terms cancel, because
-//! the nesting written in a definition determines the shared values of its kernel.
+//! The constructors apply these simplifications: like terms and like factors are merged, and
+//! numbers are folded. A factor common to all terms of a sum is moved out of it. The first term of
+//! a sum is positive, and `√u²` is `u`. Products are never multiplied out. Nested sums stay nested
+//! unless terms cancel, because the nesting in a definition determines the shared values of its
+//! kernel.
 //!
 //! Numbers are folded in `f64`, in the order of construction: if the coefficients are not binary
 //! fractions, two groupings of the same constants may differ in the last digit, and are then two
 //! different expressions.
+//!
+//! Because common factors are moved out of sums, the derivatives of a rotated arm are the same
+//! nodes as the arm itself.
 
 use std::collections::HashMap;
 
@@ -25,7 +29,7 @@ pub struct Expr(u32);
 pub struct Symbol(u32);
 
 impl Symbol {
-    /// Its index among the inputs of its graph, in the order of first use.
+    /// Returns the index among the inputs of its graph, in the order of first use.
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
@@ -35,16 +39,16 @@ impl Symbol {
 /// Functions of one argument that are not polynomials.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Function {
-    /// `√u`
+    /// The square root `√u`.
     Sqrt,
-    /// `sin u`
+    /// The sine `sin u`.
     Sin,
-    /// `cos u`
+    /// The cosine `cos u`.
     Cos,
-    /// `1/u`, and 0 for `u = 0`: the direction of a vector of length zero counts as zero.
+    /// The reciprocal `1/u`, and 0 for `u = 0`: the direction of a vector of length zero counts as
+    /// zero.
     RecipOrZero,
-    /// The derivative of this order, by u, of θ/sin θ with u = cos θ, see
-    /// [`angle_over_sine`].
+    /// The derivative of this order of θ/sin θ with respect to u = cos θ, see [`angle_over_sine`].
     AngleOverSine(u8),
 }
 
@@ -55,10 +59,10 @@ pub enum Node {
     Number(f64),
     /// A named input.
     Symbol(Symbol),
-    /// `Σ coefficient · term`; at least two terms, sorted, the first coefficient positive. A
-    /// constant term is a multiple of the number 1.
+    /// A sum `Σ coefficient · term` with at least two terms, sorted, the first coefficient
+    /// positive. A constant term is a multiple of the number 1.
     Sum(Vec<(f64, Expr)>),
-    /// `coefficient · Π base^exponent`; sorted.
+    /// A product `coefficient · Π base^exponent`, sorted.
     Product(f64, Vec<(Expr, i32)>),
     /// A function of one argument.
     Call(Function, Expr),
@@ -94,25 +98,26 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// An empty graph.
+    /// Returns an empty graph.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The node that a handle refers to.
+    /// Returns the node that a handle refers to.
     #[must_use]
     pub fn node(&self, e: Expr) -> &Node {
         &self.nodes[e.0 as usize]
     }
 
-    /// The name of an input.
+    /// Returns the name of an input.
     #[must_use]
     pub fn name(&self, s: Symbol) -> &str {
         &self.names[s.0 as usize]
     }
 
-    /// The input called `name`, created at its first use. Inputs are ordered by first use.
+    /// Returns the input called `name`, which is created at its first use. Inputs are ordered by
+    /// first use.
     pub fn symbol(&mut self, name: &str) -> Expr {
         let id = match self.names.iter().position(|n| n == name) {
             Some(k) => Symbol(k as u32),
@@ -124,17 +129,17 @@ impl Graph {
         self.intern(Node::Symbol(id))
     }
 
-    /// The expression of an input.
+    /// Returns the expression of an input.
     ///
     /// # Panics
-    /// If the input belongs to another graph.
+    /// Panics if the input belongs to another graph.
     #[must_use]
     pub fn symbol_expr(&self, s: Symbol) -> Expr {
         let known = self.table.get(&Key::Symbol(s));
         *known.expect("an input of this graph")
     }
 
-    /// The input that a handle refers to, if it is one.
+    /// Returns the input that a handle refers to, if it is one.
     #[must_use]
     pub fn as_symbol(&self, e: Expr) -> Option<Symbol> {
         match self.node(e) {
@@ -143,7 +148,7 @@ impl Graph {
         }
     }
 
-    /// The constant that a handle refers to, if it is one.
+    /// Returns the constant that a handle refers to, if it is one.
     #[must_use]
     pub fn as_number(&self, e: Expr) -> Option<f64> {
         match self.node(e) {
@@ -152,7 +157,7 @@ impl Graph {
         }
     }
 
-    /// Whether the expression is the constant 0 in canonical form.
+    /// Returns whether the expression is the constant 0 in canonical form.
     #[must_use]
     pub fn is_zero(&self, e: Expr) -> bool {
         self.as_number(e) == Some(0.0)
@@ -175,7 +180,7 @@ impl Graph {
         found.into_iter().collect()
     }
 
-    /// The operands of a node.
+    /// Returns the operands of a node.
     #[must_use]
     pub fn children(&self, e: Expr) -> Vec<Expr> {
         match self.node(e) {
@@ -186,38 +191,38 @@ impl Graph {
         }
     }
 
-    /// A constant.
+    /// Returns a constant.
     pub fn number(&mut self, x: f64) -> Expr {
-        // −0 and 0 are one constant.
+        // The numbers −0 and 0 are one constant.
         self.intern(Node::Number(if x == 0.0 { 0.0 } else { x }))
     }
 
-    /// `a + b`
+    /// Returns `a + b`.
     pub fn add(&mut self, a: Expr, b: Expr) -> Expr {
         self.sum(&[(1.0, a), (1.0, b)])
     }
 
-    /// `a − b`
+    /// Returns `a − b`.
     pub fn sub(&mut self, a: Expr, b: Expr) -> Expr {
         self.sum(&[(1.0, a), (-1.0, b)])
     }
 
-    /// `−a`
+    /// Returns `−a`.
     pub fn neg(&mut self, a: Expr) -> Expr {
         self.product(-1.0, &[(a, 1)])
     }
 
-    /// `a · b`
+    /// Returns `a · b`.
     pub fn mul(&mut self, a: Expr, b: Expr) -> Expr {
         self.product(1.0, &[(a, 1), (b, 1)])
     }
 
-    /// `a / b`
+    /// Returns `a / b`.
     pub fn div(&mut self, a: Expr, b: Expr) -> Expr {
         self.product(1.0, &[(a, 1), (b, -1)])
     }
 
-    /// `f(u)`
+    /// Returns `f(u)`.
     pub fn call(&mut self, f: Function, u: Expr) -> Expr {
         match (f, self.as_number(u)) {
             (Function::Sqrt, Some(x)) if x >= 0.0 => self.number(x.sqrt()),
@@ -230,7 +235,7 @@ impl Graph {
         }
     }
 
-    /// `coefficient · Π base^exponent`
+    /// Returns `coefficient · Π base^exponent`.
     pub fn product(&mut self, coefficient: f64, factors: &[(Expr, i32)]) -> Expr {
         let mut c = coefficient;
         let mut merged: Vec<(Expr, i32)> = Vec::new();
@@ -248,7 +253,7 @@ impl Graph {
                 },
             }
         }
-        // √u · √u = u
+        // The product √u · √u is u.
         if let Some(at) = merged.iter().position(|(e, k)| {
             k.abs() > 1 && matches!(self.node(*e), Node::Call(Function::Sqrt, _))
         }) {
@@ -271,7 +276,7 @@ impl Graph {
         self.intern(Node::Product(c, merged))
     }
 
-    /// `Σ coefficient · term`
+    /// Returns `Σ coefficient · term`.
     pub fn sum(&mut self, terms: &[(f64, Expr)]) -> Expr {
         let mut list = Vec::new();
         for &(c, e) in terms {
@@ -319,7 +324,7 @@ impl Graph {
         }
     }
 
-    /// `c·e` as a number times an expression without a numerical coefficient.
+    /// Splits `c·e` into a number and an expression without a numerical coefficient.
     fn split_coefficient(&mut self, c: f64, e: Expr) -> (f64, Expr) {
         match self.node(e) {
             Node::Number(x) => {
@@ -378,7 +383,7 @@ impl Graph {
         }
     }
 
-    /// Powers that divide every term.
+    /// Returns powers that divide every term.
     fn common_factors(&self, list: &[(f64, Expr)]) -> Vec<(Expr, i32)> {
         let mut common = self.factors(list[0].1);
         for t in &list[1..] {
@@ -420,7 +425,8 @@ impl Graph {
     }
 }
 
-/// `xᵏ` by squaring: the same bits on every machine, which `f64::powi` does not guarantee.
+/// Returns `xᵏ` by squaring, with the same bits on every machine, which `f64::powi` does not
+/// guarantee.
 fn power(x: f64, k: i32) -> f64 {
     let (mut result, mut square, mut rest) = (1.0, x, k.unsigned_abs());
     while rest > 0 {

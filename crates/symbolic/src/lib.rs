@@ -4,14 +4,14 @@
 //!
 //! | module | step |
 //! | --- | --- |
-//! | [`graph`] | expressions as hash-consed nodes, simplified while they are built |
+//! | [`graph`] | expressions as hash-consed nodes, simplified during construction |
 //! | `order` | the canonical order of terms and factors |
 //! | [`differentiate`] | exact derivatives along any derivation |
 //! | [`evaluate`] | direct evaluation, for tests and constants |
 //! | [`program`] | straight-line code: common subexpressions and operation counts |
-//! | `build` | the same, built by operations, with known parts folded |
-//! | `lower` | expressions → straight-line code |
-//! | [`mod@print`] | Rust tokens |
+//! | `build` | straight-line code, built by operations, with known parts folded |
+//! | `lower` | translation of expressions to straight-line code |
+//! | [`mod@print`] | output as Rust tokens |
 //!
 //! This crate contains no mechanics: bodies, joints and frames belong to the crate `codegen`.
 

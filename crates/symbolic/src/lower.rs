@@ -4,7 +4,7 @@ use crate::graph::{Expr, Graph, Node};
 use crate::program::{Binary, Op, Program, Value};
 
 impl Program {
-    /// Code that computes `outputs`, in this order.
+    /// Creates code that computes `outputs`, in this order.
     #[must_use]
     pub fn new(g: &Graph, outputs: &[Expr]) -> Self {
         let mut program = Self::default();
@@ -30,8 +30,8 @@ impl Program {
         v
     }
 
-    /// Left to right; the first coefficient is positive in canonical form, so no change of sign is
-    /// needed.
+    /// Adds the terms from left to right. The first coefficient is positive in canonical form, so
+    /// no change of sign is needed.
     fn lower_sum(&mut self, g: &Graph, terms: &[(f64, Expr)]) -> Value {
         let mut sum = None;
         for &(c, e) in terms {
@@ -53,7 +53,7 @@ impl Program {
         sum.expect("a sum in canonical form has at least two terms")
     }
 
-    /// Powers first, so that a square is shared; one quotient at the end; the sign last.
+    /// Computes powers first, so that a square is shared, then one quotient, and the sign last.
     fn lower_product(&mut self, g: &Graph, c: f64, factors: &[(Expr, i32)]) -> Value {
         let mut numerator = None;
         let mut denominator = None;

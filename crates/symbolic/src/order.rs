@@ -1,11 +1,12 @@
-//! The canonical order of terms and factors: it depends on the structure, never on the order of
-//! construction or on a hash, so that the same mathematics is printed as the same bytes.
+//! The canonical order of terms and factors. It depends on the structure, not on the order of
+//! construction or on a hash, so that equal expressions are printed as equal bytes.
 
 use std::cmp::Ordering;
 
 use crate::graph::{Expr, Graph, Node};
 
-/// Order of factors: numbers, inputs (in order of first use), functions, products, sums.
+/// Compares two factors in the order of factors: numbers, inputs (in order of first use),
+/// functions, products, sums.
 pub(crate) fn compare(g: &Graph, a: Expr, b: Expr) -> Ordering {
     if a == b {
         return Ordering::Equal;
@@ -25,7 +26,7 @@ pub(crate) fn compare(g: &Graph, a: Expr, b: Expr) -> Ordering {
     }
 }
 
-/// Order of the terms of a sum: as [`compare`], with a constant last.
+/// Compares two terms in the order of the terms of a sum: like [`compare`], with a constant last.
 pub(crate) fn compare_terms(g: &Graph, a: Expr, b: Expr) -> Ordering {
     let constant = |e| g.as_number(e).is_some();
     constant(a).cmp(&constant(b)).then_with(|| compare(g, a, b))

@@ -1,5 +1,5 @@
-//! Straight-line code as Rust tokens. A value that is used once is written at its use; a value that
-//! is shared or has a name becomes a `let`.
+//! Straight-line code as Rust tokens. A value that is used once is written at its use. A value that
+//! is shared or has a name becomes a `let` statement.
 
 use std::collections::{HashMap, HashSet};
 
@@ -12,7 +12,7 @@ use crate::program::{Binary, Op, Program, Value};
 /// The number type of the printed code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scalar {
-    /// `f64`: constants are literals.
+    /// The type `f64`: constants are literals.
     F64,
     /// A type parameter `T`: constants are `T::from(literal)`.
     Generic,
@@ -37,7 +37,7 @@ enum Strength {
 }
 
 impl<'a> Printer<'a> {
-    /// A printer that uses the given names for the given expressions wherever they are computed.
+    /// Creates a printer that uses the given names for the given expressions in all computations.
     #[must_use]
     pub fn new(
         graph: &'a Graph,
@@ -59,12 +59,12 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The `let` statements, and the expression of each output.
+    /// Returns the `let` statements, and the expression of each output.
     ///
     /// A name that would hide an input or an earlier `let` is not used.
     ///
     /// # Panics
-    /// If the name of an input or of an expression is not a Rust identifier.
+    /// Panics if the name of an input or of an expression is not a Rust identifier.
     #[must_use]
     pub fn print(&self) -> (Vec<TokenStream>, Vec<TokenStream>) {
         let mut bound: HashMap<Value, Ident> = HashMap::new();
@@ -77,8 +77,8 @@ impl<'a> Printer<'a> {
             }
             let v = self.program.value_at(k);
             let name = match self.names.get(&v) {
-                // A named value that is used once inside another one is still easier to read under
-                // its name.
+                // A named value that is used once inside another one is nevertheless easier to read
+                // under its name.
                 Some(name)
                     if self.uses[k] > 0 && !self.is_only_output(v) && !taken.contains(name) =>
                 {
@@ -112,7 +112,7 @@ impl<'a> Printer<'a> {
         inputs.collect()
     }
 
-    /// Whether one output is the only use of the value.
+    /// Returns whether one output is the only use of the value.
     fn is_only_output(&self, v: Value) -> bool {
         self.uses[v.index()] == 1 && self.program.outputs().contains(&v)
     }
@@ -141,7 +141,7 @@ impl<'a> Printer<'a> {
                 let name = Ident::new(name, Span::call_site());
                 let order = order.map(Literal::u8_unsuffixed);
                 let others = order.iter();
-                // A literal without suffix has no definite type, hence no methods.
+                // A literal without suffix has no definite type, and therefore no methods.
                 let bare =
                     self.scalar == Scalar::F64 && matches!(self.program.op(a), Op::Number(_));
                 let tokens = if bare {
@@ -207,7 +207,7 @@ impl<'a> Printer<'a> {
     }
 }
 
-/// The name of a function, and the order of its derivative as the second argument.
+/// Returns the name of a function, and the order of its derivative as the second argument.
 fn function_name(f: Function) -> (&'static str, Option<u8>) {
     match f {
         Function::Sqrt => ("sqrt", None),

@@ -1,6 +1,6 @@
 //! Straight-line code: binary operations with value numbering, so that shared values are computed
-//! once, and the number of operations. A program is lowered from expressions ([`Program::new`]) or
-//! built by operations that fold known values.
+//! once, and operation counts. A program is lowered from expressions ([`Program::new`]) or built by
+//! operations that fold known values.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -14,13 +14,13 @@ pub struct Value(u32);
 /// Operations with two operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Binary {
-    /// `a + b`
+    /// The sum `a + b`.
     Add,
-    /// `a − b`
+    /// The difference `a − b`.
     Sub,
-    /// `a · b`
+    /// The product `a · b`.
     Mul,
-    /// `a / b`
+    /// The quotient `a / b`.
     Div,
 }
 
@@ -42,20 +42,20 @@ pub enum Op {
 /// Number of operations of each kind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Products.
+    /// Number of products.
     pub mul: usize,
-    /// Sums and differences.
+    /// Number of sums and differences.
     pub add: usize,
-    /// Changes of sign.
+    /// Number of changes of sign.
     pub neg: usize,
-    /// Quotients.
+    /// Number of quotients.
     pub div: usize,
-    /// Square roots and other functions.
+    /// Number of square roots and other functions.
     pub call: usize,
 }
 
 impl Counts {
-    /// Sum of all kinds.
+    /// Returns the sum of all counts.
     #[must_use]
     pub fn total(&self) -> usize {
         self.mul + self.add + self.neg + self.div + self.call
@@ -93,34 +93,34 @@ pub struct Program {
 }
 
 impl Program {
-    /// The operations, operands first.
+    /// Returns the operations, operands first.
     #[must_use]
     pub fn ops(&self) -> &[Op] {
         &self.ops
     }
 
-    /// The handle of each output.
+    /// Returns the handle of each output.
     #[must_use]
     pub fn outputs(&self) -> &[Value] {
         &self.outputs
     }
 
-    /// The handle of an expression, if the program computes it.
+    /// Returns the handle of an expression, if the program computes it.
     #[must_use]
     pub fn value_of(&self, e: Expr) -> Option<Value> {
         self.values.get(&e).copied()
     }
 
-    /// The operation that a handle refers to.
+    /// Returns the operation that a handle refers to.
     #[must_use]
     pub fn op(&self, v: Value) -> Op {
         self.ops[v.0 as usize]
     }
 
-    /// The handle of the operation with this index in [`Program::ops`].
+    /// Returns the handle of the operation with this index in [`Program::ops`].
     ///
     /// # Panics
-    /// If the index is too large.
+    /// Panics if the index is too large.
     #[must_use]
     pub fn value_at(&self, place: usize) -> Value {
         assert!(
@@ -131,7 +131,7 @@ impl Program {
         Value(place as u32)
     }
 
-    /// How often each operation is used by others and by outputs.
+    /// Returns the number of uses of each operation by other operations and by outputs.
     #[must_use]
     pub fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.ops.len()];
@@ -146,7 +146,7 @@ impl Program {
         uses
     }
 
-    /// Number of operations of each kind.
+    /// Returns the number of operations of each kind.
     #[must_use]
     pub fn counts(&self) -> Counts {
         let mut counts = Counts::default();
@@ -163,7 +163,8 @@ impl Program {
         counts
     }
 
-    /// The handle of an operation: an existing one if it has been computed before.
+    /// Returns the handle of an operation: an existing one if the operation has been computed
+    /// before.
     pub(crate) fn push(&mut self, op: Op) -> Value {
         if let Some(&v) = self.table.get(&op) {
             return v;
@@ -176,7 +177,7 @@ impl Program {
 }
 
 impl Value {
-    /// Index in [`Program::ops`].
+    /// Returns the index in [`Program::ops`].
     #[must_use]
     pub fn index(self) -> usize {
         self.0 as usize
@@ -184,7 +185,7 @@ impl Value {
 }
 
 impl Op {
-    /// Its operands.
+    /// Returns the operands.
     pub fn operands(&self) -> impl Iterator<Item = Value> + use<> {
         let (a, b) = match *self {
             Op::Number(_) | Op::Input(_) => (None, None),
@@ -194,7 +195,7 @@ impl Op {
         a.into_iter().chain(b)
     }
 
-    /// The same operation on other operands, if all of them have a replacement.
+    /// Returns this operation with other operands, if all operands have a replacement.
     pub(crate) fn with_operands(&self, to: impl Fn(Value) -> Option<Value>) -> Option<Self> {
         Some(match *self {
             Op::Number(_) | Op::Input(_) => *self,

@@ -1,11 +1,12 @@
-//! Replacement of inputs by expressions.
+//! Replaces inputs by expressions.
 
 use std::collections::HashMap;
 
 use crate::graph::{Expr, Graph, Node};
 
 impl Graph {
-    /// `e` with each input of `pairs` replaced by the second entry of its pair, in canonical form.
+    /// Returns `e` in canonical form after each input of `pairs` is replaced by the second entry of
+    /// its pair.
     pub fn substitute(&mut self, e: Expr, pairs: &[(Expr, Expr)]) -> Expr {
         let mut done = pairs.iter().copied().collect();
         self.rebuild(e, &mut done)

@@ -1,4 +1,4 @@
-"""Mechanisms with redundant constraints: how they move, and which joint reactions are unique.
+"""Mechanisms with redundant constraints: their motion, and which joint reactions are unique.
 
 >>> import pfaff
 >>> door = (
@@ -10,8 +10,8 @@
 >>> door.analyze().verdicts["upper"].unique
 False
 
-A scene is a text, as in a file, and does not change: methods return new ones. Answers are those of
-the command ``pfaff``, in SI units and radians. See ``docs/book/python.md``.
+A scene is an immutable text in the format of scene files: methods return new scenes. Results are
+those of the command ``pfaff``, in SI units and radians. See ``docs/book/python.md``.
 """
 
 from . import cluster

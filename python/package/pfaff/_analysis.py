@@ -1,4 +1,4 @@
-"""Verdicts: which reactions are unique, and what would make others so."""
+"""Verdicts: which reactions are unique, and what would make other reactions unique."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 Point = Sequence[float] | str
 """Coordinates (m, ground axes), or the name of a marker."""
 Allow = str | Sequence[int]
-"""``"sensible"``, ``"whole"``, ``"rows"``, or rows that may be deleted, from 1."""
+"""``"sensible"``, ``"whole"``, ``"rows"``, or rows that may be deleted (1-based)."""
 
 
 @dataclass(frozen=True)
@@ -32,21 +32,22 @@ class ComponentVerdict:
     verdict: str
     """``unique``, ``not_unique`` or ``undecided``."""
     margin: float
-    """Distance from being unique; rounding for a unique one."""
+    """Distance from being unique; for a unique component only rounding error."""
     within_tolerance: bool
-    """Whether it is unique only within the tolerance that is stated."""
+    """Whether the component is unique only within the stated tolerance."""
     sensitivity: float | None = None
-    """Largest change by one point, as a share; ``None`` if it is not unique or not known."""
+    """Largest relative change by one point; ``None`` if it is not unique or not known."""
     fragile: bool = False
-    """Whether it is unique, but made of the last digits of the data."""
+    """Whether the component is unique, but sensitive to the last digits of the data."""
     generic_verdict: str | None = None
     """The verdict at the other configurations that were compared; ``None`` if none were reached.
 
-    Components in other frames, of moments and of sums have none."""
+    Components in other frames, components of moments and components of sums have no such verdict.
+    """
 
     @property
     def unique(self) -> bool:
-        """Whether it is unique."""
+        """Whether the component is unique."""
         return self.verdict == "unique"
 
 
@@ -73,7 +74,7 @@ class Verdict:
     def __init__(self, analysis: Analysis, name: str) -> None:
         self._analysis = analysis
         self.name = name
-        """Its name."""
+        """Name of the joint or drive."""
 
     @property
     def verdict(self) -> str:
@@ -85,7 +86,8 @@ class Verdict:
     def generic_verdict(self) -> str | None:
         """The verdict at the other configurations that were compared: at nearly all of them.
 
-        ``None`` if no other configuration was reached. That of a motion is in :meth:`Analysis.along`.
+        The value is ``None`` if no other configuration was reached. The verdict along a motion is
+        in :meth:`Analysis.along`.
         """
         word: str | None = self._entry["generic_verdict"]
         return word
@@ -97,7 +99,7 @@ class Verdict:
 
     @property
     def document(self) -> dict[str, Any]:
-        """Everything that is known of it: its entry of ``pfaff analyze --json``, a copy."""
+        """All results for the reaction: a copy of its entry of ``pfaff analyze --json``."""
         return deepcopy(self._entry)
 
     @property
@@ -112,13 +114,13 @@ class Verdict:
 
     @property
     def rows(self) -> list[int]:
-        """Its rows, from 1."""
+        """Rows of the joint or drive (1-based)."""
         rows: list[int] = self._entry["rows"]
         return rows
 
     @property
     def margin(self) -> float:
-        """Distance from being unique; rounding for a unique reaction."""
+        """Distance from being unique; for a unique reaction only rounding error."""
         margin: float = self._entry["margin"]
         return margin
 
@@ -132,7 +134,8 @@ class Verdict:
         """A basis of the directions in which the reaction is unique, one in each row.
 
         The columns are the components: in the plane those of the joint, in space all six. There is
-        no row if no direction is unique; ``None`` if their number is undecided.
+        no row if no direction is unique. The value is ``None`` if the number of directions is
+        undecided.
         """
         directions = self._entry["unique_directions"]
         if directions is None:
@@ -142,21 +145,21 @@ class Verdict:
 
     @property
     def fragile(self) -> bool:
-        """Whether it is unique, but made of the last digits of the data."""
+        """Whether the reaction is unique, but sensitive to the last digits of the data."""
         fragile: bool = self._entry["fragile"]
         return fragile
 
     def explain(self) -> str:
-        """Why it is not unique; empty if it is."""
+        """Explains why the reaction is not unique; empty if it is unique."""
         words: str | None = self._entry.get("explanation")
         return words or ""
 
     def moment(self, about: Point) -> dict[str, ComponentVerdict]:
-        """The verdicts on the moment about a point."""
+        """Returns the verdicts on the moment about a point."""
         return self._analysis.moment(self.name, about)
 
     def make_unique(self, allow: Allow = "sensible") -> dict[str, Any]:
-        """What would make it unique; see :meth:`Analysis.make_unique`."""
+        """Returns deletions that make the reaction unique; see :meth:`Analysis.make_unique`."""
         return self._analysis.make_unique(self.name, allow)
 
     def __repr__(self) -> str:
@@ -164,7 +167,7 @@ class Verdict:
 
 
 class _Verdicts(Mapping[str, Verdict]):
-    """Verdicts by name; an unknown name is refused with the nearest one."""
+    """Verdicts by name; an unknown name raises an exception with the most similar name."""
 
     __slots__ = ("_analysis", "_of")
 
@@ -174,7 +177,7 @@ class _Verdicts(Mapping[str, Verdict]):
 
     def __getitem__(self, name: str) -> Verdict:
         if name not in self._of:
-            # The library refuses it by name.
+            # The library rejects the name with an error.
             self._analysis._again(make_unique=[arguments.text("name", name)])
         return self._of[name]
 
@@ -200,34 +203,34 @@ class GroupVerdict:
     verdict: str
     margin: float
     components: dict[str, ComponentVerdict]
-    """For a sum of wrenches, each of its components."""
+    """Verdicts on the components, for a sum of wrenches."""
     values: dict[str, float]
-    """Its numbers; NaN where they are not unique."""
+    """Values of the sum; NaN for values that are not unique."""
     sensitivity: float | None = None
-    """Largest change of its unique numbers by one point, as a share; ``None`` without one."""
+    """Largest relative change of its unique numbers by one point; ``None`` without one."""
     fragile: bool = False
-    """Whether one of its numbers is unique, but made of the last digits of the data."""
+    """Whether one of its numbers is unique, but sensitive to the last digits of the data."""
 
     @property
     def unique(self) -> bool:
-        """Whether the mechanism determines it."""
+        """Whether the mechanism determines the sum."""
         return self.verdict == "unique"
 
     @property
     def value(self) -> float:
-        """The number of a sum of components; NaN if it is not unique."""
+        """The value of a sum of components; NaN if it is not unique."""
         return self.values.get("sum", float("nan"))
 
 
 def _number(value: float | None) -> float:
-    """A value of a document; NaN if no finite reaction exists."""
+    """Returns a value of a document; NaN if no finite reaction exists."""
     return float("nan") if value is None else value
 
 
 class Analysis:
-    """The verdicts at one configuration. It does not change, so a copy is the object itself.
+    """The verdicts at one configuration. The object is immutable, so a copy is the object itself.
 
-    What needs more than its document analyses the configuration again.
+    Results that are not in its document need a new analysis of the configuration.
     """
 
     def __init__(self, answer: Answer) -> None:
@@ -237,7 +240,7 @@ class Analysis:
         self._verdicts = _Verdicts(self, self._reactions)
 
     def _again(self, **options: Any) -> dict[str, Any]:
-        """The document of the same configuration with other options."""
+        """Returns the document of the same configuration with other options."""
         scene, own, common, *_ = self._asked
         return scene._asked("analyze", {**own, **options}, common).document
 
@@ -249,20 +252,20 @@ class Analysis:
 
     @property
     def verdicts(self) -> Mapping[str, Verdict]:
-        """The verdict of each joint and drive, in the order of the rows."""
+        """The verdict on each joint and drive, in the order of the rows."""
         return self._verdicts
 
     @property
     def document(self) -> dict[str, Any]:
-        """The document of ``pfaff analyze --json``: a copy, whose changes nobody else sees."""
+        """A copy of the document of ``pfaff analyze --json``; you may change the copy."""
         return deepcopy(self._own)
 
     def _direction_columns(self, reaction: Mapping[str, Any]) -> int:
-        """Number of columns of the directions of a reaction."""
+        """Returns the number of columns of the directions of a reaction."""
         is_spatial = self._own["velocities"] == 6 * self._own["bodies"]
         if is_spatial:
             return 6
-        # Not the load of a coupling, which is no direction of force and torque.
+        # The load of a coupling is excluded: it is not a direction of force and torque.
         return sum(c["name"] in ("Fx", "Fy", "T") for c in reaction["components"])
 
     @property
@@ -273,7 +276,7 @@ class Analysis:
 
     @property
     def redundancy(self) -> int:
-        """Number of rows too many."""
+        """Number of redundant rows."""
         redundancy: int = self._own["redundancy"]
         return redundancy
 
@@ -290,7 +293,7 @@ class Analysis:
 
     @property
     def v(self) -> Array:
-        """Velocities; empty if none are known that satisfy the constraints."""
+        """Velocities; empty if no velocities are known that satisfy the constraints."""
         return self._state()[1]
 
     def _state(self) -> tuple[Array, Array]:
@@ -301,12 +304,12 @@ class Analysis:
 
     @property
     def warnings(self) -> list[str]:
-        """What else has to be known."""
+        """Further warnings about the analysis."""
         warnings: list[str] = self._own["warnings"]
         return warnings
 
     def combine(self, sum: str) -> GroupVerdict:
-        """The verdict on a sum, as ``"W3.N + W4.N"``, or ``"W3 + W4"`` of whole wrenches."""
+        """Returns the verdict on a sum such as ``"W3.N + W4.N"``, or ``"W3 + W4"`` of wrenches."""
         found = self._again(combine=[arguments.text("sum", sum)])["groups"][-1]
         values = {value["name"]: _number(value["value"]) for value in found.get("values", [])}
         components = _components(found.get("components", []))
@@ -314,7 +317,7 @@ class Analysis:
         return GroupVerdict(sum, found["verdict"], found["margin"], components, values, *data)
 
     def moment(self, name: str, about: Point) -> dict[str, ComponentVerdict]:
-        """The verdicts on the moment of a reaction about a point."""
+        """Returns the verdicts on the moment of a reaction about a point."""
         needed = "coordinates (m), or the name of a marker"
         if not isinstance(about, str):
             numbers = arguments.listed("about", about, arguments.number, needed)
@@ -324,10 +327,10 @@ class Analysis:
         return _components(found[list(self.verdicts).index(verdict.name)]["moment"]["components"])
 
     def make_unique(self, name: str, allow: Allow = "sensible") -> dict[str, Any]:
-        """The smallest deletions of rows that make a reaction unique, without change of motion.
+        """Returns the smallest deletions that make a reaction unique without change of motion.
 
-        The entry of ``pfaff analyze --make-unique --json``: ``ways`` with ``rows`` and ``text``,
-        and whether they are ``complete``.
+        The result is the entry of ``pfaff analyze --make-unique --json``: ``ways`` with ``rows``
+        and ``text``, and the information whether they are ``complete``.
         """
         name = arguments.text("name", name)
         if not isinstance(allow, str):
@@ -337,25 +340,28 @@ class Analysis:
         return of_reaction
 
     def eliminations(self, limit: int = 100) -> dict[str, Any]:
-        """Sets of rows that can be deleted without a change of motion: ``count`` and ``sets``."""
+        """Returns sets of rows that can be deleted without a change of motion.
+
+        The keys of the result are ``count`` and ``sets``.
+        """
         limit = arguments.count("limit", limit)
         found: dict[str, Any] = self._again(eliminations=limit)["eliminations"]
         return found
 
     def along(self, t_end: float | None = None) -> dict[str, Any]:
-        """The verdicts along the motion: ``along`` of ``pfaff analyze --along --json``.
+        """Returns the verdicts along the motion: ``along`` of ``pfaff analyze --along --json``.
 
-        ``reactions`` has, by name, the verdict over the motion of each joint and drive and of its
-        ``components``, with the intervals on which it is ``determined`` where it is only on some;
-        ``special`` the instants with other verdicts, as in the ``document`` of a run; ``passages``
-        the singular configurations.
+        ``reactions`` contains, by name, the verdict over the motion on each joint and drive and on
+        its ``components``, with the intervals on which the component is ``determined`` if these are
+        only a part of the motion. ``special`` contains the instants with other verdicts, as in the
+        ``document`` of a run. ``passages`` contains the singular configurations.
         """
         end = arguments.maybe(arguments.finite, "t_end", t_end)
         found: dict[str, Any] = self._again(along="stated" if end is None else end)["along"]
         return found
 
     def explain(self) -> list[str]:
-        """Why reactions are not unique: a sentence for each dependency of rows."""
+        """Explains why reactions are not unique, with a sentence for each dependency of rows."""
         return [dependency["text"] for dependency in self._own["dependencies"]]
 
     def reactions(
@@ -364,11 +370,11 @@ class Analysis:
         *,
         length: float | None = None,
     ) -> dict[str, dict[str, float]]:
-        """The numbers of the reactions by name and component.
+        """Returns the values of the reactions by name and component.
 
-        What is not unique is NaN, unless a choice is made: ``"minimum-norm"``, with the arm
-        ``length`` (m) on which a torque counts as a force; rows to drop, from 1; or compliances
-        (m/N) of joints by name.
+        Components that are not unique are NaN, unless a choice is given. A choice is
+        ``"minimum-norm"``, with the arm ``length`` (m) that converts torques to forces; rows to
+        delete (1-based); or compliances (m/N) of joints by name.
         """
         length = arguments.maybe(arguments.number, "length", length)
         arm = "" if length is None else f":length={length!r}"

@@ -1,4 +1,4 @@
-"""An answer of the library, with what was asked."""
+"""An answer of the library, with its request."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Common(NamedTuple):
     out: str | os.PathLike[str] | None = None
 
     def checked(self) -> dict[str, Any]:
-        """The same by name, once their types are those that are needed."""
+        """Returns the keywords by name, after a check of their types."""
         checks: dict[str, Callable[[str, Any], Any]] = {
             "tolerance": arguments.number,
             "angle_tolerance": arguments.number,
@@ -35,15 +35,15 @@ class Common(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """An answer."""
+    """An answer of the library."""
 
     scene: Scene
-    """What was asked about."""
+    """Subject of the question."""
     options: dict[str, Any]
     """The options of the question."""
     common: Common
-    """Other keywords."""
+    """The keywords of all questions."""
     document: dict[str, Any]
-    """The document."""
+    """The document of the answer."""
     files: dict[str, bytes]
-    """Its files by name, if they were asked for."""
+    """Files of the answer by name, if they were requested."""

@@ -1,5 +1,7 @@
-"""Arguments of the caller: each check returns the argument, or raises an exception that names it,
-with what is given and what is needed."""
+"""Checks of arguments: each returns the argument, or raises an exception that names it.
+
+The text of the exception also contains the given value and the required type.
+"""
 
 from __future__ import annotations
 
@@ -15,16 +17,16 @@ from ._errors import wrong, wrong_type
 T = TypeVar("T")
 
 _LARGEST = 2**63
-"""Counts are smaller."""
+"""Exclusive upper limit of counts."""
 
 
 def maybe(check: Callable[[str, Any], T], name: str, given: Any) -> T | None:
-    """``None``, or what a check returns."""
+    """Returns ``None`` for ``None``, and otherwise the result of a check."""
     return None if given is None else check(name, given)
 
 
 def number(name: str, given: Any, needed: str = "a number") -> float:
-    """A number."""
+    """Checks a number."""
     is_number = hasattr(given, "__float__") or hasattr(given, "__index__")
     if not is_number or getattr(given, "shape", ()) != ():
         raise wrong_type(name, given, needed)
@@ -37,7 +39,7 @@ def number(name: str, given: Any, needed: str = "a number") -> float:
 
 
 def finite(name: str, given: Any, needed: str = "a number") -> float:
-    """A number that is neither NaN nor infinite."""
+    """Checks a number that is neither NaN nor infinite."""
     found = number(name, given, needed)
     if not np.isfinite(found):
         raise wrong(f"{name} is {found}, need a finite number")
@@ -45,12 +47,12 @@ def finite(name: str, given: Any, needed: str = "a number") -> float:
 
 
 def finite_or_word(name: str, given: Any) -> float | str:
-    """Such a number, or a text."""
+    """Checks a finite number, or a text."""
     return given if isinstance(given, str) else finite(name, given, "a number or a text")
 
 
 def count(name: str, given: Any) -> int:
-    """A whole number ≥ 0."""
+    """Checks a whole number ≥ 0."""
     try:
         whole = operator.index(given)
     except TypeError:
@@ -61,28 +63,28 @@ def count(name: str, given: Any) -> int:
 
 
 def text(name: str, given: Any) -> str:
-    """A text."""
+    """Checks a text."""
     if not isinstance(given, str):
         raise wrong_type(name, given, "a text")
     return given
 
 
 def flag(name: str, given: Any) -> bool:
-    """Yes or no."""
+    """Checks a truth value."""
     if not isinstance(given, (bool, np.bool_)):
         raise wrong_type(name, given, "True or False")
     return bool(given)
 
 
 def instance(name: str, given: Any, of: type[T]) -> T:
-    """Something of a class of this package."""
+    """Checks an instance of a class of this package."""
     if not isinstance(given, of):
         raise wrong_type(name, given, f"a {of.__name__}")
     return given
 
 
 def path(name: str, given: Any) -> str:
-    """A path."""
+    """Checks a path."""
     try:
         return os.fsdecode(given)
     except TypeError:
@@ -90,7 +92,7 @@ def path(name: str, given: Any) -> str:
 
 
 def size(name: str, given: Any) -> int | str:
-    """A number of bytes, or a text as ``"4GB"``."""
+    """Checks a number of bytes, or a text such as ``"4GB"``."""
     if isinstance(given, str):
         return given
     try:
@@ -100,26 +102,26 @@ def size(name: str, given: Any) -> int | str:
 
 
 def function(name: str, given: Any, of: str) -> Callable[..., Any]:
-    """A function."""
+    """Checks a function."""
     if not callable(given):
         raise wrong_type(name, given, f"a function of {of}")
     return given  # type: ignore[no-any-return]
 
 
 def listed(name: str, given: Any, check: Callable[[str, Any], T], needed: str) -> list[T]:
-    """A list; a text is none."""
+    """Checks a list; a text is not accepted."""
     if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
         raise wrong_type(name, given, needed)
     return [check(f"{name}[{k}]", item) for k, item in enumerate(given)]
 
 
 def texts(name: str, given: Any) -> list[str]:
-    """Texts."""
+    """Checks a list of texts."""
     return listed(name, given, text, "a list of texts")
 
 
 def settings(name: str, given: Any) -> list[str]:
-    """Texts as ``"KEY=VALUE"``, or values by key."""
+    """Checks texts such as ``"KEY=VALUE"``, or values by key."""
     if isinstance(given, Mapping):
         by_key = named(name, given, text, "texts by key")
         return [f"{key}={value}" for key, value in by_key.items()]
@@ -127,12 +129,12 @@ def settings(name: str, given: Any) -> list[str]:
 
 
 def rows(name: str, given: Any) -> list[int]:
-    """Rows, from 1."""
+    """Checks rows (1-based)."""
     return listed(name, given, count, "a list of rows, from 1")
 
 
 def named(name: str, given: Any, check: Callable[[str, Any], T], needed: str) -> dict[str, T]:
-    """Things by names."""
+    """Checks values by name."""
     if not isinstance(given, Mapping):
         raise wrong_type(name, given, needed)
     return {text(f"a key of {name}", key): check(f"{name}[{key!r}]", of) for key, of in given.items()}

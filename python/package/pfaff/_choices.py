@@ -1,4 +1,4 @@
-"""Choices of reactions that are not unique, as the command writes them."""
+"""Choices of reactions that are not unique, in the syntax of the command."""
 
 from __future__ import annotations
 
@@ -11,19 +11,22 @@ from . import _arguments as arguments
 from ._errors import wrong_type
 
 Choice = Sequence[int] | str | Mapping[str, float | tuple[float, float]]
-"""Rows to drop, from 1; ``"kept-rows"``; ``"minimum-norm"`` or ``"minimum-norm:length=L"``;
-compliances (m/N, or with rad/(N·m)) of joints by name."""
+"""A choice of reactions.
+
+It is a list of rows to delete (1-based), ``"kept-rows"``, ``"minimum-norm"`` or
+``"minimum-norm:length=L"``, or compliances (m/N, or with rad/(N·m)) of joints by name.
+"""
 
 
 def is_rows(choose: object) -> TypeGuard[Sequence[int]]:
-    """Whether a choice is rows to drop."""
+    """Whether a choice is a list of rows to delete."""
     if isinstance(choose, (str, Mapping)) or not isinstance(choose, Iterable):
         return False
     return all(isinstance(row, (int, np.integer)) for row in choose)
 
 
 def as_words(choose: Choice) -> str:
-    """A choice as the command writes it."""
+    """Returns a choice in the syntax of the command."""
     if isinstance(choose, str):
         return choose
     if isinstance(choose, Mapping):
@@ -33,7 +36,7 @@ def as_words(choose: Choice) -> str:
 
 
 def _compliance(name: str, given: Any) -> str:
-    """Compliances along a line and of a rotation (m/N, rad/(N·m))."""
+    """Returns the compliances along a line and of a rotation (m/N, rad/(N·m))."""
     needed = "a compliance (m/N), or a pair with that of rotation"
     both = given if isinstance(given, tuple) else (given, 0.0)
     if len(both) != 2:
@@ -43,7 +46,7 @@ def _compliance(name: str, given: Any) -> str:
 
 
 def of_run(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[str]]:
-    """Whether numbers are those of the rows that the run keeps, and the other choices."""
+    """Whether values are those for the independent rows of the run, and the other choices."""
     if choose is None:
         return False, []
     if is_rows(choose) or (isinstance(choose, str) and choose == "kept-rows"):
@@ -55,5 +58,5 @@ def of_run(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[str]]:
 
 
 def dropped(choose: Choice | Sequence[Choice] | None) -> list[int] | None:
-    """Rows that a run drops."""
+    """Returns the rows that a run treats as dependent."""
     return [int(row) for row in choose] if is_rows(choose) else None

@@ -31,7 +31,7 @@ class Curve(NamedTuple):
 
 
 class WorkPrecision:
-    """One scene by every method at many tolerances."""
+    """One scene with every method at many tolerances."""
 
     def __init__(self, answer: Answer) -> None:
         self.document = answer.document
@@ -41,7 +41,7 @@ class WorkPrecision:
         self.table: dict[str, NDArray[Any]] = {
             name: _column([row[name] for row in rows]) for name in rows[0]
         }
-        """A row for each run, with the columns of ``work_precision.csv``."""
+        """One row for each run, with the columns of ``work_precision.csv``."""
 
     @property
     def methods(self) -> list[str]:
@@ -50,24 +50,24 @@ class WorkPrecision:
 
     @property
     def automatic(self) -> str:
-        """The method that runs of the scene take by themselves."""
+        """The method that runs of the scene use by default."""
         method: str = self._scene["automatic"]
         return method
 
     @property
     def reference_limit(self) -> float:
-        """What the reference is known to; NaN if there is none."""
+        """Accuracy of the reference; NaN if there is no reference."""
         limits = [np.nan if x is None else x for x in self._scene["reference"]["limits"][:2]]
         return float(np.max(limits))
 
     @property
     def summary(self) -> list[str]:
-        """The fastest methods, in sentences."""
+        """The fastest methods, as sentences."""
         summary: list[str] = self._scene["summary"]
         return summary
 
     def curve(self, method: str, stabilisation: str = "projection") -> Curve:
-        """The runs of a method that reached their end."""
+        """Returns the runs of a method that reached their end."""
         for name, word in (("method", method), ("stabilisation", stabilisation)):
             known = dict.fromkeys(self.table[name].tolist())
             if word not in known:
@@ -100,7 +100,7 @@ class WorkPrecision:
 
 
 def _flat(row: dict[str, Any]) -> dict[str, Any]:
-    """A run with its four errors as numbers of their own."""
+    """Returns a run with its four errors as separate numbers."""
     errors = row["errors"]
     rest = {name: value for name, value in row.items() if name != "errors"}
     return {**rest, **dict(zip(_ERRORS, errors, strict=True))}

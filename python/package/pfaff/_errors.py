@@ -1,4 +1,4 @@
-"""The exceptions. All of them say what the command says, with its codes."""
+"""The exceptions, with the texts and codes of the command."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Place:
-    """A place in the text of a scene, or of an imported file."""
+    """A position in the text of a scene, or of an imported file."""
 
     file: str
     """The name of the text."""
     line: int
-    """Line, from 1."""
+    """Line (1-based)."""
     column: int
-    """Column, from 1, in characters."""
+    """Column (1-based), in characters."""
 
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.column}"
 
 
 class Error(Exception):
-    """Why there is no result. ``str(error)`` is the text of the command."""
+    """The reason why there is no result. ``str(error)`` is the text of the command."""
 
     def __init__(self, words: str, document: str = "") -> None:
         super().__init__(words)
@@ -42,19 +42,19 @@ class Error(Exception):
 
     @property
     def code(self) -> str | None:
-        """Its code, as ``"P0101"``; ``pfaff explain CODE`` tells what to do."""
+        """Code of the error, such as ``"P0101"``; ``pfaff explain CODE`` prints its remedies."""
         code: str | None = self.document.get("code")
         return code
 
     @property
     def problems(self) -> list[dict[str, Any]]:
-        """All places in the text that are wrong, with messages and hints."""
+        """All errors in the text with their positions, messages and hints."""
         problems: list[dict[str, Any]] = self.document.get("problems", [])
         return problems
 
     @property
     def place(self) -> Place | None:
-        """The first wrong place, if the fault is in a text."""
+        """The position of the first error, if the error is in a text."""
         for problem in self.problems:
             label = problem["primary"]
             return Place(problem["file"], label["line"], label["column"])
@@ -62,7 +62,7 @@ class Error(Exception):
 
     @property
     def hint(self) -> str | None:
-        """What to do about the first problem, if that is known."""
+        """The remedy for the first error, if it is known."""
         for problem in self.problems:
             hint: str | None = problem["help"]
             return hint
@@ -70,11 +70,11 @@ class Error(Exception):
 
 
 class SceneError(Error, ValueError):
-    """The text of a scene, or of an imported file, is wrong."""
+    """The text of a scene, or of an imported file, is invalid."""
 
 
 class InputError(Error, ValueError):
-    """An argument is wrong, or a file cannot be read."""
+    """An argument is invalid, or a file cannot be read."""
 
 
 class ArgumentError(InputError, TypeError):
@@ -82,32 +82,35 @@ class ArgumentError(InputError, TypeError):
 
 
 class ComputationError(Error, ArithmeticError):
-    """The input is right, but the computation stopped."""
+    """The input is valid, but the computation stopped."""
 
     run: Run | None = None
-    """What a run had computed before it stopped."""
+    """Results of a run up to the time at which it stopped."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (*super().__reduce__(), {"run": self.run})
 
 
 class InternalError(Error, RuntimeError):
-    """A fault of this package."""
+    """An internal error of this package."""
 
 
 def wrong(message: str) -> InputError:
-    """The exception for a wrong argument, with the code of wrong input."""
+    """Builds the exception for an invalid argument, with the code of invalid input."""
     return InputError(*_words(message))
 
 
 def wrong_type(name: str, given: object, needed: str) -> ArgumentError:
-    """The exception for an argument of a wrong type: its name, what is given, what is needed."""
+    """Builds the exception for an argument of a wrong type.
+
+    Its text contains the name of the argument, the given type and the required type.
+    """
     kind = "None" if given is None else f"`{type(given).__name__}`"
     return ArgumentError(*_words(f"{name} is {kind}, need {needed}"))
 
 
 def unknown(what: str, name: str, known: Iterable[str]) -> InputError:
-    """The exception for an unknown name, with all names and the nearest one."""
+    """Builds the exception for an unknown name, with all names and the most similar one."""
     names = list(known)
     near = nearest(str(name), names)
     advice = f"; did you mean `{near}`?" if near else ""

@@ -1,4 +1,4 @@
-"""Functions of the caller as laws of drives and as forces on bodies."""
+"""Python functions as laws of drives and as forces on bodies."""
 
 from __future__ import annotations
 
@@ -12,16 +12,19 @@ from . import _arguments as arguments
 
 Array = NDArray[np.float64]
 DriveLaw = Callable[[float, float, float], float]
-"""The force (N) or torque (N·m) of a drive, of time (s), measure (m or rad) and its rate."""
+"""Force (N) or torque (N·m) of a drive.
+
+The arguments are the time (s), the joint coordinate (m or rad) and its rate.
+"""
 
 
 class BodyState(NamedTuple):
-    """The state of a body: of its centre of mass, in ground axes."""
+    """The state of the centre of mass of a body, in ground axes."""
 
     position: Array
-    """Place of the centre of mass (m), 2 or 3 numbers."""
+    """Position of the centre of mass (m), 2 or 3 numbers."""
     rotation: Array
-    """From the frame of the body to ground axes, 2 × 2 or 3 × 3."""
+    """Rotation matrix from the frame of the body to ground axes, 2 × 2 or 3 × 3."""
     angle: float
     """Angle in the plane (rad), not reduced to one revolution; NaN in space."""
     velocity: Array
@@ -31,22 +34,22 @@ class BodyState(NamedTuple):
 
 
 BodyForce = Callable[[float, BodyState], ArrayLike]
-"""Force (N) and torque (N·m) on a body, of time (s) and its state.
+"""Force (N) and torque (N·m) on a body, as a function of time (s) and of its state.
 
-In the plane ``[fx, fy, torque]``, in space ``[fx, fy, fz, tx, ty, tz]``: in ground axes, the force
-through the centre of mass.
+The function returns ``[fx, fy, torque]`` in the plane and ``[fx, fy, fz, tx, ty, tz]`` in space:
+the force, which acts at the centre of mass, and the torque, in ground axes.
 """
 
 Named = list[tuple[str, Callable[..., Any]]]
 
 
 def of_drives(drives: Mapping[str, DriveLaw] | None) -> Named:
-    """Names and functions."""
+    """Returns names and functions of drives."""
     return _checked("drives", drives, "t, measure and rate")
 
 
 def of_bodies(forces: Mapping[str, BodyForce] | None) -> Named:
-    """Names and functions of plain numbers and arrays."""
+    """Returns names of bodies, and functions of plain numbers and arrays."""
     return [(body, _of_state(f)) for body, f in _checked("forces", forces, "t and the body")]
 
 

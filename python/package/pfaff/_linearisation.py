@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 class Linearisation:
-    """``ẋ = A·x + B·u`` about a state."""
+    """The linearised motion ``ẋ = A·x + B·u`` about a state."""
 
     def __init__(self, answer: Answer) -> None:
         self.document = answer.document
@@ -36,13 +36,13 @@ class Linearisation:
 
     @property
     def eigenvalues(self) -> NDArray[np.complex128]:
-        """Eigenvalues (1/s), those that grow fastest first; a conjugate pair once."""
+        """Eigenvalues (1/s), the fastest growing first; a conjugate pair is listed once."""
         modes = self.document["modes"] or []
         return np.array([complex(m["real"], m["imaginary"]) for m in modes], dtype=np.complex128)
 
     @property
     def second_order(self) -> tuple[Array, Array, Array] | None:
-        """M, D and K of ``M·ÿ + D·ẏ + K·y``, if there are such."""
+        """The matrices M, D and K of ``M·ÿ + D·ẏ + K·y``, if they exist."""
         of = self.document["second_order"]
         if of is None:
             return None

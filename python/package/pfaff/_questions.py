@@ -53,29 +53,25 @@ class Questions:
         threads: int | None = None,
         max_memory: int | str | None = None,
     ) -> Analysis:
-        """Rank, redundancy, and the verdict of every reaction.
+        """Compute rank, redundancy and a verdict for every reaction.
 
         As ``pfaff analyze --json``.
 
-        - ``at_time``: Time of the motion at which the mechanism is analysed (s)
-        - ``drop``: Rows to take as the dependent ones, counted from 1
-        - ``combine``: A sum of components to judge, as "W3.N + W4.N"
-        - ``make_unique``: Find the smallest sets of rows to delete so that this reaction becomes
-          unique
-        - ``allow``: What may be deleted for ``make_unique``: sensible (no joint of several rows
-          loses all of them), whole (joints and drives as a whole), rows (any), or rows:4,6,21
-          (these)
-        - ``eliminations``: List at most N sets of rows that can be eliminated without a change of
-          the motion
-        - ``frames``: Also judge the components in the frames of the first body, of the edge and of
-          the joint
-        - ``about``: Also judge moments about this point: X,Y in the plane, X,Y,Z in space (m,
-          ground axes), or the name of a marker
-        - ``along``: Run the motion, for the duration that the scene states or to T_END (s): the
-          verdict that holds along it, and the intervals with other verdicts
-        - ``choose``: Compute the reactions for a choice: minimum-norm, minimum-norm:length=L (a
-          torque counts as a force on an arm of length L), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R
-          adds rad/(N·m)), drop:6,21
+        - ``at_time``: Analyse the motion at this time (s)
+        - ``drop``: Rows to treat as dependent (1-based)
+        - ``combine``: Analyse a sum of components, e.g. "W3.N + W4.N"
+        - ``make_unique``: Find the fewest rows to delete for a unique reaction
+        - ``allow``: Rows that ``make_unique`` may delete: sensible (a joint of several rows keeps
+          one), whole (whole joints and drives), rows (any), rows:4,6,21 (only these)
+        - ``eliminations``: List up to N sets of rows that can be eliminated without changing the
+          motion
+        - ``frames``: Also analyse components in the frames of body, edge and joint
+        - ``about``: Also analyse moments about a point X,Y or X,Y,Z (m) or a marker
+        - ``along``: Analyse along the motion to T_END (s): the generic verdict and the intervals
+          where it differs
+        - ``choose``: Compute reactions for a choice: minimum-norm, minimum-norm:length=L (L: arm
+          that converts torques to forces), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds
+          rad/(N·m)), drop:6,21
         """
         options: dict[str, Any] = {
             "at_time": arguments.finite("at_time", at_time),
@@ -110,20 +106,19 @@ class Questions:
         threads: int | None = None,
         max_memory: int | str | None = None,
     ) -> dict[str, Any]:
-        """What a run of the scene computes and omits, and why.
+        """Report what a run computes and omits, with reasons.
 
         As ``pfaff plan --json``.
 
-        - ``vary``: Also say how the runs of a sweep with these values are evaluated: as of
-          ``sweep``
-        - ``t_end``: Last time (s)
+        - ``vary``: Also report how a sweep with these values evaluates its runs
+        - ``t_end``: End time (s)
         - ``rtol``: Relative tolerance
         - ``atol``: Absolute tolerance
-        - ``max_step``: Largest step (s)
-        - ``max_steps``: Most steps, accepted and rejected, after which the run stops
+        - ``max_step``: Maximum step size (s)
+        - ``max_steps``: Maximum number of steps (accepted + rejected)
         - ``method``: Integrator
-        - ``stabilisation``: Treatment of drift
-        - ``drop``: Rows to eliminate, counted from 1
+        - ``stabilisation``: Method against constraint drift
+        - ``drop``: Rows to eliminate (1-based)
         """
         options: dict[str, Any] = {
             "vary": arguments.settings("vary", vary),
@@ -150,7 +145,7 @@ class Questions:
         threads: int | None = None,
         max_memory: int | str | None = None,
     ) -> dict[str, Any]:
-        """Read and assemble only: report every error of the file, with its place.
+        """Read and assemble the scene; report all errors.
 
         As ``pfaff check --json``.
         """
@@ -169,11 +164,11 @@ class Questions:
         max_memory: int | str | None = None,
         out: str | os.PathLike[str] | None = None,
     ) -> dict[str, Any]:
-        """A start at rest: where forces balance near the described start.
+        """Find a static equilibrium near the start.
 
         As ``pfaff equilibrium --json``.
 
-        - ``stable``: Leave places that are not stable by a small push, and search on
+        - ``stable``: Skip unstable equilibria: perturb and continue
         """
         options: dict[str, Any] = {
             "stable": arguments.flag("stable", stable),
@@ -194,15 +189,15 @@ class Questions:
         max_memory: int | str | None = None,
         out: str | os.PathLike[str] | None = None,
     ) -> Linearisation:
-        """Small motions about a state at rest or a steady one: matrices, eigenvalues, modes.
+        """Linearise at rest or in steady motion: eigenvalues, modes.
 
         As ``pfaff linearise --json``.
 
-        - ``at_time``: Time of the motion at which it is linearised (s)
-        - ``coordinates``: Independent coordinates to use, such as crank.angle or rod.x, in space
-          also rod.rz; the others are chosen
-        - ``follow``: Coordinates in which a steady motion goes on, such as
-          frame.x,frame.y,frame.wz: they are left out, and the axes turn with the latter
+        - ``at_time``: Linearise the motion at this time (s)
+        - ``coordinates``: Independent coordinates to use, e.g. crank.angle, rod.x, rod.rz (space);
+          others are chosen automatically
+        - ``follow``: Cyclic coordinates of a steady motion, e.g. frame.x,frame.y,frame.wz; they are
+          eliminated, and the axes rotate with frame.wz
         """
         options: dict[str, Any] = {
             "at_time": arguments.finite("at_time", at_time),
@@ -226,15 +221,14 @@ class Questions:
         max_memory: int | str | None = None,
         out: str | os.PathLike[str] | None = None,
     ) -> Samples:
-        """Data within their tolerances: how far verdicts, reactions and places hold.
+        """Run a Monte-Carlo analysis of the tolerances.
 
         As ``pfaff tolerance --json``.
 
         - ``runs``: Number of samples
-        - ``vary``: A parameter or number of the scene that varies besides, and by how much:
-          KEY=±VALUE or KEY=±P%
-        - ``seed``: Another seed gives other samples
-        - ``at_time``: Time of the motion at which the samples are analysed (s)
+        - ``vary``: Also vary a parameter or number: KEY=±VALUE or KEY=±P%
+        - ``seed``: Random seed
+        - ``at_time``: Analyse the samples at this time (s)
         """
         options: dict[str, Any] = {
             "runs": arguments.count("runs", runs),
@@ -255,7 +249,7 @@ class Questions:
         threads: int | None = None,
         max_memory: int | str | None = None,
     ) -> dict[str, Any]:
-        """Compare two scenes: ranks, verdicts, dependencies, motion.
+        """Compare ranks, verdicts, dependencies and motion of two scenes.
 
         As ``pfaff diff --json``.
         """
@@ -276,13 +270,13 @@ class Questions:
         max_memory: int | str | None = None,
         out: str | os.PathLike[str] | None = None,
     ) -> WorkPrecision:
-        """Error versus run time, for every method and tolerance.
+        """Measure error against run time of all methods.
 
         As ``pfaff work-precision --json``.
 
-        - ``quick``: Three tolerances, for a quick overview
-        - ``all``: Every method with every stabilisation
-        - ``png``: Also the figure as PNG (feature ``png``)
+        - ``quick``: Use only three tolerances
+        - ``all``: Measure every method with every stabilisation
+        - ``png``: Also write the figure as PNG (feature ``png``)
         """
         options: dict[str, Any] = {
             "quick": arguments.flag("quick", quick),

@@ -25,43 +25,46 @@ INTERRUPTED = "P0008"
 
 @dataclass(frozen=True)
 class Event:
-    """Something that happened on the way."""
+    """An event during a run."""
 
     time: float
     """Time (s)."""
     kind: str
-    """As ``singular-passage`` or ``impulse``."""
+    """Kind of the event, such as ``singular-passage`` or ``impulse``."""
     redundancy_before: int
-    """Degree of redundancy before."""
+    """Degree of redundancy before the event."""
     redundancy_after: int
-    """Degree of redundancy after."""
+    """Degree of redundancy after the event."""
     deleted_rows: Sequence[int]
-    """Rows without multiplier after the event, from 1."""
+    """Rows without multiplier after the event (1-based)."""
     text: str
     """Description."""
     impulses: dict[str, Any] = field(default_factory=dict)
-    """Where velocities jump: by joint or drive ``{"components": {NAME: {"value", "verdict"}}}``
-    (N·s, N·m·s), ``None`` for what is not unique at this instant."""
+    """Impulses at a jump of velocities, by joint or drive.
+
+    Each entry is ``{"components": {NAME: {"value", "verdict"}}}`` (N·s, N·m·s). Values that are not
+    unique at this instant are ``None``.
+    """
 
 
 class _Columns:
-    """Columns of a table that belong to one thing. All arrays are views of the table."""
+    """Columns of a table that belong to one object. All arrays are views of the table."""
 
     __slots__ = ("_numbers", "_table", "name")
 
     def __init__(self, name: str, table: Array, numbers: dict[str, int]) -> None:
         self.name = name
-        """Its name."""
+        """Name of the object."""
         self._table = table
         self._numbers = numbers
 
     @property
     def columns(self) -> list[str]:
-        """The names of its numbers, as in the tables of the command."""
+        """The names of its columns, as in the tables of the command."""
         return list(self._numbers)
 
     def __getitem__(self, column: str) -> Array:
-        """The values of one number."""
+        """Returns the values of one column."""
         if column not in self._numbers:
             raise unknown(f"number of `{self.name}`", column, self._numbers)
         return self._table[:, self._numbers[column]]
@@ -77,7 +80,7 @@ _C = TypeVar("_C", bound=_Columns)
 
 
 class BodyMotion(_Columns):
-    """The motion of a body or a marker: of the origin of its frame, in ground axes."""
+    """The motion of a body or a marker: the motion of the origin of its frame, in ground axes."""
 
     __slots__ = ()
 
@@ -108,13 +111,16 @@ class BodyMotion(_Columns):
 
 
 class Reaction(_Columns):
-    """The reaction on the first body of a joint or drive, about its place, in ground axes."""
+    """The reaction of a joint or drive, on its first body and in ground axes.
+
+    Torques are about the reference point.
+    """
 
     __slots__ = ()
 
     @property
     def force(self) -> Array:
-        """Forces (N), 2 or 3 columns; NaN where a component is not determined on its stretch."""
+        """Forces (N), 2 or 3 columns; NaN if a component is not determined on its stretch."""
         return self._of(("Fx", "Fy", "Fz"))
 
     @property
@@ -124,13 +130,17 @@ class Reaction(_Columns):
 
 
 class ChosenReactions:
-    """Reactions of a run by one choice: what the model determines, and one solution of the rest."""
+    """Reactions of a run for one choice.
+
+    Components that the model determines have their values; the choice selects one solution for the
+    other components.
+    """
 
     def __init__(self, name: str, reactions: Array, columns: Sequence[tuple[str, str, str]]) -> None:
         self.name = name
         """The name of the choice."""
         self.reactions: Array = reactions
-        """The columns of ``choice.csv`` after ``t``; NaN where the choice selects no solution."""
+        """The columns of ``choice.csv`` after ``t``; NaN if the choice selects no solution."""
         self._seal()
         self._reactions = _grouped(columns, reactions, Reaction, ("reaction",))
         self._groups = _grouped(columns, reactions, _Columns, ("group",))
@@ -143,11 +153,11 @@ class ChosenReactions:
         self._seal()
 
     def reaction(self, name: str) -> Reaction:
-        """The reaction of a joint or drive."""
+        """Returns the reaction of a joint or drive."""
         return _named("joint or drive", name, self._reactions)
 
     def group(self, name: str) -> _Columns:
-        """The numbers of a group of the scene."""
+        """Returns the values of a group of the scene."""
         return _named("group with numbers", name, self._groups)
 
     def __repr__(self) -> str:
@@ -155,7 +165,7 @@ class ChosenReactions:
 
 
 class Run:
-    """A run with its rows. Arrays have one row for each time, are made once and read-only."""
+    """A run with its rows. Arrays have one row for each time and are read-only."""
 
     def __init__(
         self, of: _pfaff.Run, scene: Scene, options: dict[str, Any], is_chosen: bool = False
@@ -164,7 +174,7 @@ class Run:
         self.choices: list[ChosenReactions] = [
             ChosenReactions(name, numbers, of.reaction_columns) for name, numbers in of.chosen()
         ]
-        """The numbers by each choice of ``choose``, in its order; none for rows that are dropped."""
+        """The values for each choice of ``choose``, in its order; empty if rows are deleted."""
         self.scene = scene
         """The scene that was run."""
         self.t: Array = of.t
@@ -176,11 +186,13 @@ class Run:
         self.trajectory: Array = of.trajectory
         """The columns of ``trajectory.csv`` after ``t``."""
         self.reactions: Array = self.choices[0].reactions if is_chosen else of.reactions
-        """The columns of ``reactions.csv`` after ``t``; NaN where a cell is empty, or the numbers of
-        a single choice."""
+        """The columns of ``reactions.csv`` after ``t``.
+
+        Empty cells are NaN. With a single choice the values are those of the choice.
+        """
         self._seal()
         self.document: dict[str, Any] = json.loads(of.document)
-        """The summary, as ``summary.json``."""
+        """The summary, as in ``summary.json``."""
         self.columns: list[str] = [_heading(owner, number) for _, owner, number in of.columns]
         """Names of the columns of :attr:`trajectory`."""
         self.reaction_columns: list[str] = of.reaction_names
@@ -211,7 +223,7 @@ class Run:
 
     @property
     def measures(self) -> list[str]:
-        """Names of measures, and of drives by laws."""
+        """Names of joint coordinates (measures), and of drives with laws."""
         return list(self._others)
 
     @property
@@ -221,42 +233,42 @@ class Run:
 
     @property
     def partial(self) -> bool:
-        """Whether the run ended before its last time."""
+        """Whether the run ended before its end time."""
         partial: bool = self.document["partial"]
         return partial
 
     @property
     def events(self) -> list[Event]:
-        """What happened on the way."""
+        """Events of the run."""
         return [Event(**event) for event in self.document["events"]]
 
     def body(self, name: str) -> BodyMotion:
-        """The motion of a body."""
+        """Returns the motion of a body."""
         return _named("body", name, self._bodies)
 
     def marker(self, name: str) -> BodyMotion:
-        """The motion of a marker."""
+        """Returns the motion of a marker."""
         return _named("marker", name, self._markers)
 
     def measure(self, name: str) -> Array:
-        """The values of a measure, or the force or torque (N, N·m) of a drive by a law."""
+        """Returns a joint coordinate, or the force or torque (N, N·m) of a drive law."""
         of = _named("measure", name, self._others)
         return of[of.columns[0]]
 
     def reaction(self, name: str) -> Reaction:
-        """The reaction of a joint or drive."""
+        """Returns the reaction of a joint or drive."""
         return _named("joint or drive", name, self._reactions)
 
     def group(self, name: str) -> _Columns:
-        """The numbers of a group of the scene; NaN where they are not determined."""
+        """Returns the values of a group of the scene; NaN for values that are not determined."""
         return _named("group with numbers", name, self._groups)
 
     def report(self, path: str | os.PathLike[str]) -> None:
         """Writes the page of this run for any browser.
 
-        The run is made again for it, with rows between these for a moving picture: to the same
-        end, also if it has stopped or a callback has ended it. The functions of its drives and
-        bodies are called again.
+        The run is repeated with additional rows for the animation. It ends at the same time, also
+        if it stopped or a callback ended it. The functions of its drives and bodies are called
+        again.
         """
         stopped = self.document["code"] not in (None, INTERRUPTED)
         until = float(self.t[-1]) if self.partial and not stopped else None
@@ -267,7 +279,7 @@ class Run:
                 raise
 
     def to_pandas(self) -> Any:
-        """All columns as a ``pandas.DataFrame`` with the times as its index."""
+        """Returns all columns as a ``pandas.DataFrame`` with the times as its index."""
         import pandas
 
         index = pandas.Index(self.t, name="t")
@@ -275,7 +287,7 @@ class Run:
         return pandas.DataFrame(table, index=index, columns=self.columns + self.reaction_columns)
 
     def to_polars(self) -> Any:
-        """All columns as a ``polars.DataFrame``, the first of which is ``t``."""
+        """Returns all columns as a ``polars.DataFrame``, the first of which is ``t``."""
         import polars
 
         table = np.column_stack((self.t, self.trajectory, self.reactions))
@@ -285,7 +297,7 @@ class Run:
     def plot(self, *columns: str, ax: Any = None) -> Any:
         """Plots columns against time, by their names in the tables; returns the axes.
 
-        Without names: the positions of all bodies. Needs matplotlib.
+        By default it plots the positions of all bodies. This method needs matplotlib.
         """
         wanted: Iterable[str] = columns or [
             heading for heading in self.columns if heading.endswith((".x", ".y", ".z"))

@@ -1,4 +1,4 @@
-"""Data within their tolerances: samples, and what they say together."""
+"""Samples of data within their tolerances, and their combined results."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ class Samples:
 
     def __init__(self, answer: Answer) -> None:
         self.scene = answer.scene
-        """The scene."""
+        """The scene of the samples."""
         self.document = answer.document
         """The document of ``pfaff tolerance --json``."""
         self.table: dict[str, Values] = {}
-        """The columns of ``tolerance.csv``: numbers, or words for ``status`` and verdicts.
+        """The columns of ``tolerance.csv``: numbers, or texts for ``status`` and verdicts.
 
-        What does not exist in a sample is NaN.
+        Values that do not exist in a sample are NaN.
         """
         rows = csv.reader(io.StringIO(answer.files["tolerance.csv"].decode()))
         headings = next(rows)
@@ -57,25 +57,25 @@ class Samples:
         return {r["name"]: r for r in self.document["reactions"]}
 
     def __getitem__(self, column: str) -> Values:
-        """The values of a column, one for each sample."""
+        """Returns the values of a column, one for each sample."""
         if column not in self.table:
             raise unknown("column", column, self.table)
         return self.table[column]
 
     def to_pandas(self) -> Any:
-        """The table as a ``pandas.DataFrame`` with the numbers of the samples as its index."""
+        """Returns the table as a ``pandas.DataFrame`` with the sample numbers as its index."""
         import pandas
 
         return pandas.DataFrame(self.table).set_index("sample")
 
     def to_polars(self) -> Any:
-        """The table as a ``polars.DataFrame``."""
+        """Returns the table as a ``polars.DataFrame``."""
         import polars
 
         return polars.DataFrame(self.table)
 
     def plot(self, *columns: str, bins: int = 24, ax: Any = None) -> Any:
-        """Draws histograms of columns; returns the axes. Needs matplotlib."""
+        """Draws histograms of columns; returns the axes. This method needs matplotlib."""
         values = [(column, self[column].astype(np.float64)) for column in columns]
         if ax is None:
             from matplotlib import pyplot
@@ -96,7 +96,7 @@ class Samples:
 
 
 def _values(column: tuple[str, ...]) -> Values:
-    """Numbers, or words if a cell is not a number."""
+    """Returns numbers, or texts if a cell is not a number."""
     try:
         return np.array([float(cell) for cell in column], dtype=np.float64)
     except ValueError:

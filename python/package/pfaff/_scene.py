@@ -1,4 +1,4 @@
-"""A scene: its text, and what is computed of it."""
+"""A scene: its text, and the results that are computed from it."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ class Matrices(NamedTuple):
     """The equations ``M·a + Cᵀ·λ = Q``, ``C·a = Γ``, ``C·v = b``, ``Φ = 0`` at one state."""
 
     C: Array
-    """A row for each constraint, a column for each velocity."""
+    """The constraint matrix: a row for each constraint, a column for each velocity."""
     M: Array
-    """The masses, square and diagonal."""
+    """The mass matrix, square and diagonal."""
     Gamma: Array
     """The right-hand side of the accelerations."""
     Q: Array
@@ -40,22 +40,22 @@ class Matrices(NamedTuple):
     b: Array
     """The right-hand side of the velocities."""
     Phi: Array
-    """What the holonomic rows miss."""
+    """Violations of the holonomic rows."""
 
 
 class Scene(Questions):
-    """A mechanism as a text in the format of scenes. It does not change.
+    """A mechanism as a text in the format of scenes. The object is immutable.
 
-    Methods that add something return a new scene, and write what they are given into its text; the
-    reader of scenes judges it when something is asked of the scene, or by :meth:`check`.
+    Methods that add a table return a new scene with the arguments in its text. The reader of scenes
+    validates the text at the first use of the scene, or in :meth:`check`.
     """
 
     __slots__ = ("_of",)
 
     def __init__(self, name: str = "scene", *, space: str = "plane", **keys: Any) -> None:
-        """A scene without bodies.
+        """Creates a scene without bodies.
 
-        ``keys`` are those of the table ``[scene]``, as ``gravity`` and ``tolerance``.
+        ``keys`` are the keys of the table ``[scene]``, such as ``gravity`` and ``tolerance``.
         """
         name = arguments.text("name", name)
         entries = {"name": name, "space": arguments.text("space", space), **keys}
@@ -74,27 +74,27 @@ class Scene(Questions):
 
     @classmethod
     def new(cls, template: str) -> Scene:
-        """A scene to begin with, by the name of a template; see :func:`pfaff.templates`."""
+        """Returns the scene of a template, given by its name; see :func:`pfaff.templates`."""
         return cls._made(_pfaff.Scene.of_template(arguments.text("template", template)))
 
     @classmethod
     def from_string(cls, text: str, name: str = "scene.toml") -> Scene:
-        """A scene of this text; ``name`` is that of the file in messages."""
+        """Creates a scene from a text; ``name`` is the file name in messages."""
         return cls._made(_pfaff.Scene(arguments.text("name", name), arguments.text("text", text)))
 
     @classmethod
     def from_mjcf(cls, path: str | os.PathLike[str] | None = None, **options: Any) -> Scene:
-        """Imports a model of MuJoCo; see :meth:`imported` for the options."""
+        """Imports a MuJoCo model; see :meth:`imported` for the options."""
         return cls.imported("MJCF", path, **options)[0]
 
     @classmethod
     def from_urdf(cls, path: str | os.PathLike[str] | None = None, **options: Any) -> Scene:
-        """Imports a URDF; see :meth:`imported` for the options."""
+        """Imports a URDF file; see :meth:`imported` for the options."""
         return cls.imported("URDF", path, **options)[0]
 
     @classmethod
     def from_sdf(cls, path: str | os.PathLike[str] | None = None, **options: Any) -> Scene:
-        """Imports an SDF; see :meth:`imported` for the options."""
+        """Imports an SDF file; see :meth:`imported` for the options."""
         return cls.imported("SDF", path, **options)[0]
 
     @classmethod
@@ -111,12 +111,13 @@ class Scene(Questions):
         pose: Mapping[str, float] | None = None,
         loops: str | os.PathLike[str] | None = None,
     ) -> tuple[Scene, list[str], list[tuple[str, str, int]]]:
-        """A scene of a model of a robot, remarks on it, and what is left out: kind, subject, line.
+        """Imports a robot model; returns a scene, remarks, and the omitted elements.
 
-        ``format`` is ``"MJCF"``, ``"URDF"`` or ``"SDF"``. The other arguments are the options of
-        ``pfaff import``: ``base`` (``"fixed"`` or ``"free"``), ``keep_fixed``, ``snap``,
-        ``keyframe``, ``pose`` (values of joints near which loops are closed) and ``loops`` (a file
-        of loop closures of a URDF). With ``text`` in place of a file nothing is included.
+        Each omitted element has kind, subject and line. ``format`` is ``"MJCF"``, ``"URDF"`` or
+        ``"SDF"``. The other arguments are the options of ``pfaff import``: ``base`` (``"fixed"`` or
+        ``"free"``), ``keep_fixed``, ``snap``, ``keyframe``, ``pose`` (values of joints near which
+        loops are closed) and ``loops`` (a file of loop closures of a URDF). If ``text`` replaces a
+        file, no other file is included.
         """
         if path is None and text is None:
             raise wrong("need a path or a text")
@@ -135,7 +136,7 @@ class Scene(Questions):
         )
         return cls._made(of), remarks, omissions
 
-    # The text.
+    # Text of the scene.
 
     @property
     def text(self) -> str:
@@ -149,7 +150,7 @@ class Scene(Questions):
 
     @property
     def name(self) -> str:
-        """The name that the scene gives itself."""
+        """The name that the scene states."""
         return self._of.names()[0]
 
     @property
@@ -181,14 +182,14 @@ class Scene(Questions):
         with open(arguments.path("path", path), "w", encoding="utf-8", newline="\n") as file:
             file.write(self.text)
 
-    # The builder.
+    # Methods that add tables.
 
     def add(self, table: str, **keys: Any) -> Scene:
-        """The scene with another ``[[table]]``, as ``[[body]]``; ``None`` leaves a key out."""
+        """Returns the scene with one more ``[[table]]``, as ``[[body]]``; ``None`` omits a key."""
         return self._with_table(f"[[{arguments.text('table', table)}]]", keys)
 
     def set(self, table: str, **keys: Any) -> Scene:
-        """The scene with a table that occurs once, as ``[simulate]`` or ``[start]``."""
+        """Returns the scene with a unique table, such as ``[simulate]`` or ``[start]``."""
         return self._with_table(f"[{arguments.text('table', table)}]", keys)
 
     def _with_table(self, header: str, keys: Mapping[str, Any]) -> Scene:
@@ -197,52 +198,52 @@ class Scene(Questions):
         return Scene._made(_pfaff.Scene(self.file, f"{text}\n{more}"))
 
     def body(self, name: str, **keys: Any) -> Scene:
-        """The scene with another body: ``mass``, ``inertia``, ``position`` and so on."""
+        """Returns the scene with another body: ``mass``, ``inertia``, ``position`` and so on."""
         return self.add("body", name=name, **keys)
 
     def joint(self, name: str, type: str, bodies: Bodies, **keys: Any) -> Scene:
-        """The scene with another joint: ``at``, ``axis`` and so on, as its type wants.
+        """Returns the scene with another joint: ``at``, ``axis`` and so on, according to its type.
 
-        ``bodies`` is a list, or the one body of a joint that has only one, as a knife edge.
+        ``bodies`` is a list, or a single body for a joint with only one body, such as a knife edge.
         """
         return self.add("joint", name=name, type=type, **_between(bodies), **keys)
 
     def drive(self, name: str, **keys: Any) -> Scene:
-        """The scene with another drive."""
+        """Returns the scene with another drive."""
         return self.add("drive", name=name, **keys)
 
     def force(self, name: str, type: str, bodies: Bodies | None = None, **keys: Any) -> Scene:
-        """The scene with another applied force."""
+        """Returns the scene with another applied force."""
         return self.add("force", name=name, type=type, **_between(bodies), **keys)
 
     def marker(self, name: str, **keys: Any) -> Scene:
-        """The scene with another marker."""
+        """Returns the scene with another marker."""
         return self.add("marker", name=name, **keys)
 
     def measure(self, name: str, **keys: Any) -> Scene:
-        """The scene with another measure."""
+        """Returns the scene with another measured joint coordinate."""
         return self.add("measure", name=name, **keys)
 
     def group(self, name: str, **keys: Any) -> Scene:
-        """The scene with another group of reactions."""
+        """Returns the scene with another group of reactions."""
         return self.add("group", name=name, **keys)
 
     def parameters(self, **values: Any) -> Scene:
-        """The scene with parameters, which expressions use (``format=2``)."""
+        """Returns the scene with parameters, which expressions use (``format=2``)."""
         return self.set("parameters", **values)
 
     def with_(self, **settings: Any) -> Scene:
-        """The scene with other numbers or expressions at these keys, as ``--set`` of the command.
+        """Returns the scene with other values at these keys, like ``--set`` of the command.
 
         >>> scene.with_(**{"joint.H.axis": [0, 1, 0], "L": 0.4})  # doctest: +SKIP
 
-        A list stands for its entries, ``axis[0]`` and so on.
+        Values are numbers or expressions. A list stands for its entries, ``axis[0]`` and so on.
         """
         pairs = [pair for key, item in settings.items() for pair in _entries(key, item)]
         keys, expressions = [key for key, _ in pairs], [text for _, text in pairs]
         return Scene._made(self._of.with_settings(keys, expressions))
 
-    # What is computed.
+    # Methods that compute results.
 
     def simulate(
         self,
@@ -265,24 +266,26 @@ class Scene(Questions):
         on_event: Callable[[Event], object] | None = None,
         on_row: Callable[[float], object] | None = None,
     ) -> Run:
-        """Runs the scene; what is ``None`` is as the scene says.
+        """Runs the scene; an option that is ``None`` has the value in the scene.
 
-        ``reactions`` are all, none, or those with these names. Numbers that are not unique on
-        their stretch of the run are NaN, unless ``choose`` says by which choice they are made:
-        ``"kept-rows"`` by the rows that the run keeps, a list of rows to drop, from 1, or a choice
-        of :meth:`Analysis.reactions`: ``"minimum-norm"``, ``"minimum-norm:length=0.5"`` (m), or
-        compliances by name, as ``{"left": 1e-6, "right": (2e-6, 1e-3)}`` (m/N, and rad/(N·m)).
-        With a list of these choices ``run.choices`` has the numbers of each, and NaN stays NaN in
-        ``run.reactions``.
-        ``on_event`` gets each :class:`Event` at the first row after it, ``on_row`` the time of
-        each row; the run ends where one of them returns ``True``. Ctrl-C is heard on the main
-        thread.
+        ``reactions`` are all, none, or those with these names. Numbers that are not unique on their
+        stretch of the run are NaN, unless ``choose`` gives a choice: ``"kept-rows"`` for the
+        independent rows of the run, a list of rows to delete (1-based), or a choice of
+        :meth:`Analysis.reactions`. The latter is ``"minimum-norm"``, ``"minimum-norm:length=0.5"``
+        (m), or compliances by name, such as ``{"left": 1e-6, "right": (2e-6, 1e-3)}`` (m/N, and
+        rad/(N·m)). With a list of these choices ``run.choices`` contains the values for each
+        choice, and NaN remains in ``run.reactions``.
 
-        ``drives`` are functions ``f(t, measure, rate)`` in place of the laws of these drives: they
+        ``on_event`` receives each :class:`Event` at the first row after it, and ``on_row`` receives
+        the time of each row. The run ends if one of them returns ``True``. Ctrl-C works only on the
+        main thread.
+
+        ``drives`` are functions ``f(t, measure, rate)`` that replace the laws of these drives: they
         return the force (N) or torque (N·m). ``forces`` are functions ``f(t, body)`` of a
         :class:`BodyState`: they return force and torque on this body. Functions are called at
-        stages of steps, not in the order of time, and have to return the same for the same state;
-        methods that need derivatives refuse them. An exception of one ends the run and is raised.
+        stages of steps, not in the order of time, and must return the same value for the same
+        state. Methods that need derivatives reject them. An exception in a function ends the run
+        and is raised.
         """
         options = _options(
             t_end=t_end,
@@ -319,7 +322,7 @@ class Scene(Questions):
     def simulate_into(self, directory: str | os.PathLike[str], **options: Any) -> dict[str, Any]:
         """Runs the scene and writes the files of ``pfaff simulate`` into a directory.
 
-        Returns the summary. The options are those of :meth:`simulate` but ``on_event`` and
+        Returns the summary. The options are those of :meth:`simulate` except ``on_event`` and
         ``on_row``.
         """
         _choose(options)
@@ -338,7 +341,7 @@ class Scene(Questions):
         return document
 
     def report(self, path: str | os.PathLike[str], **options: Any) -> None:
-        """Runs the scene and writes its page for any browser, also of a run that stops."""
+        """Runs the scene and writes its page for any browser, also for a run that stops."""
         _choose(options)
         _known(options)
         self._page(path, options, None)
@@ -346,7 +349,7 @@ class Scene(Questions):
     def _page(
         self, path: str | os.PathLike[str], options: Mapping[str, Any], until: float | None
     ) -> None:
-        # Imported here, as they take long to import.
+        # These modules are imported here, because their import takes long.
         from shutil import move
         from tempfile import TemporaryDirectory
 
@@ -357,7 +360,7 @@ class Scene(Questions):
                 if not os.path.exists(page):
                     raise wrong("the scene wants no report: `output.report` is false")
             finally:
-                # A run that stops has a page of what it has computed.
+                # The page of a run that stops shows its results up to that time.
                 if os.path.exists(page):
                     move(page, path)
 
@@ -370,7 +373,7 @@ class Scene(Questions):
     ) -> SweepResult:
         """Runs the scene with every combination of values, on this machine.
 
-        See :func:`pfaff.cluster.sweep`, which also takes the other options.
+        See :func:`pfaff.cluster.sweep`, which also accepts the other options.
         """
         return sweep(self, vary, None, out=out, threads=threads, **options)
 
@@ -383,10 +386,11 @@ class Scene(Questions):
         angle_tolerance: float | None = None,
         max_memory: int | str | None = None,
     ) -> None:
-        """Writes the assembled start, with joints marked by their verdicts.
+        """Writes the assembled start as a page or picture, with joints marked by their verdicts.
 
-        A name that ends with ``.html`` is a page, ``.svg`` a picture, and so is ``.png``, if the
-        package was built with the feature ``png``; ``scale`` is its number of pixels for each px.
+        A name that ends with ``.html`` gives a page, ``.svg`` a picture, and ``.png`` also a
+        picture, if the package was built with the feature ``png``; ``scale`` is its number of
+        pixels for each px.
         """
         common = Common(tolerance, angle_tolerance, None, max_memory)
         name = arguments.path("path", path)
@@ -405,9 +409,9 @@ class Scene(Questions):
         *,
         max_memory: int | str | None = None,
     ) -> Matrices:
-        """C, M, Γ, Q, b and Φ at coordinates and velocities, those of the start by default.
+        """Returns C, M, Γ, Q, b and Φ at coordinates and velocities, by default those of the start.
 
-        C and M are dense: with more than ``max_memory`` they are refused.
+        C and M are dense: matrices that need more than ``max_memory`` are rejected.
         """
         c, mass, gamma, q_applied, b, phi = self._of.matrices(
             _numbers("q", q),
@@ -435,7 +439,7 @@ class Scene(Questions):
 
 
 def templates() -> dict[str, str]:
-    """What each template is, by its name; :meth:`Scene.new` begins with one."""
+    """Returns the templates by name, with descriptions; :meth:`Scene.new` uses them."""
     return dict(_pfaff.templates())
 
 
@@ -458,7 +462,7 @@ _CHECKS: dict[str, Callable[[str, Any], Any]] = {
     "reactions": arguments.texts,
     "max_memory": arguments.size,
 }
-"""Options of a run, and how they are checked."""
+"""Options of a run with their checks."""
 
 
 def _options(**options: Any) -> dict[str, Any]:
@@ -468,11 +472,11 @@ def _options(**options: Any) -> dict[str, Any]:
 
 
 _OF_RUN = ("t_end", "rtol", "atol", "max_step", "max_steps", "method", "drop")
-"""Those that replace options of the scene."""
+"""Options of a run that replace options of the scene."""
 
 
 def _native(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options of a run as the library takes them."""
+    """Converts the options of a run to the format of the library."""
     run = json.dumps({name: options[name] for name in _OF_RUN})
     common = Common(*(options.get(name) for name in Common._fields))._asdict()
     rest = {name: options[name] for name in ("output_step", "reactions")}
@@ -480,7 +484,7 @@ def _native(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _known(options: Mapping[str, Any]) -> None:
-    """An unknown option is refused as an unknown keyword."""
+    """Rejects an unknown option like an unknown keyword."""
     known = [*_CHECKS, "choices", "drives", "forces"]
     for name in options:
         if name not in known:
@@ -490,7 +494,7 @@ def _known(options: Mapping[str, Any]) -> None:
 
 
 def _choose(options: dict[str, Any]) -> None:
-    """Puts rows to drop and other choices in place of ``choose``."""
+    """Replaces ``choose`` by the rows to delete and the other choices."""
     if "choose" in options:
         choose = options.pop("choose")
         options["drop"] = dropped(choose)
@@ -507,7 +511,7 @@ def _wanted(reactions: bool | Iterable[str]) -> list[str] | None:
 
 
 def _entries(key: str, item: Any) -> list[tuple[str, str]]:
-    """A key with its text; a list is its entries."""
+    """Returns a key with its text; a list stands for its entries."""
     if isinstance(item, str):
         return [(key, item)]
     if isinstance(item, (bool, np.bool_)):

@@ -1,4 +1,4 @@
-"""Values of Python as TOML, and tables of a scene."""
+"""Python values as TOML, and tables of a scene."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ._errors import wrong_type
 
 
 def value(of: Any) -> str:
-    """A value as TOML. Whether it means something is judged by the reader of scenes."""
+    """Returns a value as TOML. The reader of scenes decides whether the value is valid."""
     if hasattr(of, "tolist"):
         of = of.tolist()
     if isinstance(of, bool):
@@ -31,7 +31,7 @@ def value(of: Any) -> str:
 
 
 def number(of: float) -> str:
-    """A number with the shortest text that reads back to the same bits."""
+    """Returns a number with the shortest text that reads back to the same bits."""
     if math.isfinite(of):
         text = repr(of)
         return text if "." in text or "e" in text else f"{text}.0"
@@ -39,14 +39,14 @@ def number(of: float) -> str:
 
 
 def string(of: str) -> str:
-    """A text in quotes. TOML has the escapes of JSON, and wants DEL escaped, too."""
+    """Returns a text in quotes. TOML has the escapes of JSON, and also requires an escaped DEL."""
     text = json.dumps(of, ensure_ascii=False).replace("\x7f", "\\u007f")
-    # A lone surrogate is no character: TOML cannot have it.
+    # A lone surrogate is not a character: TOML cannot contain it.
     return text.encode("utf-8", "replace").decode("utf-8")
 
 
 def table(header: str, entries: Mapping[str, Any]) -> str:
-    """A table with its header. Entries that are ``None`` are left out."""
+    """Returns a table with its header. Entries that are ``None`` are left out."""
     lines = [header]
     for key, item in entries.items():
         if item is not None:

@@ -6,9 +6,10 @@
 ...     scene, {"body.cart.mass": "5:20:1000"}, Client("scheduler:8786"), out="masses"
 ... )
 
-The unit of work is a shard: consecutive runs, some tens of seconds. A finished shard is a file in the
-directory, which all workers see. Who is asked for a shard that is finished does nothing; who is asked
-for one that was begun continues it. So whatever repeats lost work may do so.
+The unit of work is a shard: consecutive runs that take some tens of seconds. A finished shard is a
+file in the directory, which must be visible to all workers. A worker that receives a finished shard
+does nothing; a worker that receives a partly finished shard continues it. Therefore the engine may
+repeat lost work.
 """
 
 from __future__ import annotations
@@ -39,60 +40,60 @@ if TYPE_CHECKING:
 __all__ = ["Done", "Shard", "SweepResult", "make_shard", "sweep"]
 
 Vary = Mapping[str, Any] | str | Sequence[str]
-"""Keys with their values, or texts as those of ``pfaff sweep --vary``."""
+"""Keys with their values, or texts in the syntax of ``pfaff sweep --vary``."""
 
 SHARD_SECONDS = 20.0
-"""How long a shard should take. Less costs more files, more has workers wait at the end."""
+"""Target time of a shard. Small values need many files; with large ones workers wait."""
 
 SHARD_SECONDS_LEAST = 2.0
-"""How long a shard should take at least where there are few."""
+"""Smallest target time of a shard if there are few shards."""
 
 SHARDS_PER_WORKER = 4
-"""How many shards a worker should have, so that all end at similar times."""
+"""Target number of shards for each worker, so that all workers end at similar times."""
 
 PROBE_SECONDS = 0.5
-"""How long runs are tried to find out how long one takes."""
+"""Total time of trial runs, which measure the time of one run."""
 
 PROBES = 16
-"""Most runs that are tried."""
+"""Largest number of trial runs."""
 
 
 class Shard(NamedTuple):
-    """One of n parts of a sweep, with all that is needed to make it anywhere."""
+    """One of n parts of a sweep, with all data to perform it on any machine."""
 
     text: str
-    """The scene."""
+    """Text of the scene."""
     name: str
-    """The name of its text in messages."""
+    """Name of the text in messages."""
     vary: tuple[str, ...]
-    """What is varied."""
+    """The varied keys with their values."""
     keep_rows: bool
     """Whether each run keeps its trajectory."""
     out: str
-    """The directory."""
+    """The directory for the results."""
     k: int
-    """Which part, from 1."""
+    """Index of the part (1-based)."""
     n: int
-    """How many there are."""
+    """Number of parts."""
     threads: int
-    """Threads for it; 0 for all cores."""
+    """Number of threads for the shard; 0 means all cores."""
 
 
 class Done(NamedTuple):
-    """What became of a shard."""
+    """The result of a shard."""
 
     k: int
-    """Which part."""
+    """Index of the part."""
     made: int
-    """Number of runs that were made; the others were finished before."""
+    """Number of runs that were performed; the others were finished before."""
     tables: bool
-    """Whether it was the last one, which writes the tables."""
+    """Whether this was the last shard, which writes the tables."""
     summary: dict[str, Any]
-    """The summary of its runs."""
+    """The summary of the runs of the shard."""
 
 
 def make_shard(shard: Shard) -> Done:
-    """Makes what is not finished of a shard; the task of all engines."""
+    """Performs the unfinished runs of a shard; the task of all engines."""
     done = _made(shard, None, _stop_of_worker())
     if done.summary["partial"]:
         raise RuntimeError(f"the worker ends, and shard {shard.k} of {shard.n} is not finished")
@@ -108,36 +109,36 @@ def _made(
 
 
 def _read(name: str, text: str, vary: tuple[str, ...], keep_rows: bool) -> _pfaff.Sweep:
-    """A sweep, with what is known of all of its runs."""
+    """Returns a sweep that stores results for all of its runs."""
     return _pfaff.Sweep(name, text, list(vary), keep_rows)
 
 
 _sweep_of = functools.lru_cache(maxsize=2)(_read)
-"""The same; the shards of a worker share it."""
+"""Returns the same sweep for all shards of a worker."""
 
 
 def _tried(shard: Shard) -> float:
-    """How long one of all runs takes (s), from a few of them; a task of engines."""
+    """Estimates the time of one run (s) from a few trial runs; a task of engines."""
     of = _sweep_of(shard.name, shard.text, shard.vary, shard.keep_rows)
     runs = of.runs
     most = min(PROBES, runs)
     tried = sorted({1 + k * (runs - 1) // max(1, most - 1) for k in range(most)})
-    # Not in their order, so that neighbours are not tried alone.
+    # The order is changed, so that the trial does not consist of neighbouring runs only.
     tried = tried[::3] + tried[1::3] + tried[2::3]
     spent: list[float] = []
     for run in tried:
         spent.append(of.seconds(run))
         if sum(spent) > PROBE_SECONDS:
             break
-    # The first one is slower, because it comes first.
+    # The first run is slower because of the initialisation.
     usual = spent[1:] or spent
     return sum(usual) / len(usual)
 
 
 def _stop_of_worker() -> Callable[[], bool] | None:
-    """Whether the worker of Dask on which this is called is about to end.
+    """Whether the worker of Dask that executes this call is about to end.
 
-    A shard that is left in order suspects no run of having ended the process.
+    If the shard then ends properly, none of its runs counts as the cause of the end.
     """
     distributed = sys.modules.get("distributed")
     if distributed is None:
@@ -158,7 +159,7 @@ class SweepResult:
         self.directory = directory
         """The directory; ``None`` if it was a temporary one."""
         self.made = made
-        """Number of runs that were made by this call; the others were finished before."""
+        """Number of runs that this call performed; the others were finished before."""
         self.document: dict[str, Any] = json.loads(summary)
         """The summary, as in ``summary.json``."""
         self.table: dict[str, NDArray[Any]] = {name: _column(values) for name, values in columns}
@@ -166,7 +167,7 @@ class SweepResult:
 
     @property
     def failures(self) -> list[dict[str, Any]]:
-        """Runs that are not done, with ``run``, ``status`` and ``error``."""
+        """Runs without a complete result, with ``run``, ``status`` and ``error``."""
         columns = [self.table[name] for name in ("run", "status", "error")]
         rows = zip(*(column.tolist() for column in columns), strict=True)
         return [
@@ -177,17 +178,17 @@ class SweepResult:
 
     @property
     def missing(self) -> list[tuple[int, int]]:
-        """First and last runs of the gaps."""
+        """First and last runs of the gaps between finished runs."""
         return [(first, last) for first, last in self.document["missing"]]
 
     def to_pandas(self) -> Any:
-        """The table as a ``pandas.DataFrame`` with the numbers of the runs as its index."""
+        """Returns the table as a ``pandas.DataFrame`` with the numbers of the runs as its index."""
         import pandas
 
         return pandas.DataFrame(self.table).set_index("run")
 
     def to_polars(self) -> Any:
-        """The table as a ``polars.DataFrame``."""
+        """Returns the table as a ``polars.DataFrame``."""
         import polars
 
         columns = {
@@ -226,26 +227,27 @@ def sweep(
 ) -> SweepResult:
     """Runs a scene with every combination of values.
 
-    ``vary`` has for each key a list of values, numbers or texts with units, or a text as
-    ``"5:20:1000"``; or it is the text, or the texts, of ``pfaff sweep --vary``.
+    ``vary`` contains for each key a list of values, numbers or texts with units, or a text such as
+    ``"5:20:1000"``; or it is the text, or the list of texts, of ``pfaff sweep --vary``.
 
-    ``client`` makes the shards: a client of Dask, the module ``ray`` or its name, a
+    ``client`` performs the shards: a client of Dask, the module ``ray`` or its name, a
     ``joblib.Parallel``, an executor of ``concurrent.futures``, or this process if it is ``None``.
-    ``out`` is a directory that all its workers see; without a client it may be left out. The same
-    call in the same directory resumes a sweep, and a finished one is only read.
+    ``out`` is a directory that all its workers see; it is optional without a client. The same call
+    in the same directory resumes a sweep, and only reads a finished one.
 
-    ``shards`` is the number of parts; by default it is that of the directory, or such that each
-    takes some tens of seconds, for which a worker tries a few runs. ``threads`` are
-    those of one shard: one by default, and all cores without a client. Lost work is repeated up to
-    ``retries`` times by the engine, and as often by this function.
+    ``shards`` is the number of parts. By default it is that of the directory; for a new directory
+    each part takes some tens of seconds, for which a worker makes a few trial runs. ``threads`` are
+    the threads of one shard: one by default, and all cores without a client. The engine repeats
+    lost work up to ``retries`` times, and so does this function.
 
-    A run that has ended its process twice is a row ``crashed``, and stays one. With
-    ``retry_crashed`` such runs are made again, as if they had never begun: for instance after a
-    worker was killed because its machine had too little memory. No other process may work in the
-    directory at the beginning of such a call.
+    A run that has ended its process twice has a row ``crashed``, which is final. With
+    ``retry_crashed`` such runs are repeated as new runs: for instance after a worker was killed
+    because its machine had too little memory. No other process may work in the directory at the
+    beginning of such a call.
 
-    ``on_progress`` gets the numbers of finished runs and of all runs; the sweep ends where it
-    returns ``True``. ``progress`` shows a line; by default where standard error is a terminal.
+    ``on_progress`` receives the numbers of finished runs and of all runs; the sweep ends if it
+    returns ``True``. ``progress`` shows a progress line; by default it does so if standard error is
+    a terminal.
     """
     texts = tuple(_texts(vary))
     keep_rows = arguments.flag("keep_rows", keep_rows)
@@ -285,7 +287,7 @@ def sweep(
 
 
 def _make_here(part: Shard, n: int, told: _Told) -> int:
-    """Makes what is not finished in this process; returns the number of runs that were made."""
+    """Performs the unfinished runs in this process; returns the number of performed runs."""
     made = before = 0
     for k in range(1, n + 1):
         done = _made(part._replace(k=k, n=n), lambda count, _: told.now(before + count), None)
@@ -299,7 +301,7 @@ def _make_here(part: Shard, n: int, told: _Told) -> int:
 def _make_by(
     engine: _Engine, of: _pfaff.Sweep, part: Shard, shards: int | None, retries: int, told: _Told
 ) -> int:
-    """Has made what is not finished; returns the number of runs that were made."""
+    """Lets an engine perform the unfinished runs; returns the number of performed runs."""
     n = shards or of.shards(part.out) or _number(engine, part, of.runs)
     left = of.unfinished(part.out, n)
     finished = of.runs - sum(_size(of.runs, k, n) for k in left)
@@ -313,37 +315,37 @@ def _make_by(
         if told.now(finished):
             return made
     if not has_tables:
-        # All shards were finished before, or whoever ended last could not see that.
+        # All shards were finished before, or the last worker could not see that they were.
         _pfaff.merge([part.out], part.out)
     return made
 
 
 def _size(runs: int, k: int, n: int) -> int:
-    """Number of runs of the k-th of n shards."""
+    """Returns the number of runs of the k-th of n shards."""
     return k * runs // n - (k - 1) * runs // n
 
 
 def _number(engine: _Engine, part: Shard, runs: int) -> int:
-    """The number of shards, from a few runs that a worker tries."""
+    """Returns the number of shards, from a few trial runs of a worker."""
     workers = engine.workers(part.threads)
     try:
         (seconds,) = engine.run(_tried, [part], 0)
     except Exception as error:
         if not _is_lost(error):
             raise
-        # A run ends the process of its worker: shards find out which, and go on without it.
+        # A run ends its worker: the shards identify this run and continue without it.
         total = SHARD_SECONDS
     else:
         total = runs * seconds
     few = min(SHARDS_PER_WORKER * workers, math.ceil(total / SHARD_SECONDS_LEAST))
     n = max(1, few, math.ceil(total / SHARD_SECONDS))
-    # All workers have something to do to the end.
+    # With this number all workers are busy to the end.
     n = math.ceil(n / workers) * workers
     return max(1, min(n, runs))
 
 
 def _texts(vary: Vary) -> list[str]:
-    """The texts of the command for what is varied."""
+    """Returns the varied values in the syntax of the command."""
     if isinstance(vary, str):
         return [vary]
     if not isinstance(vary, Mapping):
@@ -368,7 +370,7 @@ def _values(key: str, values: Any) -> str:
 
 
 class _Told:
-    """Progress: a callback, and a line."""
+    """Progress: a callback, and a progress line."""
 
     def __init__(
         self, runs: int, callback: Callable[[int, int], object] | None, shown: bool
@@ -381,7 +383,7 @@ class _Told:
         self._width = 0
 
     def now(self, finished: int) -> bool:
-        """Tells the number of finished runs; true if the sweep has to end."""
+        """Reports the number of finished runs; returns true if the sweep has to end."""
         self.finished = finished
         if self._shown:
             seconds = time.monotonic() - self._begun
@@ -391,33 +393,33 @@ class _Told:
         return self._callback is not None and bool(self._callback(finished, self.runs))
 
     def end(self) -> None:
-        """Ends the line."""
+        """Ends the progress line."""
         if self._shown and self._width:
             print(file=sys.stderr)
 
 
 T = TypeVar("T")
 Task = Callable[[Shard], T]
-"""What is done with a shard."""
+"""The work on a shard."""
 
 
 class _Engine:
-    """What makes shards."""
+    """An engine that performs shards."""
 
     def __init__(self, client: Any) -> None:
         self.client = client
 
     def workers(self, threads: int) -> int:
-        """How many shards are made at the same time."""
+        """Returns how many shards are performed at the same time."""
         raise NotImplementedError
 
     def run(self, task: Task[T], shards: list[Shard], retries: int) -> Iterator[T]:
-        """Does a task with each of some shards, in any order."""
+        """Performs a task with each of some shards, in any order."""
         raise NotImplementedError
 
 
 def _is_lost(error: BaseException) -> bool:
-    """Whether the workers of a task are gone, not the task wrong."""
+    """Whether the workers of a task are lost, rather than the task invalid."""
     return type(error).__name__ in ("KilledWorker", "WorkerCrashedError", "TerminatedWorkerError")
 
 
@@ -443,7 +445,7 @@ class _Dask(_Engine):
                 error = future.exception() if future.status == "error" else None
                 shard = names[future.key]
                 if error is not None and _is_lost(error) and again[shard] > 0:
-                    # Each loss tells more about the run that is to blame.
+                    # Each loss gives more information about the run that causes it.
                     again[shard] -= 1
                     more = submitted([shard])
                     futures += more
@@ -493,7 +495,7 @@ class _Joblib(_Engine):
                 yield from self.client(joblib.delayed(task)(shard) for shard in shards)
                 return
             except Exception as error:
-                # Finished shards are found finished.
+                # A repeated call skips finished shards.
                 if not _is_lost(error) or left == 0:
                     raise
 
@@ -516,7 +518,7 @@ class _Executor(_Engine):
 
 
 def _engine(client: Any) -> _Engine | None:
-    """What makes shards, known by what it can do: nothing is imported that is not there."""
+    """Selects the engine by the methods of the client, without imports of missing packages."""
     if client is None:
         return None
     if client == "ray":

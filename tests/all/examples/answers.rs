@@ -1,4 +1,4 @@
-//! Ranks and verdicts of the examples, each derived on paper before the program was run; pages and
+//! Ranks and verdicts of the examples, each derived by hand before the program was run; pages and
 //! table are compared with them.
 
 use std::collections::BTreeSet;
@@ -28,7 +28,7 @@ const fn answer(
     }
 }
 
-/// In the order of the table.
+/// The list has the order of the table.
 const ANSWERS: [Answer; 34] = [
     answer("door", [3, 1, 0], &["lower", "upper"]),
     answer("carriage", [2, 2, 1], &["rear", "front"]),
@@ -160,8 +160,8 @@ fn every_verdict_is_the_one_worked_out_by_hand() {
             })
             .map(|r| r.name.as_str())
             .collect();
-        // Drives follow the joints, nonholonomic rows are at the end; the page may name them in any
-        // order.
+        // Drives follow the joints, and nonholonomic rows are at the end; the page may list them in
+        // any order.
         let sets = [not_unique, expected.not_unique.to_vec()].map(BTreeSet::from_iter);
         assert_eq!(sets[0], sets[1], "{name}");
     }

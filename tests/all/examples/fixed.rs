@@ -1,11 +1,11 @@
-//! Examples that are mainly about forces: statics, couples, balances.
+//! Examples that are mainly about forces: statics, couples, equilibrium.
 
 use super::{Run, close, says};
 
 const G: f64 = 9.81;
 
-/// Moments about a hinge: the couple of the two horizontal forces balances the weight at half the
-/// width.
+/// Moments about a hinge show that the couple of the two horizontal forces balances the weight at
+/// half the width.
 #[test]
 fn door() {
     let run = Run::of("door");
@@ -20,7 +20,7 @@ fn door() {
     says("door", weight, 1);
 }
 
-/// x = g·sin(α)·t²/2, and the bearings together carry m·g·cos(α).
+/// The carriage follows x = g·sin(α)·t²/2, and the bearings together carry m·g·cos(α).
 #[test]
 fn carriage() {
     let run = Run::of("carriage");
@@ -37,7 +37,8 @@ fn carriage() {
     says("carriage", weight, 3);
 }
 
-/// The conditions of equilibrium at the nodes, and the elastic solution of the force method.
+/// The reference consists of the equilibrium conditions at the nodes, and the elastic solution of
+/// the force method.
 #[test]
 fn truss() {
     let run = Run::of("truss");
@@ -47,8 +48,8 @@ fn truss() {
     close(fx("AC") - fx("CD"), load, load);
     close(fx("AC") + fx("BD"), load, load);
     close(fx("support"), load, load);
-    // Without BD: AC = √2·P, BC = −P. A unit force in BD: −1/√2 in the sides, 1 in AC. Equal EA:
-    // flexibilities are lengths.
+    // Without BD, AC = √2·P and BC = −P. A unit force in BD gives −1/√2 in the sides and 1 in AC.
+    // With equal EA, flexibilities are lengths.
     let root = 2.0_f64.sqrt();
     let (mixed, own) = (root * root + 1.0 / root, 4.0 * 0.5 + 2.0 * root);
     let bd = -load * mixed / own;
@@ -57,7 +58,7 @@ fn truss() {
     says("truss", (-bd / root) / 100.0, 5);
 }
 
-/// Power: F·ds = weight·dh with half of each leg, and h² + s² = L².
+/// The power balance is F·ds = weight·dh with half of each leg, and h² + s² = L².
 #[test]
 fn scissor_lift() {
     let run = Run::of("scissor-lift");
@@ -73,13 +74,13 @@ fn scissor_lift() {
     }
     let row = run.last();
     close(run.pose(row, "table")[1], 1.6, 2.0);
-    // The drive has come to rest.
+    // The drive is at rest at the end.
     let at_rest = weight * 1.2 / 1.6;
     close(run.reaction(row, "cylinder")[0], at_rest, weight);
     says("scissor-lift", at_rest, 2);
 }
 
-/// Both cranks rotate, both links translate: one equation for the sum of the powers.
+/// Both cranks rotate, both links translate, and there is one equation for the sum of the powers.
 #[test]
 fn five_bar() {
     let run = Run::of("five-bar");
@@ -89,7 +90,7 @@ fn five_bar() {
         let [a, b, e] = ["motor-A", "motor-B", "motor-E"].map(|m| run.component(row, m));
         a - b + e
     };
-    // On the ground, and on the crank at B: opposite to the motion.
+    // The torque acts on the ground, and on the crank at B it is opposite to the motion.
     let (start, end) = (0.6, (0.8_f64.atan2(0.6) + 0.5).cos());
     close(sum(run.first()), -holding * start, holding);
     close(sum(run.last()), -holding * end, holding);
@@ -103,7 +104,7 @@ fn five_bar() {
     says("five-bar", holding * end, 4);
 }
 
-/// Newton's law for the reduced inertia; both layshafts exert forces on the output.
+/// Newton's law is applied to the reduced inertia; both layshafts exert forces on the output.
 #[test]
 fn gear_train() {
     let run = Run::of("gear-train");

@@ -1,4 +1,4 @@
-//! Examples with blades and wheels.
+//! Examples with knife edges and wheels.
 
 use std::f64::consts::TAU;
 
@@ -7,8 +7,8 @@ use super::{Run, close, says};
 /// Component of gravity along a slope of 3 : 4 (m/s²).
 const SLOPE: f64 = 0.6 * 9.81;
 
-/// A cycloid across the slope; the edge carries twice the component of the weight perpendicular to
-/// it.
+/// The body moves on a cycloid across the slope; the edge carries twice the component of the weight
+/// perpendicular to it.
 #[test]
 fn knife_edge() {
     let run = Run::of("knife-edge");
@@ -28,8 +28,8 @@ fn knife_edge() {
     says("knife-edge", 2.0 * m * SLOPE, 3);
 }
 
-/// m·v² + J·ω² is constant, with J = m here: v = 2·tanh t, ω = 2/cosh t, and the runners together
-/// carry m·v·ω + m·a·dω/dt.
+/// The energy m·v² + J·ω² is constant, with J = m here: v = 2·tanh t, ω = 2/cosh t. The runners
+/// together carry m·v·ω + m·a·dω/dt.
 #[test]
 fn sleigh() {
     let run = Run::of("sleigh");
@@ -39,7 +39,7 @@ fn sleigh() {
         let ahead = vx * heading.cos() + vy * heading.sin();
         close(ahead, 2.0 * row.t.tanh(), 2.0);
         close(omega, 2.0 / row.t.cosh(), 2.0);
-        // The Gudermannian.
+        // The heading is the Gudermannian function.
         close(heading, 4.0 * (0.5 * row.t).tanh().atan(), 4.0);
         let sum: f64 = ["left", "right"]
             .map(|j| run.component(row, j))
@@ -51,7 +51,8 @@ fn sleigh() {
     says("sleigh", 24.0 * 0.5_f64.tanh() / 0.5_f64.cosh(), 4);
 }
 
-/// The tractrix: the axle is L·tanh τ behind the hitch and L/cosh τ away from the road, τ = v·t/L.
+/// The motion is a tractrix: the axle is L·tanh τ behind the hitch and L/cosh τ away from the road,
+/// τ = v·t/L.
 #[test]
 fn towed_cart() {
     let run = Run::of("towed-cart");
@@ -66,7 +67,7 @@ fn towed_cart() {
     says("towed-cart", length / 2.0_f64.cosh(), 4);
 }
 
-/// One mass of 40 + (0.08 + 16·0.02)/0.1² kg, one force of 4·0.6/0.1 N.
+/// The reduced mass is 40 + (0.08 + 16·0.02)/0.1² kg, and the reduced force is 4·0.6/0.1 N.
 #[test]
 fn sweeper() {
     let run = Run::of("sweeper");
@@ -77,7 +78,7 @@ fn sweeper() {
         close(run.rate(row, "cart")[0], speed, 2.0);
         close(run.rate(row, "brush")[2], -40.0 * speed, 80.0);
         for wheel in ["left-rolls", "right-rolls"] {
-            // The force that decelerates the cart is shared equally, and this is determined.
+            // The decelerating force is shared equally, and this share is determined.
             close(run.reaction(row, wheel)[0], -20.0 * deceleration, 10.0);
         }
     }
@@ -86,7 +87,7 @@ fn sweeper() {
     says("sweeper", 6.25, 2);
 }
 
-/// One circle; the wheels together push the car towards the centre.
+/// The car moves on one circle; the wheels together push it towards the centre.
 #[test]
 fn car() {
     let run = Run::of("car");
@@ -110,7 +111,7 @@ fn car() {
     says("car", mass * omega * omega * centre[1], 1);
 }
 
-/// 56 kN decelerate 28 t; the kingpin holds 20 t of them.
+/// A force of 56 kN decelerates 28 t; the kingpin decelerates 20 t of them.
 #[test]
 fn truck() {
     let run = Run::of("truck");
@@ -123,8 +124,8 @@ fn truck() {
     says("truck", 75.0, 0);
 }
 
-/// Angular momentum about the fixed centre of the turn: the board rotates back by J_r/(J + m·R²) of
-/// the rotation of the rotor.
+/// Angular momentum about the fixed centre of the turn is constant: the board rotates back by
+/// J_r/(J + m·R²) of the rotation of the rotor.
 #[test]
 fn snakeboard() {
     let run = Run::of("snakeboard");
@@ -136,7 +137,7 @@ fn snakeboard() {
     close(angle, turn, 1.0);
     close(x, radius * turn.sin(), 1.0);
     close(y, radius * (1.0 - turn.cos()), 1.0);
-    // Only the axles rotate at first.
+    // At first only the axles rotate.
     let steered = run.rows.iter().filter(|row| row.t <= 1.0);
     for row in steered {
         close(run.pose(row, "board")[2], 0.0, 1.0);
@@ -146,7 +147,7 @@ fn snakeboard() {
     says("snakeboard", radius * (1.0 - turn.cos()), 4);
 }
 
-/// No force drives it; until the slider moves it runs straight ahead.
+/// No force drives the robot; it moves straight ahead until the slider moves.
 #[test]
 fn robot_trolley() {
     let run = Run::of("robot-trolley");

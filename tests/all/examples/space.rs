@@ -1,4 +1,5 @@
-//! Examples in space: motions in closed form, sums of reactions, published digits.
+//! Examples in space, compared with motions in closed form, sums of reactions, and published
+//! digits.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,7 +9,7 @@ use super::{Row, Run, close, says};
 
 const G: f64 = 9.81;
 
-/// What the runs say of bodies in space.
+/// Results of runs with bodies in space.
 struct Spatial(Run);
 
 impl Spatial {
@@ -21,7 +22,7 @@ impl Spatial {
         at.unwrap_or_else(|| panic!("no body `{body}`"))
     }
 
-    /// A point of a body; `s` is relative to its mass centre, in its axes.
+    /// Returns a point of a body; `s` is relative to its mass centre, in its axes.
     fn point(&self, row: &Row, body: &str, s: [f64; 3]) -> [f64; 3] {
         let [x, y, z, e @ ..]: [f64; 7] = row.q[7 * self.at(body)..][..7]
             .try_into()
@@ -33,12 +34,13 @@ impl Spatial {
         self.point(row, body, [0.0; 3])
     }
 
-    /// The direction from one point of a body to another one.
+    /// Returns the direction from one point of a body to another one.
     fn direction(&self, row: &Row, body: &str, s: [f64; 3]) -> [f64; 3] {
         sub(self.point(row, body, s), self.centre(row, body))
     }
 
-    /// Angular velocity; the tensors of the examples are diagonal, so that these are body axes.
+    /// Returns the angular velocity; the tensors of the examples are diagonal, so that these are
+    /// body axes.
     fn spin(&self, row: &Row, body: &str) -> [f64; 3] {
         let k = 6 * self.at(body) + 3;
         [row.v[k], row.v[k + 1], row.v[k + 2]]
@@ -58,12 +60,12 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The angle between two directions.
+/// Returns the angle between two directions.
 fn angle(a: [f64; 3], b: [f64; 3]) -> f64 {
     (dot(a, b) / (dot(a, a) * dot(b, b)).sqrt()).acos()
 }
 
-/// A constant torque about a fixed axis; the hinges together accelerate the mass centre.
+/// A constant torque acts about a fixed axis; the hinges together accelerate the mass centre.
 #[test]
 fn hinges() {
     let run = Spatial::of("hinges");
@@ -82,7 +84,7 @@ fn hinges() {
     says("hinges", 8.0 * alpha.hypot(alpha * alpha), 4);
 }
 
-/// C lies on a circle about B and on one about D.
+/// C is on a circle about B and on a circle about D.
 #[test]
 fn linkage() {
     let run = Spatial::of("linkage");
@@ -104,20 +106,20 @@ fn linkage() {
     says("linkage", c[1], 6);
 }
 
-/// ω₂/ω₁ = cos β/(1 − sin² β·sin² θ₁)
+/// The ratio of the rates is ω₂/ω₁ = cos β/(1 − sin² β·sin² θ₁).
 #[test]
 fn hooke() {
     let run = Spatial::of("hooke");
     for row in &run.0.rows {
         let sin = (2.0 * row.t).sin();
         let expected = 2.0 * 0.8 / (1.0 - 0.36 * sin * sin);
-        // x of the body is the axis of the shaft.
+        // The x-axis of the body is the axis of the shaft.
         close(run.spin(row, "output")[0], expected, 3.0);
     }
     says("hooke", run.spin(run.0.last(), "output")[0], 4);
 }
 
-/// The product of the tangents of half the angles at neighbouring hinges does not change.
+/// The product of the tangents of half the angles at neighbouring hinges is constant.
 #[test]
 fn bennett() {
     let run = Spatial::of("bennett");
@@ -135,7 +137,7 @@ fn bennett() {
     says("bennett", at_b, 4);
 }
 
-/// The plate goes straight up; at rest the motor holds the weights that rise with it.
+/// The plate moves vertically; at rest the motor balances the weights that rise with it.
 #[test]
 fn sarrus() {
     let run = Spatial::of("sarrus");
@@ -154,7 +156,7 @@ fn sarrus() {
     }
 }
 
-/// z = sin θ/(1 − sin θ), energy, and the published angle after one second.
+/// The reference is z = sin θ/(1 − sin θ), the energy, and the published angle after one second.
 #[test]
 fn bricard() {
     let run = Spatial::of("bricard");
@@ -171,7 +173,7 @@ fn bricard() {
     says("bricard", -z, 6);
 }
 
-/// Two legs of one side by moments about the other side.
+/// The forces of two legs on one side follow from moments about the other side.
 #[test]
 fn table() {
     let run = Spatial::of("table");
@@ -187,7 +189,7 @@ fn table() {
     says("table", weight * 0.5 / 0.8, 3);
 }
 
-/// Legs of equal lengths and equal horizontal distances; power at rest.
+/// The legs have equal lengths and equal horizontal distances; the power balance is valid at rest.
 #[test]
 fn hexapod() {
     let run = Spatial::of("hexapod");
@@ -209,7 +211,7 @@ fn hexapod() {
     }
 }
 
-/// Digits of the benchmark.
+/// The reference values are the digits of the benchmark.
 #[test]
 fn top() {
     let run = Spatial::of("top");
@@ -228,7 +230,7 @@ fn top() {
     }
 }
 
-/// Newton's law with wheels that count as half of their mass more.
+/// Newton's law is applied with an additional half of the mass of each wheel.
 #[test]
 fn wagon() {
     let run = Spatial::of("wagon");
@@ -243,7 +245,8 @@ fn wagon() {
     close(run.sum(run.0.last(), &contacts)[2].abs(), 24.0 * G, 240.0);
 }
 
-/// Straight on, and what the wheel of the trolley carries by the moments about its hitch.
+/// The robot moves straight ahead, and the load on the wheel of the trolley follows from the
+/// moments about its hitch.
 #[test]
 fn robot_in_space() {
     let run = Spatial::of("robot-in-space");

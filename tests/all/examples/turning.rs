@@ -1,4 +1,4 @@
-//! Examples that are mainly about geometry: linkages and the curves that they draw.
+//! Examples that are mainly about geometry: linkages and the curves that they trace.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
@@ -7,12 +7,13 @@ use super::{Run, close, read, says, scene, study};
 
 const G: f64 = 9.81;
 
-/// The rocker's angle for a crank angle: C is on two circles, above the line from D to B.
+/// Returns the angle of the rocker for a crank angle: C is on two circles, above the line from D to
+/// B.
 fn rocker(crank: f64) -> f64 {
     let b = [0.3 * crank.cos(), 0.3 * crank.sin()];
     let d = [0.8 - b[0], -b[1]];
     let distance = d[0].hypot(d[1]);
-    // Angle at D in the triangle with the sides 0.9 and 1.
+    // The angle at D is in the triangle with the sides 0.9 and 1.
     let cos = (0.81 + distance * distance - 1.0) / (2.0 * 0.9 * distance);
     (-d[1]).atan2(-d[0]) - cos.acos()
 }
@@ -23,7 +24,7 @@ fn four_bar() {
     for row in &run.rows {
         let turned = run.pose(row, "rocker")[2];
         let expected = rocker(FRAC_PI_2 + 6.0 * row.t) - rocker(FRAC_PI_2);
-        // The same angle up to whole turns of the arc tangent.
+        // Both angles are equal up to whole revolutions of the arc tangent.
         close((turned - expected).sin(), 0.0, 1.0);
         assert!((turned - expected).cos() > 0.0);
         close(run.pose(row, "crank")[2], 6.0 * row.t, 12.0);
@@ -33,8 +34,8 @@ fn four_bar() {
     says("four-bar", half_turn.rem_euclid(2.0 * PI), 4);
 }
 
-/// The piston is as far as crank and rod reach along the bore; both dead centres of an offset bore
-/// are where they lie on one line.
+/// The piston is as far as crank and rod reach along the bore; at both dead centres of an offset
+/// bore they lie on one line.
 #[test]
 fn slider_crank() {
     let run = Run::of("slider-crank");
@@ -51,7 +52,8 @@ fn slider_crank() {
     says("slider-crank", 1e3 * (dead(l + r) - dead(l - r)), 3);
 }
 
-/// Complete elliptic integral K(m) by the arithmetic-geometric mean (Abramowitz and Stegun 17.6).
+/// Computes the complete elliptic integral K(m) by the arithmetic-geometric mean (Abramowitz and
+/// Stegun 17.6).
 fn k(m: f64) -> f64 {
     let (mut a, mut b) = (1.0, (1.0 - m).sqrt());
     for _ in 0..8 {
@@ -60,7 +62,8 @@ fn k(m: f64) -> f64 {
     FRAC_PI_2 / a
 }
 
-/// A pendulum with the inertia I = 3·m·L²/3 + M·L² and the static moment S = 3·m·L/2 + M·L.
+/// The cranks move like a pendulum with the moment of inertia I = 3·m·L²/3 + M·L² and the static
+/// moment S = 3·m·L/2 + M·L.
 #[test]
 fn three_cranks() {
     let run = Run::of("three-cranks");
@@ -82,7 +85,7 @@ fn three_cranks() {
     close(round.pose(round.last(), "crank-1")[2], 0.0, 1.0);
 }
 
-/// x = r·cos ωt; the torque of the motor is m·r²·ω²·sin ωt·cos ωt.
+/// The slider follows x = r·cos ωt; the torque of the motor is m·r²·ω²·sin ωt·cos ωt.
 #[test]
 fn scotch_yoke() {
     let run = Run::of("scotch-yoke");
@@ -91,7 +94,7 @@ fn scotch_yoke() {
         let phase = omega * row.t;
         close(run.pose(row, "yoke")[0], r * phase.cos(), 1.0);
         let torque = 0.5 * m * r * r * omega * omega * (2.0 * phase).sin();
-        // On the ground.
+        // The torque acts on the ground.
         close(run.reaction(row, "motor")[2], -torque, 4.0);
         let weight: f64 = ["left", "right"]
             .map(|j| run.reaction(row, j)[1])
@@ -116,17 +119,17 @@ fn pantograph() {
     says("pantograph", 1.8, 1);
 }
 
-/// The scene of a linkage without the guide of its point.
+/// Returns the scene of a linkage without the guide of its point.
 fn without_guide(text: &str) -> String {
     let lines = text.lines().filter(|line| !line.contains("\"guide\""));
     lines.flat_map(|line| [line, "\n"]).collect()
 }
 
-/// O, B and D are on one line, OB·OD = 0.5² − 0.34², and B moves on the circle through O: D.x is
-/// constant.
+/// O, B and D are collinear, OB·OD = 0.5² − 0.34², and B moves on the circle through O, so that D.x
+/// is constant.
 #[test]
 fn peaucellier() {
-    // The straight line must result from the linkage, not from its guide.
+    // The straight line must follow from the linkage, not from its guide.
     let text = read(&scene("peaucellier"));
     let alone = without_guide(&text);
     for text in [text, alone] {
@@ -142,7 +145,7 @@ fn peaucellier() {
     says("peaucellier", 0.56 * 0.4_f64.tan(), 5);
 }
 
-/// A force to the right, on the middle of Chebyshev's coupler.
+/// A force to the right acts on the middle of Chebyshev's coupler.
 const PUSH: &str = r#"
 [[force]]
 name = "push"
@@ -152,7 +155,8 @@ at = [0.0, 0.4]
 force = [0.5, 0.0]
 "#;
 
-/// Height of the middle of the coupler at a tilt: two circles around O1 and O2, solved for y.
+/// Returns the height of the middle of the coupler at a tilt: two circles around O1 and O2, solved
+/// for y.
 fn height(tilt: f64) -> f64 {
     let u = tilt.cos();
     ((0.2 - 0.04 * u) * (u + 2.0).powi(2) / (5.0 + 4.0 * u)).sqrt()
@@ -160,16 +164,16 @@ fn height(tilt: f64) -> f64 {
 
 #[test]
 fn chebyshev() {
-    // With the guide it does not move.
+    // With the guide the linkage does not move.
     let run = Run::of("chebyshev");
     close(run.pose(run.last(), "coupler")[0], 0.0, 1.0);
-    // With a force, no motion can even begin.
+    // With a force no motion can begin.
     let text = read(&scene("chebyshev"));
     let pushed = study("chebyshev", &format!("{text}{PUSH}"));
     let options = pushed.options.clone().expect("it says how long");
     let stopped = pushed.run(&options, |_| Ok(ControlFlow::Continue(())));
     assert!(stopped.is_err(), "a locked linkage has moved");
-    // Without the guide it moves, and the curve is not quite straight.
+    // Without the guide the linkage moves, and the curve is not quite straight.
     let alone = without_guide(&text);
     let run = Run::of_text("chebyshev", &format!("{alone}{PUSH}"));
     let mut highest: f64 = 0.0;
@@ -178,7 +182,7 @@ fn chebyshev() {
         close(y, height(tilt), 1.0);
         highest = highest.max(y);
     }
-    // The largest deviation is where the derivative of y² vanishes: −1/(5 − u) + 2/(u + 2) − 4/(5 +
+    // The largest deviation is at a zero of the derivative of y²: −1/(5 − u) + 2/(u + 2) − 4/(5 +
     // 4u) = 0.
     let slope = |u: f64| -1.0 / (5.0 - u) + 2.0 / (u + 2.0) - 4.0 / (5.0 + 4.0 * u);
     let (mut low, mut high) = (0.4, 1.0);
@@ -192,15 +196,15 @@ fn chebyshev() {
     }
     let largest = height(low.acos()) - 0.4;
     says("chebyshev", 1e3 * largest, 2);
-    // To half a percent, because rows of output do not coincide with the instant.
+    // The comparison is to half a percent, because output rows do not coincide with the instant.
     assert!(
         (highest - 0.4 - largest).abs() < 5e-3 * largest,
         "{highest}"
     );
 }
 
-/// The angle of the crank at t = 0.03 s from the test set of Mazzia and Magherini; its table is
-/// accurate to nine digits.
+/// The angle of the crank at t = 0.03 s comes from the test set of Mazzia and Magherini; its table
+/// is accurate to nine digits.
 #[test]
 fn andrews() {
     let run = Run::of("andrews");

@@ -1,19 +1,19 @@
-//! Statements of the pages about variants of their scenes: an additional hinge, a guide less, a
-//! misaligned wheel.
+//! Tests statements of the pages about variants of their scenes: an additional hinge, one guide
+//! less, a misaligned wheel.
 
 use super::{in_one_line, page, read, scene, study};
 
 /// A variant of an example.
 struct Neighbour {
     name: &'static str,
-    /// Text of the scene, and its replacement.
+    /// Text of the scene, and the text that replaces it.
     edits: &'static [(&'static str, &'static str)],
     /// Joints and drives whose lines are removed.
     without: &'static [&'static str],
     /// Rank, redundancy and mobility.
     numbers: [usize; 3],
     not_unique: &'static [&'static str],
-    /// The statement of its page.
+    /// The statement of the page about the variant.
     said: &'static str,
 }
 
@@ -70,12 +70,12 @@ const NEIGHBOURS: [Neighbour; 12] = [
         not_unique: &[],
         said: "15 rows and redundancy 0",
     },
-    // Both steered equally, instead of by the angles for which the lines meet.
+    // Both wheels are steered equally, instead of by the angles for which their normals meet.
     Neighbour {
         name: "car",
         edits: &[
             PARALLEL,
-            // It cannot move.
+            // The variant cannot move.
             (", velocity = [1.0, 0.48], angular_velocity = 0.4", ""),
         ],
         without: &[],
@@ -86,7 +86,7 @@ const NEIGHBOURS: [Neighbour; 12] = [
     Neighbour {
         name: "truck",
         edits: &[
-            // Turned about the kingpin by 2·atan(1/3).
+            // The trailer is rotated about the kingpin by 2·atan(1/3).
             (
                 "position = [-6.0, 0.0], velocity = [20.0, 0.0]",
                 "position = [-5.2, -2.4], angle = 0.6435011087932844",
@@ -132,7 +132,7 @@ const NEIGHBOURS: [Neighbour; 12] = [
         not_unique: &[],
         said: "delete motor-B",
     },
-    // A ring mesh less: planet 1 runs idle.
+    // Without one ring mesh, planet 1 is idle.
     Neighbour {
         name: "planetary-gear",
         edits: &[],
@@ -143,7 +143,8 @@ const NEIGHBOURS: [Neighbour; 12] = [
     },
 ];
 
-/// In space. The answers are those of screws round one loop, and of bodies on parallel lines.
+/// Variants of the examples in space. The expected results follow from the screws around one loop,
+/// and from bodies on parallel lines.
 const IN_SPACE: [Neighbour; 15] = [
     Neighbour {
         name: "hinges",
@@ -299,7 +300,7 @@ const IN_SPACE: [Neighbour; 15] = [
         without: &[],
         numbers: [30, 0, 0],
         not_unique: &[],
-        said: "Redundancy 0, the same motion",
+        said: "the redundancy is 0, the motion is the same",
     },
     Neighbour {
         name: "bricard",

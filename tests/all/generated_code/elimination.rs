@@ -1,5 +1,5 @@
-//! Code that is not generated: dense elimination on the kept rows of a mechanism, with a deliberate
-//! fault.
+//! Code that is not generated: dense elimination on the independent rows of a mechanism, with a
+//! deliberate fault.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -12,21 +12,21 @@ use model::{Mechanism, Scratch, System};
 #[derive(Clone, Copy)]
 pub(super) enum Fault {
     None,
-    /// Its health has this value from 4.1 to 4.8 s.
+    /// The health of the code has this value from 4.1 to 4.8 s.
     Health(f64),
-    /// Accelerations are NaN from 4.1 to 4.8 s, although it reports good health.
+    /// Accelerations are NaN from 4.1 to 4.8 s, although the code reports good health.
     NotFinite,
-    /// A dropped row has a residual from 4.1 to 4.8 s.
+    /// A redundant row has a residual from 4.1 to 4.8 s.
     DroppedRow(usize),
     /// Corrections of the position are too large by this factor from 4.1 to 4.8 s.
     Correction(f64),
-    /// Accelerations have this relative error, always.
+    /// Accelerations always have this relative error.
     Acceleration(f64),
-    /// The same for multipliers.
+    /// Multipliers always have this relative error.
     Multipliers(f64),
 }
 
-/// Code for a mechanism by dense elimination on its kept rows.
+/// Code for a mechanism by dense elimination on its independent rows.
 pub(super) struct Elimination {
     spec: CodeSpec,
     mechanism: Mechanism,
@@ -38,7 +38,7 @@ pub(super) struct Elimination {
 struct Work {
     s: Scratch,
     rows: Vec<Vec<f64>>,
-    /// A basis of free motions and the pivots at the start, with which later ones are compared.
+    /// A basis of free motions and the pivots at the start, which are compared with later ones.
     frame: Vec<f64>,
     reference: f64,
 }
@@ -102,7 +102,7 @@ impl Elimination {
         saddle
     }
 
-    /// Solves on kept rows; returns x, λ of these rows, and the health.
+    /// Solves on the independent rows; returns x, λ of these rows, and the health.
     fn solve(
         &self,
         work: &mut Work,
@@ -140,7 +140,8 @@ impl Elimination {
     }
 }
 
-/// `orientation` needs mutable storage of the solver, but does not change its results.
+/// `orientation` needs mutable storage of the solver, but does not change the results of the
+/// solver.
 trait OrientationOf {
     fn orientation_of(&self, frame: &[f64]) -> f64;
 }

@@ -1,4 +1,4 @@
-//! Matrices of many kinds: exact redundancy, redundancy spoilt by rounding, near redundancy, and
+//! Matrices of many kinds: exact redundancy, redundancy with rounding errors, near redundancy, and
 //! combinations of these.
 
 use tests::numbers::Numbers;
@@ -6,28 +6,28 @@ use tests::numbers::Numbers;
 /// How a matrix is constructed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Product of sparse whole matrices.
+    /// Product of sparse integer matrices.
     Product,
-    /// The same, its rows recombined by a unimodular whole matrix.
+    /// The same product, with its rows recombined by a unimodular integer matrix.
     Recombined,
     /// Rows and columns multiplied by powers of two from 1e-8 to 1e8.
     PowersOfTwo,
-    /// The same from 1e-120 to 1e120.
+    /// The same with powers of two from 1e-120 to 1e120.
     Extreme,
-    /// Rows and columns multiplied by powers of ten such that all entries remain whole numbers.
+    /// Rows and columns multiplied by powers of ten such that all entries remain integers.
     PowersOfTen,
     /// Duplicates and multiples of rows, empty rows and columns, often many more rows than columns.
     Duplicates,
     /// The matrix of Kahan, whose pivots do not show its smallest singular value, with multiples of
     /// its rows.
     Kahan,
-    /// Parallel cranks under one coupler at points that are whole multiples of a power of two.
+    /// Parallel cranks under one coupler at points that are integer multiples of a power of two.
     Cranks,
     /// Rows and columns multiplied by powers of ten from 1e-8 to 1e8, rounded.
     Decimals,
     /// Products of fractions, rounded.
     Fractions,
-    /// Redundant except for one entry of 1e-6 to 1e-20, or 1e-100, in place of a zero.
+    /// Redundant except for one entry of 1e-6 to 1e-20, or 1e-100, that replaces a zero.
     Near,
     /// Near and exact redundancy.
     NearAndExact,
@@ -137,7 +137,7 @@ fn permuted(rows: &Rows, numbers: &mut Numbers) -> Rows {
     down.iter().map(row).collect()
 }
 
-/// 1e-6 to 1e-20, sometimes 1e-100.
+/// Returns numbers from 1e-6 to 1e-20, sometimes 1e-100.
 fn small(numbers: &mut Numbers) -> f64 {
     if numbers.once_in(8) {
         return 1e-100;
@@ -145,7 +145,7 @@ fn small(numbers: &mut Numbers) -> f64 {
     10_f64.powi(-numbers.between(6, 20)) * (1.0 + numbers.unit().abs())
 }
 
-/// −2 to 2, mostly 0.
+/// Returns integers from −2 to 2, mostly 0.
 fn sparse(m: usize, n: usize, numbers: &mut Numbers) -> Rows {
     let mut entry = || {
         if numbers.once_in(3) {
@@ -157,7 +157,7 @@ fn sparse(m: usize, n: usize, numbers: &mut Numbers) -> Rows {
     (0..m).map(|_| (0..n).map(|_| entry()).collect()).collect()
 }
 
-/// Shape and a rank that leaves redundancy, sometimes large.
+/// Returns a shape and a rank that leaves redundancy, sometimes large.
 fn shape(numbers: &mut Numbers) -> (usize, usize, usize) {
     let most = if numbers.once_in(10) { 24 } else { 12 };
     let (m, n) = (2 + numbers.below(most - 1), 1 + numbers.below(most));
@@ -196,7 +196,7 @@ fn recombine(rows: &mut Rows, numbers: &mut Numbers) {
     }
 }
 
-/// Rows and columns multiplied.
+/// Multiplies rows and columns by factors.
 fn scaled(rows: &Rows, numbers: &mut Numbers, factor: impl Fn(&mut Numbers) -> f64) -> Rows {
     let across: Vec<f64> = rows[0].iter().map(|_| factor(numbers)).collect();
     let by =
@@ -240,7 +240,8 @@ fn append_multiples(rows: &mut Rows, numbers: &mut Numbers) {
     }
 }
 
-/// `diag(1, s, s², …)` times the unit upper triangle with −c above the diagonal, s² + c² = 1.
+/// Returns `diag(1, s, s², …)` times the unit upper triangle with −c above the diagonal, s² + c²
+/// = 1.
 fn kahan(numbers: &mut Numbers) -> Rows {
     let n = 6 + numbers.below(15);
     let (s, c) = (0.4 + 1.1 * numbers.unit().abs()).sin_cos();
@@ -263,7 +264,7 @@ fn fractions(numbers: &mut Numbers) -> Rows {
     multiplied(&a, &b)
 }
 
-/// A product with one zero replaced, if it has a zero.
+/// Returns a product with one zero replaced, if it has a zero.
 fn near(numbers: &mut Numbers) -> Rows {
     let mut rows = product(numbers);
     let places = (0..rows.len()).flat_map(|i| (0..rows[0].len()).map(move |k| (i, k)));
@@ -275,9 +276,9 @@ fn near(numbers: &mut Numbers) -> Rows {
     rows
 }
 
-/// Three or four cranks with the same vector `a` from pivot to tip, under one coupler; the tip of
-/// the last one on the coupler is displaced by `error` across the line of the tips. Each crank
-/// rotates about its pivot: one column. The coupler has three.
+/// Three or four cranks have the same vector `a` from pivot to tip, under one coupler. The tip of
+/// the last crank on the coupler is displaced by `error` across the line of the tips. Each crank
+/// rotates about its pivot and has one column. The coupler has three columns.
 fn cranks(error: f64, numbers: &mut Numbers) -> Rows {
     let count = 3 + numbers.below(2);
     let size = 2_f64.powi(numbers.between(-27, 27));
@@ -286,7 +287,7 @@ fn cranks(error: f64, numbers: &mut Numbers) -> Rows {
     let spread = whole(1, 50);
     let mut rows = Vec::new();
     for crank in 0..count {
-        // Tip relative to the middle of the coupler.
+        // Position of the tip relative to the middle of the coupler.
         let x = spread * (crank as f64 - 1.0);
         let y = if crank + 1 == count {
             error * size

@@ -1,4 +1,5 @@
-//! Random mechanisms on a grid of points, so that parallel or equal elements are exactly so.
+//! Random mechanisms on a grid of points, so that parallel or equal elements are exactly parallel
+//! or equal.
 
 use model::BodyRef;
 use tests::numbers::Numbers;
@@ -19,9 +20,9 @@ pub(crate) enum Kind {
     Gears,
     /// A four-bar with one to four drives.
     FourBar,
-    /// Several of them in one scene, connected or not.
+    /// Several of these mechanisms in one scene, connected or not.
     Several,
-    /// Several of them in one scene, sizes from 1e-4 to 1e4.
+    /// Several of these mechanisms in one scene, with sizes from 1e-4 to 1e4.
     Sizes,
 }
 
@@ -57,7 +58,7 @@ impl Kind {
     }
 }
 
-/// A random mechanism.
+/// Draws a random mechanism.
 pub(crate) fn draw(kind: Kind, numbers: &mut Numbers) -> Drawn {
     let mut pen = Pen {
         sketch: Sketch::default(),
@@ -73,7 +74,7 @@ pub(crate) fn draw(kind: Kind, numbers: &mut Numbers) -> Drawn {
 struct Pen<'a> {
     sketch: Sketch,
     numbers: &'a mut Numbers,
-    /// The grid's step times 8.
+    /// The step of the grid times 8.
     size: f64,
 }
 
@@ -118,23 +119,23 @@ impl Pen<'_> {
         f64::from(self.numbers.between(low, high))
     }
 
-    /// A point of the grid.
+    /// Returns a point of the grid.
     fn point(&mut self) -> Vector {
         [0, 1].map(|_| self.size * self.whole(-40, 40) / 8.0)
     }
 
-    /// A direction of any length.
+    /// Returns a direction of any length.
     fn direction(&mut self) -> Vector {
         [self.whole(-4, 4), self.whole(1, 4)]
     }
 
-    /// A body somewhere, at any angle.
+    /// Adds a body at a random position and angle.
     fn body(&mut self) -> BodyRef {
         let (at, angle) = (self.point(), 3.0 * self.numbers.unit());
         self.sketch.body(at, angle)
     }
 
-    /// Two bodies, or a body and the ground.
+    /// Returns two bodies, or a body and the ground.
     fn pair(&mut self, bodies: &[BodyRef]) -> [BodyRef; 2] {
         let j = self.numbers.below(bodies.len());
         match self.numbers.below(bodies.len()) {
@@ -143,13 +144,13 @@ impl Pen<'_> {
         }
     }
 
-    /// A point on the line through `at`.
+    /// Returns a point on the line through `at`.
     fn on_line(&mut self, at: Vector, axis: Vector) -> Vector {
         let along = self.size * self.whole(-8, 8) / 8.0;
         [at[0] + along * axis[0], at[1] + along * axis[1]]
     }
 
-    /// A random joint between two bodies.
+    /// Returns a random joint between two bodies.
     fn tie(&mut self) -> Tie {
         let (at, axis) = (self.point(), self.direction());
         let from = self.on_line(at, axis);
@@ -170,7 +171,7 @@ impl Pen<'_> {
         }
     }
 
-    /// Two to six bodies, each with one joint to the ground or to an earlier one.
+    /// Adds two to six bodies, each with one joint to the ground or to an earlier body.
     fn tree(&mut self) -> Vec<BodyRef> {
         let mut bodies = Vec::new();
         for k in 0..2 + self.numbers.below(5) {
@@ -186,15 +187,15 @@ impl Pen<'_> {
         bodies
     }
 
-    /// Cranks `a` from their pivots to their tips: n − 2 are redundant, and so is each drive except
-    /// the first.
+    /// Adds cranks `a` from their pivots to their tips: n − 2 are redundant, and so is each drive
+    /// except the first.
     fn cranks(&mut self) -> usize {
         let count = 3 + self.numbers.below(3);
         let (pivots, a) = loop {
             let pivots: Vec<Vector> = (0..count).map(|_| self.point()).collect();
             let a = self.direction().map(|x| self.size * x);
             let d = [pivots[1][0] - pivots[0][0], pivots[1][1] - pivots[0][1]];
-            // Otherwise the first two are flat.
+            // Otherwise the first two cranks are in the singular configuration.
             if d[0] * a[1] != d[1] * a[0] {
                 break (pivots, a);
             }
@@ -223,7 +224,7 @@ impl Pen<'_> {
             let other = self.point();
             let twin = match original.tie {
                 _ if self.numbers.once_in(3) => original.tie,
-                // Two bearings, or two sliders on parallel lines.
+                // The joint is two bearings, or two sliders on parallel lines.
                 Tie::Revolute { .. } => Tie::Revolute { at: other },
                 Tie::Translational { axis, .. } => {
                     let from = self.on_line(other, axis);
@@ -239,7 +240,7 @@ impl Pen<'_> {
         }
     }
 
-    /// A car of one to three bodies; its edges have few different normals.
+    /// Adds a car of one to three bodies; its edges have few different normals.
     fn edges(&mut self) {
         let bodies: Vec<BodyRef> = (0..1 + self.numbers.below(3))
             .map(|_| self.body())
@@ -269,8 +270,8 @@ impl Pen<'_> {
         }
     }
 
-    /// Wheels on a carrier; two trains with the same ratio between the first and the last wheel:
-    /// one mesh is redundant.
+    /// Adds wheels on a carrier; two trains have the same ratio between the first and the last
+    /// wheel, so one mesh is redundant.
     fn gears(&mut self) -> usize {
         let carrier = if self.numbers.once_in(2) {
             GROUND
@@ -285,7 +286,7 @@ impl Pen<'_> {
             body
         };
         let (first, last) = (wheel(self), wheel(self));
-        // A ratio −2^e for each mesh; the last one of a train makes the product 1.
+        // Each mesh has a ratio −2^e; the last mesh of a train makes the product 1.
         for between in [1, 1 + 2 * self.numbers.below(2)] {
             let (mut before, mut product) = (first, 1.0);
             for _ in 0..between {
@@ -302,8 +303,8 @@ impl Pen<'_> {
         1
     }
 
-    /// No three of its points are on a line. It has one freedom, so all drives except one are
-    /// redundant.
+    /// No three points of the four-bar are collinear. It has one freedom, so all drives except one
+    /// are redundant.
     fn four_bar(&mut self) -> usize {
         let points = loop {
             let p = [0; 4].map(|_| self.point());

@@ -1,8 +1,8 @@
-//! One pendulum on five joints, compared with tables of Adams after 5 s: pose to six digits,
-//! reactions on the ground about the place of the joint to four, since the tables scatter beyond.
-//! The table of the universal joint is late by 0.7 ms (0.0006 m, 0.001 N): its numbers are from
-//! Lagrange's equations in its two angles, integrated in steps of 2.5 ms by the classical method of
-//! order four.
+//! Compares one pendulum on five joints with tables of Adams after 5 s. The pose agrees to six
+//! digits. The reactions on the ground about the reference point of the joint agree to four digits,
+//! because the tables scatter beyond these digits. The table of the universal joint is late by 0.7
+//! ms (0.0006 m, 0.001 N). Its numbers come from Lagrange's equations in its two angles, integrated
+//! in steps of 2.5 ms by the classical method of order four.
 //!
 //! Source: Project Chrono, `data/testing/joints` (files `*_ADAMS_*.txt`), BSD licence; the
 //! mechanisms are those of its tests `utest_JOINT_*.cpp`.
@@ -22,11 +22,11 @@ use super::motion::{options, run};
 struct Case {
     name: &'static str,
     kind: Kind,
-    /// Place of the joint, and its orientation: a rotation about an axis across z.
+    /// Reference point of the joint, and its orientation: a rotation about an axis across z.
     place: [f64; 3],
     axis: [f64; 2],
     angle: f64,
-    /// After 5 s: mass centre, force and moment.
+    /// Results after 5 s: mass centre, force and moment.
     centre: [f64; 3],
     force: [f64; 3],
     moment: [f64; 3],
@@ -94,7 +94,7 @@ const CASES: [Case; 5] = [
     },
 ];
 
-/// Bounds relative to the largest component, or to one metre or newton if that is more.
+/// Bounds relative to the largest component, or to one metre or newton if that is larger.
 const POSE: f64 = 5e-6;
 const REACTION: f64 = 1e-4;
 
@@ -103,7 +103,8 @@ impl Case {
         let (sin, cos) = (0.5 * self.angle).sin_cos();
         let orientation = [cos, sin * self.axis[0], sin * self.axis[1], 0.0];
         let joint = Pose::new(self.place, orientation);
-        // The mass centre is half the length away: along x of the joint, below it for a universal.
+        // The mass centre is half of the length away: along x of the joint, and below it for a
+        // universal joint.
         let (offset, moments) = match self.kind {
             Kind::Universal => ([0.0, 0.0, -2.0], [0.1, 0.1, 0.04]),
             _ => ([2.0, 0.0, 0.0], [0.04, 0.1, 0.1]),
@@ -140,7 +141,7 @@ impl Case {
                 d.joint("joint", &bodies, Spherical { s_i, s_j });
             }
             Kind::Universal => {
-                // x of the joint turns with the ground, y with the pendulum.
+                // The x-axis of the joint is fixed to the ground, and its y-axis to the pendulum.
                 let axis = Direction::new(axis.uvw()[0]).expect("a direction");
                 let cross = Direction::Y;
                 d.joint("joint", &bodies, Universal::new(s_i, s_j, axis, cross));
@@ -174,7 +175,8 @@ impl Case {
     }
 }
 
-/// The largest difference relative to the largest expected number, at least `least`.
+/// Returns the largest difference relative to the largest expected number, or to `least` if that is
+/// larger.
 fn gap(found: &[f64], expected: &[f64], least: f64) -> f64 {
     let size = expected.iter().fold(least, |a, x| a.max(x.abs()));
     let gaps = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
@@ -198,7 +200,7 @@ fn pendulums_on_five_joints() {
         let moment = gap(&reaction.torque, &case.moment, 1.0);
         assert!(moment < REACTION, "{name}: {:?}", reaction.torque);
     }
-    // The first one in closed form: a plane pendulum.
+    // The first case has a closed form: a plane pendulum.
     let end = options(5.0, Method::Dop853, 1e-13);
     let mut force = [0.0; 3];
     run(&CASES[0].description(), &end, |_, row| {

@@ -1,8 +1,9 @@
-//! Two wheels on one axle. On a rigid axle both contact points belong to one body: six rows hold
-//! two of its points, five of them independent, and what is left is to turn about the line through
-//! both points. So the axle rolls straight on and cannot steer, and of two forces along this line
-//! only the sum is known. On hubs each wheel has its own spin, and the axle three freedoms: to
-//! roll, to steer, and to pitch on its hubs; still both wheels hold it sideways along one line.
+//! Tests of two wheels on one axle. On a rigid axle both contact points belong to one body: six
+//! rows constrain two of its points, and five of them are independent. The remaining freedom is a
+//! rotation about the line through both points. So the axle rolls straight ahead and cannot steer,
+//! and of two forces along this line only the sum is determined. On hubs each wheel has its own
+//! spin, and the axle has three freedoms: to roll, to steer, and to pitch on its hubs; both wheels
+//! still constrain it sideways along one line.
 
 use std::fmt::Write;
 
@@ -23,7 +24,7 @@ fn study(text: &str) -> Study {
     study.unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-/// Rows, rank, redundancy, mobility.
+/// Returns rows, rank, redundancy and mobility.
 fn ranks(mechanism: &Mechanism, analysis: &Analysis) -> [usize; 4] {
     assert!(analysis.decision.is_decided(), "{:?}", analysis.decision);
     let (rows, rank) = (mechanism.layout().rows(), analysis.decision.rank);
@@ -31,7 +32,7 @@ fn ranks(mechanism: &Mechanism, analysis: &Analysis) -> [usize; 4] {
     [rows, rank, rows - rank, analysis.mobility()]
 }
 
-/// The components of a reaction that are not unique.
+/// Returns the components of a reaction that are not unique.
 fn open(analysis: &Analysis, name: &str) -> Vec<&'static str> {
     let reaction = analysis.reactions.iter().find(|r| r.name == name);
     let components = &reaction.unwrap_or_else(|| panic!("no `{name}`")).components;
@@ -45,7 +46,7 @@ fn open(analysis: &Analysis, name: &str) -> Vec<&'static str> {
         .collect()
 }
 
-/// The components of the sum of two reactions that are not unique.
+/// Returns the components of the sum of two reactions that are not unique.
 fn open_sum(study: &Study, analysis: Analysis, names: [&str; 2]) -> Vec<&'static str> {
     let prepared = &study.prepared;
     let groups = &prepared.mechanism.layout().groups;
@@ -62,15 +63,15 @@ fn open_sum(study: &Study, analysis: Analysis, names: [&str; 2]) -> Vec<&'static
         .collect()
 }
 
-/// A rigid axle along y with wheels of these radii, level or not, at (2, −1), turned by an angle
-/// about the vertical.
+/// A rigid axle along y with wheels of these radii, horizontal or not, at (2, −1), rotated by an
+/// angle about the vertical.
 fn rigid(radii: [f64; 2], turn: f64) -> String {
-    // The rims touch at the heights h ± HALF·sin α − r·cos α = 0.
+    // The rims touch the ground at the heights h ± HALF·sin α − r·cos α = 0.
     let slope = (radii[0] - radii[1]) / (2.0 * HALF);
     let (sin, cos) = slope.atan().sin_cos();
     let height = 0.5 * (radii[0] + radii[1]) * cos;
     let (s, c) = turn.sin_cos();
-    // About x by α, then about z by the turn.
+    // The rotation is about x by α, then about z by the steering angle.
     let matrix = [
         [c, -s * cos, s * sin],
         [s, c * cos, -c * sin],
@@ -92,7 +93,8 @@ fn rigid(radii: [f64; 2], turn: f64) -> String {
     text
 }
 
-/// With the axle along y the open force is Fy; otherwise both horizontal components contain it.
+/// With the axle along y the undetermined force is Fy; otherwise both horizontal components contain
+/// it.
 #[test]
 fn wheels_that_are_fixed_on_one_axle() {
     for radii in [[RADIUS; 2], [0.5, 0.3]] {
@@ -110,7 +112,7 @@ fn wheels_that_are_fixed_on_one_axle() {
             for wheel in ["left", "right"] {
                 assert_eq!(open(&found, wheel), sideways, "{what}: {wheel}");
             }
-            // Contact 1 and lateral 2, by rows: normal and longitudinal forces are known.
+            // The rows are contact 1 and lateral 2: normal and longitudinal forces are determined.
             for reaction in &found.reactions {
                 let words = reaction.rows.iter().map(|r| r.judgement.verdict.word());
                 let words: Vec<_> = words.collect();
@@ -122,8 +124,8 @@ fn wheels_that_are_fixed_on_one_axle() {
     }
 }
 
-/// An axle on two wheels that turn freely, which have turned by 0.3 and −1.1 and point inwards by
-/// an angle each.
+/// An axle has two wheels that turn freely; they have turned by 0.3 and −1.1, and each points
+/// inwards by an angle.
 fn hubs(toe: f64) -> String {
     let mut bodies = format!(
         "{{ name = \"axle\", mass = 5, inertia = [0.8, 0.1, 0.8], position = [0, 0, {RADIUS:?}] }}"
@@ -157,8 +159,8 @@ fn hubs(toe: f64) -> String {
     )
 }
 
-/// A force along y at the left contact goes through the left hub, the axle and the right hub to the
-/// right contact; about the place of a hub it has a moment about x.
+/// A force along y at the left contact acts through the left hub, the axle and the right hub on the
+/// right contact. About the reference point of a hub it has a moment about x.
 #[test]
 fn wheels_that_turn_freely_on_one_axle() {
     let study = study(&hubs(0.0));
@@ -175,11 +177,11 @@ fn wheels_that_turn_freely_on_one_axle() {
     }
 }
 
-/// With toe-in both lateral directions are n = (± sin, cos). The wheel at ± HALF with the axle at
-/// (vx, vy), steering with w and pitching with p does not slip sideways if
-/// n·(vx ∓ HALF·w − RADIUS·p, vy) = 0: the difference of both rows says vx = RADIUS·p, their sum
-/// ties vy to w. So the rows are independent and everything is known; the axle may steer, and roll
-/// as one piece with its wheels, but not roll on its hubs.
+/// With toe-in the two lateral directions are n = (± sin, cos). With the axle at (vx, vy), steering
+/// with w and pitching with p, the wheel at ± HALF does not slip sideways if n·(vx ∓ HALF·w −
+/// RADIUS·p, vy) = 0. The difference of both rows gives vx = RADIUS·p, and their sum relates vy to
+/// w. So the rows are independent and all reactions are determined. The axle may steer, and roll as
+/// one piece with its wheels, but not roll on its hubs.
 #[test]
 fn toe_in_takes_a_freedom_and_leaves_nothing_open() {
     let study = study(&hubs(0.05));

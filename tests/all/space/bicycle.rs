@@ -1,13 +1,13 @@
-//! The benchmark bicycle in one state of its motion, with its published accelerations: P.
+//! Compares the benchmark bicycle in one state of its motion with its published accelerations: P.
 //! Basu-Mandal, A. Chatterjee, J. M. Papadopoulos, Hands-free circular motions of a benchmark
 //! bicycle, Proc. R. Soc. A 463 (2007) 1983–2003, table 1. The numbers are in the package
 //! DynamicistToolKit, `dtk/bicycle.py`.
 //!
-//! There z is up, the rear hub is at (x, y, z), and the frame has turned by θ about z, then by ψ
-//! about its new x, then by φ about its new z, which is the axis of the rear wheel, to the left.
-//! The bicycle is upright and goes along −x at θ = 0, ψ = π/2, φ = π. The fork turns against the
-//! frame by ψ_f about the steering axis, upwards, the wheels by β_r and β_f about their axes, to
-//! the left.
+//! In that source z points up, and the rear hub is at (x, y, z). The frame is rotated by θ about z,
+//! then by ψ about its new x, then by φ about its new z, which is the axis of the rear wheel, to
+//! the left. The bicycle is upright and moves along −x at θ = 0, ψ = π/2, φ = π. The fork rotates
+//! relative to the frame by ψ_f about the steering axis, upwards, and the wheels by β_r and β_f
+//! about their axes, to the left.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -21,7 +21,7 @@ use crate::bicycle::{PARTS, State, scene, steering_axis, steering_point};
 
 type Vector = Vector3<f64>;
 
-/// z of the rear hub, ψ, φ, ψ_f. The other coordinates are zero.
+/// Height z of the rear hub, and the angles ψ, φ, ψ_f. The other coordinates are zero.
 const PLACE: [f64; 4] = [
     0.244_047_210_292_5,
     0.950_129_285_147_2,
@@ -42,7 +42,7 @@ const RATES: [f64; 9] = [
     8.013_362_058_415_5,
 ];
 
-/// Their second derivatives, 13 decimals.
+/// Second derivatives of these coordinates, 13 decimals.
 const ACCELERATIONS: [f64; 9] = [
     -0.504_162_631_504_7,
     -0.344_970_661_945_4,
@@ -55,7 +55,7 @@ const ACCELERATIONS: [f64; 9] = [
     2.454_807_290_455_0,
 ];
 
-/// Largest difference, relative for what is larger than 1.
+/// Largest difference, relative for values above 1.
 const BOUND: f64 = 1e-11;
 
 /// A rotation about a unit vector.
@@ -63,11 +63,11 @@ fn about(axis: Vector, angle: f64) -> Rotation3<f64> {
     Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle)
 }
 
-/// The axes of θ, ψ and φ in the ground, and the orientation of the frame.
+/// Returns the axes of θ, ψ and φ in the ground, and the orientation of the frame.
 fn frame(psi: f64, phi: f64) -> ([Vector; 3], Rotation3<f64>) {
     let [x, z] = [Vector::x(), Vector::z()];
     let turned = |psi: f64, phi: f64| about(x, psi) * about(z, phi);
-    // Upright and along −x the axes of the frame are turned by half a turn.
+    // In upright motion along −x the axes of the frame are rotated by half a turn.
     let orientation = turned(psi, phi) * turned(FRAC_PI_2, PI).inverse() * about(z, PI);
     ([z, x, about(x, psi) * z], orientation)
 }
@@ -88,7 +88,7 @@ fn accelerations_of_the_published_state() {
     let omega_fork = omega + head * steer_1;
     assert!((left - axes[2]).norm() < 1e-15);
 
-    // The frame carries the steering axis, the fork what is beyond it.
+    // The frame carries the steering axis, and the fork carries the parts beyond it.
     let hub = Vector::from(PARTS[0].centre);
     let (at, pivot) = (
         Vector::new(0.0, 0.0, height),
@@ -127,7 +127,7 @@ fn accelerations_of_the_published_state() {
     );
     let study = study.unwrap_or_else(|e| panic!("{e}"));
     let prepared = &study.prepared;
-    // The numbers are rounded to 13 decimals; they fit.
+    // The numbers are rounded to 13 decimals, and they are consistent.
     for correction in [&prepared.assembly.correction, &prepared.velocity_correction] {
         assert!(tests::largest(correction.iter().copied()) < 1e-11);
     }
@@ -144,7 +144,7 @@ fn accelerations_of_the_published_state() {
     motion
         .acceleration(0.0, &prepared.q, &prepared.v, &mut a)
         .expect("a regular state");
-    // Angular accelerations in ground axes, from those in the axes of each body.
+    // Computes angular accelerations in ground axes from those in the axes of each body.
     let alpha = |k: usize| {
         let q = &prepared.q[7 * k + 3..7 * k + 7];
         let pose = joints::space3::Pose::new([0.0; 3], [q[0], q[1], q[2], q[3]]);
@@ -152,7 +152,7 @@ fn accelerations_of_the_published_state() {
         Vector::from(pose.direction_to_global(own))
     };
     let [rear, of_the_frame, fork, front] = [0, 1, 2, 3].map(alpha);
-    // α = Σ axis·angle'' + (ψ' axis changes with θ', φ' axis with θ' and ψ').
+    // The formula is α = Σ axis·angle'' + (the ψ axis changes with θ', the φ axis with θ' and ψ').
     let changing = (axes[0] * theta_1).cross(&(axes[1] * psi_1))
         + (axes[0] * theta_1 + axes[1] * psi_1).cross(&(axes[2] * phi_1));
     let angles = Matrix3::from_columns(&axes)

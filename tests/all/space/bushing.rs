@@ -1,5 +1,5 @@
-//! Bushings in space: small and large motions of bodies on them, against closed forms, the energy
-//! of their springs, and the plane.
+//! Compares bushings in space with closed forms, with the energy of their springs, and with the
+//! plane, for small and large motions of bodies on them.
 
 use std::ops::ControlFlow;
 
@@ -30,7 +30,7 @@ fn options(t_end: f64, rows: f64) -> MotionOptions {
     }
 }
 
-/// Times and states of all rows.
+/// Returns times and states of all rows.
 fn rows(text: &str, t_end: f64) -> Vec<(Vec<f64>, Vec<f64>)> {
     let mut rows = Vec::new();
     let run = study(text).run(&options(t_end, 200.0), |sample| {
@@ -42,7 +42,7 @@ fn rows(text: &str, t_end: f64) -> Vec<(Vec<f64>, Vec<f64>)> {
     rows
 }
 
-/// A body at (1, 2, 3) on a bushing of the ground, and more of both.
+/// A body is at (1, 2, 3) on a bushing of the ground, with additional keys of both.
 fn mounted(body: &str, bushing: &str, more: &str) -> String {
     format!(
         r#"
@@ -65,7 +65,7 @@ bodies = ["ground", "engine"]
     )
 }
 
-/// The frequencies, ascending (rad/s); the others of each pair are their negatives.
+/// Returns the frequencies, ascending (rad/s); the others of each pair are their negatives.
 fn frequencies(text: &str) -> Vec<f64> {
     let found = study(text).linearise(0.0, &LineariseOptions::default());
     let found = found.unwrap_or_else(|e| panic!("{e}"));
@@ -87,8 +87,8 @@ fn close(found: &[f64], expected: &[f64], bound: f64) {
     }
 }
 
-/// At the mass centre every freedom swings alone, √(k/m) and √(k/J). Below it, at (0, 0, −0.5),
-/// translation along x goes with the rotation about y: x_place = x − 0.5·θ_y.
+/// At the mass centre every freedom oscillates independently, √(k/m) and √(k/J). Below it, at (0,
+/// 0, −0.5), translation along x is coupled with rotation about y: x_place = x − 0.5·θ_y.
 #[test]
 fn small_motions_have_the_frequencies_of_springs() {
     let bushing = |at: &str| {
@@ -98,7 +98,7 @@ fn small_motions_have_the_frequencies_of_springs() {
     let mut expected = [25.0, 50.0, 75.0, 4.0 / 0.1, 5.0 / 0.12, 6.0 / 0.14].map(f64::sqrt);
     expected.sort_by(f64::total_cmp);
     close(&frequencies(&bushing("[1, 2, 3]")), &expected, 1e-6);
-    // λ² − (k/m + (c + k·s²)/J)·λ + k·c/(m·J) = 0 for each pair.
+    // Each pair satisfies λ² − (k/m + (c + k·s²)/J)·λ + k·c/(m·J) = 0.
     let pair = |k: f64, c: f64, j: f64| {
         let (sum, product) = (k / 4.0 + (c + 0.25 * k) / j, k * c / (4.0 * j));
         let root = (0.25 * sum * sum - product).sqrt();
@@ -110,7 +110,7 @@ fn small_motions_have_the_frequencies_of_springs() {
     close(&frequencies(&bushing("[1, 2, 2.5]")), &expected, 1e-6);
 }
 
-/// The rotation vector of a unit quaternion, by its half angle.
+/// Returns the rotation vector of a unit quaternion, from its half angle.
 fn rotation_vector([w, x, y, z]: [f64; 4]) -> [f64; 3] {
     let sine = (x * x + y * y + z * z).sqrt();
     let twice = if sine == 0.0 {
@@ -126,7 +126,7 @@ fn quaternion(q: &[f64]) -> [f64; 4] {
     [3, 4, 5, 6].map(|k| q[k] / square.sqrt())
 }
 
-/// ē∘f
+/// Returns the product ē∘f.
 fn against([a, b, c, d]: [f64; 4], [w, x, y, z]: [f64; 4]) -> [f64; 4] {
     [
         a * w + b * x + c * y + d * z,
@@ -136,8 +136,8 @@ fn against([a, b, c, d]: [f64; 4], [w, x, y, z]: [f64; 4]) -> [f64; 4] {
     ]
 }
 
-/// Two free bodies tumble on each other: kinetic energy and ½·Σ k·d² + ½·Σ k·θ² add up to a
-/// constant, with relative rotations of 2 rad, and so do their momenta.
+/// Two free bodies tumble on each other. Kinetic energy and ½·Σ k·d² + ½·Σ k·θ² add up to a
+/// constant, with relative rotations of 2 rad, and their momenta are constant.
 #[test]
 fn springs_give_back_what_they_take() {
     let text = mounted(
@@ -193,8 +193,8 @@ fn springs_give_back_what_they_take() {
     }
 }
 
-/// A force and a torque along (2, 1, 2)/3 at the mass centre, on equal springs: displacement and
-/// angle are load over stiffness.
+/// A force and a torque along (2, 1, 2)/3 act at the mass centre, on equal springs: displacement
+/// and angle are load over stiffness.
 #[test]
 fn a_body_comes_to_rest_where_springs_carry_the_load() {
     let text = mounted(
@@ -211,7 +211,7 @@ fn a_body_comes_to_rest_where_springs_carry_the_load() {
     assert!(v.iter().all(|v| v.abs() < 1e-9), "{v:?}");
 }
 
-/// A motion in the plane is that of the planar bushing.
+/// A motion in the plane equals that of the planar bushing.
 #[test]
 fn in_the_plane_it_is_the_bushing_of_the_plane() {
     let scene = |space: &str,
@@ -262,7 +262,8 @@ fn in_the_plane_it_is_the_bushing_of_the_plane() {
     assert!((1.0..3.0).contains(&largest), "{largest}");
 }
 
-/// Half a turn has no rotation vector; a run stops before it, by name, and not at the other sign.
+/// A rotation by half a turn has no unique rotation vector. A run stops before it with an error,
+/// and does not stop at the other sign.
 #[test]
 fn a_bushing_is_refused_at_half_a_turn() {
     let bushing =

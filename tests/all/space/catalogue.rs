@@ -1,6 +1,6 @@
 //! Mechanisms known by hand and random ones with planted redundancy (crate `lab`, `fuzz::space`),
-//! built without files: numbers from textbooks and screws, and every verdict as exact arithmetic on
-//! wrenches has it.
+//! built without files. The numbers come from textbooks and screws, and every verdict is compared
+//! with exact arithmetic on wrenches.
 
 use lab::fuzz::space::pose::{Writing, posed};
 use lab::fuzz::space::text::Precision;
@@ -9,7 +9,8 @@ use model::{Mechanism, System};
 use solvability::{ReactionVerdict, Verdict, analyse};
 use suite::numbers::Numbers;
 
-/// Rows, rank, redundancy, mobility of everything in the catalogue that no other test counts.
+/// Rows, rank, redundancy and mobility of all mechanisms of the catalogue that no other test
+/// counts.
 const COUNTS: [(&str, [usize; 4]); 17] = [
     ("V5 three cranks", [30, 23, 7, 1]),
     ("V6 two parallelograms", [35, 29, 6, 1]),
@@ -30,7 +31,7 @@ const COUNTS: [(&str, [usize; 4]); 17] = [
     ("V22 car, front axle turned", [32, 30, 2, 0]),
 ];
 
-/// Rows, rank, redundancy and mobility, after all verdicts have been compared.
+/// Returns rows, rank, redundancy and mobility, after a comparison of all verdicts.
 fn judged(what: &str, drawing: &Drawing) -> [usize; 4] {
     let expected = Expected::of(drawing);
     let description =
@@ -75,8 +76,8 @@ fn unique(verdict: &ReactionVerdict) -> bool {
     verdict.wrench.verdict == Verdict::Unique
 }
 
-/// Each as drawn, and under two rigid motions with bodies in other frames, off their mass centres,
-/// and in another order.
+/// Each mechanism is tested as drawn, and under two rigid motions with bodies in other frames, off
+/// their mass centres, and in another order.
 #[test]
 fn mechanisms_known_by_hand() {
     let catalogue = catalogue::all();
@@ -93,7 +94,7 @@ fn mechanisms_known_by_hand() {
     }
 }
 
-/// N four-bars side by side, and in a row on each other.
+/// The mechanisms are N four-bars side by side, and N four-bars on each other.
 #[test]
 fn four_bars_add_up() {
     for n in 1..=4 {
@@ -116,5 +117,5 @@ fn random_mechanisms_with_planted_redundancy() {
     }
 }
 
-/// Each drawing in four writings.
+/// Each drawing occurs in four writings.
 const SCENES: usize = 240;

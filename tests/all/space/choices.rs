@@ -1,4 +1,5 @@
-//! Choices among loads in space, with closed forms: a table on four legs, a door on three hinges.
+//! Compares choices among loads in space with closed forms: a table on four legs, a door on three
+//! hinges.
 
 use model::System;
 use pfaff::{RunOptions, Study};
@@ -8,7 +9,7 @@ use crate::examples;
 
 const G: f64 = 9.81;
 
-/// Rounding of sums of some ten terms.
+/// Rounding of sums of about ten terms.
 const CLOSE: f64 = 1e-11;
 
 fn chosen(name: &str, choice: impl Fn(&Study) -> Choice) -> Distribution {
@@ -32,7 +33,7 @@ fn elastic<const N: usize>(study: &Study, joints: [(&str, [f64; 3], f64); N]) ->
     Choice::Compliance(joints.map(compliance).to_vec())
 }
 
-/// A component of a reaction on the body: all joints have the ground first.
+/// Returns a component of a reaction on the body: the ground is the first body of all joints.
 fn on_body(d: &Distribution, joint: &str, component: &str) -> f64 {
     let reaction = d.reactions.iter().find(|r| r.name == joint);
     let components = &reaction.expect("a joint").components;
@@ -49,7 +50,7 @@ fn close(found: f64, expected: f64, size: f64, what: &str) {
 }
 
 /// All loads that carry the weight W at (x, y) are W·(1 + x/X_k + y/Y_k)/4 + s·(±1) for legs at
-/// (X_k, Y_k), with the signs of X_k·Y_k. Energy ½·Σ c·F² is least where Σ ± c·F = 0.
+/// (X_k, Y_k), with the signs of X_k·Y_k. The energy ½·Σ c·F² is least if Σ ± c·F = 0.
 #[test]
 fn a_table_on_elastic_legs() {
     let legs = [
@@ -64,7 +65,7 @@ fn a_table_on_elastic_legs() {
     for along_z in [[1e-6; 4], [1e-6, 2e-6, 5e-6, 3e-6], [0.0, 1e-6, 0.0, 0.0]] {
         let weighted = |x: [f64; 4]| (0..4).map(|k| signs[k] * along_z[k] * x[k]).sum::<f64>();
         let shift = -weighted(even) / weighted(signs);
-        // What the legs do not carry has no compliance that counts.
+        // Components that the legs do not carry have no effective compliance.
         let d = chosen("table", |study| {
             let leg = |k: usize| (legs[k].0, [7e-6, 8e-6, along_z[k]], 9e-6);
             elastic(study, [0, 1, 2, 3].map(leg))
@@ -76,16 +77,16 @@ fn a_table_on_elastic_legs() {
     }
 }
 
-/// Hinges at the heights z_k below and above the middle carry the weight W with Fz, and its moment
-/// about y, W·x for the centre x off their axis, with Fx and Ty:
+/// Hinges at the heights z_k relative to the middle carry the weight W with Fz. They carry its
+/// moment about y, W·x for the centre x off their axis, with Fx and Ty:
 ///
 /// | energy | Σ F = | least for |
 /// | --- | --- | --- |
 /// | ½·Σ c·Fz² | W | c·Fz equal |
 /// | ½·Σ (c·Fx² + r·Ty²) | 0, Σ (z·Fx + Ty) = M | c·Fx = α + μ·z, r·Ty = μ |
 ///
-/// The centre pulls along −z at +x: the moment of the weight about y is +W·x, that of the hinges
-/// −W·x. A norm with the arm L is c = 1, r = 1/L².
+/// The weight acts along −z at +x: its moment about y is +W·x, and the moment of the hinges is
+/// −W·x. A norm with the arm L corresponds to c = 1, r = 1/L².
 #[test]
 fn a_door_on_three_hinges() {
     let (heights, weight, arm) = ([-0.75_f64, 0.0, 0.75], 20.0 * G, 0.4);
@@ -102,7 +103,7 @@ fn a_door_on_three_hinges() {
             None => elastic(study, [0, 1, 2].map(|k| (names[k], [c[k]; 3], r[k]))),
         });
         let sum = |of: &dyn Fn(usize) -> f64| (0..3).map(of).sum::<f64>();
-        // Σ (α + μ·z)/c = 0, Σ z·(α + μ·z)/c + Σ μ/r = M
+        // The conditions are Σ (α + μ·z)/c = 0 and Σ z·(α + μ·z)/c + Σ μ/r = M.
         let [s0, s1, s2] = [0, 1, 2].map(|n| sum(&|k| heights[k].powi(n) / c[k]));
         let turning = s2 - s1 * s1 / s0 + sum(&|k| r[k].recip());
         let mu = -weight * arm / turning;

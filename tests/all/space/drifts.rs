@@ -1,4 +1,4 @@
-//! Long runs: no drift of the energy, and none off the constraints. Longer ones are a family of
+//! Long runs without drift of the energy or off the constraints. Longer runs are a family of
 //! `lab stress`.
 
 use dynamics::{Method, MotionOptions};
@@ -7,7 +7,7 @@ use model::SpatialDescription;
 
 use super::motion::{options, run};
 
-/// Bounds: of the energy relative to the largest kinetic energy, and of |Φ| and |C·v − b| relative
+/// Bounds on the energy relative to the largest kinetic energy, and on |Φ| and |C·v − b| relative
 /// to the size and the largest velocity.
 const ENERGY: f64 = 1e-11;
 const RESIDUAL: f64 = 1e-12;

@@ -1,5 +1,6 @@
-//! Teeth between wheels on a carrier: ranks and verdicts of differentials and planetary gears,
-//! their motion over hundreds of turns, and the force of teeth, by closed forms.
+//! Compares gear meshes between wheels on a carrier with closed forms: ranks and verdicts of
+//! differentials and planetary gears, their motion over hundreds of revolutions, and the tooth
+//! force.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -24,7 +25,7 @@ fn study(text: &str) -> Study {
     study.unwrap_or_else(|e| panic!("{text}\n{e}"))
 }
 
-/// The end of a run: state, reactions in the order of the groups, and what was watched.
+/// The end of a run: state, reactions in the order of the groups, and recorded values.
 struct End {
     q: Vec<f64>,
     v: Vec<f64>,
@@ -61,7 +62,7 @@ impl End {
         Pose::new([q[0], q[1], q[2]], [q[3], q[4], q[5], q[6]])
     }
 
-    /// Angular velocity in the axes of a body.
+    /// Returns the angular velocity in the axes of a body.
     fn omega(&self, body: usize) -> [f64; 3] {
         [3, 4, 5].map(|k| self.v[6 * body + k])
     }
@@ -72,7 +73,7 @@ fn close(found: f64, expected: f64, bound: f64) {
     assert!((found - expected).abs() <= bound, "{found}, not {expected}");
 }
 
-/// Rows, rank, redundancy and mobility.
+/// Returns rows, rank, redundancy and mobility.
 fn counts(configuration: &ConfigurationAnalysis) -> [usize; 4] {
     let found = &configuration.analysis;
     let rows = found.holonomic_rows + found.nonholonomic_rows;
@@ -91,19 +92,19 @@ fn is_unique(configuration: &ConfigurationAnalysis, combination: &str) -> bool {
     group.judgement.verdict == Verdict::Unique
 }
 
-// A bevel differential. Its case turns about x; both side gears turn about x on the case, planet k
-// about u_k across x. Pitch radii of side gears and planets:
+// A bevel differential. Its case turns about x; both side gears turn about x on the case, and
+// planet k turns about u_k across x. The pitch radii of side gears and planets are:
 const SIDE: f64 = 0.06;
 const PLANET: f64 = 0.04;
 
-/// The direction of the axis of planet k of n.
+/// Returns the direction of the axis of planet k of n.
 fn spoke(k: usize, n: usize) -> [f64; 3] {
     let (sin, cos) = (0.3 + TAU * k as f64 / n as f64).sin_cos();
     [0.0, cos, sin]
 }
 
-/// The differential with n planets, moved as a whole; all bodies have the axes of this motion. The
-/// bodies are case, left, right, and the planets.
+/// Returns the differential with n planets, moved as a whole; all bodies have the axes of this
+/// motion. The bodies are case, left, right, and the planets.
 fn differential(n: usize, Motion(pose): Motion, quaternion: [f64; 4], rates: [f64; 2]) -> String {
     let point = |p: [f64; 3]| format!("{:?}", pose.to_global(p));
     let vector = |d: [f64; 3]| format!("{:?}", pose.direction_to_global(d));
@@ -152,7 +153,7 @@ fn differential(n: usize, Motion(pose): Motion, quaternion: [f64; 4], rates: [f6
     let mut all = vec![
         revolute("case-bearing", ["case", "ground"], [0.0; 3], x),
         revolute("left-bearing", ["case", "left"], [-0.04, 0.0, 0.0], x),
-        // A bearing may name the carrier last.
+        // A bearing may list the carrier last.
         revolute("right-bearing", ["right", "case"], [0.04, 0.0, 0.0], x),
     ];
     for k in 0..n {
@@ -174,7 +175,7 @@ fn differential(n: usize, Motion(pose): Motion, quaternion: [f64; 4], rates: [f6
     text
 }
 
-/// The motions of `Motion::all` with their quaternions.
+/// Returns the motions of `Motion::all` with their quaternions.
 fn motions() -> [(Motion, [f64; 4]); 3] {
     let quaternions = [
         [1.0, 0.0, 0.0, 0.0],
@@ -185,7 +186,7 @@ fn motions() -> [(Motion, [f64; 4]); 3] {
     [(); 3].map(|()| motions.next().expect("three"))
 }
 
-/// The torque of all teeth on one side gear, over its radius: Σ F_k·(x × u_k).
+/// Returns the torque of all teeth on one side gear, divided by its radius: Σ F_k·(x × u_k).
 fn torque(side: &str, n: usize, Motion(pose): Motion) -> String {
     let mut text = String::new();
     for k in 0..n {
@@ -198,8 +199,8 @@ fn torque(side: &str, n: usize, Motion(pose): Motion) -> String {
     text.trim_start_matches(" +").trim_start().to_owned()
 }
 
-/// The bearings are a tree: every redundancy is one of teeth, n − 1 for n planets. Teeth share what
-/// they carry, and the torque of all of them on a side gear is known.
+/// The bearings form a tree: all redundancies belong to gear meshes, n − 1 for n planets. The
+/// meshes share their load, and the torque of all of them on a side gear is determined.
 #[test]
 fn a_bevel_differential_has_one_planet_that_is_needed() {
     for (motion, quaternion) in motions() {
@@ -230,7 +231,7 @@ fn a_bevel_differential_has_one_planet_that_is_needed() {
 }
 
 /// A torque on the case turns both side gears equally: the case has their mean rate, and their
-/// difference stays. After 240 turns the ratio still holds.
+/// difference remains. After 240 revolutions the ratio is still exact.
 #[test]
 fn the_case_of_a_differential_turns_with_the_mean_rate_of_its_side_gears() {
     let (case, side, torque, t) = (3.0, 22.0, 0.02, 60.0);
@@ -250,7 +251,7 @@ fn the_case_of_a_differential_turns_with_the_mean_rate_of_its_side_gears() {
     close(found, rate, 1e-7 * rate);
     close(left, rate + side, 1e-7 * rate);
     close(right, rate - side, 1e-7 * rate);
-    // Angles of the wheels against the case, with their turns.
+    // Computes unwrapped angles of the wheels relative to the case.
     let spin = side * SIDE / PLANET;
     let (turned, spun) = (side * t, spin * t);
     assert!(turned > 200.0 * TAU && spun > 300.0 * TAU);
@@ -268,7 +269,7 @@ fn the_case_of_a_differential_turns_with_the_mean_rate_of_its_side_gears() {
     );
 }
 
-/// What a row of teeth says of all bodies: n·(v_1(P) − v_2(P)).
+/// Computes the row of a gear mesh for all bodies: n·(v_1(P) − v_2(P)).
 fn row_of_teeth(
     end: &End,
     [first, second]: [usize; 2],
@@ -285,13 +286,13 @@ fn row_of_teeth(
     at(first) - at(second)
 }
 
-/// Numbers between −1 and 1 without order, one for each velocity.
+/// Returns pseudo-random numbers between −1 and 1, one for each velocity.
 fn velocities(n: usize, seed: usize) -> Vec<f64> {
     let number = |k: usize| (12.9898 * (k * 7 + 1) as f64 + 78.233 * (seed + 1) as f64).sin();
     (0..n).map(number).collect()
 }
 
-/// C·v of a row at the end of a run.
+/// Returns C·v for a row at the end of a run.
 fn row_of(mechanism: &Mechanism, end: &End, name: &str, v: &[f64]) -> f64 {
     let mut s = mechanism.scratch();
     mechanism.pose(end.summary.t, &end.q, &mut s);
@@ -303,7 +304,7 @@ fn row_of(mechanism: &Mechanism, end: &End, name: &str, v: &[f64]) -> f64 {
     entries.iter().zip(v).map(|(c, v)| c * v).sum()
 }
 
-/// Far from the start, for velocities that no bearing allows.
+/// The test is far from the start, for velocities that no bearing allows.
 #[test]
 fn the_row_of_teeth_is_that_of_the_pitch_point() {
     let (motion, quaternion) = motions().into_iter().next_back().expect("three");
@@ -329,8 +330,8 @@ fn the_row_of_teeth_is_that_of_the_pitch_point() {
     assert_eq!(compared, 80);
 }
 
-/// Spur gears of radii 0.02 and 0.05 on the ground, 203 turns of the pinion under load. The force
-/// acts along the line of action, which is turned towards the wheel.
+/// Spur gears of radii 0.02 and 0.05 turn on the ground; the pinion makes 203 revolutions under
+/// load. The force acts along the line of action, which is inclined towards the wheel.
 #[test]
 fn a_train_keeps_its_ratio_and_its_teeth_press_along_the_line_of_action() {
     let (load, t, rate) = (-2.0, 32.0, 40.0);
@@ -363,7 +364,8 @@ force = [{{ name = "load", type = "torque", body = "wheel", torque = [0, 0, {loa
     let q = &end.q[7 + 3..14];
     close(q[3] * half.cos() - q[0] * half.sin(), 0.0, 1e-9);
     assert!(end.summary.max_position_residual < 1e-12);
-    // The load over the radius of the base circle, on the pinion; no moment about the pitch point.
+    // The expected force is the load over the radius of the base circle, on the pinion; there is no
+    // moment about the pitch point.
     let (sin, cos) = 20.0_f64.to_radians().sin_cos();
     let force = -load / (0.05 * cos);
     let teeth = end.reactions[2];
@@ -378,9 +380,9 @@ force = [{{ name = "load", type = "torque", body = "wheel", torque = [0, 0, {loa
     );
 }
 
-/// A helical wheel that is shifted along its axis turns with it: n·(v_1(P) − v_2(P)) = 0 with a
-/// line of action inclined by β is r_1·ω_1 + r_2·ω_2 = tan β·ẋ_2. The row is exact where the wheel
-/// is off its place.
+/// A helical wheel that is shifted along its axis rotates: n·(v_1(P) − v_2(P)) = 0 with a line of
+/// action inclined by β is r_1·ω_1 + r_2·ω_2 = tan β·ẋ_2. The row is exact if the wheel is
+/// displaced.
 #[test]
 fn a_helical_wheel_turns_as_it_slides() {
     let beta = 0.5_f64;
@@ -422,8 +424,8 @@ drive = [
     }
 }
 
-/// `examples/planetary-gear.toml` in space, with the teeth of its pitch circles: the same numbers
-/// as in the plane, and the same acceleration.
+/// The test uses `examples/planetary-gear.toml` in space, with gear meshes at its pitch circles. It
+/// has the same numbers as in the plane, and the same acceleration.
 #[test]
 fn a_planetary_gear_has_the_answers_of_the_plane() {
     let places = [
@@ -483,7 +485,8 @@ torque = [0, 0, -4.2]
     }
     let study = study(&text);
     let found = study.analyse(0.0, None).expect("a start");
-    // In the plane 16 rows of rank 14; here three rows more for each of the five bearings.
+    // In the plane there are 16 rows of rank 14; here each of the five bearings has three more
+    // rows.
     assert_eq!(counts(&found), [31, 29, 2, 1]);
     for reaction in &found.analysis.reactions {
         let is_mesh = reaction.name.starts_with("sun-") || reaction.name.starts_with("ring-");
@@ -496,7 +499,7 @@ torque = [0, 0, -4.2]
             );
         }
     }
-    // The torque of the sun on all planets.
+    // The expression is the torque of the sun on all planets.
     assert!(is_unique(&found, &{
         let mut sum = String::new();
         for (k, [x, y]) in places.into_iter().enumerate() {
@@ -506,7 +509,7 @@ torque = [0, 0, -4.2]
         }
         sum.trim_start_matches(" + ").to_owned()
     }));
-    // Willis' equation, as `tests/all/examples/fixed.rs` has it for the plane.
+    // The reference is Willis' equation, as in `tests/all/examples/fixed.rs` for the plane.
     let reduced = 2.25e-4 + 1e-3 / 9.0 + 3.0 * (0.15 * 0.045 * 0.045 / 9.0 + 1.6875e-5);
     let alpha = (1.5 - 4.2 / 3.0) / reduced;
     let end = End::of(&study, 1.0);
@@ -516,7 +519,7 @@ torque = [0, 0, -4.2]
     }
 }
 
-/// Two wheels on the ground, whose axes are parallel.
+/// Two wheels on the ground have parallel axes.
 const SPUR: &str = r#"
 scene = { name = "spur", space = "spatial" }
 body = [

@@ -1,4 +1,4 @@
-//! Motions in space compared with known ones: closed forms, and digits from integrations in higher
+//! Compares motions in space with known ones: closed forms, and digits from integrations in higher
 //! precision with other coordinates.
 
 use std::ops::ControlFlow;
@@ -12,7 +12,7 @@ use model::{
     Body, BodyRef, Description, Function, Mechanism, SpatialBody, SpatialDescription, StartOptions,
 };
 
-/// Moves a mechanism and shows every row.
+/// Simulates a mechanism and passes on every row.
 pub(super) fn run(
     d: &SpatialDescription,
     options: &MotionOptions,
@@ -28,7 +28,7 @@ pub(super) fn run(
     .unwrap_or_else(|e| panic!("{}: {e}", d.name))
 }
 
-/// By this method with this tolerance, in twenty rows.
+/// Returns options with this method and this tolerance, and with twenty rows.
 pub(super) fn options(t_end: f64, method: Method, rtol: f64) -> MotionOptions {
     MotionOptions {
         rtol,
@@ -39,8 +39,8 @@ pub(super) fn options(t_end: f64, method: Method, rtol: f64) -> MotionOptions {
     }
 }
 
-/// Coordinates and velocities at the end of a run, and the largest drift of the energy relative to
-/// the largest kinetic energy.
+/// Returns coordinates and velocities at the end of a run, and the largest drift of the energy
+/// relative to the largest kinetic energy.
 fn moved(
     d: &SpatialDescription,
     t_end: f64,
@@ -72,8 +72,8 @@ fn close(found: &[f64], expected: &[f64], bound: f64, what: &str) {
     }
 }
 
-/// Steps of a tenth of the coordinates change the length of a quaternion by per cents each, and
-/// fine steps do not. The body turns uniformly either way.
+/// Steps of a tenth of the coordinates change the length of a quaternion by some percent each, and
+/// fine steps do not. The body rotates uniformly in both cases.
 #[test]
 fn a_quaternion_that_has_drifted_far_is_scaled() {
     let mut d = SpatialDescription::new("spinning body");
@@ -96,7 +96,7 @@ fn a_quaternion_that_has_drifted_far_is_scaled() {
     }
 }
 
-/// A free body with moments 1, 2, 3: ω(10) by Jacobi's elliptic functions.
+/// A free body has the moments of inertia 1, 2, 3: ω(10) follows from Jacobi's elliptic functions.
 #[test]
 fn a_free_body_turns_as_eulers_equations_say() {
     let mut d = SpatialDescription::new("free body");
@@ -122,7 +122,8 @@ fn a_free_body_turns_as_eulers_equations_say() {
     }
 }
 
-/// The spinning top of the benchmark of Romano: 15 kg, its mass centre 1 m from the fixed point.
+/// The spinning top is that of the benchmark of Romano: 15 kg, with its mass centre 1 m from the
+/// fixed point.
 #[test]
 fn a_heavy_top() {
     let d = top();
@@ -153,7 +154,8 @@ fn a_spherical_pendulum() {
         position: [1.0, 0.0, 0.0],
         velocity: Some([0.0, 1.0, 0.0]),
         angular_velocity: Some([0.0, 0.0, 1.0]),
-        // Nearly a point: a tensor of zeros leaves the spin about the rod without inertia.
+        // The body is nearly a point: a tensor of zeros would leave the spin about the rod without
+        // inertia.
         ..SpatialBody::new("bob", 1.0, diagonal([1e-14, 1e-14, 1e-14]))
     });
     let pivot = Spherical {
@@ -171,22 +173,22 @@ fn a_spherical_pendulum() {
     assert!(drift < 1e-11, "{drift:e}");
 }
 
-/// The axes of a body.
+/// Returns the axes of a body.
 fn axes(q: &[f64], body: usize) -> [[f64; 3]; 3] {
     let own = &q[7 * body..7 * body + 7];
     let pose = Pose::new([own[0], own[1], own[2]], [own[3], own[4], own[5], own[6]]);
     Axes::FRAME.map(|v| pose.direction_to_global(v)).uvw()
 }
 
-/// The angle of rod 1 of Bricard's linkage, and the height of its third pivot.
+/// Returns the angle of rod 1 of Bricard's linkage, and the height of its third pivot.
 fn bricards_angle(q: &[f64]) -> (f64, f64) {
     // Rod 1 is along x of its body; the second rod ends half a metre from its middle along −y.
     let (along, side) = (axes(q, 0)[0], axes(q, 1)[1]);
     (along[2].atan2(along[0]), q[9] - 0.5 * side[2])
 }
 
-/// Bricard's linkage of the IFToMM benchmark (A04) moves although Grübler counts no freedom; angle
-/// and rate after 1 s from an integration of its angle in higher precision.
+/// Bricard's linkage of the IFToMM benchmark (A04) moves although Grübler's formula gives no
+/// freedom; angle and rate after 1 s come from an integration of its angle in higher precision.
 #[test]
 fn bricards_linkage() {
     let (q, v, drift) = moved(&bricard(), 1.0, Method::Dop853, 1e-12);
@@ -196,8 +198,8 @@ fn bricards_linkage() {
     assert!(drift < 1e-10, "{drift:e}");
 }
 
-/// With independent coordinates its state is the rotation of one rod about one of its axes, of
-/// which the two others are dependent: the error falls with the tolerance.
+/// With independent coordinates the state is the rotation of one rod about one of its axes, and the
+/// other two axes are dependent: the error decreases with the tolerance.
 #[test]
 fn bricards_linkage_by_an_implicit_method() {
     for (rtol, most) in [(1e-6, 1e-5), (1e-8, 1e-7), (1e-10, 1e-9)] {
@@ -211,7 +213,7 @@ fn bricards_linkage_by_an_implicit_method() {
     }
 }
 
-/// The height of its third pivot is a closed form of its angle, along ten seconds.
+/// The height of the third pivot is a closed form of its angle, along ten seconds.
 #[test]
 fn bricards_linkage_keeps_its_shape() {
     let options = MotionOptions {
@@ -228,8 +230,8 @@ fn bricards_linkage_keeps_its_shape() {
     assert!(off < 1e-11, "{off:e}");
 }
 
-/// A disk that rolls steadily keeps its spin, tilt and precession, and the ground carries just its
-/// weight.
+/// A disk that rolls steadily keeps its spin, tilt and precession, and the ground carries exactly
+/// its weight.
 #[test]
 fn a_disk_rolls_steadily() {
     let disk = RollingDisk {
@@ -264,7 +266,7 @@ fn a_disk_rolls_steadily() {
     assert_eq!(rows, 21);
 }
 
-/// A driven crank keeps to its drive over fifty turns, many of them within one row of output, and
+/// A driven crank follows its drive over fifty revolutions, many of them within one output row, and
 /// its bearing carries m·ω²·r.
 #[test]
 fn a_drive_goes_through_many_turns() {
@@ -276,7 +278,7 @@ fn a_drive_goes_through_many_turns() {
     });
     let pair = [BodyRef::Ground, crank];
     let [s_i, s_j] = pair.map(|body| d.local(body, [0.0; 3]));
-    // The axis x of the ground is z of a body turned by 120° about the diagonal.
+    // The x-axis of the ground is the z-axis of a body rotated by 120° about the diagonal.
     let axis = Axes::new([1.0, 0.0, 0.0], Some([0.0, 1.0, 0.0])).expect("an axis");
     let origin = d.local(crank, [0.0; 3]);
     let axis_j = axis.map(|v| {
@@ -298,13 +300,13 @@ fn a_drive_goes_through_many_turns() {
     );
     d.joint("hinge", &pair, hinge);
     let (q, v, _) = moved(&d, 1.005, Method::Dop853, 1e-10);
-    // 50 and a quarter turns.
+    // The angle is 50 and a quarter revolutions.
     close(&q[..3], &[0.0, 0.0, 0.4], 1e-9, "centre");
     close(&v[..3], &[0.0, -0.4 * rate, 0.0], 1e-6, "velocity");
 }
 
-/// A four-bar in the plane and the same in space, on four hinges: the motions agree, although the
-/// one in space has three redundant rows.
+/// A four-bar in the plane and the same four-bar in space on four hinges have the same motion,
+/// although the one in space has three redundant rows.
 #[test]
 fn a_lifted_linkage_moves_as_in_the_plane() {
     let places = [[0.0, 0.0], [0.3, 0.8], [1.5, 1.1], [1.4, 0.0]];
@@ -377,8 +379,8 @@ fn a_lifted_linkage_moves_as_in_the_plane() {
     }
 }
 
-/// A rod on a ball joint and a spring: dop853 and radau5 agree, with the gyroscopic torque in the
-/// Jacobian of the latter.
+/// For a rod on a ball joint and a spring, dop853 and radau5 agree, with the gyroscopic torque in
+/// the Jacobian of the latter.
 #[test]
 fn explicit_and_implicit_methods_agree_in_space() {
     let mut d = SpatialDescription::new("sprung rod");

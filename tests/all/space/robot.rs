@@ -1,5 +1,6 @@
-//! The robot with its trolley in space, on wheels that turn: its ranks and verdicts compared with
-//! constraints that are written apart ([`oracle`]), and its motion with that in the plane.
+//! Compares the robot with its trolley in space, on wheels that turn, with references: its ranks
+//! and verdicts with independently written constraints ([`oracle`]), and its motion with that in
+//! the plane.
 
 mod oracle;
 
@@ -17,7 +18,7 @@ use tests::largest;
 
 use crate::examples;
 
-/// Reactions of the paper and of the wheels that are not unique.
+/// Reactions of the published model and of the wheels that are not unique.
 const NOT_UNIQUE: [&str; 10] = [
     "B", "C", "W1", "W2", "W3", "W4", "hub-1", "hub-2", "hub-3", "hub-4",
 ];
@@ -25,7 +26,7 @@ const NOT_UNIQUE: [&str; 10] = [
 /// Components of reactions.
 const NAMES: [&str; 6] = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
 
-/// The bodies that the plane has as well.
+/// The bodies that also exist in the plane.
 const BODIES: [&str; 7] = [
     "platform",
     "front-knuckle",
@@ -49,7 +50,7 @@ fn study(text: &str) -> Study {
     study.unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Times and configurations of a run, 201 rows.
+/// Returns times and configurations of a run, 201 rows.
 fn moved(study: &Study) -> Vec<(f64, Vec<f64>)> {
     let options = MotionOptions {
         rtol: 1e-12,
@@ -67,7 +68,8 @@ fn moved(study: &Study) -> Vec<(f64, Vec<f64>)> {
     rows
 }
 
-/// x, y and angle of the bodies of the plane, in a motion in space in which they stay level.
+/// Returns x, y and angle of the bodies of the plane, in a motion in space in which they remain
+/// horizontal.
 fn level(q: &[f64]) -> Vec<f64> {
     let bodies = q.chunks_exact(7).take(BODIES.len());
     let body = |q: &[f64]| {
@@ -79,7 +81,7 @@ fn level(q: &[f64]) -> Vec<f64> {
     bodies.flat_map(body).collect()
 }
 
-/// The difference of two entries of such lists; angles differ by less than a turn.
+/// Returns the difference of two entries of such lists; angles differ by less than a revolution.
 fn gap(k: usize, a: f64, b: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     match k % 3 {
@@ -88,14 +90,14 @@ fn gap(k: usize, a: f64, b: f64) -> f64 {
     }
 }
 
-/// The largest difference of two lists.
+/// Returns the largest difference of two lists.
 fn apart(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     let pairs = a.iter().zip(b).enumerate();
     largest(pairs.map(|(k, (a, b))| gap(k, *a, *b)))
 }
 
-/// The scene with hinges instead of balls and crosses.
+/// Returns the scene with hinges instead of balls and crosses.
 fn all_pins_are_hinges() -> String {
     let mut text = String::new();
     for line in scene().lines() {
@@ -143,7 +145,7 @@ fn assert_same(found: &Analysis, expected: &Answer, t: f64) {
             "{name} at t = {t}"
         );
         for (component, unique) in NAMES.iter().zip(unique) {
-            // What is zero under any load is not among the components.
+            // A component that is zero under any load is not in the list of components.
             let own = reaction.components.iter().find(|c| c.name == *component);
             let own = own.map_or("unique", |c| c.judgement.verdict.word());
             assert_eq!(own, word(*unique), "{name}.{component} at t = {t}");
@@ -151,7 +153,7 @@ fn assert_same(found: &Analysis, expected: &Answer, t: f64) {
     }
 }
 
-/// At every row of the run.
+/// Returns the verdicts at every row of the run.
 fn verdicts_along_the_motion(study: &Study, pins: Pins) -> Vec<Answer> {
     let mechanism = &study.prepared.mechanism;
     moved(study)
@@ -166,8 +168,9 @@ fn verdicts_along_the_motion(study: &Study, pins: Pins) -> Vec<Answer> {
         .collect()
 }
 
-/// The in-plane answer of the paper, with three of its redundant rows: two of side forces, and one
-/// of the four wheels under the platform. The trolley stands on its wheel and its hitch.
+/// The result is the in-plane result of the publication, with three further redundant rows: two of
+/// side forces, and one of the four wheels under the platform. The trolley is supported by its
+/// wheel and its hitch.
 #[test]
 fn ranks_and_verdicts_along_the_motion_are_those_of_constraints_written_apart() {
     for answer in verdicts_along_the_motion(&study(&scene()), Pins::Drawn) {
@@ -179,8 +182,8 @@ fn ranks_and_verdicts_along_the_motion_are_those_of_constraints_written_apart() 
     }
 }
 
-/// Two loops of hinges with parallel axes have three redundant rows each, and the trolley presses
-/// with its wheel on what the platform stands on: 2 + 2·3 + 2.
+/// Each of two loops of hinges with parallel axes has three redundant rows, and the trolley pushes
+/// with its wheel against the ground of the platform: 2 + 2·3 + 2.
 #[test]
 fn the_linkage_with_hinges_only() {
     for answer in verdicts_along_the_motion(&study(&all_pins_are_hinges()), Pins::Hinges) {
@@ -197,9 +200,10 @@ fn the_linkage_with_hinges_only() {
     }
 }
 
-/// A wheel that rolls without slip on a level body counts as a mass J/r² for its heading and as
-/// nothing across it, where the knife edge holds it. So in the plane it is a body with the mass
-/// m + J/r², fixed at its centre, which has the moment about a diameter.
+/// A wheel that rolls without slip on a horizontal body acts as a mass J/r² along its heading.
+/// Across the heading it has no effect, because the knife edge constrains it. So in the plane the
+/// wheel is a body with the mass m + J/r², fixed at its centre, which has the moment of inertia
+/// about a diameter.
 #[test]
 fn wheels_with_inertia_are_masses_in_the_plane() {
     let [mass, spin, diameter, radius] = WHEEL;
@@ -230,7 +234,7 @@ fn wheels_with_inertia_are_masses_in_the_plane() {
     assert!(worst < 1e-10, "{worst:e}");
 }
 
-/// Without mass and inertia they are knife edges: the motion is that of the reference.
+/// Without mass and inertia the wheels are knife edges: the motion equals that of the reference.
 #[test]
 fn wheels_without_inertia_are_knife_edges() {
     let [mass, spin, diameter, _] = WHEEL;
@@ -263,16 +267,16 @@ fn wheels_without_inertia_are_knife_edges() {
     }
     assert!(compared >= 3 * BODIES.len() * 5, "{compared} numbers");
     assert!(worst < 1e-10, "{worst:e}");
-    // Nothing else is known without them: neither ranks nor verdicts depend on masses.
+    // Ranks and verdicts do not depend on masses, so they are the same.
     let (t, q) = &rows[30];
     let found = analyse(&light.prepared.mechanism, *t, q).expect("C is finite");
     assert_same(&found, &answer(q, Pins::Drawn), *t);
     assert_eq!(light.prepared.mechanism.layout().rows(), 74);
 }
 
-/// A sum of weighted squares is least if it does not change at first order for any load that needs
-/// no force on a body; for the norm with an arm of 0.3 m, and for supports as different as a prime
-/// is from the next one.
+/// A sum of weighted squares is minimal if its first-order change is zero for any load that needs
+/// no force on a body. The test does this for the norm with an arm of 0.3 m, and for supports with
+/// very different compliances, as consecutive primes.
 #[test]
 fn choices_cannot_be_improved_by_a_load_that_nothing_feels() {
     let text = scene().replace("t_end = 10.0", "t_end = 10.0, rtol = 1e-12, atol = 1e-12");

@@ -1,6 +1,6 @@
-//! Rows of four-bars of slender rods in space: three of four rows of each loop beyond the first are
-//! redundant, all loops are flat at the same instants, and the moments of inertia about the rods
-//! are nothing beside the others.
+//! Chains of four-bars of slender rods in space. Three of four rows of each loop beyond the first
+//! are redundant, and all loops are in the singular configuration at the same instants. The moments
+//! of inertia about the rods are negligible.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -13,8 +13,8 @@ use crate::generated_scenes::angle;
 
 const LOOPS: usize = 16;
 
-/// The benchmark A02 of the IFToMM/LIM library in space, with these loops: rods of 1 kg and 1 m, of
-/// radius 1 mm.
+/// The benchmark A02 of the IFToMM/LIM library in space, with this number of loops: rods of 1 kg
+/// and 1 m, of radius 1 mm.
 fn scene() -> String {
     let mut text =
         "[scene]\nname = \"rods\"\nspace = \"spatial\"\ngravity = [0, -9.81, 0]\n".to_owned();

@@ -1,4 +1,5 @@
-//! Wheels with a tube and balls, read from scenes: they roll as Newton's and Euler's equations say.
+//! Wheels with a tube and balls, read from scenes, roll according to Newton's and Euler's
+//! equations.
 
 use std::ops::ControlFlow;
 
@@ -58,12 +59,12 @@ fn close(found: &[f64], expected: &[f64], what: &str) {
     );
 }
 
-/// An upright torus starts from rest down a slope: v = ω·(radius + tube), and it falls with
+/// An upright torus starts from rest down a slope: v = ω·(radius + tube), and its acceleration is
 /// g·sin α/(1 + J/(m·(radius + tube)²)). Normal force and friction act at the contact.
 #[test]
 fn a_torus_rolls_down_a_slope() {
     rolls_down("[0.3, 0.5, 0.3]");
-    // Its wheel is borne by spokes: principal axes across the axle are not those of its frame.
+    // The wheel has spokes: its principal axes across the axle are not those of its frame.
     rolls_down("[[0.3, 0, 0.1], [0, 0.5, 0], [0.1, 0, 0.3]]");
 }
 
@@ -86,7 +87,7 @@ fn rolls_down(tensor: &str) {
         let place = [0, 1, 2].map(|k| reach * normal[k] + way * down[k]);
         close(&row.q[..3], &place, "place");
         close(&row.v[..3], &down.map(|x| speed * x), "velocity");
-        // About the axle, in whichever order the principal axes are.
+        // The rotation is about the axle, for any order of the principal axes.
         let turning: f64 = row.v[3..].iter().map(|w| w * w).sum();
         close(&[turning.sqrt()], &[speed / reach], "turning");
         let [pressure, friction] = [mass * GRAVITY * cos, mass * (GRAVITY * sin - along)];
@@ -98,16 +99,16 @@ fn rolls_down(tensor: &str) {
     }
 }
 
-/// A leaning torus whose axis turns steadily about the vertical. With the unit vectors r outwards,
-/// t along the circle and z upwards, the axis is e = sin θ·r + cos θ·z, its angular velocity
-/// Ω·z + s·e, and the contact is at c = ρ·cos θ·r − H·z from the centre, at the height
-/// H = ρ·sin θ + σ; ρ is the radius of the centre circle, σ that of the tube.
+/// A leaning torus has an axis that rotates steadily about the vertical. Let r be the unit vector
+/// outwards, t along the circle and z upwards. The axis is e = sin θ·r + cos θ·z, and its angular
+/// velocity is Ω·z + s·e. The contact is at c = ρ·cos θ·r − H·z from the centre, at the height H =
+/// ρ·sin θ + σ. The radius of the centre circle is ρ, and that of the tube is σ.
 ///
-/// Rolling: the centre has the velocity −(Ω·z + s·e) × c = −V·t with V = Ω·ρ·cos θ +
-/// s·(ρ + σ·sin θ). It goes round with Ω, so that the contact carries m·Ω·V·r + m·g·z, whose moment
-/// c × F is −(m·g·ρ·cos θ + m·H·Ω·V)·t. The angular momentum A·Ω·sin θ·(sin θ·z − cos θ·r) +
-/// C·ω₃·e, where ω₃ = s + Ω·cos θ, changes with Ω·sin θ·(C·ω₃ − A·Ω·cos θ)·t. Both are equal for
-/// one s.
+/// Rolling means that the centre has the velocity −(Ω·z + s·e) × c = −V·t with V = Ω·ρ·cos θ +
+/// s·(ρ + σ·sin θ). The centre moves on a circle with Ω, so that the contact carries m·Ω·V·r +
+/// m·g·z, whose moment c × F is −(m·g·ρ·cos θ + m·H·Ω·V)·t. The angular momentum is A·Ω·sin θ·(sin
+/// θ·z − cos θ·r) + C·ω₃·e, with ω₃ = s + Ω·cos θ. Its rate is Ω·sin θ·(C·ω₃ − A·Ω·cos θ)·t. Both
+/// sides are equal for one value of s.
 #[test]
 fn a_leaning_torus_rolls_steadily() {
     let (mass, [a, c], radius, tube) = (15.0, [3.75, 7.5], 0.8, 0.2);
@@ -115,7 +116,8 @@ fn a_leaning_torus_rolls_steadily() {
     let (sin, cos) = tilt.sin_cos();
     let height = radius * sin + tube;
     let lever = radius + tube * sin;
-    // Ω·sin θ·(C·(s + Ω·cos θ) − A·Ω·cos θ) + m·H·Ω·(Ω·ρ·cos θ + s·lever) + m·g·ρ·cos θ = 0
+    // The condition is Ω·sin θ·(C·(s + Ω·cos θ) − A·Ω·cos θ) + m·H·Ω·(Ω·ρ·cos θ + s·lever) +
+    // m·g·ρ·cos θ = 0.
     let of_spin = precession * (sin * c + mass * height * lever);
     let rest = precession * precession * cos * (sin * (c - a) + mass * height * radius)
         + mass * GRAVITY * radius * cos;
@@ -152,16 +154,16 @@ fn a_leaning_torus_rolls_steadily() {
     }
 }
 
-/// A ball on a slope, at first rolling across it and spinning about its normal: it falls with
-/// g·sin α·m·r²/(J + m·r²), keeps its velocity across and its spin, and the slope carries the rest
-/// of the weight at the contact.
+/// A ball on a slope at first rolls across it and spins about its normal. Its acceleration down the
+/// slope is g·sin α·m·r²/(J + m·r²). It keeps its velocity across the slope and its spin, and the
+/// slope carries the rest of the weight at the contact.
 #[test]
 fn a_ball_rolls_down_a_slope() {
     let (mass, moment, radius, slope) = (3.0, 0.5, 0.4, 0.3_f64);
     let (sin, cos) = slope.sin_cos();
     let (normal, down) = ([sin, 0.0, cos], [cos, 0.0, -sin]);
     let (across, spin) = (0.7, 2.0);
-    // A velocity V along the plane goes with ω = n × V/r, and n × y is −x' along the slope.
+    // A velocity V along the plane has ω = n × V/r, and n × y is −x' along the slope.
     let turning = [0, 1, 2].map(|k| spin * normal[k] - across / radius * down[k]);
     let scene = format!(
         "scene = {{ name = \"slope\", space = \"spatial\", gravity = [0, 0, -{GRAVITY}] }}\n\
@@ -185,7 +187,7 @@ fn a_ball_rolls_down_a_slope() {
         close(&row.v[..3], &velocity, "velocity");
         let pose = Pose::new([0.0; 3], [row.q[3], row.q[4], row.q[5], row.q[6]]);
         let omega = pose.direction_to_global([row.v[3], row.v[4], row.v[5]]);
-        // n × x' = y
+        // The identity is n × x' = y.
         let expected = [turning[0], speed / radius, turning[2]];
         close(&omega, &expected, "turning");
         let [pressure, friction] = [mass * GRAVITY * cos, mass * (GRAVITY * sin - along)];
@@ -197,8 +199,8 @@ fn a_ball_rolls_down_a_slope() {
     }
 }
 
-/// A wheel that is described below its plane, or less high above it than its tube is thick, does
-/// not come up by itself, and one that lies flat is named.
+/// A wheel below its plane, or with a height above it that is smaller than the tube radius, is not
+/// lifted automatically. The error names such a wheel, and also a wheel that lies flat.
 #[test]
 fn a_centre_that_is_too_low_is_named() {
     let told = |height: f64, axis: &str| {

@@ -1,4 +1,4 @@
-//! What second order says in space.
+//! Tests of second-order conditions in space.
 
 use joints::generated::space3::{Revolute, Spherical, Universal};
 use joints::space3::{Axes, Direction, Distance, Pose};
@@ -10,9 +10,9 @@ use solvability::{Continuation, analyse, blocked_velocities, decide, is_locked, 
 
 use super::verdicts::{Motion, TENSOR};
 
-/// A rigid triangle with corners at 120°·k + `turn`, radius 1, z = 1, on six bars: each corner to
-/// two corners of the base, at 120°·k and 120°·(k + 1), radius 1, z = 0. Long bars and short ones
-/// alternate.
+/// A rigid triangle has its corners at 120°·k + `turn`, radius 1, z = 1, and six bars. Each corner
+/// is connected to two corners of the base, at 120°·k and 120°·(k + 1), radius 1, z = 0. Long bars
+/// and short ones alternate.
 fn triangle_on_bars(
     turn: f64,
     motion: &Motion,
@@ -70,8 +70,8 @@ fn locked(d: &SpatialDescription) -> bool {
     found == Some(true)
 }
 
-/// V24: turned by 150°, the triangle may screw about z at first order: `v_z = −ω/2`. Second order
-/// blocks it.
+/// Case V24: rotated by 150°, the triangle may move as a screw about z at first order:
+/// `v_z = −ω/2`. The second-order conditions exclude this motion.
 #[test]
 fn a_triangle_on_six_bars_is_blocked_at_second_order() {
     let frames = [
@@ -97,16 +97,16 @@ fn a_triangle_on_six_bars_is_blocked_at_second_order() {
                     .all(|r| !r.wrench.verdict.is_unique())
             );
             assert!(locked(&d));
-            // In another position the six bars hold it at first order.
+            // In another position the six bars lock the triangle at first order.
             let d = triangle_on_bars(140.0, &motion, frame, centre);
             assert!(!locked(&d));
         }
     }
 }
 
-/// By hand: with tensions `z_k = ±L_k`, long bars pulled and short ones pushed, forces and moments
-/// vanish. For ω = 1, v_z = −½ each bar has `L·Γ = −(¼ + cos β)`, where β is the angle between its
-/// ends about z, 150° or 30°: `z·Γ = 3·√3`.
+/// By hand, with tensions `z_k = ±L_k`, tension in long bars and compression in short ones, forces
+/// and moments vanish. For ω = 1, v_z = −½ each bar has `L·Γ = −(¼ + cos β)` with the angle β
+/// between its ends about z, 150° or 30°: `z·Γ = 3·√3`.
 #[test]
 fn its_self_stress_does_work_at_second_order() {
     let d = triangle_on_bars(150.0, &Motion(Pose::GROUND), [1.0, 0.0, 0.0, 0.0], [0.0; 3]);
@@ -135,8 +135,8 @@ fn its_self_stress_does_work_at_second_order() {
     assert!((work - 3.0 * root).abs() < 1e-13, "{work}");
 }
 
-/// A platform on three legs of fixed length, each between two universal joints whose first axes are
-/// radial. The platform tilts at first order about any horizontal axis, in two ways, and two
+/// A platform has three legs of fixed length, each between two universal joints whose first axes
+/// are radial. The platform tilts at first order about any horizontal axis, in two ways. Two
 /// self-stresses resist at second order with forms like x² − y² and x·y: no combination of them is
 /// definite, and they have no common zero.
 #[test]
@@ -166,8 +166,8 @@ fn a_platform_on_three_legs_is_blocked_without_a_definite_combination() {
     assert_eq!(blocked(&d).len(), 2);
 }
 
-/// What moves along a path is not blocked, although Grübler's count says so, and neither is what
-/// branches.
+/// A linkage that moves along a path is not blocked, although Grübler's formula gives no freedom,
+/// and neither is a linkage with branches.
 #[test]
 fn linkages_that_move_are_not_blocked() {
     for drawing in [
@@ -183,7 +183,8 @@ fn linkages_that_move_are_not_blocked() {
     }
 }
 
-/// The velocities of bodies that second order is said to exclude.
+/// Returns the velocities of bodies that the second-order conditions exclude according to the
+/// program.
 fn blocked(d: &SpatialDescription) -> Vec<Vec<f64>> {
     let mechanism = Mechanism::build(d).expect("builds");
     let (q, _) = mechanism.described_state();
@@ -199,7 +200,7 @@ fn body(name: &str, position: [f64; 3]) -> SpatialBody {
     }
 }
 
-/// Hangs a body on the ground.
+/// Connects a body to the ground by a hinge.
 fn hang(d: &mut SpatialDescription, door: BodyRef, place: [f64; 3], axis: [f64; 3]) {
     let axis = Axes::new(axis, None).expect("a direction");
     let hinge = Revolute {
@@ -212,14 +213,15 @@ fn hang(d: &mut SpatialDescription, door: BodyRef, place: [f64; 3], axis: [f64; 
     d.joint(&name, &[BodyRef::Ground, door], hinge);
 }
 
-/// A door beside a rod that a ball joint and a Hooke joint hold at both ends: the length between
-/// these joints is constrained twice, always, and no form contains anything.
+/// A door is next to a rod that is connected by a ball joint and a Hooke joint at both ends. The
+/// length between these joints is always constrained twice, and no quadratic form has a non-zero
+/// entry.
 #[test]
 fn what_rounding_leaves_of_a_self_stress_blocks_nothing() {
     for k in 0..24 {
         let turn = 0.27 * f64::from(k);
         let (sin, cos) = turn.sin_cos();
-        let mut d = SpatialDescription::new("a door beside a rod");
+        let mut d = SpatialDescription::new("a door and a rod");
         let rod = d.body(body("rod", [0.5, 1.0, -1.0]));
         let door = d.body(body("door", [-2.0, 1.0, 1.5]));
         let [a, b] = [[0.5, 2.0, 0.5], [-1.0, -2.0, -2.0]];
@@ -237,7 +239,8 @@ fn what_rounding_leaves_of_a_self_stress_blocks_nothing() {
     }
 }
 
-/// V24 beside n doors: its one freedom is blocked, theirs are not.
+/// Case V24 with n separate doors: the freedom of V24 is blocked, and the freedoms of the doors are
+/// not.
 #[test]
 fn a_blocked_freedom_beside_many_others() {
     for n in [0_u8, 1, 4, 9, 20] {
@@ -250,7 +253,7 @@ fn a_blocked_freedom_beside_many_others() {
         let [v] = &blocked(&d)[..] else {
             panic!("{n} doors: {:?}", blocked(&d));
         };
-        // v_z = −ω/2, and the doors are at rest.
+        // The velocity is v_z = −ω/2, and the doors are at rest.
         assert!((v[2] + 0.5 * v[5]).abs() < 1e-12 * v[5].abs(), "{v:?}");
         assert!(
             v[6..].iter().all(|v_k| v_k.abs() < 1e-12 * v[5].abs()),

@@ -1,4 +1,4 @@
-//! Joints between shafts, read from scenes: what they transmit, by closed forms.
+//! Compares joints between shafts, read from scenes, with closed forms of their transmission.
 
 use std::ops::ControlFlow;
 
@@ -16,7 +16,7 @@ fn study(scene: &str) -> Study {
     study.unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Rows, rank, redundancy and mobility.
+/// Returns rows, rank, redundancy and mobility.
 fn judged(study: &Study) -> [usize; 4] {
     let found = study.analyse(0.0, None).expect("a start").analysis;
     let rows = found.holonomic_rows + found.nonholonomic_rows;
@@ -24,7 +24,7 @@ fn judged(study: &Study) -> [usize; 4] {
     [rows, rank, rows - rank, found.mobility()]
 }
 
-/// The angular velocities of all bodies in ground axes, at eleven times.
+/// Returns the angular velocities of all bodies in ground axes, at eleven times.
 fn turning(study: &Study, t_end: f64) -> Vec<(f64, Vec<[f64; 3]>)> {
     let options = MotionOptions {
         method: Method::Dop853,
@@ -48,7 +48,7 @@ fn turning(study: &Study, t_end: f64) -> Vec<(f64, Vec<[f64; 3]>)> {
     rows
 }
 
-/// Two shafts that meet at the origin under an angle, each on a hinge; the first one is driven.
+/// Two shafts meet at the origin under an angle, each on a hinge; the first one is driven.
 fn bent(joint: &str, drive: &str) -> String {
     format!(
         "scene = {{ name = \"shafts\", space = \"spatial\" }}\n\
@@ -60,9 +60,9 @@ fn bent(joint: &str, drive: &str) -> String {
     )
 }
 
-/// Both shafts turn with the same rate, although they meet under 53 degrees; a universal joint
-/// would give the second one between 0.6 and 1/0.6 of it. As with the latter, of the 14 rows three
-/// are redundant.
+/// Both shafts turn with the same rate, although they meet under 53 degrees; with a universal joint
+/// the rate of the second would vary between 0.6 and 1/0.6 of that of the first. As with a
+/// universal joint, three of the 14 rows are redundant.
 #[test]
 fn a_constant_velocity_joint_transmits_the_rate() {
     let joint =
@@ -83,7 +83,8 @@ fn a_constant_velocity_joint_transmits_the_rate() {
     }
 }
 
-/// Axes at right angles, along any axes of both bodies: the row is `ω·(a + b)`, a and b the axes.
+/// The axes are at right angles, along any axes of both bodies: the row is `ω·(a + b)` with the
+/// axes a and b.
 #[test]
 fn axes_of_a_constant_velocity_joint_may_be_at_right_angles() {
     let units = [

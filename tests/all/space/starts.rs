@@ -1,6 +1,6 @@
-//! Starts far from the constraints: the ten examples in space with every body moved and turned at
-//! random. Where the axes of a joint must point is taken from the scene as it stands in the
-//! gallery, whose poses are right.
+//! Starts far from the constraints: the ten examples in space with every body displaced and rotated
+//! at random. The required directions of the axes of a joint are taken from the scene in the
+//! gallery, whose poses are correct.
 
 use joints::space3::{Pose, dot};
 use model::start::{CorrectionLimit, consistent_velocity, scene_size};
@@ -16,8 +16,7 @@ const NAMES: [&str; 10] = [
     "wagon",
 ];
 
-/// Largest |Φ|, relative to the size of the mechanism where it is a length: rounding of the terms
-/// of a row.
+/// Largest |Φ|, relative to the size of the mechanism for lengths: rounding of the terms of a row.
 const RESIDUAL: f64 = 1e-12;
 
 /// Cosine of the angle between axes that are parallel.
@@ -36,7 +35,7 @@ fn spatial(d: &AnyDescription) -> &SpatialDescription {
     }
 }
 
-/// A direction at random, all alike.
+/// Returns a random direction with uniform distribution.
 fn direction(numbers: &mut Numbers) -> [f64; 3] {
     loop {
         let d = [0; 3].map(|_| numbers.unit());
@@ -47,7 +46,7 @@ fn direction(numbers: &mut Numbers) -> [f64; 3] {
     }
 }
 
-/// a∘b
+/// Returns the product a∘b.
 fn product([a, x, y, z]: [f64; 4], [b, u, v, w]: [f64; 4]) -> [f64; 4] {
     [
         a * b - x * u - y * v - z * w,
@@ -57,7 +56,7 @@ fn product([a, x, y, z]: [f64; 4], [b, u, v, w]: [f64; 4]) -> [f64; 4] {
     ]
 }
 
-/// Every body turned by this angle and moved by this length.
+/// Rotates every body by this angle and displaces it by this length.
 fn disturb(d: &mut AnyDescription, angle: f64, length: f64, numbers: &mut Numbers) {
     let AnyDescription::Space3(d) = d else {
         panic!("a scene in space")
@@ -71,7 +70,7 @@ fn disturb(d: &mut AnyDescription, angle: f64, length: f64, numbers: &mut Number
     }
 }
 
-/// The poses of the bodies of a joint; the tensors of the examples are diagonal, so that
+/// Returns the poses of the bodies of a joint; the tensors of the examples are diagonal, so that
 /// coordinates are those of the frames.
 fn poses(bodies: &[BodyRef], q: &[f64]) -> Vec<Pose> {
     let of = |body: &BodyRef| match body {
@@ -85,7 +84,7 @@ fn poses(bodies: &[BodyRef], q: &[f64]) -> Vec<Pose> {
     bodies.iter().map(of).collect()
 }
 
-/// Faults of a start: rows that do not hold, axes that point elsewhere than in the gallery, and
+/// Returns errors of a start: violated rows, axes with other directions than in the gallery, and
 /// wheels below the ground.
 fn faults(
     d: &SpatialDescription,
@@ -130,7 +129,8 @@ fn faults(
     found
 }
 
-/// Starts of each example with every body this far off (rad; share of the size): all assemble.
+/// Assembles starts of each example with every body displaced by this amount (rad; fraction of the
+/// size), and asserts that all succeed.
 fn assembles(starts: usize, angle: f64, share: f64, seed: u64) {
     let mut wrong = Vec::new();
     for name in NAMES {
@@ -173,7 +173,7 @@ fn starts_twenty_degrees_and_twenty_percent_off_assemble() {
     assembles(10, 20_f64.to_radians(), 0.2, 2);
 }
 
-/// A body on a ball joint, turned, of which a point is to move with 0.5 m/s along a direction.
+/// A body on a ball joint is rotated, and a point of it has to move with 0.5 m/s along a direction.
 const BALL: &str = r#"
 scene = { name = "ball", space = "spatial" }
 body = [{ name = "b", mass = 1.0, inertia = [0.3, 0.7, 0.9], orientation = { axis = [1, -2, 3], angle = 0.8 } }]
@@ -183,8 +183,8 @@ joint = [
 ]
 "#;
 
-/// Least kinetic energy, solved with multipliers in ground axes by nalgebra: kept components are
-/// zero.
+/// The reference is the least kinetic energy, solved with multipliers in ground axes by nalgebra:
+/// kept components are zero.
 #[test]
 fn components_of_an_angular_velocity_are_kept_along_the_axes_of_the_ground() {
     let axis = Vector3::new(1.0, -2.0, 3.0).normalize();
@@ -195,7 +195,7 @@ fn components_of_an_angular_velocity_are_kept_along_the_axes_of_the_ground() {
         r * Vector3::new(0.3, 0.2, -0.4),
         r * Vector3::new(0.6, 0.0, 0.8),
     );
-    // way·(ω × point) = ω·(point × way)
+    // The identity is way·(ω × point) = ω·(point × way).
     let row = point.cross(&way);
     for kept in [vec![], vec![0], vec![1], vec![2], vec![0, 1], vec![2, 0]] {
         let n = 4 + kept.len();
@@ -236,7 +236,7 @@ fn components_of_an_angular_velocity_are_kept_along_the_axes_of_the_ground() {
     }
 }
 
-/// Users write angular velocities along the axes of the ground, and read of them so.
+/// Users write angular velocities along the axes of the ground, and the messages use the same axes.
 #[test]
 fn an_impossible_angular_velocity_is_told_along_the_axes_of_the_ground() {
     let text = r#"
@@ -255,7 +255,7 @@ joint = [{ name = "J", type = "revolute", bodies = ["ground", "b"], at = [0, 0, 
     let Err(StartError::Velocities(conflict)) = found else {
         panic!("{found:?}")
     };
-    // The hinge turns about y of the ground, which is x of the body.
+    // The hinge rotates about y of the ground, which is x of the body.
     assert_eq!((conflict.coordinate, conflict.given), ("wx", 0.25));
     assert!(conflict.nearest.abs() < 1e-15, "{conflict}");
 }

@@ -1,5 +1,5 @@
-//! Angles with their full turns: screws, and springs and motors on the angles of joints in space,
-//! against closed forms.
+//! Compares unwrapped angles with closed forms: screws, and springs and motors on the angles of
+//! joints in space.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
@@ -35,7 +35,7 @@ fn run(text: &str, options: &MotionOptions) -> End {
     End { q, v, summary }
 }
 
-/// One row at the end, many turns after the start.
+/// The options request one row at the end, many revolutions after the start.
 fn options(t_end: f64, method: Method, tolerance: f64) -> MotionOptions {
     MotionOptions {
         rtol: tolerance,
@@ -51,7 +51,7 @@ fn close(found: f64, expected: f64, bound: f64, what: &str) {
     assert!(off <= bound, "{what}: {found}, expected {expected}");
 }
 
-/// A nut on an upright screw, which starts at a third of a turn.
+/// A nut is on a vertical screw and starts at a third of a revolution.
 fn nut(pitch: f64, omega: f64) -> String {
     format!(
         r#"
@@ -66,7 +66,7 @@ joint = [{{ name = "thread", type = "screw", bodies = ["ground", "nut"], at = [1
 
 #[test]
 fn a_nut_falls_along_its_thread_turn_by_turn() {
-    // (m + J·(2π/p)²)·z̈ = −m·g: with p = 5 mm it takes 2.4 s for the first turn.
+    // The equation is (m + J·(2π/p)²)·z̈ = −m·g: with p = 5 mm the first revolution takes 2.4 s.
     let methods = [
         Method::Dop853,
         Method::Dopri5,
@@ -90,7 +90,7 @@ fn a_nut_falls_along_its_thread_turn_by_turn() {
         let angle = 2.0 + turns * TAU;
         let found = 2.0 * end.q[6].atan2(end.q[3]);
         close((0.5 * (found - angle)).sin(), 0.0, 1e-6, "angle");
-        // The counted angle is that since the start.
+        // The unwrapped angle is the angle since the start.
         close(end.q[7], turns * TAU, 1e-6, "turns");
         assert!(end.summary.max_position_residual < 1e-10);
         close(end.v[2], per_radian * end.v[5], 1e-9, "advance");
@@ -113,7 +113,8 @@ fn a_screw_has_one_freedom_and_its_thread_carries_a_couple() {
     );
 }
 
-/// A wheel on an axis along (1, 2, 2)/3 with a torsion spring, its tensor not along its axes.
+/// A wheel on an axis along (1, 2, 2)/3 has a torsion spring, and its tensor is not aligned with
+/// its axes.
 fn balance(law: &str, tensor: &str) -> String {
     format!(
         r#"
@@ -127,7 +128,7 @@ drive = [{{ name = "spring", joint = "axle", type = "angle", torque = "{law}" }}
 
 #[test]
 fn a_torsion_spring_counts_its_turns() {
-    // J about the axis: a·J·a with a = (1, 2, 2)/3.
+    // The moment of inertia J about the axis is a·J·a with a = (1, 2, 2)/3.
     let tensors = [
         ("[0.9, 0.9, 0.9]", 0.9),
         (
@@ -157,7 +158,7 @@ fn a_torsion_spring_counts_its_turns() {
                 );
             }
         }
-        // Seven turns and more.
+        // The wheel makes more than seven revolutions.
         assert!(omega / own > 7.0 * TAU);
     }
 }
@@ -174,7 +175,7 @@ force = [{{ name = "spring", type = "torsion-spring-damper", joint = "axle", sti
 "#
         )
     };
-    // J·θ̈ + c·θ̇ + k·(θ − θ₀) = 0
+    // The equation is J·θ̈ + c·θ̇ + k·(θ − θ₀) = 0.
     let (j, c, k, v) = (2.0_f64, 0.2_f64, 0.5_f64, 30.0_f64);
     let (sigma, t) = (0.5 * c / j, 5.0);
     let own = (k / j - sigma * sigma).sqrt();
@@ -188,14 +189,14 @@ force = [{{ name = "spring", type = "torsion-spring-damper", joint = "axle", sti
     }
 }
 
-/// Implicit methods take one coordinate of a hinge and complete the others, whichever axis of the
-/// body it is.
+/// Implicit methods select one coordinate of a hinge and complete the others, for any axis of the
+/// body.
 #[test]
 fn pendulums_swing_about_any_axis_by_the_implicit_method() {
     for axis in [[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 2, 2], [3, -1, 0]] {
         let size = f64::from(axis.iter().map(|x: &i32| x * x).sum::<i32>()).sqrt();
         let a = axis.map(|x| f64::from(x) / size);
-        // Gravity across the axis, along `down`; the rod starts along their cross product.
+        // Gravity acts across the axis, along `down`; the rod starts along their cross product.
         let across = if axis[0] == 0 {
             [1.0, 0.0, 0.0]
         } else {
@@ -217,7 +218,8 @@ joint = [{{ name = "hinge", type = "revolute", bodies = ["ground", "bob"], at = 
 "#,
             at = along.map(|x| 0.5 * x),
         );
-        // (J + m·l²)·θ̈ = −m·g·l·cos θ from θ = 0, by the same equation in one coordinate.
+        // The reference is (J + m·l²)·θ̈ = −m·g·l·cos θ from θ = 0, by the same equation in one
+        // coordinate.
         let (mut theta, mut rate) = (0.0_f64, 0.0_f64);
         let n = 40_000;
         let h = 2.0 / f64::from(n);
@@ -243,7 +245,7 @@ joint = [{{ name = "hinge", type = "revolute", bodies = ["ground", "bob"], at = 
     }
 }
 
-/// Two shafts side by side, the second one coupled to the first, and a torque on the first.
+/// Two parallel shafts: the second one is coupled to the first, and a torque acts on the first.
 fn train(ratio: f64) -> String {
     format!(
         r#"
@@ -310,7 +312,7 @@ fn a_cylindrical_joint_with_a_coupling_is_a_screw() {
 
 #[test]
 fn a_cam_follows_its_polynomial() {
-    // y = 0.03·θ − 0.002·θ² + 0.0001·θ³, without gravity: ½·(J + m·h'²)·θ̇² stays.
+    // With y = 0.03·θ − 0.002·θ² + 0.0001·θ³ and without gravity, ½·(J + m·h'²)·θ̇² is constant.
     let text = r#"
 scene = { name = "cam", space = "spatial" }
 body = [
@@ -332,7 +334,7 @@ joint = [
         close(end.q[8], 1.0 + h(angle), 1e-9, "the rod");
         let energy = |x: f64, rate: f64| (0.2 + 30.0 * slope(x) * slope(x)) * rate * rate;
         close(energy(angle, end.v[5]), energy(0.0, 5.0), 1e-8, "energy");
-        // t = ∫ √((J + m·h'²)/2E) dθ, by Simpson's rule.
+        // The time is t = ∫ √((J + m·h'²)/2E) dθ, by Simpson's rule.
         let n = 20_000;
         let dt = |x: f64| ((0.2 + 30.0 * slope(x) * slope(x)) / energy(0.0, 5.0)).sqrt();
         let x = |k: usize| angle * k as f64 / n as f64;

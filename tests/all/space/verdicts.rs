@@ -1,6 +1,6 @@
-//! Verdicts in space compared with known answers: rows, rank, redundancy, mobility, and which
-//! reactions are unique. The answers follow from screws of single loops, from the lift of planar
-//! linkages, and from exact arithmetic (crate `lab`, `fuzz::space`).
+//! Compares verdicts in space with known results: rows, rank, redundancy, mobility, and which
+//! reactions are unique. The results follow from screws of single loops, from planar linkages in
+//! space, and from exact arithmetic (crate `lab`, `fuzz::space`).
 
 use joints::space3::{Axes, Cylindrical, Direction, Planar, Revolute, Spherical, Translational};
 use joints::space3::{Pose, Universal};
@@ -31,7 +31,7 @@ impl Sketch {
         }
     }
 
-    /// A body with its mass centre at a point and turned axes.
+    /// Adds a body with its mass centre at a point and rotated axes.
     fn body(&mut self, name: &str, position: [f64; 3], orientation: [f64; 4]) -> BodyRef {
         self.d.body(SpatialBody {
             position,
@@ -40,7 +40,7 @@ impl Sketch {
         })
     }
 
-    /// Axes along a direction of the ground, in a body.
+    /// Returns axes along a direction of the ground, in a body.
     fn axes(&self, body: BodyRef, axis: [f64; 3]) -> Axes {
         let axes = Axes::new(axis, None).expect("a direction");
         axes.map(|v| self.direction(body, v))
@@ -100,7 +100,7 @@ impl Sketch {
         }
     }
 
-    /// A cross with its axis `a` fixed in the first body and `b` in the second.
+    /// Adds a cross with its axis `a` fixed in the first body and `b` in the second.
     fn cross(&mut self, name: &str, bodies: [BodyRef; 2], at: [f64; 3], a: [f64; 3], b: [f64; 3]) {
         let [s_i, s_j] = bodies.map(|body| self.d.local(body, at));
         let [axis, cross] = [(0, a), (1, b)]
@@ -114,7 +114,7 @@ impl Sketch {
     }
 }
 
-/// Moved and turned as a whole: every body and every joint of a sketch is placed through this.
+/// A motion of the whole mechanism: every body and every joint of a sketch is placed through it.
 #[derive(Clone, Copy)]
 pub(super) struct Motion(pub(super) Pose);
 
@@ -137,7 +137,7 @@ impl Motion {
     }
 }
 
-/// Rows, rank, redundancy, mobility.
+/// Rows, rank, redundancy and mobility.
 type Ranks = [usize; 4];
 
 fn judge(sketch: &Sketch, expected: Ranks) -> Vec<ReactionVerdict> {
@@ -154,7 +154,7 @@ fn judge(sketch: &Sketch, expected: Ranks) -> Vec<ReactionVerdict> {
     analysis.reactions
 }
 
-/// The components of a reaction that are unique, in ground axes.
+/// Returns the components of a reaction that are unique, in ground axes.
 fn unique(reactions: &[ReactionVerdict], name: &str) -> Vec<&'static str> {
     let reaction = reactions.iter().find(|r| r.name == name).expect(name);
     let unique = |c: &&solvability::ComponentVerdict| c.judgement.verdict == Verdict::Unique;
@@ -171,7 +171,7 @@ fn is_unique(reactions: &[ReactionVerdict], name: &str) -> bool {
     reaction.wrench.verdict == Verdict::Unique
 }
 
-/// V1: a door on n coaxial hinges.
+/// Case V1 is a door on n coaxial hinges.
 #[test]
 fn doors() {
     for motion in Motion::all() {
@@ -227,14 +227,14 @@ fn four_bar(name: &str, kinds: [Kind; 4], motion: &Motion) -> Sketch {
     s
 }
 
-/// V3: the planar four-bar with joints of space.
+/// Case V3 is the planar four-bar with joints of space.
 #[test]
 fn four_bars() {
     use Kind::{C, R, S};
     let at_home = Motion(Pose::GROUND);
     let planar = judge(&four_bar("RRRR", [R; 4], &at_home), [20, 17, 3, 1]);
     for joint in ["A", "B", "C", "D"] {
-        // Tz of a revolute is zero, which is unique.
+        // Tz of a revolute is zero, and so it is unique.
         assert_eq!(unique(&planar, joint), ["Fx", "Fy", "Tz"], "{joint}");
     }
     let ball = judge(&four_bar("RRRS", [R, R, R, S], &at_home), [18, 17, 1, 1]);
@@ -245,7 +245,7 @@ fn four_bars() {
             "{joint}"
         );
     }
-    // A–D lies along x: the self-stress is a force along z through D, without moment about x at A.
+    // A–D is along x: the self-stress is a force along z through D, without moment about x at A.
     assert!(unique(&ball, "A").contains(&"Tx"));
     for motion in Motion::all() {
         judge(&four_bar("RRRR", [R; 4], &motion), [20, 17, 3, 1]);
@@ -263,7 +263,7 @@ fn four_bars() {
     }
 }
 
-/// V4: slider-cranks.
+/// Case V4 contains slider-cranks.
 #[test]
 fn slider_cranks() {
     use Kind::{C, P, R, S};
@@ -299,14 +299,15 @@ fn slider_cranks() {
     }
 }
 
-/// V10: a Hooke joint between two bearings, its cross as a body or as one joint.
+/// Case V10 is a Hooke joint between two bearings, with its cross as a body or as one joint.
 #[test]
 fn hooke_joints() {
     for motion in Motion::all() {
         let (sin, cos) = 0.5_f64.sin_cos();
         let first = motion.vector([1.0, 0.0, 0.0]);
         let second = motion.vector([cos, sin, 0.0]);
-        // Axes of the cross: z on the first shaft, across both on the second.
+        // The axes of the cross are z on the first shaft, and the direction across both on the
+        // second.
         let [a, b] = [Z, [-sin, cos, 0.0]].map(|v| motion.vector(v));
         let [centre, left, right] =
             [[0.0; 3], [-0.6, 0.0, 0.0], [0.7 * cos, 0.7 * sin, 0.0]].map(|p| motion.point(p));
@@ -333,7 +334,7 @@ fn hooke_joints() {
     }
 }
 
-/// V11: Bennett's linkage in rational numbers: one redundant row, no reaction unique.
+/// Case V11 is Bennett's linkage in rational numbers: one redundant row, and no reaction is unique.
 #[test]
 fn bennett() {
     for motion in Motion::all() {
@@ -374,7 +375,7 @@ fn bennett() {
     }
 }
 
-/// V16: a table on n points of a plane.
+/// Case V16 is a table on n points of a plane.
 #[test]
 fn tables() {
     for motion in Motion::all() {
@@ -401,8 +402,8 @@ fn tables() {
     }
 }
 
-/// V22: a chassis on four wheels, each with a hub and a contact that does not slip; straight, and
-/// with its front axle turned in parallel.
+/// Case V22 is a chassis on four wheels, each with a hub and a contact that does not slip;
+/// straight, and with its front axle steered in parallel.
 #[test]
 fn cars() {
     use joints::space3::{GroundPlane, Wheel};
@@ -413,7 +414,7 @@ fn cars() {
         for (k, [x, y]) in wheels.into_iter().enumerate() {
             let angle = if k < 2 { turn } else { 0.0 };
             let (sin, cos) = (0.5 * angle).sin_cos();
-            // Each wheel has turned about its own axis by another angle.
+            // Each wheel has turned about its own axis by a different angle.
             let spin = 0.3 * (k as f64 + 1.0);
             let own = [spin.cos(), 0.0, spin.sin(), 0.0];
             let orientation = [cos * own[0], -sin * own[2], cos * own[2], sin * own[0]];

@@ -1,11 +1,11 @@
 //! Random scenes of several separate mechanisms, with and without redundant rows, drives, locked
-//! parts and singular poses, at any size and place.
+//! parts and singular configurations, at any size and position.
 
 use std::fmt::Write;
 
 use tests::numbers::Numbers;
 
-/// A body of a scene, and the velocities that the text states.
+/// A body of a scene, with the velocities that the text states.
 #[derive(Clone, Debug)]
 pub(super) struct BodyText {
     pub(super) name: String,
@@ -22,7 +22,7 @@ pub(super) struct BodyText {
 pub(super) struct Sketch {
     pub(super) bodies: Vec<BodyText>,
     rest: String,
-    /// Entries of `keep`.
+    /// Entries of the key `keep`.
     pub(super) keep: Vec<(usize, usize)>,
     /// Whether drives may contradict each other.
     pub(super) is_singular: bool,
@@ -35,7 +35,7 @@ pub(super) struct Sketch {
 pub(super) const NAMES: [&str; 3] = ["vx", "vy", "omega"];
 
 impl Sketch {
-    /// One to three mechanisms.
+    /// Draws one to three mechanisms.
     pub(super) fn random(numbers: &mut Numbers) -> Self {
         let size = 10_f64.powi(3 * numbers.between(-2, 2));
         let far = [0.0, 0.0, 100.0][numbers.below(3)] * size;
@@ -101,7 +101,7 @@ impl Sketch {
         format!("{kind}{}", self.count)
     }
 
-    /// A bar between two points of the mechanism.
+    /// Adds a bar between two points of the mechanism.
     fn bar(&mut self, numbers: &mut Numbers, from: [f64; 2], to: [f64; 2]) -> String {
         let name = self.name("bar");
         let middle = [0, 1].map(|k| 0.5 * (from[k] + to[k]));
@@ -139,7 +139,7 @@ impl Sketch {
         .expect("memory");
     }
 
-    /// A linkage at any angle of its crank; driven, driven twice, or free.
+    /// Adds a linkage at any angle of its crank: driven, driven twice, or free.
     fn four_bar(&mut self, numbers: &mut Numbers) {
         let angle = 3.0 * numbers.unit();
         let (crank, coupler, rocker, frame) = (0.8, 2.4, 1.9, 2.1);
@@ -166,7 +166,7 @@ impl Sketch {
         }
     }
 
-    /// Two to four equal cranks under one coupler, sometimes flat.
+    /// Adds two to four equal cranks under one coupler, sometimes in the singular configuration.
     fn parallelogram(&mut self, numbers: &mut Numbers) {
         let is_flat = numbers.once_in(6);
         self.is_singular |= is_flat;
@@ -189,7 +189,7 @@ impl Sketch {
         }
     }
 
-    /// A part that cannot move, by one joint or by two.
+    /// Adds a part that cannot move, locked by one joint or by two.
     fn locked(&mut self, numbers: &mut Numbers) {
         let bar = self.bar(numbers, [0.0, 0.0], [1.0, 0.3]);
         if numbers.once_in(2) {
@@ -200,7 +200,7 @@ impl Sketch {
         }
     }
 
-    /// An open chain, some of its joints driven.
+    /// Adds an open chain with some driven joints.
     fn chain(&mut self, numbers: &mut Numbers) {
         let mut before = "ground".to_owned();
         let mut at = [0.0, 0.0];
@@ -216,7 +216,8 @@ impl Sketch {
         }
     }
 
-    /// A beam on one or two rails, with no drive, one, two that agree or two that do not.
+    /// Adds a beam on one or two rails, with no drive, one drive, two consistent drives or two
+    /// inconsistent drives.
     fn slide(&mut self, numbers: &mut Numbers) {
         let beam = self.bar(numbers, [0.0, -1.0], [0.0, 1.0]);
         let axis = "axis = [0.8, 0.6]";
@@ -243,7 +244,7 @@ impl Sketch {
         }
     }
 
-    /// A cart on two wheels of one axle, towing another one.
+    /// Adds a cart on two wheels of one axle that tows another cart.
     fn cart(&mut self, numbers: &mut Numbers) {
         let cart = self.bar(numbers, [0.0, 0.0], [1.0, 0.0]);
         let size = self.size;

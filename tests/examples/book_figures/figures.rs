@@ -80,7 +80,7 @@ fn read(text: &str, overrides: &RunOptions) -> Fallible<Study> {
     )?)
 }
 
-/// A mechanism at its start, its joints marked by verdict and labelled with their rows.
+/// Draws a mechanism at its start, with joints marked by verdict and labelled with their rows.
 fn with_rows(text: &str) -> Fallible<String> {
     let study = read(text, &RunOptions::default())?;
     let described = study.scene.description.plane();
@@ -116,7 +116,7 @@ fn with_rows(text: &str) -> Fallible<String> {
     )?)
 }
 
-/// A mechanism at a time of its motion, marked by verdict.
+/// Draws a mechanism at a time of its motion, marked by verdict.
 fn leaning(text: &str, t: f64) -> Fallible<String> {
     let study = read(text, &RunOptions::default())?;
     let configuration = study.analyse(t, None)?;
@@ -128,7 +128,7 @@ fn leaning(text: &str, t: f64) -> Fallible<String> {
     )?)
 }
 
-/// A mechanism at its start, as `pfaff view` draws it.
+/// Draws a mechanism at its start, as `pfaff view` does.
 fn viewed(text: &str) -> Fallible<String> {
     let study = read(text, &RunOptions::default())?;
     let start = study.analyse(0.0, None)?;
@@ -308,7 +308,7 @@ fn reactions(text: &str) -> Fallible<String> {
 /// The scene of the report on error versus run time that is shown.
 const SHOWN: &str = "robot-trolley";
 
-/// The part of the report's figure that belongs to the robot.
+/// Draws the part of the figure of the report that belongs to the robot.
 fn work_precision(csv: &str) -> Fallible<String> {
     let mut lines = csv.lines();
     let head: Vec<&str> = lines.next().ok_or("an empty table")?.split(',').collect();
@@ -367,8 +367,8 @@ fn work_precision(csv: &str) -> Fallible<String> {
     Ok(figures::work_precision(&[scene]))
 }
 
-/// The names that may occur in a row of the report: those of pfaff, and of the comparators of the
-/// laboratory.
+/// Returns the names that may occur in a row of the report: those of pfaff, and of the comparators
+/// of the laboratory.
 fn known(name: &str) -> Fallible<&'static str> {
     use pfaff::dynamics::{Method, Stabilisation};
     const OTHERS: [&str; 8] = [

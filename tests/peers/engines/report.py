@@ -366,7 +366,7 @@ def machine_table(out: Path) -> str:
         f"{told['date']}; load of the machine at the start {told['load at the start']}."
     )
     if told["load at the start"] > IDLE:
-        text += " **Where other work went on, as this load may tell, times are provisional and ratios rough.**"
+        text += " **If this load indicates other work on the machine, times are provisional and ratios are approximate.**"
     return text
 
 

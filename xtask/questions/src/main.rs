@@ -1,6 +1,6 @@
-//! Writes what follows from the list of questions: the JSON schema of each answer, the methods of
-//! the Python package, and the tables of options in the book. `cargo xtask questions` runs it; with
-//! `--check` it compares what is there.
+//! Writes the files that are derived from the list of questions: the JSON schema of each answer,
+//! the methods of the Python package, and the tables of options in the book.
+//! `cargo xtask questions` runs it; with `--check` it compares the existing files.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod book;
@@ -19,7 +19,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// All files that follow from the list, by their paths from the root, with their texts.
+/// All files that are derived from the list, by their paths from the root, with their texts.
 fn files() -> Result<Vec<(String, String)>, String> {
     let questions = questions();
     let mut files = Vec::new();

@@ -1,23 +1,23 @@
-//! An option of a question: its words from the command line, its type from the schema.
+//! An option of a question: its text from the command line, its type from the schema.
 
 use clap::Arg;
 use serde_json::Value;
 
 /// An option.
 pub(crate) struct QuestionOption {
-    /// Its key, as `at_time`.
+    /// Key of the option, such as `at_time`.
     pub(crate) key: String,
-    /// The key of the object that it is in; `None` for the question itself.
+    /// Key of the object that contains the option; `None` for the question itself.
     pub(crate) inside: Option<String>,
-    /// On the command line, as `--at-time T`.
+    /// Form on the command line, such as `--at-time T`.
     pub(crate) flag: String,
-    /// What it is.
+    /// Description of the option.
     pub(crate) help: String,
-    /// Its default on the command line; empty if there is none.
+    /// Default on the command line; empty if there is none.
     pub(crate) default: String,
-    /// Its type.
+    /// Type of the option.
     pub(crate) kind: Kind,
-    /// Whether it may be absent.
+    /// Whether the option may be absent.
     pub(crate) optional: bool,
 }
 
@@ -28,17 +28,17 @@ pub(crate) enum Kind {
     Count,
     Number,
     Text,
-    /// A number, or a word in place of it.
+    /// A number, or a word instead of it.
     NumberOrWord,
     /// Rows, from 1.
     Rows,
     Texts,
-    /// Texts as `KEY=VALUE`.
+    /// Texts in the form `KEY=VALUE`.
     Settings,
 }
 
 impl QuestionOption {
-    /// An argument of a question with these options.
+    /// The argument of a question with these options.
     pub(crate) fn new(argument: &Arg, options: &Value) -> Self {
         let key = argument.get_id().to_string();
         let (inside, schema) = place(&key, options);
@@ -73,7 +73,7 @@ impl QuestionOption {
     }
 }
 
-/// Where an option stands: the key of an object of options, and its schema.
+/// Position of an option: the key of an object of options, and its schema.
 fn place<'v>(key: &str, options: &'v Value) -> (Option<String>, &'v Value) {
     let own = &options["properties"];
     if let Some(schema) = own.get(key) {
@@ -87,7 +87,7 @@ fn place<'v>(key: &str, options: &'v Value) -> (Option<String>, &'v Value) {
     found.next().unwrap_or((None, &Value::Null))
 }
 
-/// The schema that a reference stands for.
+/// The schema to which a reference refers.
 fn resolved<'v>(schema: &'v Value, options: &'v Value) -> &'v Value {
     let name = schema["$ref"].as_str();
     let name = name.and_then(|name| name.strip_prefix("#/$defs/"));
@@ -97,7 +97,7 @@ fn resolved<'v>(schema: &'v Value, options: &'v Value) -> &'v Value {
 /// The type of a schema, and whether it may be `null`.
 ///
 /// # Panics
-/// The type is unknown: then the generator has to learn it.
+/// The type is unknown: then it must be added to the generator.
 fn kind(schema: &Value, options: &Value) -> (Kind, bool) {
     let schema = resolved(schema, options);
     if let Some(any) = schema["anyOf"].as_array() {

@@ -1,5 +1,5 @@
 //! The methods of the Python package: typed keywords, one method for each question whose answer is
-//! a document. Those whose files are written while they are computed are arrays in Python, and
+//! a document. Questions that write their files during the computation return arrays in Python, and
 //! their methods are written by hand.
 
 use crate::option::{Kind, QuestionOption};
@@ -8,7 +8,8 @@ use crate::question::Question;
 /// The module.
 pub(crate) const PATH: &str = "python/package/pfaff/_questions.py";
 
-/// What is more than its document in Python: name of the question, module and name of its class.
+/// Questions whose Python object contains more than the document: name of the question, module and
+/// name of the class.
 const CLASSES: [(&str, &str, &str); 4] = [
     ("analyze", "_analysis", "Analysis"),
     ("linearise", "_linearisation", "Linearisation"),
@@ -201,7 +202,7 @@ fn checked(option: &QuestionOption) -> String {
     }
 }
 
-/// What the method does, and what its arguments are.
+/// Description of the method and of its arguments.
 fn documentation(question: &Question) -> String {
     let command = question.name;
     let about = in_python(&question.about);
@@ -222,8 +223,8 @@ fn documentation(question: &Question) -> String {
     text
 }
 
-/// A text of the command line in words of Python: `--at-time` is ``at_time`` there, and what is
-/// given several times is a list.
+/// Converts a text of the command line to Python terms: `--at-time` becomes ``at_time``, and an
+/// option that can be repeated becomes a list.
 fn in_python(text: &str) -> String {
     let text = text
         .replace("; may be given several times", "")

@@ -1,4 +1,4 @@
-//! The questions, as they are known from outside.
+//! The questions, as seen by users.
 
 use clap::{Command, Subcommand};
 use pfaff::questions::Questions;
@@ -6,18 +6,18 @@ use serde_json::Value;
 
 use crate::option::QuestionOption;
 
-/// A question as it is known from outside.
+/// A question, as seen by users.
 pub(crate) struct Question {
-    /// Subcommand and method.
+    /// Name of the subcommand and of the method.
     pub(crate) name: &'static str,
-    /// What it answers, in a line.
+    /// Description of the answer in one line.
     pub(crate) about: String,
     pub(crate) options: Vec<QuestionOption>,
-    /// Names of the scenes that it is asked about.
+    /// Names of the scenes that the question needs.
     pub(crate) scenes: &'static [&'static str],
-    /// What its files contain, if it has any.
+    /// Description of the files of the answer, if it has files.
     pub(crate) files: Option<&'static str>,
-    /// Whether its files are written while the answer is computed.
+    /// Whether the files are written while the answer is computed.
     pub(crate) streams: bool,
     /// JSON schema of the answer.
     pub(crate) answer: Value,
@@ -26,7 +26,7 @@ pub(crate) struct Question {
 /// All questions, in the order of the list.
 pub(crate) fn questions() -> Vec<Question> {
     let mut program = Questions::augment_subcommands(Command::new("pfaff"));
-    // Numbers of values and defaults are known from then on.
+    // After this call, the numbers of values and the defaults are available.
     program.build();
     let schemas = Questions::schemas().into_iter();
     let questions = schemas.zip(Questions::FACTS).map(|(schema, facts)| {

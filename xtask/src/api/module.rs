@@ -13,7 +13,7 @@ pub(super) struct Module {
 }
 
 impl Module {
-    /// The module of a file with those below it.
+    /// The module of a file with its submodules.
     pub(super) fn read(path: &Path) -> Result<Self, String> {
         let told = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
         let text = fs::read_to_string(path).map_err(|e| told(&e))?;
@@ -70,7 +70,7 @@ fn file_of(below: &Path, name: &str) -> PathBuf {
     }
 }
 
-/// Whether an item is for tests, or hidden from users.
+/// Whether an item is only for tests, or hidden from users.
 fn is_left_out(attributes: &[Attribute]) -> bool {
     attributes.iter().any(|a| match &a.meta {
         Meta::List(list) if list.path.is_ident("cfg") => list.tokens.to_string() == "test",

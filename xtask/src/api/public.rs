@@ -1,4 +1,5 @@
-//! What a user of a library can name: items of public modules, and those that they re-export.
+//! The items that a user of a library can name: items of public modules, and items that these
+//! re-export.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,9 +13,9 @@ const DEPTH_MOST: usize = 8;
 /// The public items of a library.
 pub(super) struct Public<'m> {
     root: &'m Module,
-    /// Text of the items, by the path of the module that shows them.
+    /// Text of the items, by the path of their public module.
     shown: BTreeMap<String, BTreeSet<String>>,
-    /// Names of the types among them.
+    /// Names of the types among the items.
     types: BTreeSet<String>,
 }
 
@@ -48,7 +49,7 @@ impl<'m> Public<'m> {
         self.shown.entry(under.to_owned()).or_default().insert(text);
     }
 
-    /// Shows a module of the library at a path for users.
+    /// Adds a module of the library at its public path.
     fn module(&mut self, at: &[String], under: &str, depth: usize) {
         let Some(module) = self.root.at(at) else {
             return;
@@ -94,7 +95,7 @@ impl<'m> Public<'m> {
         self.show(under, format!("{alias}{text}"));
     }
 
-    /// Shows what a path in a module names.
+    /// Adds the item that a path in a module names.
     fn reexport(
         &mut self,
         (at, path, name): (&[String], &[String], &str),
@@ -156,7 +157,7 @@ impl<'m> Public<'m> {
         }
     }
 
-    /// The module of the library in which a path ends, and the last name; `None` for paths to other
+    /// The module of the library at the end of a path, and the last name; `None` for paths to other
     /// crates.
     fn resolve(&self, at: &[String], path: &[String]) -> Option<(Vec<String>, String)> {
         let (last, modules) = path.split_last()?;
@@ -185,7 +186,7 @@ impl<'m> Public<'m> {
         Some((home, last.clone()))
     }
 
-    /// What is implemented for the public types.
+    /// The implementations for the public types.
     fn impls(&self, module: &Module, out: &mut BTreeSet<String>) {
         for item in &module.items {
             let Item::Impl(of) = item else { continue };
@@ -231,7 +232,7 @@ fn below(at: &[String], name: &str) -> Vec<String> {
     [at, &[name.to_owned()]].concat()
 }
 
-/// Paths of an import with the names that they get.
+/// Paths of an import with their new names.
 fn leaves(tree: &UseTree) -> Vec<(Vec<String>, String)> {
     match tree {
         UseTree::Path(path) => {
@@ -240,7 +241,7 @@ fn leaves(tree: &UseTree) -> Vec<(Vec<String>, String)> {
             inner
                 .iter_mut()
                 .for_each(|(path, _)| path.insert(0, first.clone()));
-            // `a::{self}` is `a`.
+            // `a::{self}` means `a`.
             for (path, name) in &mut inner {
                 if path.last().is_some_and(|last| last == "self") {
                     path.pop();
@@ -294,7 +295,7 @@ fn type_name(item: &Item) -> Option<String> {
     })
 }
 
-/// Attributes that matter to a user.
+/// Whether an attribute matters to a user.
 fn is_told(attribute: &Attribute) -> bool {
     ["cfg", "cfg_attr", "derive", "non_exhaustive"]
         .iter()

@@ -2,16 +2,16 @@
 //!
 //! A module is a file with the modules written inside it; tests and generated files are omitted.
 //! The module A **uses** the module B if code of A names an item that B defines: in a `use` that is
-//! not a re-export, or by a path anywhere in code, also in the argument of a macro. The place of
-//! the definition counts: a path through re-exports leads to the definition, so
+//! not a re-export, or by a path anywhere in code, including the arguments of macros. The position
+//! of the definition counts: a path through re-exports leads to the definition, so
 //! `mod b; pub use b::X;` is not a use of `b`, and `use super::X` of a child is a use of the parent
-//! only if the parent defines `X`. Neither `mod b;` alone, nor `use super::b`, which only gives the
-//! module a name, nor a path that only passes through a module is a use; `use super::b::*` is one.
-//! If the `impl` blocks of a type are in several files, `self.f()` uses the file that contains `f`.
-//! Other method calls are not followed, because code that has a value has named its type or
-//! received it from code that has.
+//! only if the parent defines `X`. The following are not uses: `mod b;` alone, `use super::b`,
+//! which only gives the module a name, and a path that only passes through a module. In contrast,
+//! `use super::b::*` is a use. If the `impl` blocks of a type are in several files, `self.f()` uses
+//! the file that contains `f`. Other method calls are not followed, because code that has a value
+//! has named its type or received it from code that has named it.
 //!
-//! A **circle** is a maximal set of modules in which each module uses each other one, directly or
+//! A **circle** is a maximal set of modules in which each module uses every other one, directly or
 //! through others.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,7 +27,8 @@ use super::source::{Source, is_test};
 pub(super) struct Circle {
     /// Sorted paths.
     pub(super) modules: Vec<String>,
-    /// Which module uses which, and the names of the used items; `.f` is a method of a shared type.
+    /// Each use between modules, with the names of the used items; `.f` is a method of a shared
+    /// type.
     pub(super) uses: Vec<(String, String, Vec<String>)>,
 }
 
@@ -73,7 +74,7 @@ fn reached(uses: &[Uses], from: usize) -> BTreeSet<usize> {
     seen
 }
 
-/// For each module the modules that it uses, by file.
+/// For each module, the modules that it uses, by file.
 fn uses(modules: &Modules) -> Vec<Uses> {
     let mut uses = vec![Uses::new(); modules.0.len()];
     for (id, module) in modules.0.iter().enumerate().filter(|(id, m)| m.file == *id) {
@@ -137,7 +138,7 @@ impl Paths<'_> {
         }
     }
 
-    /// The module that contains a group of tokens: `mod name { … }` or the one around it.
+    /// The module that contains a group of tokens: `mod name { … }` or the module around it.
     fn inside(&self, module: usize, before: &[TokenTree]) -> usize {
         match before {
             [.., TokenTree::Ident(word), TokenTree::Ident(name)] if word == "mod" => {

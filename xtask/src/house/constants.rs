@@ -1,4 +1,4 @@
-//! Numeric constants, among which there may be limits and thresholds.
+//! Numeric constants, which may include limits and thresholds.
 
 use proc_macro2::Span;
 use syn::spanned::Spanned;
@@ -18,7 +18,7 @@ const NUMBERS: [&str; 14] = [
 /// `const NAME: TYPE = VALUE;` with a number, or a range of numbers.
 #[derive(PartialEq, Debug)]
 pub(super) struct Constant {
-    /// Relative to the directory of the crate, with the line.
+    /// Path relative to the directory of the crate, with the line.
     pub(super) place: String,
     pub(super) name: String,
     pub(super) value: String,
@@ -68,7 +68,7 @@ impl Search<'_> {
     }
 }
 
-/// The rest of the sentence that begins with a word in a comment, without its full stop.
+/// The rest of the sentence that starts with this word in a comment, without its full stop.
 fn said(attrs: &[Attribute], word: &str) -> String {
     let lines = attrs.iter().filter_map(|a| match &a.meta {
         Meta::NameValue(doc) if doc.path.is_ident("doc") => doc.value.span().source_text(),

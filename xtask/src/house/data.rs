@@ -1,4 +1,4 @@
-//! Files of data that a program reads when it is compiled: they are code that is not counted.
+//! Data files that a program includes when it is compiled: they are code that is not counted.
 
 use std::fs;
 use std::path::Path;
@@ -9,15 +9,15 @@ use super::source::{Crate, Kind};
 
 /// A file that a crate includes.
 pub(super) struct DataFile {
-    /// Relative to the crate.
+    /// Path relative to the crate.
     pub(super) path: String,
-    /// Its size.
+    /// Size of the file.
     pub(super) bytes: usize,
-    /// Its lines; 0 if it is no text.
+    /// Number of lines; 0 if the file is not text.
     pub(super) lines: usize,
 }
 
-/// The files that the code of a crate includes by their names, without its own description.
+/// The files that the code of a crate includes by name, except the description of the crate.
 pub(super) fn files(home: &Crate, root: &Path) -> Vec<DataFile> {
     let code = home.files.iter().filter(|file| file.kind == Kind::Code);
     let mut found: Vec<DataFile> = code

@@ -1,8 +1,8 @@
 //! Lines and tokens of code.
 //!
 //! A line counts if it contains a token of the tokenizer of `proc_macro2`: blank lines and comments
-//! contain none, a doc comment is a comment, and all lines of a multi-line string count. The number
-//! of tokens is listed too, because long lines do not reduce it.
+//! contain no token, a doc comment is a comment, and all lines of a multi-line string count. The
+//! number of tokens is listed too, because long lines do not reduce it.
 
 use std::collections::BTreeSet;
 use std::ops::AddAssign;
@@ -85,7 +85,7 @@ impl Seen {
     }
 }
 
-/// Whether a `#` begins a doc comment: then it has the span of the comment, while a written `#` has
+/// Whether a `#` starts a doc comment: then it has the span of the comment, while a written `#` has
 /// width one.
 fn is_comment(hash: Span) -> bool {
     let (start, end) = (hash.start(), hash.end());

@@ -12,18 +12,19 @@ const DEPTH_MOST: usize = 16;
 
 /// One module, in its own file or inside another.
 pub(super) struct Module<'a> {
-    /// In the form `crate::a::b`.
+    /// Path in the form `crate::a::b`.
     pub(super) path: String,
     pub(super) source: &'a Source,
     pub(super) items: Vec<&'a Item>,
-    /// The module of the file that contains this one: itself, except for modules inside others.
+    /// Index of the file module that contains this module: the module itself, except for modules
+    /// inside others.
     pub(super) file: usize,
     root: usize,
     parent: usize,
     pub(super) children: BTreeMap<String, usize>,
-    /// Items that are defined here.
+    /// Items that the module defines.
     names: BTreeSet<String>,
-    /// Name → path, for names that are imported or re-exported here.
+    /// Name → path, for names that the module imports or re-exports.
     aliases: BTreeMap<String, Vec<String>>,
     globs: Vec<Vec<String>>,
 }
@@ -108,8 +109,8 @@ impl<'a> Modules<'a> {
         }
     }
 
-    /// The target of a path in the module `from`; re-exports are followed. `None` if it is not in
-    /// this crate, and for local names.
+    /// The target of a path in the module `from`; re-exports are followed. `None` for local names,
+    /// and if the target is not in this crate.
     pub(super) fn resolve(&self, from: usize, path: &[String]) -> Option<Target> {
         self.resolve_within(from, path, DEPTH_MOST)
     }
@@ -141,7 +142,7 @@ impl<'a> Modules<'a> {
         }
         if let Some(&child) = child {
             let inside = self.resolve_within(child, rest, depth);
-            // Names that a macro defines are not visible.
+            // Names that a macro defines are not visible to this program.
             return inside.or(item_of(child));
         }
         if let Some(alias) = here.aliases.get(name) {
@@ -155,7 +156,7 @@ impl<'a> Modules<'a> {
         })
     }
 
-    /// Module and name of the type that an `impl` in the module `from` belongs to.
+    /// Module and name of the type of an `impl` in the module `from`.
     pub(super) fn home_of(
         &self,
         from: usize,
@@ -170,7 +171,7 @@ impl<'a> Modules<'a> {
     }
 }
 
-/// All imports by `use`, also within functions, but not in modules below.
+/// All imports by `use`, including those within functions, but not in submodules.
 struct Imports(Vec<(Option<String>, Vec<String>)>);
 
 impl<'a> Visit<'a> for Imports {
@@ -186,7 +187,7 @@ fn code(home: &Crate) -> impl Iterator<Item = &Source> {
     home.files.iter().filter(|f| f.kind == Kind::Code)
 }
 
-/// The file of a module that is declared in another.
+/// The file of a module that is declared in another file.
 fn file_of<'a>(
     home: &'a Crate,
     source: &Source,

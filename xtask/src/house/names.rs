@@ -1,4 +1,4 @@
-//! Names of types: one thing has one name in a crate, and a type is a noun.
+//! Names of types: each name is used once in a crate, and the name of a type is a noun.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use syn::Item;
 
 use super::modules::Modules;
 
-/// Largest number of names that several types of one crate have.
+/// Largest number of names that several types of one crate share.
 pub(super) const SHARED_MOST: usize = 20;
 
 /// Participles and adjectives that do not end with *-ed*.
@@ -19,16 +19,16 @@ const NO_NOUNS: [&str; 24] = [
 /// Nouns that end with *-ed*.
 const NOUNS: [&str; 4] = ["Feed", "Need", "Seed", "Speed"];
 
-/// A name that several types have, or that is no noun.
+/// A name that several types share, or that is not a noun.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Name {
     pub(super) name: String,
-    /// Files of its types, relative to the directory of the crate.
+    /// Files of the types, relative to the directory of the crate.
     pub(super) files: Vec<String>,
     pub(super) is_noun: bool,
 }
 
-/// The names of structs, enums, traits and aliases of a crate that say too little.
+/// The names of structs, enums, traits and aliases of a crate that are not specific enough.
 pub(super) fn unclear(modules: &Modules) -> Vec<Name> {
     let mut all: BTreeMap<String, Vec<String>> = BTreeMap::new();
     for module in &modules.0 {

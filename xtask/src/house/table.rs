@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-/// One table with the rule by which it was made.
+/// One table with the rule by which its rows were selected.
 pub(super) struct Table {
     /// Key in the JSON document, and heading.
     pub(super) name: &'static str,
@@ -24,7 +24,7 @@ pub(super) fn json(tables: &[Table]) -> String {
     format!("{:#}", Value::Object(all.collect::<Map<_, _>>()))
 }
 
-/// The tables as text, one after the other; numbers are right-aligned.
+/// The tables as text, one after another; numbers are right-aligned.
 pub(super) fn plain(tables: &[Table]) -> String {
     tables.iter().map(plain_one).collect::<Vec<_>>().join("\n")
 }

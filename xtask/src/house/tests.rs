@@ -1,4 +1,4 @@
-//! Small crates of a few modules, with the expected results.
+//! Tests with small crates of a few modules, and the expected results.
 
 use proc_macro2::{TokenStream, TokenTree};
 
@@ -135,10 +135,10 @@ fn a_reexport_is_no_use_but_leads_to_the_definition() {
     let with_own = format!("{parent} pub struct P;");
     let of_parent = "pub struct B; fn f(_: super::P) {}";
     assert!(circles_of(&files(&with_own, of_parent)).is_empty());
-    // Siblings that are connected through their parent form a circle without it.
+    // Siblings that use each other through their parent form a circle without the parent.
     let siblings = circles_of(&files(parent, "pub struct B; fn f(_: super::C) {}"));
     assert_eq!(siblings, [["crate::a::b", "crate::a::c"]]);
-    // The parent uses `c`, `c` uses `b`, and `b` uses what the parent defines.
+    // The parent uses `c`, `c` uses `b`, and `b` uses an item of the parent.
     let working = "mod b; mod c; pub use b::B; struct P(B); fn p(_: c::C) {}";
     let all = circles_of(&files(working, of_parent));
     assert_eq!(all, [["crate::a", "crate::a::b", "crate::a::c"]]);
@@ -250,7 +250,7 @@ fn methods_are_counted_over_all_files() {
         "mod a; mod b; pub struct S(u8); impl S {{ {} }}",
         methods(0, 16)
     );
-    // `b` has another `S`, whose methods are its own.
+    // `b` has another `S`, with its own methods.
     let a = format!(
         "use super::S; impl S {{ {} }} #[cfg(test)] impl S {{ fn t(&self) {{}} }}",
         methods(16, 31)
@@ -283,7 +283,7 @@ fn numeric_constants_are_listed_with_value_and_line() {
     assert_eq!(constants(&house(&[("src/lib.rs", text)])), expected);
 }
 
-/// What two modules need is in a module below both.
+/// An item that two modules need is in a module below both.
 #[test]
 fn no_more_than_two_modules_of_this_house_reach_each_other() {
     let crates = crates(&root()).expect("sources");
@@ -295,8 +295,8 @@ fn no_more_than_two_modules_of_this_house_reach_each_other() {
     }
 }
 
-/// Conditions under which parts are compiled on some systems, but for Linux and all others. Of
-/// `cfg!` both sides are compiled everywhere.
+/// Conditions for compiling parts only on some systems, except the conditions for Linux and for all
+/// other systems. With `cfg!`, both branches are compiled on every system.
 fn conditions_on_systems(tokens: &TokenStream) -> Vec<String> {
     let tokens: Vec<TokenTree> = tokens.clone().into_iter().collect();
     let mut found = Vec::new();
@@ -324,7 +324,7 @@ fn conditions_on_systems(tokens: &TokenStream) -> Vec<String> {
     found
 }
 
-/// So one other system stands for all of them in [`crate::platforms`].
+/// Therefore one other system represents all of them in [`crate::platforms`].
 #[test]
 fn sources_tell_linux_from_others_and_nothing_else() {
     for home in crates(&root()).expect("sources") {

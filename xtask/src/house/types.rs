@@ -1,10 +1,10 @@
 //! Types with much state or many methods.
 //!
 //! A type is **plain data** if all its fields are `pub`, or as visible as the type itself, and no
-//! method of it in its crate takes `&mut self`: it is a record or a set of options. All others are
-//! **stateful**. The fields of an enum are those of its largest variant. Methods are the functions
-//! of all `impl` blocks of the type without a trait, with or without `self`; tests are omitted, and
-//! so is code that macros write.
+//! method of the type in its crate takes `&mut self`: it is a record or a set of options. All other
+//! types are **stateful**. The fields of an enum are the fields of its largest variant. Methods are
+//! the functions of all `impl` blocks of the type without a trait, with or without `self`; tests
+//! and code that macros write are omitted.
 
 use std::collections::BTreeMap;
 
@@ -22,7 +22,7 @@ pub(super) const METHODS_MOST: usize = 30;
 #[derive(Debug)]
 pub(super) struct Type {
     pub(super) name: String,
-    /// Relative to the directory of the crate.
+    /// Path relative to the directory of the crate.
     pub(super) file: String,
     pub(super) fields: usize,
     pub(super) methods: usize,

@@ -1,6 +1,6 @@
-//! Which licences are allowed, and which of those that a crate offers are taken.
+//! The allowed licences, and the choice between several licences of a crate.
 
-/// Licences that are allowed, in the order in which they are taken, with the reason.
+/// Allowed licences, in the order of preference, with the reason.
 pub(super) const ALLOWED: [(&str, &str); 11] = [
     (
         "MIT",
@@ -30,10 +30,10 @@ pub(super) const ALLOWED: [(&str, &str); 11] = [
     ("Unlicense", "asks for nothing"),
 ];
 
-/// The licences of an SPDX expression under which a crate is taken: all parts of an `AND`, the
-/// first allowed one of an `OR`.
+/// The licences of an SPDX expression that are chosen for a crate: all parts of an `AND`, the first
+/// allowed part of an `OR`.
 pub(super) fn taken(expression: &str) -> Result<Vec<&'static str>, String> {
-    // `A/B` is what crates wrote for `A OR B` before SPDX.
+    // Before SPDX, crates wrote `A/B` for `A OR B`.
     let spaced = expression
         .replace('/', " OR ")
         .replace('(', " ( ")
@@ -45,7 +45,7 @@ pub(super) fn taken(expression: &str) -> Result<Vec<&'static str>, String> {
     Ok(ranks.into_iter().map(|rank| ALLOWED[rank].0).collect())
 }
 
-/// Ranks of the licences taken, `None` if there is no way that is allowed.
+/// Ranks of the chosen licences, `None` if no combination is allowed.
 type Ranks = Option<Vec<usize>>;
 
 fn any(words: &[&str], at: &mut usize) -> Ranks {

@@ -8,7 +8,7 @@ use super::spdx::taken;
 use super::{Package, Source};
 use crate::tree::root;
 
-/// How the names of files with licences begin, in small letters.
+/// Starts of the names of licence files, in lower case.
 const BEGINNINGS: [&str; 6] = [
     "license",
     "licence",
@@ -18,7 +18,7 @@ const BEGINNINGS: [&str; 6] = [
     "unlicense",
 ];
 
-/// What the name of a file has that is the text of one licence, in small letters.
+/// Parts of the name of a file that contains the text of one licence, in lower case.
 const NAMES: [(&str, &[&str]); 8] = [
     ("MIT", &["mit"]),
     ("Apache-2.0", &["apache"]),
@@ -30,7 +30,7 @@ const NAMES: [(&str, &[&str]); 8] = [
     ("Unlicense", &["unlicense"]),
 ];
 
-/// The licence texts of these crates, each once, with the crates that have it.
+/// The licence texts of these crates without repetitions, each with its crates.
 pub(super) fn texts<'p>(
     packages: impl Iterator<Item = &'p Package>,
     sources: &BTreeMap<(String, String), Source>,
@@ -61,7 +61,7 @@ pub(super) fn texts<'p>(
             authors => format!(" by {authors}"),
         };
         for text in found {
-            // Blanks do not make another licence.
+            // Texts that differ only in white space count as equal.
             let same = text.split_whitespace().collect::<Vec<_>>().join(" ");
             let lines: Vec<&str> = text.trim().lines().map(str::trim_end).collect();
             let (_, crates) = texts.entry(same).or_insert((lines.join("\n"), Vec::new()));
@@ -73,8 +73,8 @@ pub(super) fn texts<'p>(
     Ok(texts)
 }
 
-/// The text of a licence for crates whose sources have none: that of this workspace, with the
-/// authors left to the heading.
+/// The text of a licence for crates whose sources contain no licence text: the text of this
+/// workspace; the heading contains the authors.
 fn standard(taken: &[&str]) -> Result<Option<String>, String> {
     if taken != ["MIT"] {
         return Ok(None);
@@ -121,7 +121,7 @@ fn files(folder: &Path, taken: &[&str]) -> Result<Vec<PathBuf>, String> {
         if is_of_one(name) {
             return taken.iter().any(|of| is_of(name, of));
         }
-        // A file without the name of a licence has them all, a copyright, or a notice.
+        // A file without the name of a licence contains all licences, a copyright, or a notice.
         !has_own || !name.starts_with("licen")
     });
     Ok(files.into_iter().map(|(_, path)| path).collect())

@@ -1,5 +1,6 @@
 //! The candidates of the comparison. Each candidate is evaluated at every state of the motion and
-//! must give the known result there before it is timed. A new one needs one line in [`all`].
+//! must return the known result there before its time is measured. A new candidate needs one line
+//! in [`all`].
 
 use std::hint::black_box;
 
@@ -24,7 +25,7 @@ use crate::saddle::Saddle;
 pub(crate) enum Group {
     /// (t, q, v) → v̇.
     RightHandSide,
-    /// The assembled saddle equations → v̇ and λ; nothing is evaluated.
+    /// The assembled saddle equations → v̇ and λ, without an evaluation of their coefficients.
     Solve,
     /// (t, q, v) → C and Γ.
     Matrices,
@@ -33,7 +34,7 @@ pub(crate) enum Group {
 }
 
 impl Group {
-    /// In the order of the table.
+    /// All groups in the order of the table.
     pub(crate) const ALL: [Self; 4] = [Self::RightHandSide, Self::Solve, Self::Matrices, Self::Run];
 
     /// The heading of the table.
@@ -47,29 +48,29 @@ impl Group {
     }
 }
 
-/// One thing to measure.
+/// A measured candidate.
 pub(crate) struct Work<'r> {
-    /// Its name in commands and in the CSV.
+    /// Name of the candidate in commands and in the CSV file.
     pub(crate) key: &'static str,
-    /// Its description.
+    /// Description of the candidate.
     pub(crate) title: String,
-    /// The group with which it is compared.
+    /// The group within which the candidate is compared.
     pub(crate) group: Group,
     /// Number of calls in one lap.
     pub(crate) calls: usize,
-    /// Makes the calls of one lap.
+    /// Performs the calls of one lap.
     pub(crate) lap: Box<dyn FnMut() + 'r>,
 }
 
-/// Largest difference, relative to the largest known value at any state. The problem is
-/// ill-conditioned by at most 1/σ_r ≈ 25; the rest is a margin for solvers that square the
-/// condition number or truncate.
+/// Largest difference, relative to the largest known value at any state. The condition number of
+/// the problem is at most 1/σ_r ≈ 25; the rest is a margin for solvers that square the condition
+/// number or truncate.
 const AGREES: f64 = 1e-10;
 /// Singular values below this fraction of the largest one are zero: with all rows the smallest
-/// nonzero one is 1e-3 of it.
+/// nonzero one is 1e-3 times the largest.
 const SINGULAR: f64 = 1e-9;
 
-/// The candidates, in the order of the table.
+/// Returns the candidates, in the order of the table.
 pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
     let list = List {
         robot,
@@ -138,7 +139,7 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
     Ok(list?.works)
 }
 
-/// Evaluates at a state into the caller's storage.
+/// Evaluates at a state and writes into the storage of the caller.
 type Call<'r> = Box<dyn FnMut(&State, &mut [f64]) -> bool + 'r>;
 
 /// L states; the last index is the state.
@@ -178,7 +179,8 @@ impl<'r> List<'r> {
         })
     }
 
-    /// Generated code on L states at once, checked at all of them. One state counts as a call.
+    /// Adds generated code on L states at once, checked at all of them. One state counts as one
+    /// call.
     fn lanes<const L: usize>(mut self, key: &'static str, title: &str) -> Outcome<Self> {
         let states = &self.robot.states;
         let size = states
@@ -256,7 +258,7 @@ impl<'r> List<'r> {
     }
 }
 
-/// Called in the same way as in a run.
+/// The function is called in the same way as in a run.
 fn generated<'r>() -> Call<'r> {
     let code: &dyn SceneCode = &automatic::Code;
     Box::new(move |s, a| code.acceleration(s.t, &s.q, &s.v, a) > 0.0)
@@ -276,7 +278,7 @@ fn kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     }))
 }
 
-/// A comparator of the laboratory, built from C and M at the start and the rank there.
+/// A comparator of the laboratory, constructed from C and M at the start and the rank there.
 fn all_rows<'r>(
     robot: &'r Robot,
     solver: impl FnOnce(
@@ -362,8 +364,8 @@ fn dense_svd(robot: &Robot) -> Call<'_> {
     })
 }
 
-/// The rows of C_K from the assembled matrix of a state: the columns after those of the mass are
-/// C_Kᵀ.
+/// The rows of C_K come from the assembled matrix of a state: the columns after those of the mass
+/// are C_Kᵀ.
 fn solve_kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     let mass = robot.prepared.mechanism.mass();
     let (n, r) = (mass.len(), robot.prepared.decision.kept.len());

@@ -1,4 +1,4 @@
-//! C and Γ of the robot by dual numbers: each joint states Φ, or the velocity that an edge
+//! Computes C and Γ of the robot by dual numbers: each joint states Φ, or the velocity that an edge
 //! prevents, and `num-dual` differentiates. This is the best case for the method: forward
 //! derivatives with respect to the six coordinates of one joint instead of all, sizes known to the
 //! compiler, no heap.
@@ -11,7 +11,8 @@ use num_dual::{Dual2_64, Dual64, DualNum, gradient, jacobian};
 trait Number: DualNum<Primitive = f64> + Copy {}
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
-/// Bodies and place of the revolute joints A … G at the start, where all frames are parallel.
+/// Bodies and positions of the revolute joints A … G at the start; all frames are parallel at the
+/// start.
 const REVOLUTES: [(usize, usize, [f64; 2]); 7] = [
     (0, 6, [-0.4, 0.0]),
     (0, 1, [0.3, 0.0]),
@@ -22,7 +23,7 @@ const REVOLUTES: [(usize, usize, [f64; 2]); 7] = [
     (4, 5, [-0.2, -0.2]),
 ];
 
-/// Body and place of the edges W1 … W5, whose normals are the y-axes of their bodies.
+/// Body and position of the edges W1 … W5, whose normals are the y-axes of their bodies.
 const EDGES: [(usize, [f64; 2]); 5] = [
     (1, [0.3, 0.0]),
     (2, [-0.3, 0.0]),
@@ -47,7 +48,7 @@ pub(crate) struct DualRobot {
 }
 
 impl DualRobot {
-    /// Takes the places of the bodies at the start from the mechanism.
+    /// Reads the positions of the bodies at the start from the mechanism.
     pub(crate) fn new(mechanism: &Mechanism, drive: Function) -> Self {
         let (q, _) = mechanism.described_state();
         let local = |body: usize, [x, y]: [f64; 2]| [x - q[3 * body], y - q[3 * body + 1]];
@@ -60,7 +61,7 @@ impl DualRobot {
         }
     }
 
-    /// C by rows, then Γ.
+    /// Writes C by rows, then Γ.
     pub(crate) fn c_and_gamma(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) {
         let (c, gamma) = out.split_at_mut(ROWS * COLUMNS);
         c.fill(0.0);
@@ -106,7 +107,7 @@ impl DualRobot {
     }
 }
 
-/// Coordinates of two bodies.
+/// Returns the coordinates of two bodies.
 fn both(q: &[f64], i: usize, j: usize) -> SVector<f64, 6> {
     SVector::from_fn(|k, _| {
         if k < 3 {
@@ -136,7 +137,7 @@ fn point<D: Number>(x: &[D; 3], s: [f64; 2]) -> [D; 2] {
     ]
 }
 
-/// The two points coincide.
+/// Requires that the two points coincide.
 fn revolute<D: Number>(x: &[[D; 3]; 2], s: [[f64; 2]; 2]) -> [D; 2] {
     let (i, j) = (point(&x[0], s[0]), point(&x[1], s[1]));
     [i[0] - j[0], i[1] - j[1]]
@@ -155,7 +156,7 @@ fn slide<D: Number>(x: &[[D; 3]; 2], s: [[f64; 2]; 2], f: D) -> [D; 3] {
     ]
 }
 
-/// Velocity of a point along the y-axis of its body.
+/// Returns the velocity of a point along the y-axis of its body.
 fn sideways<D: Number>(angle: D, v: &[D; 3], s: [f64; 2]) -> D {
     let (sin, cos) = angle.sin_cos();
     cos * v[1] - sin * v[0] + v[2] * s[0]

@@ -1,5 +1,5 @@
-//! The dense equations by faer: LU with partial pivoting in place, all storage allocated in
-//! advance, one thread.
+//! Solves the dense equations by faer. The method is LU with partial pivoting, in the given storage
+//! and on one thread; all storage is allocated in advance.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -14,7 +14,7 @@ pub(crate) struct FaerLu {
 }
 
 impl FaerLu {
-    /// Storage for matrices of order n.
+    /// Allocates storage for matrices of order n.
     pub(crate) fn new(n: usize) -> Self {
         let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Spec::default());
         let solve = solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
@@ -26,8 +26,8 @@ impl FaerLu {
         }
     }
 
-    /// Factors `matrix` (column-major) in place; `x` contains the right-hand side before and the
-    /// solution afterwards.
+    /// Factors `matrix` (column-major) in place; on entry `x` contains the right-hand side, and on
+    /// return the solution.
     pub(crate) fn solve(&mut self, matrix: &mut [f64], x: &mut [f64]) {
         let Self {
             n,

@@ -12,7 +12,7 @@ const TOP: f64 = 44.0;
 const PITCH: f64 = 26.0;
 const BAR: f64 = 17.0;
 
-/// The times of some candidates as SVG.
+/// Draws the times of some candidates as SVG.
 pub(crate) fn bars(lines: &[&Line]) -> String {
     let mut sorted = lines.to_vec();
     sorted.sort_by(|a, b| a.time.least.total_cmp(&b.time.least));
@@ -66,7 +66,7 @@ pub(crate) fn bars(lines: &[&Line]) -> String {
     out + "</svg>\n"
 }
 
-/// 10^decade seconds.
+/// Formats 10^decade seconds.
 fn decade_name(decade: i32) -> String {
     let (unit, power) = match decade {
         ..=-7 => ("ns", decade + 9),

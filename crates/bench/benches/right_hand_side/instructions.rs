@@ -1,22 +1,22 @@
-//! Instructions per call, counted by callgrind; they do not depend on other processes or on the
-//! speed of the processor. Callgrind does not offer AVX-512 to programs, so faer uses its AVX2
-//! kernels there.
+//! Counts instructions per call with callgrind; the counts do not depend on other processes or on
+//! the speed of the processor. Callgrind does not offer AVX-512 to programs, so faer uses its AVX2
+//! kernels in this measurement.
 
 use std::process::Command;
 
 use crate::Outcome;
 
-/// Laps of a short and a long run; the difference does not contain the start-up.
+/// Numbers of laps in a short and a long run; the difference does not contain the start-up.
 const LAPS: [u64; 2] = [1, 4];
 
-/// Instructions of one lap of a candidate.
+/// Returns the instructions of one lap of a candidate.
 pub(crate) fn per_lap(key: &str) -> Outcome<u64> {
     let [few, many] = LAPS;
     let difference = collected(key, many)?.saturating_sub(collected(key, few)?);
     Ok(difference / (many - few))
 }
 
-/// The count of callgrind while this program repeats one candidate.
+/// Returns the count of callgrind while this program repeats one candidate.
 fn collected(key: &str, laps: u64) -> Outcome<u64> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])

@@ -1,13 +1,13 @@
-//! The right-hand side of the robot with its trolley by all known methods, compared in one run:
-//! `cargo bench -p bench --bench right_hand_side`. Candidates take turns, so that ratios are
-//! correct on a processor with changing speed; each must give the accelerations (or the matrices)
-//! of the others before it is timed.
+//! Compares all known methods for the right-hand side of the robot with its trolley in one run:
+//! `cargo bench -p bench --bench right_hand_side`. Candidates alternate, so that ratios are correct
+//! on a processor with changing speed; each must return the accelerations (or the matrices) of the
+//! others before its time is measured.
 //!
 //! | arguments | action |
 //! | --- | --- |
-//! | none | times |
+//! | no argument | times |
 //! | `--instructions` | instructions per call by callgrind, with the times |
-//! | `--out DIR` | the same, and `table.md`, `table.csv` and `table.svg` in a directory |
+//! | `--out DIR` | times and counts, and `table.md`, `table.csv` and `table.svg` in a directory |
 //! | `--repeat KEY LAPS` | only calls of one candidate, for callgrind |
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
@@ -57,7 +57,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The directory of the workspace: cargo runs benchmarks in the directory of their package.
+/// Returns the directory of the workspace: cargo runs benchmarks in the directory of their package.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
@@ -68,7 +68,7 @@ fn tell(instructions: bool) -> Outcome<Vec<Line>> {
     let mut all = candidates::all(&robot)?;
     all.extend(runs::all(&robot)?);
     let times = timing::take_turns(&mut all);
-    // The number of evaluations, which does not depend on the machine, is printed in every case.
+    // The number of evaluations is always printed, because it does not depend on the machine.
     let count = |work: &Work<'_>| {
         if instructions && work.group != Group::Run {
             instructions::per_lap(work.key).map(Some)

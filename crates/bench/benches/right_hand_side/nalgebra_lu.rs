@@ -1,23 +1,23 @@
-//! The dense equations by nalgebra: LU with partial pivoting of a matrix whose size is known or
-//! unknown to the compiler, and singular values.
+//! Solves the dense equations by nalgebra: LU with partial pivoting of a matrix with a size known
+//! or unknown to the compiler, and singular values.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
-/// Order of the saddle matrix on kept rows.
+/// Order of the saddle matrix on independent rows.
 pub(crate) const N: usize = 41;
 
-/// LU of a matrix on the stack. `x` is `[a; λ]` afterwards.
+/// Solves by LU of a matrix on the stack. On return `x` is `[a; λ]`.
 pub(crate) fn solve_static(matrix: SMatrix<f64, N, N>, x: &mut SVector<f64, N>) -> bool {
     matrix.lu().solve_mut(x)
 }
 
-/// LU of a matrix on the heap, which is consumed, because nalgebra offers no other way.
+/// Solves by LU of a matrix on the heap, which is consumed, because nalgebra offers no other way.
 pub(crate) fn solve_dynamic(matrix: DMatrix<f64>, x: &mut DVector<f64>) -> bool {
     matrix.lu().solve_mut(x)
 }
 
-/// Least-norm solution of a singular system; singular values below `tolerance` times the largest
-/// are taken as zero.
+/// Computes the least-norm solution of a singular system; singular values below `tolerance` times
+/// the largest count as zero.
 pub(crate) fn solve_singular(
     matrix: DMatrix<f64>,
     load: &DVector<f64>,

@@ -1,11 +1,11 @@
-//! The equations of the robot derived by hand for this one mechanism. Nothing in this module comes
-//! from a definition, and nothing can be used for another mechanism.
+//! The equations of the robot derived by hand for this one mechanism. No part of this module comes
+//! from a definition, and no part can be used for another mechanism.
 //!
-//! The wheels W3 and W4 allow the platform only a speed u along its x-axis; W1 turns it with
-//! `ω = κ·u`, `κ = tan β/0.3`, β the angle of the front knuckle; W2 gives the same condition by
-//! symmetry. β follows from the displacement d(t) of the slider in closed form, and the trolley
-//! follows its hitch: `ω₇ = −(sin δ/0.4 + κ·cos δ)·u`, δ its angle to the platform. All velocities
-//! are `J·u + c(t)`, all accelerations `J·u̇ + Γ`, hence
+//! The wheels W3 and W4 allow the platform only a speed u along its x-axis. W1 turns it with
+//! `ω = κ·u`, `κ = tan β/0.3`; the angle β is that of the front knuckle. W2 gives the same
+//! condition by symmetry. β follows from the displacement d(t) of the slider in closed form. The
+//! trolley follows its hitch: `ω₇ = −(sin δ/0.4 + κ·cos δ)·u`; δ is its angle to the platform. All
+//! velocities are `J·u + c(t)`, and all accelerations are `J·u̇ + Γ`, so that
 //!
 //! `(Σ Jᵀ·M·J)·u̇ = −Σ Jᵀ·M·Γ`.
 //!
@@ -13,14 +13,14 @@
 //! accelerations differ from those of the other methods. Vectors are in the frame of the platform.
 
 /// Half the wheelbase, and the distances from the hitch to the platform centre, to the trolley
-/// wheel and to the trolley's centre (m).
+/// wheel and to the centre of the trolley (m).
 const WHEEL: f64 = 0.3;
 const HITCH: f64 = 0.4;
 const TONGUE: f64 = 0.4;
 const CENTRE: f64 = 0.35;
-/// From the pivot of the front knuckle to the joint of its link, at β = 0.
+/// Vector from the pivot of the front knuckle to the joint of its link, at β = 0.
 const ARM: [f64; 2] = [-0.09, 0.05];
-/// The point of the slider that holds the front link, at d = 0.
+/// The point of the slider at which the front link is connected, at d = 0.
 const EYE: [f64; 2] = [0.2, -0.2];
 /// Squared length of a link: from (0.2, −0.2) to (0.21, 0.05).
 const LINK_2: f64 = 0.01 * 0.01 + 0.25 * 0.25;
@@ -56,11 +56,11 @@ impl Carried {
     }
 }
 
-/// The direction J of the velocity and the rest Γ of the acceleration: `a = J·u̇ + Γ`, two
+/// The direction J of the velocity and the rest Γ of the acceleration: `a = J·u̇ + Γ`, with two
 /// components and the angle.
 type Share = ([f64; 3], [f64; 3]);
 
-/// v̇ of all bodies.
+/// Computes v̇ of all bodies.
 pub(crate) fn acceleration(t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
     let (sin, cos) = q[2].sin_cos();
     let (sin_d, cos_d) = (q[20] - q[2]).sin_cos();
@@ -68,7 +68,7 @@ pub(crate) fn acceleration(t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
     let (knuckle, link, slider, [kappa, kappad]) = linkage(steering(t));
     let (omega, beside) = (kappa * u, kappad * u);
 
-    // The trolley is connected at the hitch: ω₇ = κ₇·u.
+    // The trolley is connected at the hitch, so that ω₇ = κ₇·u.
     let kappa_7 = -(sin_d / TONGUE + kappa * cos_d * (HITCH / TONGUE));
     let omega_7 = kappa_7 * u;
     let deltad = omega_7 - omega;
@@ -117,11 +117,12 @@ pub(crate) fn acceleration(t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
     }
 }
 
-/// Front knuckle, front link, slider, and `[κ, κ̇]`, for `[d, ḋ, d̈]`.
+/// Returns front knuckle, front link, slider, and `[κ, κ̇]`, for `[d, ḋ, d̈]`.
 ///
-/// The arm p of the knuckle and the link ℓ close the loop `w + p = ℓ` with w from the slider's
-/// point to the pivot; `|w + p| = |ℓ|` is `cos β·(w·s) + sin β·(w·s⊥) = c`, and its derivatives are
-/// two linear equations for the rates of p and ℓ.
+/// The arm p of the knuckle and the link ℓ close the loop `w + p = ℓ`; w is the vector from the
+/// point of the slider to the pivot. The condition `|w + p| = |ℓ|` is
+/// `cos β·(w·s) + sin β·(w·s⊥) = c`, and its derivatives are two linear equations for the rates of
+/// p and ℓ.
 fn linkage([d, dd, ddd]: [f64; 3]) -> (Carried, Carried, Carried, [f64; 2]) {
     let w = [WHEEL - EYE[0], -EYE[1] - d];
     let along = w[0] * ARM[0] + w[1] * ARM[1];
@@ -173,7 +174,7 @@ fn linkage([d, dd, ddd]: [f64; 3]) -> (Carried, Carried, Carried, [f64; 2]) {
     (knuckle, link, slider, [tan / WHEEL, kappad])
 }
 
-/// `[d, ḋ, d̈]`: steps of one second each, 10s³ − 15s⁴ + 6s⁵.
+/// Returns `[d, ḋ, d̈]`: steps of one second each, 10s³ − 15s⁴ + 6s⁵.
 fn steering(t: f64) -> [f64; 3] {
     const STEPS: [(f64, f64); 4] = [(1.0, 0.02), (3.0, -0.02), (6.0, -0.021876), (8.0, 0.021876)];
     let mut jet = [0.0; 3];

@@ -11,13 +11,13 @@ use pfaff::{RunOptions, Study};
 use crate::Outcome;
 use crate::saddle::Saddle;
 
-/// Time between the states (s). The first is at half of it, so that none is at a break time, and
-/// half of them are within turns.
+/// Time between the states (s). The first state is at half of this interval, so that no state is at
+/// a break time. Half of the states are within turns.
 const STEP: f64 = 0.5;
 
 /// The robot and states of its motion.
 pub(crate) struct Robot {
-    /// Start and kept rows.
+    /// The start and the independent rows.
     pub(crate) prepared: PreparedMechanism,
     /// States that satisfy the constraints, over ten seconds.
     pub(crate) states: Vec<State>,
@@ -31,7 +31,7 @@ pub(crate) struct State {
     pub(crate) q: Vec<f64>,
     /// Velocities.
     pub(crate) v: Vec<f64>,
-    /// Accelerations by the interpreted kept rows.
+    /// Accelerations by the interpreter on the independent rows.
     pub(crate) a: Vec<f64>,
     /// C by rows, then Γ, by the generated kernels.
     pub(crate) c_and_gamma: Vec<f64>,

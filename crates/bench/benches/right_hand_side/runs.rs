@@ -1,6 +1,7 @@
 //! Ten seconds of the robot for a required error: first the loosest tolerance that achieves it is
-//! determined, because runs are to be compared at equal errors, not at equal tolerances. Two rows
-//! of output, not written to a file; the start is not included, the storage of the motion is.
+//! determined, because runs are to be compared at equal errors and not at equal tolerances. A run
+//! has two output rows, which are not written to a file. Its time does not include the start, but
+//! it includes the allocation of the motion.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -13,7 +14,7 @@ use crate::Outcome;
 use crate::candidates::{Group, Work};
 use crate::robot::Robot;
 
-/// Length of the run (s).
+/// Duration of the run (s).
 const T_END: f64 = 10.0;
 
 /// Number of tolerances that are tried in each decade.
@@ -21,7 +22,8 @@ const PER_DECADE: i32 = 8;
 /// Loosest and tightest tolerance (decades).
 const DECADES: [i32; 2] = [-4, -13];
 
-/// The runs, in the order of the table. Another way to move the robot needs one line here.
+/// Returns the runs, in the order of the table. Another way to simulate the robot needs one line
+/// here.
 pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'static>>> {
     let known = end(robot)?;
     let run = |key, name, prepared, error| run(key, name, prepared, error, &known);
@@ -70,8 +72,9 @@ struct Found {
     summary: Summary,
 }
 
-/// The loosest tolerance from which all tighter ones achieve the required error. Tolerances are
-/// tried from the tight end, so that a loose one that achieves it by chance does not count.
+/// Finds the loosest tolerance from which all tighter ones achieve the required error. Tolerances
+/// are tried from the tight end, so that a loose one that achieves the error by chance does not
+/// count.
 fn loosest(prepared: &PreparedMechanism, wanted: f64, known: &[f64]) -> Outcome<Found> {
     let mut best = None;
     for k in (PER_DECADE * DECADES[1]..=PER_DECADE * DECADES[0])
@@ -106,7 +109,7 @@ fn loosest(prepared: &PreparedMechanism, wanted: f64, known: &[f64]) -> Outcome<
     best.ok_or_else(|| format!("no tolerance gives an error of {wanted:e}").into())
 }
 
-/// q and v at the end, from the reference of the suite.
+/// Returns q and v at the end, from the reference of the suite.
 fn end(robot: &Robot) -> Outcome<Vec<f64>> {
     let case = suite::find("robot-trolley").ok_or("the suite has no robot")?;
     let reference = case.reference();

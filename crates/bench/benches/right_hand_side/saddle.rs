@@ -13,12 +13,12 @@ pub(crate) struct Saddle<'p> {
 }
 
 impl<'p> Saddle<'p> {
-    /// With the kept rows: 41 × 41 and regular.
+    /// Uses the independent rows: the matrix is 41 × 41 and regular.
     pub(crate) fn of_kept_rows(prepared: &'p PreparedMechanism) -> Self {
         Self::of_rows(prepared, prepared.decision.kept.clone())
     }
 
-    /// With all rows: 43 × 43 of rank 41.
+    /// Uses all rows: the matrix is 43 × 43 and has rank 41.
     pub(crate) fn of_all_rows(prepared: &'p PreparedMechanism) -> Self {
         Self::of_rows(prepared, (0..prepared.mechanism.layout().rows()).collect())
     }

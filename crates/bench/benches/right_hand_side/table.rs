@@ -11,9 +11,9 @@ use crate::timing::{ROUNDS, Time};
 /// One line of the table.
 pub(crate) struct Line {
     key: &'static str,
-    /// Its description, with the markup of a page.
+    /// Description of the candidate, with the markup of a page.
     pub(crate) title: String,
-    /// The table that it belongs to.
+    /// The table to which the line belongs.
     pub(crate) group: Group,
     /// Time of one call.
     pub(crate) time: Time,
@@ -22,7 +22,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// The line of a measured candidate; `instructions` are those of one lap.
+    /// Creates the line of a measured candidate; `instructions` are those of one lap.
     pub(crate) fn new(work: &Work<'_>, time: Time, instructions: Option<u64>) -> Self {
         Self {
             key: work.key,
@@ -33,7 +33,7 @@ impl Line {
         }
     }
 
-    /// Whether it is code of this project, with which the others are compared.
+    /// Whether the candidate is code of this project, with which the others are compared.
     pub(crate) fn is_ours(&self) -> bool {
         self.title.starts_with("**")
     }
@@ -44,7 +44,7 @@ impl Line {
     }
 }
 
-/// A time with three digits and its unit.
+/// Formats a time with three digits and its unit.
 pub(crate) fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s < 1e-6 => (s * 1e9, "ns"),
@@ -61,7 +61,7 @@ pub(crate) fn duration(seconds: f64) -> String {
     format!("{value:.digits$} {unit}")
 }
 
-/// All tables.
+/// Returns all tables.
 pub(crate) fn text(lines: &[Line]) -> String {
     let mut out = String::new();
     for group in Group::ALL {
@@ -90,7 +90,7 @@ pub(crate) fn text(lines: &[Line]) -> String {
     out
 }
 
-/// The tables and a description of the machine.
+/// Returns the tables and a description of the machine.
 pub(crate) fn page(lines: &[Line]) -> String {
     let versions = ["faer", "nalgebra", "num-dual"].map(|name| format!("{name} {}", version(name)));
     format!(
@@ -104,7 +104,7 @@ pub(crate) fn page(lines: &[Line]) -> String {
     ) + "\n"
 }
 
-/// One line per candidate, with all digits.
+/// Returns one line per candidate, with all digits.
 pub(crate) fn csv(lines: &[Line]) -> String {
     let mut out = String::from("key,title,seconds,seconds_median,instructions\n");
     for line in lines {

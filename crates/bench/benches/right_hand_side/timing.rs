@@ -1,6 +1,7 @@
-//! Times of candidates that take turns: in each round all of them run for a while, so that changes
-//! of the machine's speed affect all equally. Other processes can only add time: the least time
-//! over the rounds is what a candidate needs, the median shows how much was added.
+//! Measures times of candidates that alternate: in each round all of them run for a while, so that
+//! changes of the speed of the machine affect all equally. Other processes can only add time: the
+//! least time over the rounds is the time that a candidate needs, and the median shows how much was
+//! added.
 
 use std::time::{Duration, Instant};
 
@@ -15,13 +16,13 @@ const ENOUGH: Duration = Duration::from_micros(500);
 /// Time of one call.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Time {
-    /// Median over the rounds (s).
+    /// Median time over the rounds (s).
     pub(crate) median: f64,
-    /// Least over the rounds (s).
+    /// Least time over the rounds (s).
     pub(crate) least: f64,
 }
 
-/// Times of all candidates; the first round warms up and is not counted.
+/// Measures the times of all candidates; the first round is a warm-up and is not counted.
 pub(crate) fn take_turns(works: &mut [Work<'_>]) -> Vec<Time> {
     let mut times = vec![Vec::with_capacity(ROUNDS); works.len()];
     for round in 0..=ROUNDS {

@@ -58,9 +58,9 @@ fn revolute() {
     // Γ = R_i·s_i·ω_i² − R_j·s_j·ω_j²
     let gamma = [9.0 * a[0] - 4.0 * b[0], 9.0 * a[1] - 4.0 * b[1]];
     assert_close(&state.values(&model, &k.gamma), &gamma);
-    // The force is −λ and acts at the place, so there is no torque.
+    // The force is −λ and acts at the reference point, so there is no torque.
     assert_eq!(places(&k.wrench), [[0, 0], [1, 1]]);
-    // Only the rotation of each body changes Cᵀλ, and only its own torque.
+    // Only the rotation of a body changes Cᵀλ, and it changes only the torque on this body.
     assert_eq!(places(&k.d_force_dx), [[2, 2], [5, 5]]);
     // ∂Γ/∂ω_i = 2·R_i·s_i·ω_i
     assert_eq!(places(&k.d_gamma_dv), [[0, 2], [0, 5], [1, 2], [1, 5]]);
@@ -104,7 +104,8 @@ fn knife_edge() {
     let (n, s, _) = edge();
     let state = edge_state();
     assert!(k.phi.is_empty() && k.b.is_empty());
-    // Ψ = [n, n·(Ω·R·s)]: the last does not depend on the pose, as both turn together.
+    // Ψ = [n, n·(Ω·R·s)]: the last entry does not depend on the pose, because both vectors rotate
+    // together.
     assert_eq!(at(&k.c), [(0, 0, false), (0, 1, false), (0, 2, true)]);
     let c: Vec<_> = k.c.iter().map(|e| e.value).collect();
     assert_close(
@@ -126,7 +127,7 @@ fn affine_rheonomic_psi() {
     // n·v_s − f(t) = 0: b = f, Γ = Γ of the knife edge + ḟ.
     assert_close(&state.values(&model, &k.b), &[0.25]);
     assert_close(&state.values(&model, &k.gamma), &[edge_gamma() - 1.5]);
-    // ∂(C·v − b)/∂φ = (Ω·n)·v of the origin: the contribution of ω turns with the normal.
+    // ∂(C·v − b)/∂φ = (Ω·n)·v of the origin: the contribution of ω rotates with the normal.
     let (n, ..) = edge();
     assert_eq!(places(&k.d_velocity_dx), [[0, 2]]);
     assert_close(

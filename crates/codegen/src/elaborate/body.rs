@@ -1,4 +1,4 @@
-//! The body of a definition: rows with their reaction, or laws with their coordinates.
+//! The body of a definition: rows with their reaction, or force laws with their coordinates.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
@@ -100,7 +100,7 @@ impl<'a> Scope<'a> {
         })
     }
 
-    /// The kept number of this name, which these rows of Φ must contain.
+    /// The stored number with this name, which these rows of Φ must contain.
     fn moved(&self, name: &Ident, rows: &[Row<'_>]) -> syn::Result<Expr> {
         let kept = self.model.kept.iter().find(|k| *name == k.field);
         let number = kept.filter(|k| matches!(k.kind, Kept::Number(_)) && k.of_start);
@@ -143,8 +143,8 @@ impl<'a> Scope<'a> {
         Ok(terms)
     }
 
-    /// Appends the scalars of a list of scalars and vectors, vectors as their global components;
-    /// these are noted with the numbers of their first rows.
+    /// Appends the scalars of a list of scalars and vectors. Vectors are appended as their global
+    /// components and recorded with the index of their first row.
     fn rows(
         &mut self,
         e: &'a syn::Expr,
@@ -171,7 +171,7 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// Compares the number of names with the numbers of rows of `phi` and `psi`.
+/// Compares the number of row names with the number of rows in `phi` and `psi`.
 fn check_row_count(d: &Definition, counts: [usize; 2]) -> syn::Result<()> {
     let found = counts.iter().sum();
     if found == d.rows.len() {

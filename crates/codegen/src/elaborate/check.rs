@@ -1,5 +1,5 @@
-//! The inputs that each part of a definition may depend on. An error points at the smallest wrong
-//! part of the expression, also if that part is used through a `let`.
+//! The inputs on which each part of a definition may depend. An error marks the smallest wrong part
+//! of the expression, even if this part is used through a `let`.
 
 use symbolic::{Expr, Node};
 
@@ -12,7 +12,7 @@ pub(super) struct Refusal {
     pub(super) why: &'static str,
 }
 
-/// Values kept from the start, and conditions on it.
+/// Values stored at the start, and conditions on the start.
 pub(super) const START: &[Refusal] = &[
     Refusal {
         bad: moves,
@@ -50,8 +50,9 @@ pub(super) const PSI: &[Refusal] = &[
     },
 ];
 
-/// The place of a reaction. It may divide: no kernel but that of the place itself reads it, unless
-/// a moment about it is carried, whose kernel must be a polynomial.
+/// The reference point of a reaction. It may contain divisions, because only the kernel of the
+/// reference point uses it. The exception is a moment about it that the joint transmits, whose
+/// kernel must be a polynomial.
 pub(super) const PLACE: &[Refusal] = &[
     Refusal {
         bad: moves,
@@ -76,7 +77,7 @@ pub(super) const COMPONENT: &[Refusal] = &[
     },
 ];
 
-/// The measure that a drive prescribes.
+/// The joint coordinate that a drive prescribes.
 pub(super) const MEASURE: &[Refusal] = &[
     NO_QUOTIENT,
     Refusal {
@@ -96,8 +97,8 @@ pub(super) const COORDINATE: &[Refusal] = &[Refusal {
           the velocity into the law",
 }];
 
-/// The coordinate along which a force does work, or a velocity, linear in those of the bodies, on
-/// which its power depends: Q = law·∂velocity/∂v.
+/// The coordinate along which a force does work, or a velocity, linear in the velocities of the
+/// bodies, on which its power depends: Q = law·∂velocity/∂v.
 pub(super) const COORDINATE_OR_RATE: &[Refusal] = &[Refusal {
     bad: not_linear,
     why: "a force acts on a relative position, or on a velocity that is linear in those of the bodies",

@@ -10,7 +10,7 @@ use super::value::Value;
 use crate::parse::Definition;
 use crate::vector::{Components, Frame, Vector};
 
-/// Allowed magnitudes of numbers: products of a few of them, and of their derivatives, do not
+/// Allowed magnitudes of numbers, so that products of a few numbers and of their derivatives do not
 /// overflow.
 const NUMBERS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
@@ -77,8 +77,8 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// A vector, or the one with these components in the frame of a body: for products and
-    /// lengths, which know no place.
+    /// A vector, or the vector with these components in the frame of a body. It is used for
+    /// products and lengths, which do not depend on a point.
     pub(super) fn free_vector(&mut self, e: &'a syn::Expr) -> syn::Result<Vector> {
         match self.value(e)? {
             Value::Vector(v) => Ok(v),
@@ -87,7 +87,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// Scalars of a value, vectors as their global components.
+    /// The scalars of a value; a vector as its global components.
     pub(super) fn components(&mut self, value: Value, at: &syn::Expr) -> syn::Result<Vec<Expr>> {
         match value {
             Value::Scalar(e) => Ok(vec![e]),
@@ -287,7 +287,7 @@ fn out_of_bounds(g: &Graph, value: &Value) -> Option<String> {
     })
 }
 
-/// The direct parts of an expression; for the name of a `let`, those of its value.
+/// The direct parts of an expression; for the name of a `let`, the parts of its value.
 fn parts<'a>(definition: &'a Definition, e: &'a syn::Expr) -> Vec<&'a syn::Expr> {
     match e {
         syn::Expr::Paren(inner) => vec![&inner.expr],

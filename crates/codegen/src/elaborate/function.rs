@@ -187,7 +187,7 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The angle of the axes `to` against the axes `from` about their common w: by its sine
+    /// The angle of the axes `to` relative to the axes `from` about their common w: from its sine
     /// v·u' and its cosine u·u'.
     fn angle_about(&mut self, from: &'a syn::Expr, to: &'a syn::Expr) -> syn::Result<Value> {
         let mut axes = Vec::new();
@@ -285,7 +285,7 @@ fn is_ground(slot: &syn::Expr) -> bool {
     matches!(slot, syn::Expr::Path(p) if p.path.is_ident("ground"))
 }
 
-/// The scalars of a list, as many as a vector has components.
+/// The scalars of a list; their number must be the number of components of a vector.
 fn listed(space: Space, value: Value, at: &syn::Expr) -> syn::Result<Components> {
     let expected = components_in_words(space);
     let Value::List(list) = &value else {

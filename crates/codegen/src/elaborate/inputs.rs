@@ -1,5 +1,5 @@
-//! The inputs of kernels: which symbol represents which argument. Symbols are created in a fixed
-//! order, because the canonical order of terms depends on it.
+//! The inputs of kernels: the symbol for each argument. Symbols are created in a fixed order,
+//! because the canonical order of terms depends on it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,19 +23,19 @@ pub(crate) enum Source {
     Acceleration { slot: usize, field: &'static str },
     /// A derivative of a function of time.
     Function { index: usize, order: usize },
-    /// What is given of an angle that counts its turns, where a function of time would be: the
-    /// angle, its cosine or its sine.
+    /// A value of an unwrapped angle, at the position of a function of time: the angle, its cosine
+    /// or its sine.
     Counted { index: usize },
-    /// A parameter, with the tokens that read it.
+    /// A parameter, with the tokens of the expression that reads it.
     Parameter { access: String },
-    /// A value kept from the start, with the tokens that read it.
+    /// A value stored at the start, with the tokens of the expression that reads it.
     Kept { field: String, access: String },
     /// A multiplier.
     Lambda { row: usize },
 }
 
 impl Source {
-    /// The value as an expression of the kernel; the flag is `true` for numbers that are always
+    /// The value as an expression in the kernel; the flag is `true` for numbers that are always
     /// `f64`.
     pub(crate) fn access(&self) -> (TokenStream, bool) {
         let index = Literal::usize_unsuffixed;
@@ -71,9 +71,9 @@ impl Source {
 
 /// Symbols of one body slot.
 pub(crate) struct Slot {
-    /// In the order of [`Space::pose`].
+    /// Inputs in the order of [`Space::pose`].
     pub(crate) pose: Vec<Expr>,
-    /// In the order of [`Space::twist`], as `acceleration`.
+    /// Inputs in the order of [`Space::twist`], as for `acceleration`.
     pub(crate) twist: Vec<Expr>,
     pub(crate) acceleration: Vec<Expr>,
 }
@@ -86,11 +86,11 @@ pub(crate) struct Inputs {
     params: BTreeMap<String, Vec<Expr>>,
     taken: BTreeSet<String>,
     pub(crate) slots: Vec<Slot>,
-    /// Vectors and products of space that are differentiated as a whole.
+    /// Vectors and products in space that are differentiated as a whole.
     pub(crate) defined: Defined,
     /// Jets of the functions of time.
     pub(crate) functions: Vec<[Expr; 3]>,
-    /// The jet of a drive's motion and the initial value of its measure.
+    /// The jet of a drive's motion and the initial value of its joint coordinate.
     pub(crate) motion: [Expr; 3],
     pub(crate) measure_0: Expr,
     /// For angles in space: the jets of the cosine and the sine of the motion, and the cosine and
@@ -248,7 +248,7 @@ impl Inputs {
         self.params.insert(name.to_owned(), values);
     }
 
-    /// Creates inputs for pairs of a name and the field that holds the value.
+    /// Creates inputs for pairs of a name and the field that contains the value.
     fn add_numbers(&mut self, g: &mut Graph, components: &[(String, String)]) -> Vec<Expr> {
         components
             .iter()
@@ -281,7 +281,7 @@ impl Inputs {
     }
 
     /// A new input. Different inputs have different names, whatever names the author used: the
-    /// component `s_i_x` of a point `s_i` and a length called `s_i_x` are distinguished by an
+    /// component `s_i_x` of a point `s_i` and a length named `s_i_x` are distinguished by an
     /// underscore.
     fn add(&mut self, g: &mut Graph, name: &str, source: Source) -> Expr {
         let mut name = name.to_owned();
@@ -294,7 +294,7 @@ impl Inputs {
         e
     }
 
-    /// Symbols of a kept value.
+    /// Symbols of a value stored at the start.
     pub(crate) fn kept(&mut self, g: &mut Graph, field: &str, kind: &Kept) -> Vec<Expr> {
         let components = match kind {
             Kept::Number(_) => vec![(field.to_owned(), format!("self.{field}"))],
@@ -319,7 +319,7 @@ impl Inputs {
             .collect()
     }
 
-    /// What is given of the counted angle number `k`: the angle since the start, its cosine and its
+    /// The values of the unwrapped angle number `k`: the angle since the start, its cosine and its
     /// sine. They follow the functions of time.
     pub(crate) fn counted(&mut self, g: &mut Graph, name: &str, k: usize) -> [Expr; 3] {
         let first = self.functions.len() + 3 * k;
@@ -331,7 +331,7 @@ impl Inputs {
         .map(|(index, part)| self.add(g, &format!("{name}_{part}"), Source::Counted { index }))
     }
 
-    /// Values of a parameter: one number each, two components of a point or a direction.
+    /// Values of a parameter: one value for a number, two components for a point or a direction.
     pub(crate) fn values(&self, name: &str) -> &[Expr] {
         &self.params[name]
     }
@@ -348,7 +348,7 @@ impl Inputs {
         [0, 1, 2].map(|k| values[3 * k..3 * k + 3].to_vec())
     }
 
-    /// Whether the input of this name is the cosine (0) or the sine (1) of a drive's motion.
+    /// Whether the input with this name is the cosine (0) or the sine (1) of a drive's motion.
     pub(crate) fn is_motion_turn(&self, name: &str, part: usize) -> bool {
         self.space == Space::Space3
             && name.trim_end_matches('_') == ["motion_cos", "motion_sin"][part]
@@ -400,18 +400,18 @@ impl Inputs {
         Along::new(g, &self.defined, &images, spins)
     }
 
-    /// The derivation with these images of inputs that are no poses.
+    /// The derivation with these images of inputs that are not poses.
     pub(crate) fn derivation(&self, g: &Graph, images: &[(Expr, Expr)]) -> Along {
         Along::new(g, &self.defined, images, Vec::new())
     }
 
-    /// The partial derivative by an input that is no pose.
+    /// The partial derivative with respect to an input that is not a pose.
     pub(crate) fn partial(&self, g: &mut Graph, by: Expr) -> Along {
         let one = g.number(1.0);
         self.derivation(g, &[(by, one)])
     }
 
-    /// Each number of the pose of a slot with its rate at these velocities.
+    /// Each number of the pose of a slot with its rate for these velocities.
     fn pose_rates(&self, g: &mut Graph, slot: usize, v: &[Expr]) -> Vec<(Expr, Expr)> {
         let s = &self.slots[slot];
         let dim = self.space.dim();
@@ -424,7 +424,7 @@ impl Inputs {
                 let plus_cos = g.mul(cos, omega);
                 rates.extend([omega, minus_sin, plus_cos]);
             }
-            // R·[ω]×: the rows of R are vectors of the body, as seen from there.
+            // R·[ω]×: the rows of R are vectors in the frame of the body.
             Turn::Space3 { .. } => {
                 for row in rotation(s) {
                     rates.extend(cross(g, &row, &v[dim..]));
@@ -434,13 +434,13 @@ impl Inputs {
         s.pose.iter().copied().zip(rates).collect()
     }
 
-    /// `d/dt` along the motion, without the terms in the accelerations.
+    /// `d/dt` along the motion, without the acceleration terms.
     pub(crate) fn time_derivation(&self, g: &mut Graph) -> Along {
         let images = self.rates(g);
         Along::new(g, &self.defined, &images, self.time_spins()).in_time()
     }
 
-    /// `d/dt` along the motion, with the terms in the accelerations.
+    /// `d/dt` along the motion, with the acceleration terms.
     pub(crate) fn full_time_derivation(&self, g: &mut Graph) -> Along {
         let mut images = self.rates(g);
         for s in &self.slots {
@@ -473,7 +473,7 @@ impl Inputs {
     }
 }
 
-/// R of a slot of space, by rows.
+/// R of a slot in space, by rows.
 fn rotation(s: &Slot) -> [[Expr; 3]; 3] {
     [0, 1, 2].map(|row| [0, 1, 2].map(|k| s.pose[3 + 3 * row + k]))
 }

@@ -1,4 +1,4 @@
-//! A definition as mathematics, after names are resolved.
+//! A definition in mathematical form, after names are resolved.
 
 use proc_macro2::{Ident, TokenStream};
 use symbolic::{Expr, Graph};
@@ -10,31 +10,31 @@ use crate::parse::Kept;
 use crate::space::AXES;
 use crate::vector::{Components, Frame, Turn, Vector};
 
-/// A definition as mathematics.
+/// A definition in mathematical form.
 pub(crate) struct Model {
     pub(crate) g: Graph,
     pub(crate) inputs: Inputs,
-    /// Total time derivative without the terms in the accelerations.
+    /// Total time derivative without the acceleration terms.
     pub(crate) time: Along,
     pub(crate) turns: Vec<Turn>,
     /// Sub-expressions that have a name.
     pub(crate) names: Vec<(Expr, String)>,
-    /// The values kept from the assembled start, in order.
+    /// The values stored at the assembled start, in order.
     pub(crate) kept: Vec<KeptValue>,
-    /// The angles that count their turns, in order.
+    /// The unwrapped angles, in order.
     pub(crate) counted: Vec<Counted>,
     pub(crate) requirements: Vec<Condition>,
     pub(crate) body: Body,
 }
 
-/// A value kept from the assembled start.
+/// A value stored at the assembled start.
 pub(crate) struct KeptValue {
-    /// Name of its field.
+    /// Name of the field.
     pub(crate) field: String,
     pub(crate) kind: Kept,
     /// The kernel inputs that represent it.
     pub(crate) symbols: Vec<Expr>,
-    /// Its value at the start.
+    /// Values at the start.
     pub(crate) values: Vec<Expr>,
     /// The optional parameter that overrides it.
     pub(crate) overridden_by: Option<Ident>,
@@ -42,7 +42,8 @@ pub(crate) struct KeptValue {
     pub(crate) of_start: bool,
 }
 
-/// An angle in space since the start: what tells it up to full turns, and its rate.
+/// An angle in space since the start: the expressions that determine it up to full revolutions, and
+/// its rate.
 #[derive(Clone, Copy)]
 pub(crate) struct Counted {
     pub(crate) cos: Expr,
@@ -59,17 +60,17 @@ impl Counted {
 /// The content of a definition: a constraint or a force.
 pub(crate) enum Body {
     Constraint(ConstraintBody),
-    /// Laws and their coordinates.
+    /// Force laws and their coordinates.
     Force(Vec<(Expr, Expr)>),
 }
 
-/// A constraint as mathematics.
+/// A constraint in mathematical form.
 pub(crate) struct ConstraintBody {
-    /// How many rows are holonomic.
+    /// Number of holonomic rows.
     pub(crate) holonomic: usize,
     /// The holonomic rows Φ, then the nonholonomic rows Ψ·q̇ + ψ.
     pub(crate) rows: Vec<Expr>,
-    /// Vectors whose ground components are rows, with the first of them.
+    /// Vectors whose ground components are rows, with the index of the first row.
     pub(crate) vectors: Vec<(usize, Vector)>,
     /// The source text of each row, for the positions of errors.
     pub(crate) at: Vec<TokenStream>,
@@ -78,16 +79,16 @@ pub(crate) struct ConstraintBody {
     pub(crate) measures: Vec<(Ident, Measure)>,
 }
 
-/// What a drive prescribes.
+/// The quantity that a drive prescribes.
 #[derive(Clone, Copy)]
 pub(crate) enum Measure {
-    /// An expression: its row is measure − initial measure − motion.
+    /// An expression: its row is coordinate − initial value − motion.
     Of(Expr),
-    /// A value kept from the start: the motion is added to it in the rows of the joint, and these
-    /// rows take the place of the joint's.
+    /// A value stored at the start: the motion is added to it in the rows of the joint, and these
+    /// rows replace the rows of the joint.
     Kept(Expr),
-    /// An angle θ in space: its row is sin(θ − initial angle − motion), which is a polynomial in
-    /// the sines and cosines, so that full turns need no count.
+    /// An angle θ in space: its row is sin(θ − initial angle − motion). This row is a polynomial in
+    /// the sines and cosines, so that revolutions need not be counted.
     Angle { sin: Expr, cos: Expr },
 }
 
@@ -113,7 +114,7 @@ impl Condition {
     }
 }
 
-/// How two scalars are compared.
+/// Comparison of two scalars.
 #[derive(Clone, Copy)]
 pub(crate) enum Comparison {
     Equal,
@@ -123,18 +124,20 @@ pub(crate) enum Comparison {
 }
 
 impl Model {
-    /// Whether an expression depends on inputs of some origin.
+    /// Whether an expression depends on inputs from some source.
     pub(crate) fn depends_on(&self, e: Expr, origin: impl Fn(&Source) -> bool) -> bool {
         let inputs = self.inputs.defined.inputs(&self.g, e);
         inputs.into_iter().any(|s| origin(self.inputs.source(s)))
     }
 
-    /// The expression with every symbol replaced that stands for a rotated vector or a product.
+    /// The expression in which every symbol for a rotated vector or a product is replaced by its
+    /// definition.
     pub(crate) fn expand(&mut self, e: Expr) -> Expr {
         self.inputs.defined.expand(&mut self.g, e)
     }
 
-    /// The angle with this cosine and sine since it had those of `start`.
+    /// The angle with this cosine and sine, measured from the angle with the cosine and sine in
+    /// `start`.
     pub(crate) fn angle_since(&mut self, [cos, sin]: [Expr; 2], start: [Expr; 2]) -> Counted {
         let [cos_0, sin_0] = start;
         let g = &mut self.g;
@@ -149,9 +152,10 @@ impl Model {
         Counted { cos, sin, rate }
     }
 
-    /// The angle since the start, with its full turns: what is known of it, and of what is left, ε,
-    /// `sin ε·(4 − cos ε)/3 = ε + O(ε⁵)`. This is the angle where it is known to rounding, and a
-    /// polynomial whose first four derivatives are right there: Γ and its derivatives need three.
+    /// The angle since the start, with its full revolutions: the given value, plus a correction for
+    /// the remaining difference ε, `sin ε·(4 − cos ε)/3 = ε + O(ε⁵)`. The result is the angle if
+    /// the given value is accurate to rounding, and a polynomial whose first four derivatives are
+    /// exact there; Γ and its derivatives need three.
     pub(super) fn counted_angle(&mut self, name: &Ident, angle: &[Expr], start: &[Expr]) -> Expr {
         let Self {
             g, inputs, counted, ..
@@ -170,7 +174,7 @@ impl Model {
         g.add(known, left)
     }
 
-    /// Replaces these symbols in all that is printed without further derivatives.
+    /// Replaces these symbols in all expressions that are printed without further derivatives.
     pub(super) fn expand_printed(&mut self) {
         let Self {
             g,
@@ -194,13 +198,13 @@ impl Model {
         requirements.iter_mut().for_each(|c| c.visit(&mut expand));
     }
 
-    /// Whether a kept value is computed only from other numbers, so that it changes with them.
+    /// Whether a stored value is computed only from other numbers, so that it changes with them.
     pub(crate) fn is_computed(&self, kept: &KeptValue) -> bool {
         let reads_poses = |&e: &Expr| self.depends_on(e, |s| matches!(s, Source::Pose { .. }));
         kept.overridden_by.is_none() && !kept.values.iter().any(reads_poses)
     }
 
-    /// Whether a value depends on the configuration, directly or through kept values.
+    /// Whether a value depends on the configuration, directly or through stored values.
     pub(crate) fn depends_on_start(&self, e: Expr) -> bool {
         self.depends_on(e, |s| match s {
             Source::Pose { .. } => true,
@@ -238,7 +242,7 @@ impl Model {
             }
             _ => Vec::new(),
         };
-        // A local variable of this name would hide an argument.
+        // A local variable with this name would hide an argument.
         let free = |name: &String| !inputs::ARGUMENTS.contains(&name.as_str()) && name != "None";
         self.names
             .extend(pieces.into_iter().filter(|(_, name)| free(name)));

@@ -9,7 +9,7 @@ use crate::nearest::hint;
 use crate::parse::Definition;
 use crate::space::Space;
 
-/// Names with their values, and which of them were used.
+/// Names with their values, and a record of the names that were used.
 #[derive(Default)]
 pub(super) struct Names {
     values: BTreeMap<String, Value>,

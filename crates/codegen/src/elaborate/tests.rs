@@ -1,4 +1,4 @@
-//! Names, shapes, and the inputs that each part of a definition may depend on.
+//! Tests of names, of shapes, and of the inputs on which each part of a definition may depend.
 
 use super::Body;
 use crate::Kind;
@@ -66,7 +66,7 @@ fn functions_mean_what_they_say() {
         ("local(j, direction(j, n))[0]", 0.6),
         ("vector(i, [2.0 * l, 1])[0]", 5.0 * cos - sin),
         ("vector(i, local(i, origin(j)))[0]", 0.3),
-        // Components in a frame have products and a length like the vector that they tell.
+        // Components in a frame have the same products and length as the vector itself.
         ("dot(local(i, origin(j)), local(i, origin(j)))", 0.34),
         (
             "dot(local(i, origin(j)), direction(j, n))",
@@ -374,7 +374,7 @@ fn fields_do_not_collide() {
     );
 }
 
-/// A function of time may occur in a law with both derivatives.
+/// A force law may contain a function of time and both of its derivatives.
 #[test]
 fn laws_take_rates() {
     let text = "plane A(i) { /// Doc.

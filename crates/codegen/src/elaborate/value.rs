@@ -64,7 +64,8 @@ impl Value {
         }
     }
 
-    /// How a vector is made of it, in words; `None` for a scalar, a vector and a list.
+    /// Description of how a vector is obtained from the value; `None` for a scalar, a vector and a
+    /// list.
     pub(super) fn as_vector(&self) -> Option<&'static str> {
         Some(match self {
             Self::Point { .. } => "the point of body i that a parameter `s` gives is `point(i, s)`",
@@ -83,7 +84,7 @@ impl Value {
 }
 
 impl Value {
-    /// All scalars in it.
+    /// All scalars of the value.
     pub(super) fn scalars(&self) -> Vec<Expr> {
         match self {
             Self::Scalar(e) => vec![*e],

@@ -1,4 +1,4 @@
-//! Constructors of the generated types: from their parameters, without what is kept from the start.
+//! Constructors of the generated types: from their parameters, without values stored at the start.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -7,8 +7,8 @@ use super::parts::{Driven, field_type, index, measure_0};
 use crate::elaborate::Model;
 use crate::parse::{Definition, Kept};
 
-/// `new` with the parameters that have no default, and a method for each that has one. The values
-/// kept from the start are set by `initialise` and cannot be given.
+/// `new` with the parameters without a default, and a method for each parameter with a default. The
+/// values stored at the start are set by `initialise` and cannot be given.
 pub(super) fn constructors(
     d: &Definition,
     model: &Model,
@@ -44,7 +44,7 @@ pub(super) fn constructors(
         }
     });
     let fields = fields.chain(kept).chain(driven.and_then(measure_0));
-    // The lints are about the number of parameters, which is that of the definition.
+    // The lints are about the number of parameters, which the definition determines.
     let lints = match required.len() {
         0 => Some(quote!(#[allow(clippy::new_without_default)])),
         8.. => Some(quote!(#[allow(clippy::too_many_arguments)])),

@@ -1,4 +1,4 @@
-//! The methods that return the data of a constraint and replace them, and the facts about the data.
+//! The methods that return and replace the data of a constraint, and the specification of the data.
 
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -48,7 +48,7 @@ pub(super) fn facts(d: &Definition, data: &[Datum]) -> TokenStream {
     quote!(&[#(#data),*])
 }
 
-/// The numbers that the rows of a constraint read of it, and their derivatives by its data.
+/// The numbers of a constraint that its rows read, and their derivatives with respect to its data.
 pub(super) struct Stored {
     pub(super) symbols: Vec<Symbol>,
     slopes: Vec<(usize, usize, Expr)>,
@@ -61,8 +61,8 @@ impl Stored {
         Self { symbols, slopes }
     }
 
-    /// How many of these slopes, the first included, say that a stored number is a datum itself,
-    /// one after the other.
+    /// Number of these derivatives, from the first one on, that belong to consecutive stored
+    /// numbers which are data themselves.
     fn run_of_numbers(model: &Model, slopes: &[(usize, usize, Expr)]) -> usize {
         let [(first, by, _), ..] = slopes else {
             return 0;
@@ -76,7 +76,7 @@ impl Stored {
         numbers.count()
     }
 
-    /// The statements that read the numbers; components of one array are read at once.
+    /// The statements that read the numbers; components of one array are read together.
     fn reads(&self, model: &Model) -> Vec<TokenStream> {
         let mut runs: Vec<(String, usize)> = Vec::new();
         for &symbol in &self.symbols {
@@ -140,7 +140,7 @@ impl Stored {
     }
 }
 
-/// `k` after so many.
+/// `k` plus this number.
 fn shifted(first: usize) -> TokenStream {
     let first_index = index(first);
     match first {
@@ -151,7 +151,8 @@ fn shifted(first: usize) -> TokenStream {
 
 /// `data` and `set_data`.
 pub(super) fn methods(model: &Model, data: &[Datum]) -> TokenStream {
-    // Axes and angles by cosine and sine have changes only: none yet.
+    // Axes and angles stored by cosine and sine have only changes as data; at first the changes are
+    // zero.
     let numbers = data.iter().flat_map(|d| {
         let changes = d.count() < d.symbols.len();
         let symbols = d.symbols.iter().take(d.count());
@@ -164,7 +165,8 @@ pub(super) fn methods(model: &Model, data: &[Datum]) -> TokenStream {
         };
         let symbol = model.g.as_symbol(e).expect("data are inputs");
         let (access, _) = model.inputs.source(symbol).access();
-        // Before `initialise` a value that the user stated is not yet where the kernels read it.
+        // Before `initialise`, a value that the user gave is not yet in the field that the kernels
+        // read.
         match &datum.overridden_by {
             Some(given) => quote!(out[#k] = self.#given.unwrap_or(#access);),
             None => quote!(out[#k] = #access;),
@@ -216,7 +218,7 @@ fn write(datum: &Datum, number: &[TokenStream]) -> TokenStream {
             quote!(self.#field[#k] = #x;)
         }
         (_, [x]) => {
-            // A value that the user stated is kept when initial values are computed again.
+            // A value that the user gave is retained when initial values are computed again.
             let given = datum.overridden_by.as_ref();
             let given = given.map(|p| quote!(self.#p = self.#p.map(|_| #x);));
             quote!(#given self.#field = #x;)

@@ -1,7 +1,7 @@
-//! The facts of a definition as a constant.
+//! The specification of a definition as a constant.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::{data, parts};
 use crate::derive::{ConstraintKernels, ForceKernels, Sparse};
@@ -17,7 +17,10 @@ pub(super) fn constraint_spec(
     text: &str,
 ) -> TokenStream {
     let n_dof = d.space.n_dof();
-    let motion = t.driven.map(|_| k.unit_of_measure(d.space));
+    let motion = t.driven.map(|by| match by {
+        Driven::Turn => format_ident!("Angle"),
+        Driven::Measure | Driven::Rows => k.unit_of_measure(d.space),
+    });
     let common = common(d, &t.name.to_string(), &t.scene_type, &t.doc, motion, text);
     let role = if t.driven.is_some() {
         quote!(Role::Drive)
@@ -92,7 +95,8 @@ pub(super) fn constraint_spec(
     }
 }
 
-/// The patterns of the derivatives of rows. Most rows have one for all three: it is stated once.
+/// The patterns of the derivatives of rows. Most rows have the same pattern for all three
+/// derivatives; it is printed once.
 fn of_rows(k: &ConstraintKernels) -> (Option<TokenStream>, [TokenStream; 3]) {
     let blocks = [&k.d_residual_dx, &k.d_gamma_dv, &k.d_velocity_dx];
     let same = |a: &Sparse, b: &Sparse| a.iter().map(|e| e.0).eq(b.iter().map(|e| e.0));
@@ -175,7 +179,7 @@ fn common(
     }
     let (points_apart, bearings) = (d.points_apart, d.bearings && !driven);
     let requirements = d.requirements.iter().map(|(words, _)| words.value());
-    // The text of a drive is that of its joint, whose facts already contain it.
+    // The text of a drive is the text of its joint, whose specification already contains it.
     let text = if driven { "" } else { text };
     quote! {
         Spec {

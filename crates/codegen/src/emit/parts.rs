@@ -1,4 +1,4 @@
-//! Parts that constraints and forces share: the type, its constructor, values kept from the start.
+//! Common parts of constraints and forces: the type, its constructor, values stored at the start.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -12,7 +12,7 @@ use crate::names::kebab_case;
 use crate::parse::{Definition, Kept, Param, ParamKind};
 use crate::space::Space;
 
-/// The differences between a constraint and the drives of its measures.
+/// The differences between a constraint and the drives of its joint coordinates.
 pub(super) struct Type {
     pub(super) name: Ident,
     pub(super) rows: Vec<String>,
@@ -23,9 +23,10 @@ pub(super) struct Type {
     pub(super) driven: Option<Driven>,
     pub(super) scene_type: String,
     pub(super) data: Vec<Datum>,
-    /// Number of angles given to its kernels with their turns.
+    /// Number of angles that the kernels receive with their revolutions.
     pub(super) turns: usize,
-    /// The angles whose cosine, sine and rate it tells: those, or the measure that it drives.
+    /// The angles whose cosine, sine and rate the type returns: the unwrapped angles, or the joint
+    /// coordinate that it drives.
     pub(super) counted: Vec<Counted>,
 }
 
@@ -37,14 +38,14 @@ pub(super) struct Drive {
     pub(super) by: Driven,
 }
 
-/// How a drive moves its measure.
+/// Method by which a drive moves its joint coordinate.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Driven {
-    /// By a row of its own.
+    /// With a separate row.
     Measure,
-    /// By a row of its own for an angle in space, by cosine and sine.
+    /// With a separate row for an angle in space, by cosine and sine.
     Turn,
-    /// By the rows of the joint, in their place.
+    /// With the rows of the joint, which it replaces.
     Rows,
 }
 
@@ -200,8 +201,8 @@ pub(super) fn structure(
     }
 }
 
-/// The drives of a joint with its parameters, one method for each measure; empty if there is no
-/// measure.
+/// The drives of a joint with its parameters, one method for each joint coordinate; empty if there
+/// is no joint coordinate.
 pub(super) fn drives(
     d: &Definition,
     model: &Model,
@@ -229,7 +230,7 @@ pub(super) fn drives(
     (!methods.is_empty()).then(|| quote!(impl #name { #(#methods)* }))
 }
 
-/// The purpose of a parameter, then its kind.
+/// The purpose of a parameter, followed by its kind.
 fn param_doc(p: &Param, d: &Definition) -> String {
     let slot = |s: &Ident| match d.slots.len() {
         1 => "the body".to_owned(),
@@ -282,7 +283,7 @@ pub(super) fn vector(space: Space) -> TokenStream {
     quote!([f64; #dim])
 }
 
-/// The field of the initial measure, before the start is known.
+/// The field of the initial joint coordinate, before the start is assembled.
 pub(super) fn measure_0(by: Driven) -> Option<TokenStream> {
     match by {
         Driven::Measure => Some(quote!(measure_0: 0.0)),
@@ -345,7 +346,7 @@ pub(super) fn from_arguments(d: &Definition, driven: Option<Driven>) -> TokenStr
     } else {
         quote!(Self { #(#given,)* ..#new })
     };
-    // Without parameters only the number of arguments is checked.
+    // Without parameters, only the number of arguments is checked.
     let reader = if reads.is_empty() {
         quote!(Reader::new(Self::SPEC.common.parameters, arguments)?;)
     } else {
@@ -360,7 +361,8 @@ pub(super) fn from_arguments(d: &Definition, driven: Option<Driven>) -> TokenStr
     }
 }
 
-/// The method that computes the values kept from the start. Each value may use those before it.
+/// The method that computes the values stored at the start. Each value may use the values before
+/// it.
 pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> Option<TokenStream> {
     let kept = model.kept.iter().map(|k| {
         let field = format_ident!("{}", k.field);
@@ -398,20 +400,21 @@ pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> Option<Toke
     })
 }
 
-/// Statements that keep cosine and sine of an angle, from those of axes that are nearly parallel.
+/// Statements that store cosine and sine of an angle, from the values for axes that are nearly
+/// parallel.
 fn unit_turn(model: &Model, field: &Ident, turn: &[Expr]) -> TokenStream {
     let printed = kernel(model, turn, Scalar::F64);
     let (statements, outputs) = (&printed.statements, &printed.outputs);
     quote! {
         let [c, s]: [f64; 2] = { #(#statements)* [#(#outputs),*] };
-        // Axes across each other have no angle: any serves.
+        // If the axes are perpendicular, the angle is undefined, and any value is valid.
         let length = c.hypot(s);
         self.#field = if length > 0.0 { [c / length, s / length] } else { [1.0, 0.0] };
     }
 }
 
-/// The method that tells cosine, sine and rate of each angle that counts its turns; none if there
-/// is none.
+/// The method that returns cosine, sine and rate of each unwrapped angle; `None` if there is no
+/// such angle.
 pub(super) fn turned(model: &Model, counted: &[Counted]) -> Option<TokenStream> {
     if counted.is_empty() {
         return None;
@@ -428,7 +431,7 @@ pub(super) fn turned(model: &Model, counted: &[Counted]) -> Option<TokenStream> 
     })
 }
 
-/// The literal that a block consists of, if it consists of one.
+/// The literal in a block that contains only a literal.
 fn literal(block: &TokenStream) -> Option<syn::ExprLit> {
     let block: syn::Block = syn::parse2(block.clone()).ok()?;
     match block.stmts.as_slice() {
@@ -437,7 +440,7 @@ fn literal(block: &TokenStream) -> Option<syn::ExprLit> {
     }
 }
 
-/// The block that computes a kept value.
+/// The block that computes a stored value.
 pub(super) fn kept_value(model: &Model, k: &KeptValue) -> TokenStream {
     let printed = kernel(model, &k.values, Scalar::F64);
     let (statements, outputs) = (&printed.statements, &printed.outputs);
@@ -478,7 +481,7 @@ pub(super) fn points(d: &Definition) -> Option<TokenStream> {
     })
 }
 
-/// The method that returns the axes of a joint in space; none if its first body has none.
+/// The method that returns the axes of a joint in space; `None` if its first body has no axes.
 pub(super) fn axes(d: &Definition) -> Option<TokenStream> {
     let first = d.slots.first().filter(|_| d.space == Space::Space3)?;
     let axes = d
@@ -496,8 +499,8 @@ pub(super) fn axes(d: &Definition) -> Option<TokenStream> {
     })
 }
 
-/// The method that returns the axes of both bodies that a joint in space keeps parallel: those of
-/// one parameter, and those that are like it. None if there are none.
+/// The method that returns the axes of both bodies that a joint in space keeps parallel: the axes
+/// of one parameter, and the axes that follow it with `like`. `None` if there are no such axes.
 pub(super) fn parallel_axes(d: &Definition) -> Option<TokenStream> {
     let [first, second] = d.slots.first_chunk()?;
     let of = |name: &Ident| d.params.iter().find(|p| p.name == *name);
@@ -542,7 +545,7 @@ fn print_condition<'a>(
             }
         }
         Condition::And(a, b) => {
-            // `&&` binds tighter than `||`.
+            // `&&` has a higher precedence than `||`.
             let mut operand = |c: &Condition| {
                 let printed = print_condition(c, scalars);
                 match c {

@@ -1,4 +1,4 @@
-//! Expressions that vanish by an identity, and expressions that are only small.
+//! Expressions that vanish because of an identity, and expressions that are only small.
 
 use super::is_zero;
 use crate::Kind;
@@ -18,7 +18,7 @@ fn the_identity_of_pythagoras_is_seen() {
     let one = m.g.number(1.0);
     let (cc, ss) = (m.g.mul(cos, cos), m.g.mul(sin, sin));
     let e = m.g.sum(&[(1.0, cc), (1.0, ss), (-1.0, one)]);
-    assert!(!m.g.is_zero(e), "the graph knows no trigonometry");
+    assert!(!m.g.is_zero(e), "the graph has no trigonometry");
     assert!(is_zero(&mut m.g, &m.inputs, e));
     let doubled = m.g.sum(&[(1.0, cc), (2.0, ss), (-1.0, one)]);
     assert!(!is_zero(&mut m.g, &m.inputs, doubled));

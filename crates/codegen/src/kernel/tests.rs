@@ -48,7 +48,7 @@ fn numbers_of_the_type_f64_are_read_as_they_are() {
     );
 }
 
-/// Counts by hand: a rotated point costs 4 products and 2 sums.
+/// Operations counted by hand: a rotated point needs 4 products and 2 sums.
 #[test]
 fn operations_of_the_revolute() {
     let (model, _, k) = constraint(REVOLUTE);

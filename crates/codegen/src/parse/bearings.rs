@@ -1,10 +1,10 @@
-//! `bearings;`: the definition takes its bodies, and its points and axes but for the last point,
-//! from two joints, each of which bears one wheel on a common carrier.
+//! `bearings;`: the definition takes its bodies, and all points and axes except the last point,
+//! from two joints, each of which supports one wheel on a common carrier.
 
 use super::tree::{Definition, Param, ParamKind};
 use crate::space::Space;
 
-/// What such a definition must have, before the word.
+/// Requirements on such a definition before the word `bearings`.
 pub(super) const NEEDED: &str = "`bearings` stands after the parameters of a `space` definition of two wheels and their \
      carrier: a `Point` in each wheel and three in the carrier, for the bearings of both wheels and for the place; \
      two `Axes` in the carrier, for these bearings, and one in each wheel `like` them; a `Direction` in the carrier, \
@@ -19,7 +19,7 @@ pub(super) fn are_possible(d: &Definition) -> bool {
         let is_here = |kind: &&ParamKind| matches!(kind, ParamKind::Point(s) if s == slot);
         d.params.iter().map(|p| &p.kind).filter(is_here).count()
     };
-    // Names of the axes in a slot, and of those that they are like.
+    // Names of the axes in a slot, and of the axes that they follow with `like`.
     let axes = |own| {
         let axes = d.params.iter().filter_map(move |p| match &p.kind {
             ParamKind::Axes { slot, like, .. } if slot == own => Some((&p.name, like.as_ref())),

@@ -1,20 +1,20 @@
-//! Bounds on what is handed to the recursive parts of the pipeline: a definition that is absurdly
-//! long or deep is refused with an error, because a compiler that runs out of stack cannot say why.
-//! Words of Rust that are no words of this language, and paths, are refused here for the same
-//! reason: the parser of Rust would follow them to any depth.
+//! Bounds on the input of the recursive parts of the pipeline. A definition that is extremely long
+//! or deep is rejected with an error, because a compiler that runs out of stack cannot report the
+//! reason. Keywords of Rust that are not words of this language, and paths, are rejected here for
+//! the same reason: the parser of Rust would follow them to any depth.
 
 use proc_macro2::{Ident, Spacing, TokenStream, TokenTree};
 
-/// Tokens of a definition; the longest that is shipped has about 250.
+/// Maximum number of tokens of a definition; the longest definition of the library has about 250.
 const TOKENS: usize = 2048;
 
-/// Nesting of parentheses, brackets and braces.
+/// Maximum nesting depth of parentheses, brackets and braces.
 const DEPTH: usize = 32;
 
-/// Operators in a row, as in `- - x`.
+/// Maximum number of consecutive operators, as in `- - x`.
 const OPERATORS: usize = 4;
 
-/// The keywords of Rust that are words of this language.
+/// The keywords of Rust that are also words of this language.
 const KEYWORDS: [&str; 2] = ["let", "in"];
 
 /// Checks all bounds.

@@ -1,5 +1,5 @@
-//! Valid syntax, and the messages for invalid syntax. The positions of errors are tested by the
-//! compile-fail cases of `joint-macro`.
+//! Valid syntax, and the messages for invalid syntax. The compile-fail cases of `joint-macro` test
+//! the positions of errors.
 
 use super::{Definition, Kept, Kind, ParamKind, definition};
 

@@ -1,4 +1,4 @@
-//! A definition as written.
+//! A definition as written by its author.
 
 use syn::parse::ParseStream;
 use syn::{Expr, Ident, LitStr};
@@ -14,22 +14,23 @@ pub enum Kind {
     Force,
 }
 
-/// One definition, as written.
+/// One definition, as written by its author.
 pub struct Definition {
     /// The space of its bodies.
     pub space: Space,
-    /// Its name.
+    /// Name of the definition.
     pub name: Ident,
-    /// Names of its body slots.
+    /// Names of the body slots.
     pub slots: Vec<Ident>,
-    /// Its doc comment, one string for each line.
+    /// Doc comment, one string for each line.
     pub doc: Vec<String>,
-    /// Its parameters.
+    /// Parameters of the definition.
     pub params: Vec<Param>,
-    /// Whether its place in a scene consists of one point for each point parameter.
+    /// Whether a scene gives one point for each point parameter, instead of one common reference
+    /// point.
     pub points_apart: bool,
-    /// Whether its bodies, and its points and axes but for the last point, are those of two joints
-    /// that bear the first two bodies on the third.
+    /// Whether the bodies, points and axes, except the last point, are those of two joints that
+    /// support the first two bodies on the third.
     pub bearings: bool,
     /// `let`, `initial` and `turns`, in the order of the text.
     pub bindings: Vec<Binding>,
@@ -41,32 +42,32 @@ pub struct Definition {
     pub phi: Option<Expr>,
     /// The rows of velocity level.
     pub psi: Option<Expr>,
-    /// The measures that drives may prescribe; `None` for a kept value, which a drive moves in the
-    /// rows of the joint.
+    /// The joint coordinates that drives may prescribe; `None` for a value stored at the start,
+    /// which a drive moves in the rows of the joint.
     pub measures: Vec<(Ident, Option<Expr>)>,
-    /// The point at which the reaction is reported.
+    /// The reference point of the reaction.
     pub place: Option<Expr>,
     /// A named direction of the reaction.
     pub component: Option<(Ident, Expr)>,
-    /// A note that readers of the reaction need.
+    /// A note for readers of the reaction.
     pub note: Option<LitStr>,
-    /// Laws and their coordinates.
+    /// Force laws and their coordinates.
     pub forces: Vec<(Expr, Expr)>,
     /// Scene type, if it differs from the name.
     pub scene: Option<LitStr>,
-    /// Key, value and whether it is the default.
+    /// Key, value, and whether it is the default.
     pub variant: Option<(Ident, LitStr, bool)>,
 }
 
 /// One parameter.
 pub struct Param {
-    /// Its name.
+    /// Name of the parameter.
     pub name: Ident,
-    /// Its doc comment.
+    /// Doc comment of the parameter.
     pub doc: Vec<String>,
-    /// The kind of its value.
+    /// Kind of the value.
     pub kind: ParamKind,
-    /// Value at the assembled start if none is given.
+    /// Value at the assembled start if the parameter is not given.
     pub default: Option<Expr>,
 }
 
@@ -76,14 +77,14 @@ pub enum ParamKind {
     Point(Ident),
     /// A direction in the frame of the body in a slot.
     Direction(Ident),
-    /// An axis in the frame of the body in a slot, with directions across it; they are those of
-    /// another parameter unless they are given, or those of the frame if `optional`.
+    /// An axis in the frame of the body in a slot, with directions across it. Unless they are
+    /// given, they are the axes of another parameter, or the axes of the frame if `optional`.
     Axes {
         /// The slot.
         slot: Ident,
-        /// The parameter whose axes they are, as described.
+        /// The parameter whose axes are used if none are given.
         like: Option<Ident>,
-        /// Whether the axes of the frame serve if none are given.
+        /// Whether the axes of the frame are used if none are given.
         optional: bool,
     },
     /// A line of the ground.
@@ -102,23 +103,23 @@ pub enum ParamKind {
 
 /// `let`, `turns` or one entry of `initial`.
 pub struct Binding {
-    /// Its name.
+    /// Name of the binding.
     pub name: Ident,
-    /// Its value.
+    /// Value of the binding.
     pub value: Expr,
-    /// The kind of the kept value, for `initial` and `turns`; `None` for `let`.
+    /// The kind of the stored value, for `initial` and `turns`; `None` for `let`.
     pub kept: Option<Kept>,
 }
 
-/// The kind of a value kept from the start.
+/// The kind of a value stored at the start.
 #[derive(Clone, PartialEq, Eq)]
 pub enum Kept {
     /// One number with its unit.
     Number(Ident),
     /// Components in the frame of the body in a slot.
     Vector(Ident),
-    /// An angle in space, by its cosine and sine: the name stands for the angle since the start,
-    /// with its full turns.
+    /// An angle in space, stored by its cosine and sine: the name denotes the angle since the
+    /// start, with its full revolutions.
     Turn,
 }
 

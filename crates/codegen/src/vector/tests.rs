@@ -1,4 +1,4 @@
-//! Frames: operations that need no rotation contain none.
+//! Tests of frames: operations that need no rotation contain no rotation.
 
 use symbolic::{Expr, Graph};
 

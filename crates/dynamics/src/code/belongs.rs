@@ -1,6 +1,6 @@
-//! Checks whether generated code belongs to a mechanism and whether a run may use it. Numbers
-//! decide, never names: sizes, rows and break times must be equal, and values must agree at the
-//! start of the motion and around it.
+//! Checks whether generated code belongs to a mechanism and whether a run may use it. Names play no
+//! role in the check: sizes, rows and break times must be equal, and values must agree at the start
+//! of the motion and near it.
 
 use std::sync::Arc;
 
@@ -32,7 +32,7 @@ pub enum CodeMismatch {
         /// Value in the mechanism.
         expected: usize,
     },
-    /// It keeps other rows.
+    /// The code was generated for other independent rows.
     #[error(
         "the code `{name}` keeps the {level} rows {}, this run {}",
         from_one(found),
@@ -48,7 +48,7 @@ pub enum CodeMismatch {
         /// Rows of the run, from 0.
         expected: Vec<usize>,
     },
-    /// Its functions of time have other break times.
+    /// The functions of time in the code have other break times.
     #[error("the code `{name}` has break times at {found:?} s, the mechanism at {expected:?} s")]
     BreakTimes {
         /// Name of the code.
@@ -76,26 +76,25 @@ pub enum CodeMismatch {
         /// Value of the mechanism.
         expected: f64,
     },
-    /// Its health is too low at the start.
+    /// The health of the code is too low at the start.
     #[error(
         "the code `{name}` has a health of {health:.3} at the start, need {LEAVE}: it was generated for other configurations"
     )]
     Unhealthy {
         /// Name of the code.
         name: String,
-        /// Its health.
+        /// Health of the code.
         health: f64,
     },
-    /// It takes numbers of a mechanism as inputs, and this is another mechanism.
+    /// The code takes numbers of a mechanism as inputs, and this mechanism has other equations.
     #[error(
-        "the code `{name}` takes numbers of a mechanism with other equations: joints, forces, functions of time or the bodies with products of inertia are others, \
-         or another version made it; generate it again"
+        "the code `{name}` was generated for a mechanism with other equations (joints, forces, functions of time or bodies with products of inertia differ), or by another version; generate it again"
     )]
     Shape {
         /// Name of the code.
         name: String,
     },
-    /// Numbers that are one input of the code differ in the mechanism.
+    /// Two numbers that are one input of the code differ in the mechanism.
     #[error(
         "the code `{name}` takes {input} as one number, in the mechanism it is both {:.9e} and {:.9e}; generate it again with the key among `--inputs` that sets them apart",
         values[0], values[1]
@@ -105,12 +104,12 @@ pub enum CodeMismatch {
         name: String,
         /// Name of the input.
         input: String,
-        /// Two of its values.
+        /// Two of the values that the input has in the mechanism.
         values: [f64; 2],
     },
-    /// A mass or moment of inertia that is an input is zero in the mechanism, and was not when the
-    /// code was generated. The order of elimination depends on it, and the smallest correction of a
-    /// position has no meaning in the metric of what has no mass.
+    /// A mass or moment of inertia that is an input is zero in the mechanism, but was not zero when
+    /// the code was generated. The order of elimination depends on it, and without mass there is no
+    /// mass metric for the smallest correction of a position.
     #[error(
         "the code `{name}` was generated for a positive {input}, in the mechanism it is 0; generate it again for a mechanism without it"
     )]
@@ -120,15 +119,15 @@ pub enum CodeMismatch {
         /// Name of the input.
         input: String,
     },
-    /// It does not take as many inputs as it names.
+    /// The number of inputs of the code differs from the number of names of inputs.
     #[error("the code `{name}` names {found} inputs and does not take them")]
     Inputs {
         /// Name of the code.
         name: String,
-        /// How many it names.
+        /// Number of input names.
         found: usize,
     },
-    /// The mechanism itself cannot be evaluated at this state.
+    /// The equations of the mechanism have no solution at this state.
     #[error(transparent)]
     MotionFault(#[from] MotionFault),
 }
@@ -143,32 +142,35 @@ fn from_one(rows: &[usize]) -> String {
 #[non_exhaustive]
 pub enum NoCode {
     /// There is no generated code.
-    #[error("none was given")]
+    #[error("not provided")]
     None,
     /// The method needs more than accelerations.
     #[error("the method {0} needs more than accelerations")]
     Method(&'static str),
     /// States are not projected.
-    #[error("code is watched by its projections, the stabilisation is {0}")]
+    #[error("code needs projection as stabilisation, found {0}")]
     Stabilisation(&'static str),
-    /// A force calls a function.
-    #[error("a force or a law calls a function, which code does not")]
+    /// A force calls an external function.
+    #[error("a force or a law calls a function, which generated code cannot do")]
     Called,
-    /// Rows may be redundant within a stated tolerance only, and what they miss is a result.
+    /// Rows may be redundant only within a stated tolerance, and their constraint violation is a
+    /// result of the run.
     #[error(
-        "rows are redundant within the stated tolerance, and code does not compute what they miss"
+        "rows are redundant within the stated tolerance, and generated code does not compute their violation"
     )]
     Misfits,
     /// Masses differ so much that solutions have to be refined, which generated code does not do.
     #[error(
-        "masses and inertias differ by a factor of {spread:.1e}, from {GRADED_MASSES:.0e} on solutions are refined, which code does not do"
+        "masses and inertias differ by a factor of {spread:.1e}; above {GRADED_MASSES:.0e} solutions are refined, which generated code does not do"
     )]
     Refinement {
         /// The largest mass divided by the smallest.
         spread: f64,
     },
     /// The size of the mechanism is so far from a metre that solutions have to be refined.
-    #[error("solutions of a mechanism of {size:.1e} m are refined, which code does not do")]
+    #[error(
+        "solutions of a mechanism of {size:.1e} m are refined, which generated code does not do"
+    )]
     Size {
         /// Size of the mechanism (m).
         size: f64,
@@ -176,12 +178,14 @@ pub enum NoCode {
 }
 
 impl CodeInputs {
-    /// The values in a mechanism, in their order; `code` is the name of the code in messages.
+    /// The values of the inputs in a mechanism, in their order; `code` is the name of the code in
+    /// messages.
     ///
     /// # Errors
-    /// - [`CodeMismatch::Shape`]: the equations of the mechanism are not those of the code.
-    /// - [`CodeMismatch::Parts`]: what is one number in the code is several in the mechanism.
-    /// - [`CodeMismatch::Massless`]: the code was generated for a mass that the mechanism lacks.
+    /// - [`CodeMismatch::Shape`]: the equations of the mechanism differ from those of the code.
+    /// - [`CodeMismatch::Parts`]: numbers that are one input of the code differ in the mechanism.
+    /// - [`CodeMismatch::Massless`]: the code was generated for a positive mass that is zero in the
+    ///   mechanism.
     pub fn of(&self, code: &str, mechanism: &Mechanism) -> Result<Vec<f64>, CodeMismatch> {
         let shape = || CodeMismatch::Shape {
             name: code.to_owned(),
@@ -222,16 +226,16 @@ impl CodeInputs {
     }
 }
 
-/// Where values are compared.
+/// States at which values are compared.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum At {
     /// At the start.
     Start,
-    /// There, around it, and between break times.
+    /// At the start, near it, and between break times.
     ManyStates,
 }
 
-/// The code with the numbers of a mechanism, if it takes any.
+/// The code with the numbers of a mechanism, if the code has inputs.
 fn for_mechanism(
     code: Arc<SharedCode>,
     mechanism: &Mechanism,
@@ -250,9 +254,10 @@ fn for_mechanism(
 
 impl PreparedMechanism {
     /// Adds code generated for this mechanism, or for one that differs from it only in numbers that
-    /// the code takes as inputs ([`SceneCode::inputs`]); runs then use it if they can. With inputs,
-    /// rows that nobody chose are those of the code ([`PreparedMechanism::on_rows`]): which of
-    /// redundant rows are kept may hang on any number.
+    /// the code takes as inputs ([`SceneCode::inputs`]); runs then use the code if possible. If the
+    /// code has inputs and the user chose no rows, the run uses the independent rows of the code
+    /// ([`PreparedMechanism::on_rows`]). The reason is that the choice of rows may depend on any
+    /// number.
     ///
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
@@ -260,18 +265,18 @@ impl PreparedMechanism {
         self.with_code_compared(code, At::ManyStates)
     }
 
-    /// The same without generated code.
+    /// The same mechanism without generated code.
     #[must_use]
     pub fn without_code(self) -> Self {
         Self { code: None, ..self }
     }
 
-    /// Like [`PreparedMechanism::with_code`] for code that has passed that with a mechanism of
-    /// the same constraints ([`Mechanism::has_constraints_of`]): values are compared at the start
-    /// alone.
+    /// Like [`PreparedMechanism::with_code`] for code that has already passed this check with a
+    /// mechanism of the same constraints ([`Mechanism::has_constraints_of`]). Values are compared
+    /// only at the start.
     ///
     /// # Errors
-    /// As [`PreparedMechanism::with_code`].
+    /// Returns the same errors as [`PreparedMechanism::with_code`].
     pub fn with_known_code(self, code: Arc<SharedCode>) -> Result<Self, CodeMismatch> {
         self.with_code_compared(code, At::Start)
     }
@@ -291,7 +296,7 @@ impl PreparedMechanism {
         })
     }
 
-    /// The code that a run with these options uses, or the reason why it uses none.
+    /// The code that a run with these options uses, or the reason why the run uses no code.
     ///
     /// # Errors
     /// [`NoCode`]
@@ -427,7 +432,7 @@ fn check_values(
     }
     let times = times(&prepared.mechanism);
     for k in 0..CODE_STATES.max(times.len()) {
-        // Numbers that coincide with no symmetry of a mechanism.
+        // Numbers without any relation to a symmetry of a mechanism.
         let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
         let away = |by: f64| -> Vec<f64> {
             let unit = |j: usize| prepared.mechanism.space().unit(j, prepared.assembly.size);
@@ -493,7 +498,8 @@ fn compare(
         let shares = x.iter().enumerate().map(|(j, x)| x.abs() / unit(j));
         shares.fold(0.0, f64::max)
     };
-    // What forces would do to free bodies: what holds a mechanism at rest cancels them.
+    // The accelerations of free bodies under these forces set the scale, because forces cancel in a
+    // mechanism at rest.
     mechanism.twist(v, &mut s);
     mechanism.force(&mut s);
     let masses = mechanism.mass().iter().zip(&s.force);

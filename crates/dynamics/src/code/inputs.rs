@@ -1,28 +1,28 @@
-//! Numbers of a mechanism that generated code takes as inputs: code that was generated for one
-//! mechanism serves every other one that differs in these numbers only.
+//! Numbers of a mechanism that generated code takes as inputs. Code that was generated for one
+//! mechanism can be used for every other mechanism that differs only in these numbers.
 //!
-//! A number is known by its place in the recorded equations, never by its value, so two equal ones
-//! are not confused. Numbers that were equal in all mechanisms that the code was generated from are
-//! one input; a mechanism in which they differ is refused.
+//! A number is identified by its position in the recorded equations, not by its value, so two equal
+//! numbers are not confused. Numbers that were equal in all mechanisms from which the code was
+//! generated are one input. A mechanism in which these numbers differ is rejected.
 
 use std::borrow::Cow;
 
-/// The inputs of generated code beside time, coordinates and velocities.
+/// The inputs of generated code in addition to time, coordinates and velocities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeInputs {
-    /// [`model::RecordedEquations::shape`] of the mechanism that the code was generated for.
+    /// [`model::RecordedEquations::shape`] of the mechanism for which the code was generated.
     pub shape: u64,
-    /// The numbers, in their order.
+    /// The input numbers, in their order.
     pub list: Cow<'static, [CodeInput]>,
 }
 
-/// One number.
+/// One input number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeInput {
-    /// What it is, and the keys of the scene that change it.
+    /// Description of the number, with the keys of the scene that change it.
     pub name: Cow<'static, str>,
-    /// Its value in the mechanism that the code was generated for.
+    /// Value in the mechanism for which the code was generated.
     pub described: f64,
-    /// Its places in the recorded equations, at least one.
+    /// Positions of the number in the recorded equations, at least one.
     pub places: Cow<'static, [usize]>,
 }

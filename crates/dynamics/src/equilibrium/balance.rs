@@ -1,7 +1,8 @@
-//! Forces at one configuration: those along free motions, and the multipliers of the others.
+//! Forces at one configuration: forces along the free motions, and multipliers of the constrained
+//! ones.
 //!
-//! All is without dimensions but for one energy: velocities are in sizes of the mechanism and
-//! radians, forces and torques are multiplied by them.
+//! All numbers are in units of one energy: velocities are in sizes of the mechanism and radians,
+//! and forces and torques are multiplied by these units.
 
 use linalg::{Matrix, RowBasis};
 use model::start::{Metric, nearest_configuration};
@@ -29,13 +30,13 @@ pub(super) struct Balance {
     pub(super) q: Vec<f64>,
     /// An orthonormal basis of the free motions, in columns, n_v × d.
     pub(super) z: Matrix,
-    /// Forces along them, d.
+    /// Forces along the free motions, d.
     pub(super) free: Vec<f64>,
-    /// Kept rows of C and their multipliers, in units of the rows.
+    /// Independent rows of C and their multipliers, in units of the rows.
     pub(super) multipliers: Vec<(usize, f64)>,
-    /// Kept rows of Φ.
+    /// Independent rows of Φ.
     positions: Vec<usize>,
-    /// The largest force that acts, applied or handed on.
+    /// The largest acting force, applied or transmitted.
     pub(super) scale: f64,
 }
 
@@ -68,7 +69,7 @@ impl<'m> Statics<'m> {
         self.mechanism.force(s);
     }
 
-    /// Refuses rows that prescribe a velocity.
+    /// Rejects rows that prescribe a velocity.
     pub(super) fn check_rest(&mut self, q: &[f64]) -> Result<(), EquilibriumError> {
         self.evaluate(q);
         self.mechanism.b(&mut self.s);
@@ -146,7 +147,7 @@ impl<'m> Statics<'m> {
         })
     }
 
-    /// The largest entry of the weight or of an applied force, at the pose of the scratch.
+    /// The largest entry of the weight or of an applied force, at the pose in the scratch memory.
     fn largest_part(&mut self) -> f64 {
         let largest = |q: &[f64]| {
             let shares = q.iter().zip(&self.units).map(|(f, u)| (f * u).abs());
@@ -157,23 +158,23 @@ impl<'m> Statics<'m> {
         parts.max(largest(self.mechanism.weight()))
     }
 
-    /// The displacement of all bodies, without dimensions, of a step along the free motions.
+    /// The dimensionless displacement of all bodies for a step along the free motions.
     pub(super) fn moved(&self, at: &Balance, y: &[f64]) -> Vec<f64> {
         at.z.times(y)
     }
 
-    /// The forces along free motions as those on all velocities.
+    /// Converts forces along free motions to forces on all velocities.
     pub(super) fn scaled(&self, at: &Balance) -> Vec<f64> {
         at.z.times(&at.free)
     }
 
-    /// Velocities, with dimensions.
+    /// Velocities in their units.
     pub(super) fn velocity(&self, at: &Balance, y: &[f64]) -> Vec<f64> {
         let moved = self.moved(at, y);
         moved.iter().zip(&self.units).map(|(x, u)| x * u).collect()
     }
 
-    /// The configuration on the constraints that is closest to a displaced one.
+    /// The configuration on the constraint manifold that is closest to a displaced one.
     pub(super) fn placed(&self, at: &Balance, moved: &[f64]) -> Result<Vec<f64>, EquilibriumError> {
         let step: Vec<f64> = moved.iter().zip(&self.units).map(|(x, u)| x * u).collect();
         let q = self.mechanism.space().displaced(&at.q, 1.0, &step);

@@ -1,83 +1,79 @@
-//! Reasons why no place of rest was found.
+//! Reasons why no equilibrium was found.
 
 use model::codes::Code;
 use model::words::{listed, rounded};
 use model::{CalledForce, StartError};
 
-/// What pushes a free motion.
+/// An unbalanced force along a free motion.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct UnbalancedForce {
-    /// The motion, in words.
+    /// Description of the motion.
     pub motion: String,
-    /// Force or torque along it, for its fastest translation or rotation.
+    /// Force or torque along the motion, for its fastest translation or rotation.
     pub force: f64,
     /// N or N·m.
     pub unit: &'static str,
-    /// What pushes: the weight and applied forces, in words.
+    /// Descriptions of the loads that act: the weight and applied forces.
     pub by: Vec<String>,
 }
 
-/// Reason why no place of rest was found.
+/// Reason why no equilibrium was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EquilibriumError {
     /// A row prescribes a velocity.
     #[error(
-        "nothing rests: {} `{name}` prescribes {} {unit} at the start; let its function begin with rate zero, \
-         or leave it out (`active = false`)", if *is_drive { "drive" } else { "joint" }, rounded(*rate))]
+        "no equilibrium: {} `{name}` prescribes {} {unit} at the start; start its function with rate zero, or deactivate it (`active = false`)", if *is_drive { "drive" } else { "joint" }, rounded(*rate))]
     Prescribed {
-        /// The drive or joint.
+        /// Name of the drive or joint.
         name: String,
-        /// Whether it is a drive.
+        /// Whether the element is a drive.
         is_drive: bool,
         /// The rate that it prescribes.
         rate: f64,
         /// Unit of the rate.
         unit: &'static str,
     },
-    /// A free motion is pushed, and nothing resists it.
-    #[error("there is no rest: {}, wherever it goes; add what resists it, or hold it", push(.0))]
+    /// A force acts along a free motion without stiffness.
+    #[error("there is no equilibrium: {} at every position; add a force that resists the motion, or lock it", push(.0))]
     Pushed(Vec<UnbalancedForce>),
-    /// The search did not end.
+    /// The search did not converge.
     #[error(
-        "no place of rest was found in {steps} steps: {}, a share of {left:.1e} of the largest force; \
-         describe a start nearer to rest",
+        "no equilibrium was found in {steps} steps: {}, {left:.1e} of the largest force; describe a start nearer to the equilibrium",
         push(pushed)
     )]
     NotFound {
         /// Number of steps.
         steps: usize,
-        /// What is left, as a share of the largest force.
+        /// Remaining force, as a share of the largest force.
         left: f64,
-        /// What is pushed there.
+        /// The unbalanced forces at the last configuration.
         pushed: Vec<UnbalancedForce>,
     },
-    /// The search came to a configuration from which no step can be assembled.
+    /// The search reached a configuration from which no further step can be assembled.
     #[error(
-        "no place of rest was found: after {steps} steps the mechanism is at a singular configuration, from which no step \
-         can be assembled along {}; describe a start nearer to rest, or correct the dimensions",
+        "no equilibrium was found: after {steps} steps the mechanism is at a singular configuration, and no step along {} can be assembled; describe a start nearer to the equilibrium, or correct the dimensions",
         push(pushed)
     )]
     Blocked {
         /// Number of steps.
         steps: usize,
-        /// What is pushed there.
+        /// The unbalanced forces at this configuration.
         pushed: Vec<UnbalancedForce>,
     },
-    /// At the place that was found no start can be assembled, although the search reached it on
-    /// the constraints.
+    /// No start can be assembled at the equilibrium, although the search reached it on the
+    /// constraint manifold.
     #[error(
-        "no place of rest was found: the search ends at a singular configuration, at which the constraints determine \
-         the places of the bodies to {left:.1e} m only; describe a start nearer to rest, or correct the dimensions"
+        "no equilibrium was found: the search ends at a singular configuration, where the constraints determine the positions of the bodies only to {left:.1e} m; describe a start nearer to the equilibrium, or correct the dimensions"
     )]
     Singular {
-        /// What the constraints still miss there (m).
+        /// Remaining constraint violation (m).
         left: f64,
     },
     /// A force has no finite value.
     #[error(
-        "{what} on body `{body}` is not finite on the way to rest; describe a start nearer to rest"
+        "{what} on body `{body}` is not finite during the search; describe a start nearer to the equilibrium"
     )]
     NotFinite {
         /// The force.
@@ -85,14 +81,13 @@ pub enum EquilibriumError {
         /// The body.
         body: String,
     },
-    /// A force calls a function, of which values alone are known.
+    /// A force calls an external function, which gives values but no derivatives.
     #[error(
-        "a search for rest needs derivatives of all forces, and {0}; give the drive a law of `measure`, `rate` and `t`, \
-         or let a run with dampers come to rest"
+        "the search for an equilibrium needs derivatives of all forces, but {0}; give the drive a law of `measure`, `rate` and `t`, or simulate with dampers until the motion stops"
     )]
     NoDerivatives(CalledForce),
-    /// A configuration on the way cannot be reached.
-    #[error("on the way to rest {0}")]
+    /// An intermediate configuration cannot be assembled.
+    #[error("during the search for an equilibrium {0}")]
     Start(#[from] StartError),
 }
 
@@ -109,7 +104,7 @@ pub(super) fn push(pushed: &[UnbalancedForce]) -> String {
 }
 
 impl EquilibriumError {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -124,7 +119,7 @@ impl EquilibriumError {
         }
     }
 
-    /// Whether other input may have a place of rest.
+    /// Whether other input may have an equilibrium.
     #[must_use]
     pub fn is_input(&self) -> bool {
         matches!(

@@ -1,9 +1,10 @@
-//! Free fall: sets of bodies that nothing ties to the ground, and that a load pushes wherever they
-//! are.
+//! Free fall: sets of bodies that have no connection to the ground and on which a load acts at
+//! every configuration.
 //!
-//! Joints and forces between bodies of a set do not change if all of them move along a straight
-//! line, and those of angles do not feel it. If nothing else acts than the weight and forces that
-//! are the same at each pose, the set is pushed along their sum at each pose, and nowhere at rest.
+//! A common translation of all bodies of a set along a straight line does not change the joints and
+//! forces between them. It does not change joints and forces that depend on angles, either. If, in
+//! addition, only the weight and constant forces act on the set, their sum acts at every pose. Then
+//! the set has no equilibrium.
 
 use linalg::DisjointSets;
 use linalg::kernels::norm;
@@ -15,14 +16,14 @@ use super::balance::Statics;
 use super::words::{of_bodies, parts};
 use crate::limits::{DEAD_LOAD, UNRESISTED_FORCE};
 
-/// Displacements at which a force is the same if it is a dead load: of the centre of mass (sizes of
-/// the mechanism) and by a rotation (rad), by number of direction.
+/// Displacements for testing whether a force is a dead load (a constant force): of the centre of
+/// mass (sizes of the mechanism) and by a rotation (rad), by number of direction.
 const ELSEWHERE: [[f64; 6]; 2] = [
     [0.7, -1.3, 0.9, 0.8, -0.5, 0.4],
     [-2.1, 1.9, -3.2, -1.1, 0.9, 1.7],
 ];
 
-/// What falls, wherever it is, set by set.
+/// Sets of bodies that fall at every configuration, one entry for each set.
 pub(super) fn falls(statics: &mut Statics<'_>, q: &[f64]) -> Vec<UnbalancedForce> {
     let n = statics.bodies();
     let mechanism = statics.mechanism;
@@ -94,7 +95,7 @@ pub(super) fn falls(statics: &mut Statics<'_>, q: &[f64]) -> Vec<UnbalancedForce
     found
 }
 
-/// A translation of some bodies in words.
+/// Describes a translation of some bodies.
 fn slides(mechanism: &Mechanism, bodies: &[usize], along: &[f64]) -> String {
     let name = |k: &usize| format!("`{}`", mechanism.bodies()[*k].name);
     let names: Vec<String> = bodies.iter().map(name).collect();
@@ -106,7 +107,7 @@ fn slides(mechanism: &Mechanism, bodies: &[usize], along: &[f64]) -> String {
         [first, second] => format!("{first} and {second}"),
         names => listed(names),
     };
-    // Four digits; −0 is 0.
+    // Four digits; −0 is printed as 0.
     let shown = along.iter().map(|x| (x * 1e4).round() / 1e4 + 0.0);
     let shown = shown.map(|x| x.to_string().replace('-', "−"));
     format!(
@@ -115,8 +116,8 @@ fn slides(mechanism: &Mechanism, bodies: &[usize], along: &[f64]) -> String {
     )
 }
 
-/// What each applied force on one body adds to Q, if it pushes in the same way at other poses;
-/// `None` for others.
+/// Contribution of each applied force on one body to Q, if the force is constant at other poses;
+/// `None` for other forces.
 fn dead_loads(statics: &mut Statics<'_>, q: &[f64]) -> Vec<Option<Vec<f64>>> {
     let mechanism = statics.mechanism;
     let (space, size) = (mechanism.space(), statics.size);
@@ -156,7 +157,7 @@ fn dead_loads(statics: &mut Statics<'_>, q: &[f64]) -> Vec<Option<Vec<f64>>> {
             norm(&change)
         };
         let bound = DEAD_LOAD * norm(part);
-        // Zero at a few poses is not zero at all of them.
+        // A force that is zero at a few poses may be nonzero at others.
         bound > 0.0 && elsewhere.iter().all(|other| changed(other) <= bound)
     };
     let kept: Vec<bool> = (0..here.len()).map(|k| on_one[k] && is_dead(k)).collect();

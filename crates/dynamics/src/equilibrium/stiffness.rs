@@ -1,5 +1,5 @@
-//! Stiffness along free motions, `K = −Zᵀ·∂(Q − Cᵀ·λ)/∂q·Z` with constant multipliers λ, and steps
-//! that it gives.
+//! Stiffness along free motions, `K = −Zᵀ·∂(Q − Cᵀ·λ)/∂q·Z` with constant multipliers λ, and the
+//! steps that follow from it.
 
 use linalg::kernels::norm;
 use linalg::{Matrix, SymmetricEigen, small_svd, symmetric_eigen};
@@ -13,22 +13,22 @@ use crate::limits::{ASYMMETRIC, IDLE, REST_BISECTIONS, STIFFNESS_STEP};
 /// The stiffness at a configuration.
 pub(super) struct Stiffness {
     pub(super) k: Matrix,
-    /// Of its symmetric part.
+    /// Eigenvalues of the symmetric part.
     eigen: SymmetricEigen,
-    /// Its largest entry.
+    /// Largest entry of the stiffness.
     pub(super) largest: f64,
-    /// Below this it is rounding.
+    /// Values below this are rounding errors.
     nothing: f64,
-    /// Whether it is symmetric.
+    /// Whether the stiffness is symmetric.
     pub(super) has_potential: bool,
 }
 
-/// How a step was chosen.
+/// Method by which a step was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
-    /// By Newton's method.
+    /// Newton's method.
     Newton,
-    /// As long as is allowed.
+    /// A step of the maximum allowed length.
     Short,
 }
 
@@ -75,7 +75,7 @@ impl Statics<'_> {
         Ok(Stiffness {
             eigen: symmetric_eigen(&k),
             nothing: IDLE * largest.max(at.scale),
-            // Away from a place of rest, turned axes add what is left of the forces.
+            // Away from an equilibrium, the rotation of axes adds a part of the remaining forces.
             has_potential: skew <= ASYMMETRIC * largest.max(at.scale) + 2.0 * norm(&at.free),
             largest,
             k,
@@ -110,7 +110,7 @@ impl Stiffness {
         (0..vectors.nrows()).map(|k| vectors[(k, i)]).collect()
     }
 
-    /// Motions away from which forces push, the strongest first.
+    /// Unstable motions, the strongest first.
     pub(super) fn falling(&self) -> Vec<Vec<f64>> {
         let values = self.eigen.values.iter().enumerate().rev();
         let falling = values.filter(|(_, value)| **value < -self.nothing);
@@ -131,8 +131,8 @@ impl Stiffness {
         idle.map(|(i, _)| column(i)).collect()
     }
 
-    /// A step that follows the forces `free`, at most as long as `radius`; forces of at most
-    /// `rounding` are none.
+    /// A step along the forces `free`, at most as long as `radius`; forces of at most `rounding`
+    /// count as zero.
     pub(super) fn step(&self, free: &[f64], radius: f64, rounding: f64) -> (Vec<f64>, Way) {
         let newton = if self.has_potential {
             self.newton(free, rounding)
@@ -156,8 +156,8 @@ impl Stiffness {
         (self.shifted(free, high, rounding), Way::Short)
     }
 
-    /// `K⁻¹·f` of a stiffness with no negative eigenvalue, without idle motions. `None` if forces
-    /// push those, or away from the place.
+    /// `K⁻¹·f` of a stiffness without negative eigenvalues, without idle motions. `None` if forces
+    /// act along idle motions, or if they point away from the equilibrium.
     fn newton(&self, free: &[f64], rounding: f64) -> Option<Vec<f64>> {
         let mut y = vec![0.0; free.len()];
         for (i, &value) in self.eigen.values.iter().enumerate() {
@@ -177,7 +177,7 @@ impl Stiffness {
         Some(y)
     }
 
-    /// `K⁻¹·f` without idle motions. `None` if forces push those.
+    /// `K⁻¹·f` without idle motions. `None` if forces act along idle motions.
     fn inverse(&self, free: &[f64], rounding: f64) -> Option<Vec<f64>> {
         let svd = small_svd(&self.k);
         let mut y = vec![0.0; free.len()];

@@ -1,4 +1,4 @@
-//! Free motions in words, and what pushes them.
+//! Descriptions of free motions, and of the loads that act along them.
 
 use solvability::motions_among;
 
@@ -6,7 +6,7 @@ use super::UnbalancedForce;
 use super::balance::{Balance, Statics};
 use crate::limits::{MOSTLY_TURNS, TAKES_PART, UNRESISTED};
 
-/// Free motions, d components each, in words.
+/// Descriptions of free motions, d components each.
 pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> Vec<String> {
     let velocities: Vec<Vec<f64>> = of.iter().map(|y| statics.velocity(at, y)).collect();
     let told = motions_among(statics.mechanism, statics.t, &at.q, &velocities);
@@ -14,7 +14,7 @@ pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> V
     told.map(|motion| motion.text).collect()
 }
 
-/// What pushes along a free motion, for each set of bodies that move.
+/// The loads along a free motion, for each set of bodies that move.
 pub(super) fn pushed(
     statics: &mut Statics<'_>,
     at: &Balance,
@@ -50,7 +50,8 @@ pub(super) fn pushed(
     all.into_iter().filter(takes_part).collect()
 }
 
-/// The weight and the applied forces at the configuration q, in words, with what they add to Q.
+/// Descriptions of the weight and of the applied forces at the configuration q, with their
+/// contributions to Q.
 pub(super) fn parts(statics: &mut Statics<'_>, q: &[f64]) -> Vec<(String, Vec<f64>)> {
     statics.evaluate(q);
     let weight = ("the weight".to_owned(), statics.mechanism.weight().to_vec());
@@ -59,7 +60,7 @@ pub(super) fn parts(statics: &mut Statics<'_>, q: &[f64]) -> Vec<(String, Vec<f6
     std::iter::once(weight).chain(forces).collect()
 }
 
-/// What pushes some bodies along their part of a motion.
+/// The loads on some bodies along their part of a motion.
 pub(super) fn of_bodies(
     statics: &Statics<'_>,
     forces: &[(String, Vec<f64>)],
@@ -79,7 +80,7 @@ pub(super) fn of_bodies(
         bodies.iter().map(speed).fold(0.0, f64::max)
     };
     let (turn, slide) = (fastest(true), fastest(false));
-    // A force for each of its metres, or a moment for each radian if it turns as much as it moves.
+    // Force per metre of the translation, or moment per radian if the motion is mostly a rotation.
     let (largest, unit) = if turn * statics.size > MOSTLY_TURNS * slide {
         (turn, "N·m")
     } else {

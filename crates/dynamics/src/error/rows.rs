@@ -1,10 +1,11 @@
-//! Reasons why rows cannot be dropped as requested. Messages count rows from 1, as users do.
+//! Reasons why requested rows cannot be treated as redundant. Messages count rows from 1, as users
+//! do.
 
 use model::RowLabel;
 use model::codes::Code;
 use rank::KeptRowsError;
 
-/// Reason why rows cannot be dropped as requested.
+/// Reason why requested rows cannot be treated as redundant.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DropError {
@@ -14,7 +15,7 @@ pub enum DropError {
     /// The number of rows differs from the degree of redundancy.
     #[error("{} dropped, but the degree of redundancy is {redundancy}: drop exactly {redundancy}", rows_are(*.dropped))]
     Count {
-        /// Number of rows to be dropped.
+        /// Number of requested rows.
         dropped: usize,
         /// Degree of redundancy p.
         redundancy: usize,
@@ -33,13 +34,13 @@ pub enum DropError {
         /// The row.
         row: RowLabel,
     },
-    /// The other rows depend on each other.
+    /// The remaining rows depend on each other.
     #[error(
         "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
          {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop one row of each"
     )]
     Dependent {
-        /// Smallest singular value of the kept rows, with rows and columns scaled.
+        /// Smallest singular value of the remaining rows, with rows and columns scaled.
         smallest_singular_value: f64,
         /// The smallest value allowed.
         required: f64,
@@ -50,7 +51,7 @@ pub enum DropError {
 }
 
 impl DropError {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {

@@ -1,4 +1,4 @@
-//! Displacements and velocities that change one independent coordinate, or one row, alone.
+//! Displacements and velocities that change one independent coordinate, or one row, and no other.
 
 use linalg::{DampedRows, Matrix};
 
@@ -13,7 +13,7 @@ pub(crate) struct Bases {
     pub(crate) shifts: Matrix,
     positions: DampedRows,
     velocities: DampedRows,
-    /// Numbers of kept rows of Φ and of C.
+    /// Numbers of independent rows of Φ and of C.
     kept: [usize; 2],
     free: [usize; 2],
     free_velocities: Vec<Coordinate>,
@@ -65,17 +65,19 @@ impl Bases {
         unit_step(&self.velocities, r + self.free[1], r + k)
     }
 
-    /// The displacement that changes the kept row `k` of Φ by one, and no independent position.
+    /// The displacement that changes the independent row `k` of Φ by one, and no independent
+    /// position.
     pub(crate) fn shift_of_row(&self, k: usize) -> Result<Vec<f64>, LineariseError> {
         unit_step(&self.positions, self.kept[0] + self.free[0], k)
     }
 
-    /// The velocity that changes the kept row `k` of C·v by one, and no independent velocity.
+    /// The velocity that changes the independent row `k` of C·v by one, and no independent
+    /// velocity.
     pub(crate) fn velocity_of_row(&self, k: usize) -> Result<Vec<f64>, LineariseError> {
         unit_step(&self.velocities, self.kept[1] + self.free[1], k)
     }
 
-    /// The change of velocities along a displacement with constant independent velocities.
+    /// The change of velocities along a displacement if the independent velocities are constant.
     pub(crate) fn velocity_kept_by(
         &self,
         curves: &Curves<'_>,
@@ -87,7 +89,7 @@ impl Bases {
     }
 }
 
-/// The step that changes row k of `of` by one and the others not.
+/// The step that changes row k of `of` by one and no other row.
 fn unit_step(of: &DampedRows, rows: usize, k: usize) -> Result<Vec<f64>, LineariseError> {
     let mut residual = vec![0.0; rows];
     residual[k] = -1.0;

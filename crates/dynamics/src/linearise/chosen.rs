@@ -16,9 +16,9 @@ pub(crate) struct CoordinateChoice {
 }
 
 impl CoordinateChoice {
-    /// Chooses velocities first, then positions, of which the velocities are rates: those that are
-    /// followed and asked for, then turns before places, the first whose share of what is still
-    /// free is large.
+    /// Chooses velocities first, and then positions whose rates are these velocities. Cyclic and
+    /// requested coordinates come first, then rotations before translations; among these, the first
+    /// coordinate with a large free share.
     pub(crate) fn new(
         curves: &Curves<'_>,
         followed: &FollowedCoordinates,
@@ -53,7 +53,7 @@ impl CoordinateChoice {
         self.positions.len() + self.velocities.len()
     }
 
-    /// Rates of all states for the derivatives along a curve, in axes that turn.
+    /// Rates of all states for the derivatives along a curve, in rotating axes.
     pub(crate) fn rates<'a>(
         &'a self,
         d: &'a Derivative,
@@ -83,12 +83,13 @@ impl CoordinateChoice {
     }
 }
 
-/// Motions of all frames that rows leave free.
+/// Motions of all frames that the rows allow.
 struct FreeMotions<'c, 'm> {
     curves: &'c Curves<'m>,
-    /// Their frames, without dimensions: a row for each direction, a column for each free motion.
+    /// Dimensionless motions of the frames: a row for each direction, a column for each free
+    /// motion.
     rows: Matrix,
-    /// Orthonormal directions that have been chosen.
+    /// Orthonormal directions that were already chosen.
     taken: Vec<Vec<f64>>,
 }
 
@@ -127,10 +128,10 @@ impl<'c, 'm> FreeMotions<'c, 'm> {
         }
     }
 
-    /// What of a row is still free.
+    /// The part of a row that is still free.
     fn left(&self, row: usize) -> Vec<f64> {
         let mut left = self.rows.row(row).to_vec();
-        // Twice: the second time removes what rounding of the first has left.
+        // The second pass removes the rounding error of the first one.
         for taken in self.taken.iter().chain(&self.taken) {
             let share: f64 = left.iter().zip(taken).map(|(a, b)| a * b).sum();
             left.iter_mut()

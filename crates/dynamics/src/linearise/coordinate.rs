@@ -1,4 +1,4 @@
-//! Coordinates of the frames of bodies: places and turns.
+//! Coordinates of the frames of bodies: translations and rotations.
 
 use model::words::listed;
 use model::{Mechanism, SpaceKind};
@@ -15,7 +15,7 @@ pub(crate) const BODY: usize = 6;
 pub struct Coordinate {
     /// `body.x`, or `body.vx`.
     pub name: String,
-    /// Its unit.
+    /// Unit of the coordinate.
     pub unit: &'static str,
     pub(crate) body: usize,
     /// Three translations, then three rotations, along axes of the ground.
@@ -23,13 +23,13 @@ pub struct Coordinate {
 }
 
 impl Coordinate {
-    /// Row of all frames.
+    /// Row in the matrix of all frames.
     pub(crate) fn row(&self) -> usize {
         frame_row(self.body, self.direction)
     }
 }
 
-/// Names of the directions of a frame: in the plane only some of them exist.
+/// Names of the directions of a frame; in the plane only three of them exist.
 fn names(space: SpaceKind) -> [[&'static str; 2]; BODY] {
     match space {
         SpaceKind::Space3 => [
@@ -73,7 +73,7 @@ pub(crate) fn coordinate(
     }
 }
 
-/// The coordinate of a name, by the name of its position or of its velocity.
+/// The coordinate with a given name, either of the position or of the velocity.
 pub(crate) fn named(
     mechanism: &Mechanism,
     name: &str,

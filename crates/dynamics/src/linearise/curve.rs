@@ -16,11 +16,11 @@ use crate::prepare::PreparedMechanism;
 
 /// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances: its
 /// terms of second, fourth and sixth order cancel, and `|x|` has the derivative 1. A corner is
-/// even, so differences do not see it.
+/// even, so central differences do not detect it.
 const CORNER: [f64; 4] = [14.0 / 5.0, -7.0 / 5.0, 2.0 / 5.0, -1.0 / 20.0];
 
-/// Derivatives of the velocities and accelerations of all frames, ground axes, and the displacement
-/// to which they belong; `BODY` numbers for each body.
+/// Derivatives of the velocities and accelerations of all frames in ground axes, and the
+/// corresponding displacement; `BODY` numbers for each body.
 #[derive(Clone, Debug)]
 pub(crate) struct Derivative {
     pub(crate) shift: Vec<f64>,
@@ -36,18 +36,18 @@ pub(crate) struct Curves<'m> {
     q: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
-    /// Velocities of all frames for velocities of the motion, `BODY` rows for each body, n_v
-    /// columns.
+    /// Matrix from velocities of the motion to velocities of all frames: `BODY` rows for each body,
+    /// n_v columns.
     pub(crate) frames: Matrix,
     /// C at the state, all rows.
     c: Matrix,
-    /// Natural rate of the mechanism (1/s): of its velocities, or of its accelerations.
+    /// Natural rate of the mechanism (1/s), from its velocities or its accelerations.
     rate: f64,
-    /// The largest acceleration of a body by one of the forces, without constraints, in sizes of
-    /// the mechanism (1/s²).
+    /// The largest acceleration of a body by a single force, without constraints, in sizes of the
+    /// mechanism (1/s²).
     applied: f64,
-    /// The largest derivative of an acceleration, and the largest doubt about one, both without
-    /// dimensions.
+    /// The largest derivative of an acceleration, and the largest error estimate of such a
+    /// derivative, both dimensionless.
     largest: f64,
     doubt: f64,
 }
@@ -66,7 +66,8 @@ impl<'m> Curves<'m> {
         let space = mechanism.space();
         let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0, f64::max);
         let speed = largest(&mut (0..v.len()).map(|j| v[j].abs() / space.unit(j, size)));
-        // By one of the forces: where they balance, their sum is rounding.
+        // Each force is evaluated separately, because the sum of balanced forces is a rounding
+        // error.
         let mut s = mechanism.scratch();
         mechanism.pose(t, q, &mut s);
         mechanism.twist(v, &mut s);
@@ -119,7 +120,7 @@ impl<'m> Curves<'m> {
         (self.t, &self.q, &self.v)
     }
 
-    /// Kept rows of Φ and of C.
+    /// Independent rows of Φ and of C.
     pub(crate) fn kept(&self) -> [&'m [usize]; 2] {
         let PreparedMechanism {
             position_decision,
@@ -155,7 +156,7 @@ impl<'m> Curves<'m> {
         frames.body(body, &self.q, &self.v).omega
     }
 
-    /// The largest difference of two orders, as a share of the largest derivative.
+    /// The largest difference between the two orders, as a share of the largest derivative.
     pub(crate) fn accuracy(&self) -> f64 {
         if self.largest > 0.0 {
             self.doubt / self.largest
@@ -165,7 +166,7 @@ impl<'m> Curves<'m> {
     }
 
     /// Derivatives along the curve that leaves the state with the displacement `shift` and the
-    /// change of velocities `dv`, n_v each.
+    /// velocity change `dv`, n_v each.
     pub(crate) fn along(
         &mut self,
         shift: &[f64],
@@ -180,7 +181,8 @@ impl<'m> Curves<'m> {
                 acceleration: vec![0.0; BODY * bodies],
             });
         };
-        // What is steep for a mechanism of this size needs shorter steps; a corner stays one.
+        // Functions that are steep for this size of mechanism need shorter steps; a corner remains
+        // a corner.
         let mut found = self.differences(shift, dv, step);
         for _ in 0..LINEARISE_SHORTER {
             if found.is_ok() {
@@ -199,7 +201,7 @@ impl<'m> Curves<'m> {
     }
 
     /// Differences of order eight of velocities and accelerations along a curve, if they are
-    /// derivatives.
+    /// accurate derivatives.
     fn differences(
         &mut self,
         shift: &[f64],
@@ -229,7 +231,7 @@ impl<'m> Curves<'m> {
         Ok(high)
     }
 
-    /// What functions of forces push at the state.
+    /// The loads of force functions at the state.
     pub(crate) fn pushes(&self) -> Vec<Push<'m>> {
         let mechanism = self.mechanism();
         let mut s = mechanism.scratch();
@@ -238,7 +240,8 @@ impl<'m> Curves<'m> {
         mechanism.applied_forces().pushes(&mut s)
     }
 
-    /// The change of accelerations by forces Q, n_v, and right-hand sides Γ of the kept rows.
+    /// The change of accelerations by forces Q, n_v, and right-hand sides Γ of the independent
+    /// rows.
     pub(crate) fn pushed(&self, q: &[f64], gamma: &[f64]) -> Result<Derivative, LineariseError> {
         let [_, kept] = self.kept();
         let n = self.v.len();
@@ -256,8 +259,8 @@ impl<'m> Curves<'m> {
         })
     }
 
-    /// The derivatives of the kept rows of `C·v − b`, and of these velocities of frames, along a
-    /// displacement with constant v.
+    /// The derivatives of the independent rows of `C·v − b`, and of the given frame velocities,
+    /// along a displacement with constant v.
     pub(crate) fn missed_velocities(&self, shift: &[f64], free: &[Coordinate]) -> Vec<f64> {
         let [_, kept] = self.kept();
         let still = vec![0.0; shift.len()];
@@ -289,7 +292,8 @@ impl<'m> Curves<'m> {
         missed
     }
 
-    /// The parameter of the curve that moves the mechanism by a step; `None` if nothing changes.
+    /// The curve parameter that moves the mechanism by one step length; `None` if the curve changes
+    /// nothing.
     fn step(&self, shift: &[f64], dv: &[f64]) -> Option<f64> {
         let space = self.mechanism().space();
         let largest = |x: &[f64]| {
@@ -321,7 +325,7 @@ impl<'m> Curves<'m> {
         Ok(velocities)
     }
 
-    /// Compares derivatives with the doubts about them.
+    /// Compares derivatives with their error estimates.
     fn judge(
         &mut self,
         high: &[f64],
@@ -331,7 +335,7 @@ impl<'m> Curves<'m> {
         let Some(step) = self.step(shift, dv) else {
             return Ok(());
         };
-        // Without dimensions: for a change of the mechanism by its size, or by one radian.
+        // Dimensionless: for a change by the size of the mechanism, or by one radian.
         let way = LINEARISE_STEP / step;
         let accelerations = high.len() / 2..high.len();
         let (mut largest, mut doubt) = (self.largest, self.doubt);
@@ -366,8 +370,8 @@ impl<'m> Curves<'m> {
         bodies[row / BODY % bodies.len()].name.clone()
     }
 
-    /// Whether the state is at rest or steady in axes that turn: accelerations are those of the
-    /// turning, and stay so along the motion.
+    /// Checks that the state is an equilibrium or is steady in rotating axes: accelerations are
+    /// those of the rotation, and stay so along the motion.
     pub(crate) fn check_steady(&mut self, turning: [f64; 3]) -> Result<(), LineariseError> {
         let mechanism = self.mechanism();
         let (q, v, a) = (self.q.clone(), self.v.clone(), self.a.clone());
@@ -381,7 +385,7 @@ impl<'m> Curves<'m> {
         if self.is_at_rest() {
             return Ok(());
         }
-        // The derivatives along the motion itself.
+        // Derivatives along the motion itself.
         let along = self.along(&v, &a)?;
         for body in 0..mechanism.bodies().len() {
             let found = std::array::from_fn(|k| along.acceleration[frame_row(body, k)]);
@@ -392,7 +396,7 @@ impl<'m> Curves<'m> {
         Ok(())
     }
 
-    /// What falls freely at the state, if something does.
+    /// Description of the bodies that fall freely at the state, if there are any.
     fn falls(&self) -> Option<String> {
         crate::equilibrium::falling(self.prepared, self.t, &self.q)
     }
@@ -434,7 +438,7 @@ impl<'m> Curves<'m> {
     }
 }
 
-/// Velocity and acceleration of the frame of a body, ground axes: three translations and three
+/// Velocity and acceleration of the frame of a body in ground axes: three translations and three
 /// rotations each.
 fn frame_rates(
     mechanism: &Mechanism,
@@ -443,7 +447,8 @@ fn frame_rates(
 ) -> [[f64; BODY]; 2] {
     let frames = mechanism.frames();
     let moved = frames.body(body, q, v);
-    // Accelerations are the same function of a as velocities of v, and the centripetal one.
+    // Accelerations are the same function of a as velocities of v, plus the centripetal
+    // acceleration.
     let pushed = frames.body(body, q, a);
     let space = mechanism.space();
     let centre = &q[space.coordinates(body)];

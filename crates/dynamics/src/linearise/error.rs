@@ -9,7 +9,7 @@ use crate::error::MotionFault;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LineariseError {
-    /// The state is neither at rest nor steady.
+    /// The state is neither an equilibrium nor steady.
     #[error(
         "at t = {t} s the motion is not steady: body `{body}` {what} {left:.3e} {unit}; {advice}",
         t = rounded(*time), what = what(unit),
@@ -20,51 +20,51 @@ pub enum LineariseError {
         time: f64,
         /// The body.
         body: String,
-        /// Its acceleration, or the rate of it.
+        /// Acceleration of the body, or the rate of the acceleration.
         left: f64,
         /// Unit.
         unit: &'static str,
-        /// Whether the state moves at all.
+        /// Whether the state has a velocity.
         moves: bool,
-        /// What falls freely and what pushes it, in words, if nothing ties it to the ground.
+        /// Description of the bodies without connection to the ground that fall freely, with the
+        /// loads on them.
         falls: Option<String>,
     },
-    /// Accelerations have no derivative at this state.
+    /// The accelerations have no derivative at this state.
     #[error(
-        "at t = {t} s the accelerations of body `{body}` have no derivative: a force or a function has a corner there; \
-         linearise beside it, or give it a smooth function", t = rounded(*time))]
+        "at t = {t} s the accelerations of body `{body}` have no derivative: a force or a function has a kink there; linearise at another state, or use a smooth function", t = rounded(*time))]
     NotSmooth {
         /// Time (s).
         time: f64,
-        /// The body with the largest doubt.
+        /// The body with the largest error estimate.
         body: String,
     },
-    /// There is no coordinate of this name.
+    /// There is no coordinate with this name.
     #[error("there is no coordinate `{name}`: {hint}")]
     Coordinate {
         /// The name.
         name: String,
-        /// What there is.
+        /// The existing coordinates.
         hint: String,
     },
-    /// Asked coordinates do not determine the state.
+    /// The requested coordinates do not determine the state.
     #[error("`{name}` is not independent of {others}: leave it out")]
     Dependent {
         /// The coordinate.
         name: String,
-        /// Those that determine it.
+        /// The coordinates that determine it.
         others: String,
     },
-    /// The motion depends on a followed coordinate.
+    /// The motion depends on a cyclic coordinate.
     #[error(
-        "the motion depends on `{name}`: with it the rate of `{state}` changes by {change:.3e}; it cannot be followed"
+        "the motion depends on `{name}` (the rate of `{state}` changes by {change:.3e}), so it is not cyclic; remove it from `--follow`"
     )]
     NotASymmetry {
-        /// The followed coordinate.
+        /// Name of the cyclic coordinate.
         name: String,
         /// A coordinate whose rate changes.
         state: String,
-        /// By how much, for a change by one.
+        /// Change of the rate, for a unit change of the coordinate.
         change: f64,
     },
     /// The coordinates do not determine the state.
@@ -72,17 +72,17 @@ pub enum LineariseError {
         "the independent coordinates do not determine the state: the configuration is singular"
     )]
     Singular,
-    /// The equations have no solution there.
+    /// The equations have no solution at the state.
     #[error(transparent)]
     Fault(#[from] MotionFault),
 }
 
-/// What to do about a state that is not steady.
+/// Advice for a state that is not steady.
 fn advice(moves: bool, falls: Option<&str>) -> String {
     match falls {
         Some(falls) => format!(
-            "there is no rest: {falls}, wherever it goes; hold it by a joint to the ground, or describe what \
-             carries it"
+            "there is no equilibrium: {falls} at every position; add a joint to the ground, or describe the \
+             support"
         ),
         None if moves => {
             "follow the turning of the axes in which it is (`--follow BODY.wz`), or choose \
@@ -97,7 +97,7 @@ fn advice(moves: bool, falls: Option<&str>) -> String {
 }
 
 impl LineariseError {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -110,7 +110,7 @@ impl LineariseError {
         }
     }
 
-    /// Whether other input may be linearised.
+    /// Whether a linearisation may be possible with other input.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

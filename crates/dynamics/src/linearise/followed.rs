@@ -1,11 +1,11 @@
-//! Coordinates that a steady motion follows: whatever their values, the motion is the same.
+//! Cyclic coordinates of a steady motion: the motion does not depend on their values.
 
 use model::Mechanism;
 
 use super::coordinate::{Coordinate, named};
 use super::error::LineariseError;
 
-/// The coordinates that are followed, and how fast axes turn with them.
+/// The cyclic coordinates, and the angular velocity of the axes that rotate with them.
 pub(crate) struct FollowedCoordinates {
     pub(crate) coordinates: Vec<Coordinate>,
     /// Angular velocity of the axes (rad/s).

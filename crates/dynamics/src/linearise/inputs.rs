@@ -1,4 +1,4 @@
-//! Inputs: what drives prescribe, and the functions of forces.
+//! Inputs: values that drives prescribe, and functions of forces.
 
 use model::{Push, System};
 
@@ -6,20 +6,21 @@ use super::bases::Bases;
 use super::curve::{Curves, Derivative};
 use super::error::LineariseError;
 
-/// Number that acts on the motion from outside.
+/// A number that acts on the motion from outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Input {
     /// Name of the drive or of the force.
     pub name: String,
-    /// What of it changes: `value`, `rate` or `acceleration` of the row of a drive (m or rad, and
-    /// per second), or a function of a force by its name, with its axis if there are several.
+    /// The quantity that changes. For the row of a drive it is `value`, `rate` or `acceleration` (m
+    /// or rad, and per second). For a force it is the name of a function, with its axis if there
+    /// are several.
     pub what: String,
 }
 
-/// The inputs of all forces, and of all drives whose rows are kept, and the derivatives with
-/// respect to them. A drive that other rows imply prescribes nothing alone.
+/// The inputs of all forces and of all drives with independent rows, and the derivatives with
+/// respect to these inputs. A drive that other rows imply prescribes no motion by itself.
 pub(crate) fn all(
     curves: &mut Curves<'_>,
     bases: &Bases,

@@ -14,25 +14,25 @@ pub struct Linearisation {
     pub time: f64,
     /// Coordinates of the state, n_q.
     pub q: Vec<f64>,
-    /// The positions of x, in front.
+    /// The positions in x; they come first.
     pub positions: Vec<Coordinate>,
-    /// The velocities of x.
+    /// The velocities in x; they come after the positions.
     pub velocities: Vec<Coordinate>,
     /// The inputs u.
     pub inputs: Vec<Input>,
-    /// Drives and joints that functions of time would accelerate, and that are held because the
+    /// Drives and joints that their functions of time would accelerate; they are locked because the
     /// state is at rest.
     pub held: Vec<String>,
     /// A, square.
     pub a: Matrix,
     /// B, a column for each input.
     pub b: Matrix,
-    /// Mass, damping and stiffness of `M·ÿ + D·ẏ + K·y = …` for the positions y; only at rest,
-    /// without nonholonomic rows and if nothing is followed.
+    /// Mass, damping and stiffness of `M·ÿ + D·ẏ + K·y = …` for the positions y; only for a state
+    /// at rest without nonholonomic rows and without cyclic coordinates.
     pub second_order: Option<SecondOrder>,
-    /// Displacements of all bodies for a change by one of each position, in rows: n_v each.
+    /// Displacements of all bodies for a unit change of each position, in rows: n_v each.
     pub shapes: Matrix,
-    /// Difference of two orders of approximation, as a share of the largest entries of A.
+    /// Difference between two orders of approximation, as a share of the largest entries of A.
     pub accuracy: f64,
 }
 
@@ -45,6 +45,6 @@ pub struct SecondOrder {
     pub mass: Matrix,
     /// Damping.
     pub damping: Matrix,
-    /// Stiffness: of springs, of the weight and of the forces that the joints carry.
+    /// Stiffness: of springs, of the weight and of the joint reactions.
     pub stiffness: Matrix,
 }

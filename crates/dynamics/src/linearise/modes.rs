@@ -1,17 +1,17 @@
-//! Modes: eigenvalues of A with the shapes that belong to them.
+//! Modes: eigenvalues of A with their shapes.
 
 use super::Linearisation;
 
-/// An eigenvalue and its shape; complex numbers as real and imaginary parts. Of a conjugate pair
-/// only the one with the positive imaginary part is listed.
+/// An eigenvalue and its shape; complex numbers are stored as real and imaginary parts. Only the
+/// eigenvalue with the positive imaginary part is listed for a conjugate pair.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Mode {
-    /// The eigenvalue λ (1/s); exactly zero if rounding explains it.
+    /// The eigenvalue λ (1/s); exactly zero if it is not larger than the rounding error.
     pub value: [f64; 2],
-    /// Entries of the eigenvector, in the order of the states; the largest of the positions is 1,
-    /// or of the velocities if no position takes part.
+    /// Entries of the eigenvector, in the order of the states. The largest position is 1; if no
+    /// position takes part, the largest velocity is 1.
     pub states: Vec<[f64; 2]>,
 }
 
@@ -22,35 +22,35 @@ impl Mode {
         self.value[0].hypot(self.value[1])
     }
 
-    /// −Re λ/|λ|: 1 for a mode that decays without oscillation, −1 for one that grows so; `None`
-    /// for λ = 0.
+    /// −Re λ/|λ|: 1 for a mode that decays without oscillation, −1 for a mode that grows without
+    /// oscillation; `None` for λ = 0.
     #[must_use]
     pub fn damping_ratio(&self) -> Option<f64> {
         let size = self.natural_frequency();
         (size > 0.0).then(|| 0.0 - self.value[0] / size)
     }
 
-    /// Whether it oscillates.
+    /// Whether the mode oscillates.
     #[must_use]
     pub fn oscillates(&self) -> bool {
         self.value[1] != 0.0
     }
 }
 
-/// What first order says of small motions.
+/// Stability of small motions at first order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stability {
     /// All small motions decay.
     Stable,
-    /// Some neither decay nor grow at first order; terms of higher order decide.
+    /// Some motions neither decay nor grow at first order; terms of higher order decide.
     Marginal,
-    /// Some grow.
+    /// Some motions grow.
     Unstable,
 }
 
 impl Stability {
-    /// The word for it.
+    /// Name of the result in output.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -60,7 +60,7 @@ impl Stability {
         }
     }
 
-    /// What the modes say.
+    /// The stability that follows from the modes.
     #[must_use]
     pub fn of(modes: &[Mode]) -> Self {
         let largest = modes
@@ -79,7 +79,8 @@ impl Stability {
 }
 
 impl Linearisation {
-    /// The modes of A, by their real parts, the largest first. `None` if they are not found.
+    /// The modes of A, in the order of their real parts, the largest first. `None` if the
+    /// eigenvalues do not converge.
     #[must_use]
     pub fn modes(&self) -> Option<Vec<Mode>> {
         let pairs = linalg::eigenpairs(&self.a)?;
@@ -113,9 +114,10 @@ impl Linearisation {
         Some(modes.filter(|mode| mode.value[1] >= 0.0).collect())
     }
 
-    /// Radius of the circle around zero within which rounding of A spreads those of these
-    /// eigenvalues that are zero: a Jordan block of k rows spreads to `‖A‖·ε^(1/k)`, which may be
-    /// far more than the square root of rounding, and the only eigenvalues that there are.
+    /// Radius of the circle around zero that contains those of these eigenvalues that are zero
+    /// without rounding. In a Jordan block of k rows, rounding spreads zero eigenvalues to
+    /// `‖A‖·ε^(1/k)`; this may be far more than the square root of the rounding error, and the
+    /// block may contain all eigenvalues.
     fn around_zero(&self, sizes: impl Iterator<Item = f64>) -> f64 {
         let entries = self.a.as_slice().iter();
         let norm = entries.map(|x| x * x).sum::<f64>().sqrt();
@@ -134,8 +136,8 @@ impl Linearisation {
             .fold(0.0, f64::max)
     }
 
-    /// The displacement of all bodies at a phase (rad) of a mode whose largest position is
-    /// `amplitude`, n_v.
+    /// Displacement of all bodies at a phase (rad) of a mode whose largest position is `amplitude`,
+    /// n_v.
     #[must_use]
     pub fn shape(&self, mode: &Mode, phase: f64, amplitude: f64) -> Vec<f64> {
         let (sin, cos) = phase.sin_cos();
@@ -154,7 +156,7 @@ mod tests {
     use super::{Linearisation, Stability};
     use crate::linearise::Coordinate;
 
-    /// Positions in front of velocities, with this matrix.
+    /// A linearisation with this matrix; positions come before velocities.
     fn with(a: Matrix, positions: usize) -> Linearisation {
         let coordinate = |k: usize| Coordinate {
             name: format!("x{k}"),
@@ -178,9 +180,9 @@ mod tests {
         }
     }
 
-    /// A vehicle on four wheels of 0.1 m that rolls straight on at 1 m/s: its heading, the turns of
+    /// A vehicle on four wheels of 0.1 m rolls straight on at 1 m/s: its heading, the rotations of
     /// its wheels and its track are positions, its speed is a velocity. All eigenvalues are zero;
-    /// rounding makes two of them 3e-15 ± 3e-8i.
+    /// rounding changes two of them to 3e-15 ± 3e-8i.
     #[test]
     fn rounding_around_a_multiple_zero_neither_grows_nor_decays() {
         let mut a = Matrix::zeros(7, 7);
@@ -216,17 +218,17 @@ mod tests {
         let modes = with(a.clone(), 6).modes().expect("converges");
         assert!(modes.iter().all(|mode| mode.value == [0.0; 2]), "{modes:?}");
         assert_eq!(Stability::of(&modes), Stability::Marginal);
-        // A turn that grows at 1e-4 1/s is none of that.
+        // A rotation that grows at 1e-4 1/s is not such a rounding error.
         a[(0, 0)] = 1e-4;
         let modes = with(a, 6).modes().expect("converges");
         assert_eq!(Stability::of(&modes), Stability::Unstable);
-        // Heading and track with their rounding: λ² − 1e-4·λ − a₀₅·a₅₀ = 0.
+        // Heading and track with their rounding errors: λ² − 1e-4·λ − a₀₅·a₅₀ = 0.
         let half = 0.5e-4_f64;
         let expected = half + (half * half - 7.278080531453108e-16).sqrt();
         assert!((modes[0].value[0] - expected).abs() < 1e-14, "{modes:?}");
     }
 
-    /// A mass on a soft spring beside one on a stiff spring and one that is free.
+    /// Three masses: one on a soft spring, one on a stiff spring and one without a spring.
     #[test]
     fn slow_modes_are_not_taken_for_zero() {
         let mut a = Matrix::zeros(6, 6);

@@ -1,4 +1,4 @@
-//! The motion relative to the coordinates that it follows, which are left out.
+//! The motion relative to its cyclic coordinates, which are eliminated.
 
 use linalg::Matrix;
 use model::space::cross;
@@ -11,7 +11,7 @@ use super::followed::FollowedCoordinates;
 use super::linearisation::Linearisation;
 use crate::limits::SYMMETRY;
 
-/// Leaves the followed coordinates out, after a check that nothing depends on them.
+/// Eliminates the cyclic coordinates, after a check that the motion does not depend on them.
 pub(crate) fn reduce(
     followed: &FollowedCoordinates,
     whole: Linearisation,
@@ -29,7 +29,7 @@ pub(crate) fn reduce(
     let largest = whole.a.max_abs();
     for (c, symmetry) in followed.coordinates.iter().zip(&symmetries) {
         let mut rate = whole.a.times(symmetry);
-        // What remains in the directions of the other symmetries is no change.
+        // The remainder in the directions of the other symmetries counts as no change.
         let shares: Vec<f64> = left_out.iter().map(|&k| rate[k]).collect();
         for (share, other) in shares.iter().zip(&symmetries) {
             rate.iter_mut()
@@ -70,7 +70,7 @@ pub(crate) fn reduce(
     })
 }
 
-/// The states that change if the whole mechanism moves along a coordinate by one, or turns
+/// The states that change if the whole mechanism moves along a coordinate by one unit, or rotates
 /// about its axis.
 fn symmetry(c: &Coordinate, chosen: &CoordinateChoice, curves: &Curves<'_>) -> Vec<f64> {
     let (_, q, v) = curves.state();

@@ -1,12 +1,13 @@
-//! Independent coordinates z and velocities u: the rows determine the others, and the motion is an
-//! ordinary differential equation of z and u alone. y holds all coordinates: `f(y) = F(P·y)`, where
-//! P completes a state from its independent entries, so that results, projections and output do not
-//! depend on the partition. Steps of explicit methods need no projection; implicit methods have a
-//! Jacobian without constraints ([`crate::run`]).
+//! Independent coordinates z and velocities u: the rows determine all others, and the motion is an
+//! ordinary differential equation in z and u. The vector y contains all coordinates:
+//! `f(y) = F(P·y)`, where P completes a state from its independent entries. Therefore results,
+//! projections and output do not depend on the partition. Steps of explicit methods need no
+//! projection; implicit methods have a Jacobian without constraints ([`crate::run`]).
 //!
-//! The partition stays fixed during a step and its dense output, because f must not change within
-//! them. If its pivots have become small, a new one is chosen at the accepted state when the next
-//! step begins. Near a singular configuration there is none, and a step that needs one is refused.
+//! The partition is constant during a step and its dense output, because f must not change within
+//! them. If its pivots have become small, a new partition is chosen at the accepted state when the
+//! next step starts. Near a singular configuration no partition exists, and a step that needs a
+//! partition is rejected.
 
 use model::{Mechanism, System};
 
@@ -24,15 +25,15 @@ pub(crate) struct IndependentCoordinates {
     pub(crate) v: Vec<f64>,
     /// The last accepted state.
     accepted: Origin,
-    /// Whether no step has begun from it.
+    /// Whether no step has started from the accepted state.
     is_fresh: bool,
-    /// The configuration against which independent rotations are read, and how many there were
-    /// before.
+    /// The configuration relative to which independent rotations are computed, and the number of
+    /// earlier such configurations.
     pub(crate) base: Vec<f64>,
     pub(crate) bases: u64,
-    /// The state at which a new partition is to be chosen, if one is needed.
+    /// The state at which a new partition is to be chosen, if necessary.
     renewal: Option<Origin>,
-    /// Scratch: a configuration before it was completed, n_q, and a correction, n_v.
+    /// Work memory: a configuration before its completion, n_q, and a correction, n_v.
     guess: Vec<f64>,
     storage: ProjectionStorage,
 }
@@ -43,7 +44,7 @@ pub(crate) struct Partition {
     pub(crate) z: Vec<usize>,
     /// Independent velocities.
     pub(crate) u: Vec<usize>,
-    /// The state at which it was chosen.
+    /// The state at which the partition was chosen.
     pub(crate) origin: Origin,
     /// Number of earlier partitions.
     pub(crate) generation: u64,
@@ -58,7 +59,7 @@ pub(crate) struct Origin {
 }
 
 impl IndependentCoordinates {
-    /// Partitions the rows at the pose of the scratch, which must be that of `origin`.
+    /// Partitions the rows at the pose in the scratch memory, which must be the pose of `origin`.
     pub(super) fn new(
         equations: &mut KeptEquations<'_>,
         origin: Origin,
@@ -71,7 +72,7 @@ impl IndependentCoordinates {
         let far = |j: usize| (place(j) / at.mechanism.space().unit(j, at.size)).max(1.0);
         let z = equations.position.partition(at, far)?;
         let u = equations.velocity.partition(at, |_| 1.0)?;
-        // Rows requested by the user are used at single instants only, without a partition.
+        // Rows requested by the user are used only at single instants, without a partition.
         if let Some(requested) = &mut equations.requested_rows {
             requested.forget_partition();
         }
@@ -96,15 +97,16 @@ impl IndependentCoordinates {
         })
     }
 
-    /// The next state is completed from the configuration at the head of `y`.
+    /// Completes the next state from the configuration at the start of `y`.
     pub(crate) fn begin_from(&mut self, y: &[f64]) {
         let n_q = self.q.len();
         self.q.copy_from_slice(&y[..n_q]);
     }
 
-    /// Completes a state: from the state completed last or, if that was too far away, from the one
-    /// accepted last, or from what the integrator carries. Where nothing is free that comes first,
-    /// because nothing else tells how far the motion has gone.
+    /// Completes a state. The start of the iteration is the last completed state; if this is too
+    /// far away, the last accepted state; otherwise the values that the integrator carries. In a
+    /// mechanism without degrees of freedom the integrator's values come first, because no other
+    /// value shows how far the motion has advanced.
     pub(crate) fn complete(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -135,12 +137,13 @@ impl IndependentCoordinates {
         {
             return Ok(());
         }
-        // A failed completion is no starting point.
+        // A failed completion is not a valid starting point.
         self.q.copy_from_slice(&self.accepted.q);
         near
     }
 
-    /// Overwrites dependent coordinates and velocities; leaves the rows factored at the result.
+    /// Overwrites dependent coordinates and velocities; afterwards the rows are factored at the
+    /// result.
     fn complete_from_here(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -166,17 +169,17 @@ impl IndependentCoordinates {
     }
 
     /// The longest displacement along a column of C between the last accepted state and time t at
-    /// the velocities of that state, in units of the mechanism.
+    /// the velocities of this state, in units of the mechanism.
     fn way_to(&self, t: f64, at: &Evaluation<'_>) -> f64 {
         let velocities = self.accepted.v.iter().enumerate();
         let rates = velocities.map(|(j, v)| v.abs() / at.mechanism.space().unit(j, at.size));
         rates.fold(0.0, f64::max) * (t - self.accepted.t).abs()
     }
 
-    /// Takes the independent entries of a state. The others stay those of the last completed state:
-    /// the values that an integrator carries for them may be wrong by as much as a step, and
-    /// Newton's method would converge to another branch or another revolution from there. Of
-    /// counted angles only the turns are read, which an integrator carries.
+    /// Copies the independent entries of a state. The other entries keep the values of the last
+    /// completed state. The integrator's values for them may have an error as large as a step, and
+    /// Newton's method would converge to another branch or another revolution from there. For
+    /// unwrapped angles, only the number of revolutions is read from the integrator's values.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
         mechanism.take(&mut self.q, q, &self.partition.z);
         self.storage.held.keep(&mut self.q);
@@ -213,8 +216,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// Accepts the state just evaluated, at time t. If the partition is worn, a new one is chosen
-    /// from this state when the next step begins.
+    /// Accepts the state just evaluated, at time t. If the partition is ill-conditioned, a new one
+    /// is chosen from this state when the next step starts.
     pub(crate) fn accept(&mut self, t: f64, is_worn: bool) {
         self.accepted.t = t;
         self.accepted.q.copy_from_slice(&self.q);
@@ -225,8 +228,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// Reads rotations against the accepted state, if a step has begun from it: far from where they
-    /// are read against, half a turn away, they cease to be coordinates.
+    /// Computes rotations relative to the accepted state, if a step has started from it. Far from
+    /// their reference configuration, half a turn away, the rotations are not valid coordinates.
     pub(crate) fn begin_step(&mut self, mechanism: &Mechanism, has_begun: impl Fn(f64) -> bool) {
         let held = &mut self.storage.held;
         if self.is_fresh && !held.is_empty() && has_begun(self.accepted.t) {
@@ -237,8 +240,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// The state at which a new partition is to be chosen, if a step has begun; `has_begun` decides
-    /// this from the time of the accepted state.
+    /// The state at which a new partition is to be chosen, if a step has started; `has_begun`
+    /// decides this from the time of the accepted state.
     pub(crate) fn due(&self, has_begun: impl Fn(f64) -> bool) -> Option<Origin> {
         let due = self.renewal.as_ref();
         due.filter(|origin| has_begun(origin.t)).cloned()

@@ -1,5 +1,6 @@
-//! Dropped rows: whether the kept rows imply them, and the residuals of all rows. The residual of a
-//! dropped row after projection certifies the redundancy at no extra cost.
+//! Redundant rows: checks whether the independent rows imply them, and computes the residuals of
+//! all rows. The residual of a redundant row after projection certifies the redundancy at no extra
+//! cost.
 
 use model::{ConstraintLevel, Level, System};
 
@@ -22,8 +23,9 @@ pub struct Correction {
     pub velocity_residual: f64,
 }
 
-/// Residuals of all rows at a projected state, whose kept rows have residuals `left`. Returns an
-/// error if a dropped row is above its limit. `horizon` is the duration of the run (s).
+/// Residuals of all rows at a projected state; the residuals of its independent rows are `left`.
+/// Returns an error if a redundant row is above its limit. `horizon` is the duration of the run
+/// (s).
 pub(super) fn monitor(
     equations: &mut KeptEquations<'_>,
     v: &[f64],
@@ -51,7 +53,7 @@ pub(super) fn monitor(
     let residual = |i: usize| at.velocity_residual(i, v).abs();
     let scale = |i: usize| at.velocity_scale(i, v);
     let share = dropped_misfit(rows);
-    // Most rows agree to the rounding of their own terms.
+    // Most rows agree within the rounding error of their own terms.
     if equations.misfits.is_none()
         && rows
             .dropped
@@ -60,9 +62,10 @@ pub(super) fn monitor(
     {
         return Ok(found);
     }
-    // The rows cannot agree better than the rounding of the coordinates allows. Kept rows are
-    // solved to the rounding of the fastest of them, so dropped rows are no more accurate.
-    // What dropped rows miss within a tolerance is no error of the coordinates.
+    // The rows cannot agree better than the rounding error of the coordinates allows. Independent
+    // rows are solved to the rounding error of the fastest of them, so redundant rows are not more
+    // accurate. A violation of redundant rows within a tolerance is not an error of the
+    // coordinates.
     let position = &equations.position;
     let exact = position.kept.iter();
     let exact = exact.chain(
@@ -84,8 +87,8 @@ pub(super) fn monitor(
     Ok(found)
 }
 
-/// Checks the dropped rows of Φ at the pose of the scratch: on another branch of the kept rows they
-/// do not hold.
+/// Checks the redundant rows of Φ at the pose in the scratch memory; on another branch of the
+/// independent rows they are violated.
 pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), MotionFault> {
     let (at, rows) = (&equations.at, &mut equations.position);
     let check = Check {
@@ -98,7 +101,7 @@ pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), M
     check.of(rows, at, &mut equations.misfits)
 }
 
-/// The drives and joints with functions of time in the dependency of the dropped row i.
+/// The drives and joints with functions of time in the dependency of the redundant row i.
 fn drives_among(
     rows: &mut KeptRows,
     at: &Evaluation<'_>,
@@ -118,25 +121,25 @@ fn drives_among(
     Ok(names)
 }
 
-/// Allowed residual of rows that depend on these, as a fraction of their terms: rounding of the
-/// kept rows is multiplied by the inverse of the pivots, so it is larger near a singular
-/// configuration.
+/// Allowed residual of rows that depend on these rows, as a share of their terms. The rounding
+/// error of the independent rows is multiplied by the inverse of the pivots, so it is larger near a
+/// singular configuration.
 fn dropped_misfit(rows: &KeptRows) -> f64 {
     DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0)
 }
 
-/// Residuals of dropped rows at the level of positions or of velocities.
+/// Residuals of redundant rows at the level of positions or of velocities.
 struct Check<'v, R, F> {
     level: Level<'v>,
-    /// Allowed residual of dropped rows, as a fraction of the terms.
+    /// Allowed residual of redundant rows, as a share of the terms.
     share: f64,
     residual: R,
-    /// Largest allowed fraction, however much rounding of the kept rows explains: beyond it, it is
-    /// not known whether the row holds.
+    /// Largest allowed share, however large the rounding error of the independent rows is. Above
+    /// this share, the program cannot decide whether the row is satisfied.
     most: f64,
-    /// Allowed residual, however small the terms are. Velocities may differ, like positions, by
-    /// what moves the mechanism by no more than a small fraction of its size during the run,
-    /// however slow the motion is.
+    /// Allowed residual, however small the terms are. A difference between velocities or positions
+    /// is allowed if it causes only a small displacement during the run. The limit of this
+    /// displacement is a share of the size of the mechanism, however slow the motion is.
     floor: F,
 }
 
@@ -157,8 +160,8 @@ where
         self.level.of == ConstraintLevel::Velocity
     }
 
-    /// Returns an error for the first dropped row that the kept ones do not imply, not even for
-    /// data within a stated tolerance.
+    /// Returns an error for the first redundant row that the independent rows do not imply, not
+    /// even for data within a stated tolerance.
     fn of(
         &self,
         rows: &mut KeptRows,
@@ -167,7 +170,7 @@ where
     ) -> Result<(), MotionFault> {
         let scales = at.mechanism.scales(&at.s);
         let scale = |i: usize| scales.terms(i, &self.level);
-        // The terms that are present are a part of those, and less work.
+        // The terms that are present are a part of all terms and need less work.
         let present = |i: usize| match self.level.of {
             ConstraintLevel::Position => at.position_scale(i),
             _ => 0.0,
@@ -177,7 +180,7 @@ where
             let i = rows.dropped[k];
             let value = (self.residual)(i);
             let residual = value.abs();
-            // Most rows agree to the rounding of their own terms.
+            // Most rows agree within the rounding error of their own terms.
             if residual <= self.share * present(i) || residual <= self.share * scale(i) {
                 if let Some(misfits) = misfits {
                     misfits.see(self.is_of_velocities(), i, value, None, at);

@@ -14,7 +14,7 @@ use crate::solve::{Doubt, GeneratedCode, KeptEquations};
 
 /// Storage for a projection by generated code.
 pub(crate) struct CodeProjection {
-    /// Whether the code keeps each row of Φ and of C.
+    /// Whether each row of Φ and of C is an independent row of the code.
     keeps_position: Vec<bool>,
     keeps: Vec<bool>,
     bounds: Bounds,
@@ -25,13 +25,13 @@ pub(crate) struct CodeProjection {
     residual: Vec<f64>,
     dq: Vec<f64>,
     dv: Vec<f64>,
-    /// The state before the projection.
+    /// Copy of the state before the projection.
     before: (Vec<f64>, Vec<f64>),
 }
 
-/// For each row, the columns of C with bounds on the entries in them.
+/// For each row, the columns of C with nonzero entries, and bounds on these entries.
 struct Bounds {
-    /// Where each row begins and the last one ends, m + h + 1.
+    /// Start of each row and end of the last one, m + h + 1 entries.
     start: Vec<usize>,
     entries: Vec<(usize, f64)>,
 }
@@ -46,7 +46,7 @@ impl Bounds {
         Self { start, entries }
     }
 
-    /// Writes the sizes of the terms of all rows for numbers x of the columns, n_v.
+    /// Writes the sizes of the terms of all rows for values x of the columns, n_v.
     fn sizes(&self, x: &[f64], sizes: &mut [f64]) {
         for (size, ends) in sizes.iter_mut().zip(self.start.windows(2)) {
             let entries = &self.entries[ends[0]..ends[1]];
@@ -56,7 +56,8 @@ impl Bounds {
 }
 
 impl CodeProjection {
-    /// Storage for code on the rows of these equations, with C at the pose of the scratch.
+    /// Work memory for code on the rows of these equations, with C at the pose in the scratch
+    /// memory.
     pub(crate) fn new(equations: &KeptEquations<'_>, q: &[f64]) -> Self {
         let at = &equations.at;
         let layout = at.mechanism.layout();
@@ -76,8 +77,8 @@ impl CodeProjection {
         }
     }
 
-    /// Moves q and v onto the constraints and checks all rows; leaves them unchanged if the result
-    /// is not reliable.
+    /// Moves q and v onto the constraint manifold and checks all rows; q and v are unchanged if the
+    /// result is unreliable.
     pub(crate) fn project(
         &mut self,
         GeneratedCode(code): &GeneratedCode<'_>,
@@ -201,7 +202,7 @@ impl Level for CodeVelocities<'_> {
             .velocity_residual(self.t, self.q, self.v, residual);
         if corrections > 0 {
             all.bounds.sizes(self.v, &mut all.sizes);
-            // Rows of bodies at rest contain the rounding of others.
+            // Rows of bodies at rest contain rounding errors of other rows.
             let least = CODE_AT_REST * largest(&all.sizes);
             for size in &mut all.sizes {
                 *size = size.max(least);
@@ -221,8 +222,8 @@ impl Level for CodeVelocities<'_> {
     }
 }
 
-/// The kept row with the largest residual, in roundings of its terms (infinite if the residual is
-/// not a number). Before the first correction the value is not used.
+/// The independent row with the largest residual, in roundings of its terms (infinite if the
+/// residual is NaN). Before the first correction the value is not used.
 fn worst_kept(corrections: usize, x: &[f64], keeps: &[bool], sizes: &[f64]) -> (usize, f64) {
     if corrections == 0 {
         return (0, f64::INFINITY);
@@ -239,8 +240,8 @@ fn worst_kept(corrections: usize, x: &[f64], keeps: &[bool], sizes: &[f64]) -> (
     (row, share / f64::EPSILON)
 }
 
-/// Checks that dropped rows hold. Residuals are compared with the largest row, because rounding of
-/// all rows affects them.
+/// Checks that redundant rows are satisfied. Their residuals are compared with the largest row,
+/// because the rounding errors of all rows affect them.
 fn check_dropped(x: &[f64], keeps: &[bool], sizes: &[f64]) -> Result<(), Doubt> {
     if !GUARDED {
         return Ok(());

@@ -1,12 +1,13 @@
-//! Independent rotations of bodies that also have dependent ones.
+//! Independent rotations of bodies that also have dependent rotations.
 //!
-//! A quaternion has no entry for one of them: the integrator carries a whole orientation, of
-//! which the dependent part is a guess, and a correction of that part about two axes of a body
-//! turns it about the third one, too. So the independent part is the twist about the axis
-//! against the orientation at the beginning of a step: for a relative quaternion (w, x, y, z)
-//! and the third axis it is `2·atan2(z, w)`, which does not depend on x and y. To first order
-//! it is what the Jacobian of an implicit method reads ([`crate::run`]). A completion keeps it:
-//! the rows and these functions together are solved for all rotations.
+//! A quaternion has no entry for one independent rotation. The integrator carries a whole
+//! orientation, whose dependent part is an estimate. A correction of this part about two axes of a
+//! body also rotates the body about the third axis. Therefore the independent part is the twist
+//! about the axis relative to the orientation at the start of a step. For a relative quaternion (w,
+//! x, y, z) and the third axis, the twist is `2·atan2(z, w)`, which does not depend on x and y. To
+//! first order it is the coordinate in the Jacobian of an implicit method ([`crate::run`]). A
+//! completion keeps the twist: the rows and the twist functions are solved together for all
+//! rotations.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -18,31 +19,31 @@ use model::{Mechanism, System};
 use crate::error::MotionFault;
 use crate::solve::{Evaluation, KeptRows};
 
-/// How a twist is read of q.
+/// Computation of a twist from q.
 struct Twist {
-    /// The quaternion of the body in q, and the length of that against which it is read: the motion
-    /// does not change lengths, while what an integrator carries for dependent parts does.
+    /// The quaternion of the body in q, and the length of the reference quaternion. The motion does
+    /// not change lengths, but the integrator's values of dependent parts may change them.
     own: Range<usize>,
     length: f64,
-    /// Twice the sine of half the angle, and the cosine, but for a common factor: indices into q
-    /// with coefficients.
+    /// Twice the sine of half the angle, and the cosine, up to a common factor: indices into q with
+    /// coefficients.
     sine: Vec<(usize, f64)>,
     cosine: Vec<(usize, f64)>,
 }
 
-/// Such rotations, and what a completion keeps of them.
+/// Independent rotations of this kind, and their values during a completion.
 #[derive(Default)]
 pub(super) struct IndependentRotations {
-    /// Their columns of C.
+    /// Columns of these rotations in C.
     columns: Vec<usize>,
-    /// How each is read.
+    /// Computation of each rotation from q.
     twists: Vec<Twist>,
-    /// The values that are kept.
+    /// Values that a completion keeps.
     values: Vec<f64>,
-    /// Row j: motion that keeps the rows and turns along column j alone among the independent ones,
-    /// n_v.
+    /// Row j: the motion that satisfies the rows and rotates along column j, but along no other
+    /// independent column, n_v.
     tangents: Matrix,
-    /// Entry (i, j): what is read at i of the tangent j, factored.
+    /// Entry (i, j): rate of rotation i for tangent j; factored.
     system: Option<Lu>,
     /// Shares of the tangents in a correction.
     shares: Vec<f64>,
@@ -51,7 +52,7 @@ pub(super) struct IndependentRotations {
 }
 
 impl IndependentRotations {
-    /// Those among independent columns.
+    /// The rotations of this kind among independent columns.
     pub(super) fn among(mechanism: &Mechanism, independent: &[usize], q: &[f64]) -> Self {
         let space = mechanism.space();
         let mut held = Self::default();
@@ -82,12 +83,12 @@ impl IndependentRotations {
         held
     }
 
-    /// Whether there are none.
+    /// Whether there are no such rotations.
     pub(super) fn is_empty(&self) -> bool {
         self.columns.is_empty()
     }
 
-    /// Reads orientations against these ones from now on.
+    /// Uses these orientations as the reference from now on.
     pub(super) fn read_from(&mut self, mechanism: &Mechanism, q: &[f64]) {
         for (twist, &column) in self.twists.iter_mut().zip(&self.columns) {
             mechanism.space().read_velocity(q, column, &mut twist.sine);
@@ -100,7 +101,8 @@ impl IndependentRotations {
         }
     }
 
-    /// Keeps the values of this configuration, and gives its quaternions their lengths.
+    /// Stores the rotations of this configuration, and scales its quaternions to the lengths of the
+    /// reference.
     pub(super) fn keep(&mut self, q: &mut [f64]) {
         for (value, twist) in self.values.iter_mut().zip(&self.twists) {
             *value = twist.angle(q);
@@ -112,7 +114,7 @@ impl IndependentRotations {
         }
     }
 
-    /// The largest difference of this configuration from what is kept, in radians.
+    /// The largest difference of this configuration from the stored values, in radians.
     pub(super) fn off(&self, q: &[f64]) -> f64 {
         let of = |(value, twist): (&f64, &Twist)| twist.behind(*value, q).abs();
         let off = self.values.iter().zip(&self.twists).map(of);
@@ -120,7 +122,7 @@ impl IndependentRotations {
         off.fold(0.0, |a: f64, x| if x <= a { a } else { x })
     }
 
-    /// Computes the tangents with freshly factored rows; leaves their right-hand side zero.
+    /// Computes the tangents with freshly factored rows; afterwards their right-hand side is zero.
     pub(super) fn find_tangents(
         &mut self,
         at: &Evaluation<'_>,
@@ -151,7 +153,7 @@ impl IndependentRotations {
             })
     }
 
-    /// Adds tangents to a correction of q, so that it keeps the values.
+    /// Adds tangents to a correction of q, so that the correction keeps the stored values.
     pub(super) fn hold(&mut self, mechanism: &Mechanism, q: &[f64], delta: &mut [f64]) {
         let Some(system) = &mut self.system else {
             return;
@@ -170,24 +172,25 @@ impl IndependentRotations {
 }
 
 impl Twist {
-    /// Sine and cosine of half the angle, but for a common factor.
+    /// Sine and cosine of half the angle, up to a common factor.
     fn half(&self, q: &[f64]) -> [f64; 2] {
         [0.5 * read(&self.sine, q), read(&self.cosine, q)]
     }
 
-    /// The angle (rad), within half a turn.
+    /// The angle (rad), in the range of half a turn in both directions.
     fn angle(&self, q: &[f64]) -> f64 {
         let [sine, cosine] = self.half(q);
         2.0 * (sine / cosine).atan()
     }
 
-    /// What the angle of q is behind another one (rad), within half a turn.
+    /// Difference between another angle and the angle of q (rad), in the range of half a turn in
+    /// both directions.
     fn behind(&self, angle: f64, q: &[f64]) -> f64 {
         let off = angle - self.angle(q);
         off - TAU * (off / TAU).round()
     }
 
-    /// The rate of the angle at q where q changes at this rate.
+    /// The rate of the angle at q if q changes at the given rate.
     fn rate(&self, q: &[f64], rate: &[f64]) -> f64 {
         let ([s, c], [s_rate, c_rate]) = (self.half(q), self.half(rate));
         2.0 * (c * s_rate - s * c_rate) / (s * s + c * c)

@@ -1,5 +1,5 @@
-//! Positions and velocities of kept rows as levels of Newton's method: positions need several
-//! corrections, velocities one linear solve and corrections of its rounding.
+//! Positions and velocities of independent rows as levels of Newton's method: positions need
+//! several corrections, velocities need one linear solution and corrections of its rounding error.
 
 use model::System;
 
@@ -33,10 +33,10 @@ struct Positions<'a, 'm> {
 pub(super) struct ProjectionStorage {
     /// A correction, n_v.
     pub(super) delta: Vec<f64>,
-    /// Sizes of the terms of the kept rows of Φ at the first configuration: corrections change them
-    /// only slightly.
+    /// Sizes of the terms of the independent rows of Φ at the first configuration; corrections
+    /// change them only slightly.
     scales: Vec<f64>,
-    /// What a completion keeps of bodies that have dependent rotations, too.
+    /// Rotations that a completion keeps for bodies that also have dependent rotations.
     pub(super) held: IndependentRotations,
 }
 
@@ -65,7 +65,7 @@ impl Level for Positions<'_, '_> {
         }
         let mut worst = (0, 0.0_f64);
         for (k, &i) in position.kept.iter().enumerate() {
-            // A row left out of the solve cannot be corrected further.
+            // The solution cannot correct a row that is left out of it.
             if phi[i] == 0.0 || corrections > 0 && !position.uses(k) {
                 continue;
             }
@@ -108,7 +108,7 @@ impl Level for Positions<'_, '_> {
     }
 }
 
-/// Moves q onto the kept rows of Φ; returns the number of corrections.
+/// Moves q onto the independent rows of Φ; returns the number of corrections.
 pub(super) fn correct_position(
     equations: &mut KeptEquations<'_>,
     (t, q): (f64, &mut [f64]),
@@ -134,7 +134,8 @@ pub(super) fn correct_position(
     };
     let end = correct(&mut level, &limits)?;
     let (at, row) = (&equations.at, end.worst);
-    // Rows are known to the rounding of terms that are not present at this orientation, too.
+    // The accuracy of rows is also limited by the rounding error of terms that are not present at
+    // this orientation.
     let (scales, level) = (at.mechanism.scales(&at.s), model::Level::positions());
     let rounding = |i: usize| STALLED_ROUNDINGS * f64::EPSILON * scales.terms(i, &level);
     let are_rounding = || {
@@ -191,8 +192,8 @@ impl Level for Velocities<'_, '_> {
     }
 }
 
-/// Moves v onto the kept rows of C, which are factored at a settled position; returns their largest
-/// residual afterwards.
+/// Moves v onto the independent rows of C, which are factored at a settled position; returns their
+/// largest residual afterwards.
 pub(super) fn correct_velocity(
     equations: &mut KeptEquations<'_>,
     v: &mut [f64],

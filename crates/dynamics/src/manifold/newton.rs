@@ -8,11 +8,11 @@ pub(super) trait Level {
     /// Reason why the level cannot be corrected.
     type Fault;
 
-    /// Residual of the kept rows after this number of corrections: the worst row, and its residual
-    /// in roundings of its terms.
+    /// Residual of the independent rows after this number of corrections: the worst row, and its
+    /// residual in roundings of its terms.
     fn misses(&mut self, corrections: usize) -> (usize, f64);
 
-    /// Makes one correction; `converges` states whether the last one gained a digit.
+    /// Makes one correction; `converges` states whether the last correction gained a digit.
     fn correct(&mut self, converges: bool) -> Result<(), Self::Fault>;
 }
 
@@ -22,7 +22,7 @@ pub(super) struct Limits {
     pub(super) corrections: [usize; 2],
     /// Rows count as satisfied below this number of roundings of their terms.
     pub(super) enough: f64,
-    /// The same, if a further correction does not help.
+    /// The limit that applies if a further correction does not help.
     pub(super) stalled: f64,
 }
 
@@ -42,8 +42,8 @@ pub(super) fn correct<L: Level>(level: &mut L, limits: &Limits) -> Result<End, L
     let mut corrections = 0;
     loop {
         let (worst, roundings) = level.misses(corrections);
-        // Rounding may leave slightly more: an iteration that stalls near this limit has also
-        // converged.
+        // Rounding errors may leave a slightly larger residual: an iteration that stalls near this
+        // limit has also converged.
         let is_stalled = roundings >= 0.5 * best && roundings <= limits.stalled;
         let is_reached = corrections >= least && (roundings <= limits.enough || is_stalled);
         if is_reached || corrections == most || roundings.is_nan() {
@@ -67,7 +67,7 @@ mod tests {
     use super::*;
     use crate::limits::{ROUNDINGS, STALLED_ROUNDINGS};
 
-    /// A row whose residual each correction multiplies by a factor, down to a floor.
+    /// A row whose residual is multiplied by a factor at each correction, down to a lower limit.
     struct Shrinking {
         misfit: f64,
         factor: f64,
@@ -108,7 +108,7 @@ mod tests {
         assert_eq!(run(5.0, 0.1, 0.0, [0, 20]), (0, true));
         assert_eq!(run(5.0, 0.1, 0.0, [1, 20]), (1, true));
         assert_eq!(run(1e4, 0.1, 0.0, [0, 20]), (3, true));
-        // A floor of 30 roundings is accepted, one of 100 is not.
+        // A lower limit of 30 roundings is accepted, one of 100 is not.
         assert_eq!(run(1e4, 0.1, 30.0, [0, 20]), (4, true));
         assert_eq!(run(1e4, 0.1, 100.0, [0, 20]), (20, false));
         assert_eq!(run(f64::NAN, 0.1, 0.0, [0, 20]), (0, false));

@@ -10,13 +10,13 @@ use crate::error::MotionFault;
 use crate::options::Stabilisation;
 use crate::solve::{Evaluation, KeptEquations};
 
-/// Treatment of states relative to the constraints.
+/// Treatment of states that violate the constraints.
 pub(crate) struct Manifold {
     /// Independent coordinates, if the motion uses them.
     pub(crate) coordinates: Option<IndependentCoordinates>,
     stabilisation: Stabilisation,
-    /// Duration of the run (s). Infinite if it is not given or zero; then no difference of
-    /// velocities is allowed.
+    /// Duration of the run (s). It is infinite if it is not given or zero; then no difference
+    /// between velocities is allowed.
     horizon: f64,
     storage: ProjectionStorage,
 }
@@ -31,13 +31,14 @@ impl Manifold {
         }
     }
 
-    /// Whether states are moved onto the constraints; always true with independent coordinates.
+    /// Whether states are moved onto the constraint manifold; always true with independent
+    /// coordinates.
     pub(crate) fn projects(&self) -> bool {
         self.coordinates.is_some() || self.stabilisation == Stabilisation::Projection
     }
 
-    /// Switches the motion to independent coordinates, chosen at the pose of the scratch, which
-    /// must be that of `origin`.
+    /// Switches the motion to independent coordinates, chosen at the pose in the scratch memory,
+    /// which must be the pose of `origin`.
     pub(crate) fn choose_coordinates(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -48,7 +49,8 @@ impl Manifold {
         Ok(())
     }
 
-    /// Moves q onto the constraints and factors the rows there; returns the number of corrections.
+    /// Moves q onto the constraint manifold and factors the rows there; returns the number of
+    /// corrections.
     pub(crate) fn settle(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -62,7 +64,7 @@ impl Manifold {
     }
 
     /// Completes a state on independent coordinates and settles its position. After a completion
-    /// the corrections remove only rounding.
+    /// the corrections remove only rounding errors.
     pub(crate) fn settle_completed(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -88,7 +90,7 @@ impl Manifold {
         monitor(equations, v, (iterations, left), self.horizon)
     }
 
-    /// Moves a state onto the constraints and checks the dropped rows.
+    /// Moves a state onto the constraint manifold and checks the redundant rows.
     pub(crate) fn project(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -99,7 +101,7 @@ impl Manifold {
         self.finish(equations, v, iterations)
     }
 
-    /// Moves a stage onto the constraints without checking dropped rows.
+    /// Moves a stage onto the constraint manifold without a check of redundant rows.
     pub(crate) fn approach(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -110,8 +112,8 @@ impl Manifold {
         correct_velocity(equations, v, &mut self.storage).map(drop)
     }
 
-    /// The change that a projection would make to [q; v] of a state that is left unprojected;
-    /// allocates. Dropped rows are checked nevertheless.
+    /// The change that a projection would make to [q; v] of a state without projection; allocates
+    /// memory. Redundant rows are checked nevertheless.
     pub(crate) fn missed_correction(
         &mut self,
         equations: &mut KeptEquations<'_>,

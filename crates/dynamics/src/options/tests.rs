@@ -1,4 +1,4 @@
-//! Invalid numbers are refused with the name of the option, before anything is computed.
+//! Invalid numbers are rejected with the name of the option, before any computation.
 
 use super::MotionOptions;
 
@@ -66,8 +66,9 @@ fn the_ends_of_the_ranges_are_right() {
     assert_eq!(said(|o| (o.t_end, o.output_step) = (0.0, 0.0)), Ok(()));
 }
 
-/// A turn in a picture of a thousand pixels, drawn by chords between the rows of a run, is round to
-/// a fifth of a pixel, and no finer than a tenth of that: `1 − cos(π/n)` of the radius.
+/// A full rotation is drawn in a figure of a thousand pixels, as chords between the output rows of
+/// a run. It deviates from a circle by at most a fifth of a pixel, and by at least a tenth of that:
+/// `1 − cos(π/n)` of the radius.
 #[test]
 fn a_turn_is_as_round_as_a_picture_shows() {
     let rows = 1.0 / MotionOptions::to(1.0).output_step;

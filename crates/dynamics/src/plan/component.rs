@@ -10,22 +10,22 @@ use crate::limits::NAMED;
 use crate::options::MotionOptions;
 use crate::prepare::PreparedMechanism;
 
-/// The computations for one component, and those that are omitted.
+/// The plan of one component.
 pub struct ComponentPlan<'a> {
-    /// Its bodies, as text.
+    /// Names of the bodies, as text.
     pub name: String,
-    /// Its sizes.
+    /// Sizes of the component.
     pub sizes: Sizes,
-    /// The decisions about it.
+    /// Decisions for the component.
     pub decisions: Decisions,
     whose: Whose<'a>,
 }
 
-/// A prepared mechanism.
+/// The prepared mechanism of a component.
 enum Whose<'a> {
     /// The whole mechanism.
     Whole(&'a PreparedMechanism),
-    /// A part, and its places in the whole.
+    /// A part, and its indices in the whole mechanism.
     Part(Box<(PreparedMechanism, Places)>),
 }
 
@@ -75,7 +75,7 @@ impl<'a> ComponentPlan<'a> {
         self.whose.prepared()
     }
 
-    /// What belongs to it of a group of the whole mechanism.
+    /// The part of a group of the whole mechanism that belongs to this component.
     pub(crate) fn share(&self, group: &Group) -> Option<Group> {
         match self.places() {
             None => Some(group.clone()),
@@ -86,13 +86,14 @@ impl<'a> ComponentPlan<'a> {
         }
     }
 
-    /// What belongs to it of a choice of the whole mechanism.
+    /// The part of a choice of the whole mechanism that belongs to this component.
     pub(crate) fn share_of_choice(&self, choice: &Choice) -> Choice {
         let places = self.places().cloned();
         choice.share(&places.map_or(Extent::Whole, Extent::Places))
     }
 
-    /// Its places in the whole mechanism; `None` if it is the whole.
+    /// Indices of the component in the whole mechanism; `None` if the component is the whole
+    /// mechanism.
     #[must_use]
     pub fn places(&self) -> Option<&Places> {
         match &self.whose {

@@ -7,11 +7,11 @@ use super::saving::{Cost, Saving};
 pub struct Decision<T> {
     /// The value that was chosen.
     pub value: T,
-    /// The same in a few words.
+    /// Short description of the value.
     pub taken: String,
-    /// Its reason.
+    /// Reason for the decision.
     pub reason: String,
-    /// The computations that it saves, if they can be counted.
+    /// The computations that the decision saves, if they can be counted.
     pub saves: Option<Saving>,
 }
 
@@ -24,9 +24,9 @@ pub struct Line<'p> {
     pub decision: &'static str,
     /// The decision.
     pub taken: &'p str,
-    /// Its reason.
+    /// Reason for the decision.
     pub reason: &'p str,
-    /// The computations that it saves.
+    /// The computations that the decision saves.
     pub saves: Option<Saving>,
 }
 
@@ -41,7 +41,7 @@ impl<T> Decision<T> {
         }
     }
 
-    /// Adds what the decision saves, if anything: `left_out` items of `of`.
+    /// Adds the saving of the decision, if any: `left_out` items of `of`.
     pub(super) fn saving(self, left_out: u64, of: u64, what: Cost) -> Self {
         let saves = (left_out > 0).then_some(Saving { left_out, of, what });
         Self { saves, ..self }

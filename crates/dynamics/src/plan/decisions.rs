@@ -1,5 +1,5 @@
-//! The decisions about one component. Each follows from a fact of its mechanism or its options, by
-//! the same test that the code uses which carries it out.
+//! The decisions for one component. Each decision follows from a fact of the mechanism or of the
+//! options. The code that carries out the decision uses the same test.
 
 use linalg::GRADED_MASSES;
 use model::{System, Work};
@@ -14,23 +14,24 @@ use crate::motion::KeptRowMotion;
 use crate::options::{FORMULATION, Method, MotionOptions};
 use crate::prepare::PreparedMechanism;
 
-/// The decisions about one component.
+/// The decisions for one component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decisions {
-    /// Its integrator.
+    /// Integration method.
     pub method: Decision<Method>,
-    /// Whether the integrator needs storage for linear systems; the first step that uses it
+    /// Whether the integrator needs memory for linear systems; the first step that uses this memory
     /// allocates it.
     pub linear_systems: Decision<bool>,
-    /// Rows and columns of the matrix that is eliminated densely.
+    /// Number of rows and columns of the matrix that is eliminated densely.
     pub elimination: Decision<[usize; 2]>,
     /// Whether solutions are refined from the start on.
     pub refinement: Decision<bool>,
     /// Degrees of freedom; if there are none, the motion is a function of time.
     pub mobility: Decision<usize>,
-    /// Rows that exist at velocity level only.
+    /// Rows that exist only at velocity level.
     pub nonholonomic: Decision<usize>,
-    /// Dropped rows: monitored, and exchanged for kept ones if these become nearly dependent.
+    /// Redundant rows: they are monitored, and exchanged for independent rows if these become
+    /// ill-conditioned.
     pub dropped: Decision<usize>,
     /// Rows whose b and Φt are evaluated.
     pub of_time: Decision<usize>,
@@ -42,8 +43,7 @@ pub struct Decisions {
     pub turning: Decision<usize>,
     /// Applied forces.
     pub forces: Decision<usize>,
-    /// Joints and drives whose reactions are computed at rows of output, among those of the
-    /// component.
+    /// Joints and drives of the component whose reactions are computed at output rows.
     pub reactions: Decision<Vec<usize>>,
 }
 
@@ -139,28 +139,27 @@ fn refinement(prepared: &PreparedMechanism) -> Result<Decision<bool>, MotionErro
         Ok(Decision::new(value, taken, reason))
     };
     if prepared.is_schur() {
-        let why =
-            "each solution through the Schur complement is compared with its rows, and corrected";
+        let why = "each solution by the Schur complement is checked against its rows and corrected";
         return decided(false, why.to_owned());
     }
     let spread = prepared.mass_spread();
     let factor = format!("masses and inertias differ by a factor of {spread:.1e}");
     if spread >= GRADED_MASSES {
-        let why = format!("{factor}, from {GRADED_MASSES:.0e} on plain solutions miss digits");
+        let why = format!("{factor}; above {GRADED_MASSES:.0e} unrefined solutions lose digits");
         return decided(true, why);
     }
     let size = prepared.assembly.size;
     if prepared.is_far() {
-        let why = "far from a metre: weights and centrifugal terms differ by many powers of ten";
+        let why = "far from 1 m: weights and centrifugal terms differ by many powers of ten";
         return decided(true, format!("the mechanism measures {size:.1e} m, {why}"));
     }
     let mut equations = KeptRowMotion::new(prepared)?.equations;
     equations.factor_at(0.0, &prepared.q)?;
     let value = equations.velocity.are_refined();
     let why = if value {
-        "but at the start digits cancel in the reduced mass"
+        "but digits cancel in the reduced mass at the start"
     } else {
-        "and no digits cancel in the reduced mass at the start; watched at every solution"
+        "and no digits cancel in the reduced mass at the start; monitored at every solution"
     };
     decided(value, format!("{factor}, {why}"))
 }
@@ -175,16 +174,16 @@ fn mobility(
     let by_time = prepared.code_for(options).is_err() && prepared.is_function_of_time(options);
     let function = || "a function of time".to_owned();
     let (taken, reason) = match (value, work.rows_of_time) {
-        (0, 0) => ("none".to_owned(), "the constraints hold it where it is"),
+        (0, 0) => ("none".to_owned(), "the constraints allow no motion"),
         (0, _) if by_time => (
             function(),
-            "driven, and nothing is free: stages lie on the constraints, and each time of a step is evaluated once",
+            "driven, no free motion: stages lie on the constraints; each time of a step is evaluated once",
         ),
         (0, _) => (
             function(),
-            "driven, and nothing is free; functions are evaluated once at each time",
+            "driven, no free motion; functions are evaluated once at each time",
         ),
-        (n, _) => (format!("{n}"), "velocities less independent rows"),
+        (n, _) => (format!("{n}"), "velocities minus independent rows"),
     };
     Decision::new(value, taken, reason)
 }
@@ -208,7 +207,7 @@ fn nonholonomic(sizes: &Sizes) -> Decision<usize> {
 fn dropped(sizes: &Sizes) -> Decision<usize> {
     let reasons = [
         "all rows are independent: no row is monitored or exchanged",
-        "implied by the kept ones; not solved for",
+        "implied by the independent rows; not solved for",
     ];
     let decided = counted(sizes.redundancy(), reasons, " monitored");
     let rows = sizes.rows() as u64;
@@ -222,7 +221,7 @@ fn of_time(sizes: &Sizes, work: &Work) -> Decision<usize> {
     let (value, all) = (work.rows_of_time, sizes.rows() as u64);
     let none = || "b = 0".to_owned();
     let (taken, reason) = match (value, work.functions) {
-        (0, 0) => (none(), "nothing depends on time".to_owned()),
+        (0, 0) => (none(), "no function of time".to_owned()),
         (0, n) => (
             none(),
             format!("no constraint depends on time; functions of forces: {n}"),
@@ -235,8 +234,8 @@ fn of_time(sizes: &Sizes, work: &Work) -> Decision<usize> {
     Decision::new(value, taken, reason).saving(all - value as u64, all, Cost::TimeRows)
 }
 
-/// A decision on how many of all items are evaluated, with a reason why all are, or why the others
-/// are not.
+/// A decision on the number of items that are evaluated. The reason states why all items are
+/// evaluated, or why the others are not.
 fn evaluated(
     (value, all): (usize, usize),
     why_all: &str,
@@ -269,8 +268,9 @@ fn turning(prepared: &PreparedMechanism, work: &Work) -> Decision<usize> {
     let names: Vec<&str> = held.iter().map(|&k| bodies[k].name.as_str()).collect();
     let (n, all) = (held.len(), bodies.len());
     let reason = match n {
-        0 => "no row of angles holds one at its start; sine and cosine are computed again where an angle has changed".to_owned(),
-        _ => format!("rows of angles hold {}", names.join(", ")),
+        0 => "no constraint fixes an angle; sines and cosines are recomputed when an angle changes"
+            .to_owned(),
+        _ => format!("constraints fix the angles of {}", names.join(", ")),
     };
     let taken = format!("{} of {all}", all - n);
     Decision::new(all - n, taken, reason).saving(n as u64, all as u64, Cost::Trigonometry)
@@ -280,10 +280,7 @@ fn forces(prepared: &PreparedMechanism, work: &Work) -> Decision<usize> {
     let weight = prepared.mechanism.weight().iter().any(|w| *w != 0.0);
     let (taken, reason) = match (work.forces, weight) {
         (0, false) => ("Q = 0".to_owned(), "no forces, no gravity"),
-        (0, true) => (
-            "the weight alone".to_owned(),
-            "no applied forces: Q is constant",
-        ),
+        (0, true) => ("only weight".to_owned(), "no applied forces: Q is constant"),
         (n, false) => (format!("{n}"), "no gravity"),
         (n, true) => (format!("{n} and the weight"), "applied forces"),
     };
@@ -297,12 +294,12 @@ fn wanted(prepared: &PreparedMechanism, value: Vec<usize>) -> Decision<Vec<usize
     let (taken, reason) = match n {
         0 => (
             "none".to_owned(),
-            "none is wanted: no multipliers are solved for at rows of output".to_owned(),
+            "not requested: no multipliers are computed for output rows".to_owned(),
         ),
-        n if n == all => (format!("all {n}"), "wanted at rows of output".to_owned()),
+        n if n == all => (format!("all {n}"), "requested at output rows".to_owned()),
         n => (
             format!("{n} of {all}"),
-            format!("wanted at rows of output: {}", names.join(", ")),
+            format!("requested at output rows: {}", names.join(", ")),
         ),
     };
     Decision::new(value, taken, reason).saving((all - n) as u64, all as u64, Cost::Reactions)

@@ -16,40 +16,40 @@ pub struct Saving {
 /// Work that can be omitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
-    /// Rows of output: accurate dense output, projection.
+    /// Output rows: accurate dense output, projection.
     Rows,
-    /// Multiply-adds of the dense elimination of an evaluation.
+    /// Multiply-adds of the dense elimination in an evaluation.
     Elimination,
-    /// Pairs of sine and cosine of an evaluation.
+    /// Pairs of sine and cosine in an evaluation.
     Trigonometry,
-    /// Entries of C of an evaluation.
+    /// Entries of C in an evaluation.
     Entries,
-    /// Values of b and Φt of an evaluation.
+    /// Values of b and Φt in an evaluation.
     TimeRows,
-    /// Values of Γ of an evaluation.
+    /// Values of Γ in an evaluation.
     Gamma,
     /// Stored numbers.
     Storage,
-    /// Rows whose residuals are compared with a limit at each accepted step.
+    /// Redundant rows whose residuals are compared with a limit at each accepted step.
     Monitors,
-    /// Reactions at each row of output.
+    /// Reactions at each output row.
     Reactions,
 }
 
 impl Cost {
-    /// Its name, with how often it is done.
+    /// Name of the work, and how often it is done.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Rows => "rows",
-            Self::Elimination => "multiply-adds an evaluation",
-            Self::Trigonometry => "sines and cosines an evaluation",
-            Self::Entries => "entries of C an evaluation",
+            Self::Elimination => "multiply-adds per evaluation",
+            Self::Trigonometry => "sines and cosines per evaluation",
+            Self::Entries => "entries of C per evaluation",
             Self::TimeRows => "values of b",
-            Self::Gamma => "values of Γ an evaluation",
+            Self::Gamma => "values of Γ per evaluation",
             Self::Storage => "stored numbers",
-            Self::Monitors => "compared rows a step",
-            Self::Reactions => "reactions a row",
+            Self::Monitors => "compared rows per step",
+            Self::Reactions => "reactions per row",
         }
     }
 }

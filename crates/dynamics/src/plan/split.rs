@@ -1,5 +1,8 @@
-//! Splits a prepared mechanism into prepared components. Each takes its part of the rows that were
-//! decided at the start of the whole mechanism.
+//! Splits a prepared mechanism into prepared components. Each component uses its part of the rows
+//! that were decided at the start of the whole mechanism.
+//!
+//! The rows that a component drops are those that the whole mechanism drops in this component, so
+//! one sentence describes the choice of rows.
 
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};
@@ -11,7 +14,7 @@ use crate::limits::MOST_COMPONENTS;
 use crate::options::RowChoice;
 use crate::prepare::PreparedMechanism;
 
-/// A prepared part and its places in the whole mechanism.
+/// A prepared part and its indices in the whole mechanism.
 type PreparedPart = (PreparedMechanism, Places);
 
 /// Whether the mechanism is split, and its components; empty if it is not split.
@@ -29,13 +32,13 @@ pub(super) fn split(
     if let Some(called) = whole.mechanism.applied_forces().called().next() {
         let kind = called.kind();
         return Ok(stays(format!(
-            "{kind} `{}` calls a function: it is called by one thread, by steps of one clock",
+            "{kind} `{}` calls a function, which must be called by one thread in the order of time",
             called.name
         )));
     }
     if n > MOST_COMPONENTS {
         return Ok(stays(format!(
-            "{n} do not feel each other, more than {MOST_COMPONENTS}: a thread for each would cost more"
+            "{n} independent components, more than {MOST_COMPONENTS}: a thread for each would cost more"
         )));
     }
     let mut parts = Vec::with_capacity(n);
@@ -45,7 +48,7 @@ pub(super) fn split(
     let of = elimination(&whole.mechanism, whole.decision.rank);
     let own = |(p, _): &PreparedPart| elimination(&p.mechanism, p.decision.rank);
     let apart: u64 = parts.iter().map(own).sum();
-    let taken = format!("{n}, each with its own method and steps");
+    let taken = format!("{n}, each with its own method and step size");
     let decided = Decision::new(true, taken, "no joint, drive or force connects them");
     let decided = decided.saving(of.saturating_sub(apart), of, Cost::Elimination);
     Ok((decided, parts))
@@ -57,7 +60,7 @@ pub(super) fn stays(reason: String) -> (Decision<bool>, Vec<PreparedPart>) {
     (decided, Vec::new())
 }
 
-/// Multiply-adds of a dense elimination of r rows (or fewer) of n velocities and of the remaining
+/// Multiply-adds of a dense elimination of r rows (or fewer) for n velocities and of the remaining
 /// matrix.
 pub(super) fn elimination(mechanism: &Mechanism, r: usize) -> u64 {
     let (n, r) = (mechanism.layout().n_v as u64, r as u64);

@@ -1,5 +1,5 @@
-//! Tests that work omitted by a plan is not done, and that components run separately move as they
-//! do alone.
+//! Tests that a run does not do the work that its plan omits, and that components that run
+//! separately move as they do alone.
 
 mod driven;
 mod watched;
@@ -29,7 +29,7 @@ fn body(name: &str, position: [f64; 2]) -> Body {
     }
 }
 
-/// A pendulum of length 1, hanging from a point `x` on the ground, at rest and level.
+/// A pendulum of length 1 on a point `x` of the ground, at rest and horizontal.
 fn pendulum(d: &mut Description, name: &str, x: f64) {
     let k = d.bodies.len();
     d.bodies.push(body(name, [x + 1.0, 0.0]));
@@ -88,7 +88,7 @@ fn independent_rows_are_neither_monitored_nor_judged() {
     let work = counted(|| drop(go(&plan)));
     let kept_row_work = [WorkKind::Monitors, WorkKind::Coefficients].map(&work);
     assert_eq!(kept_row_work, [0, 0]);
-    // The same pendulum held twice has two rows too many.
+    // The same pendulum with two equal hinges has two redundant rows.
     let double = scene(|d| {
         pendulum(d, "bob", 0.0);
         let twin = d.joints[0].clone();
@@ -123,7 +123,7 @@ fn solutions_are_refined_where_digits_would_be_lost() {
         d.bodies[0].inertia = 1e-7;
     });
     let (refined, why) = refinement(&graded);
-    let factor = "masses and inertias differ by a factor of 1.0e7, from 1e6 on";
+    let factor = "masses and inertias differ by a factor of 1.0e7; above 1e6";
     assert!(refined && why.starts_with(factor), "{why}");
     let large = scene(|d| {
         pendulum(d, "bob", 0.0);
@@ -136,7 +136,7 @@ fn solutions_are_refined_where_digits_would_be_lost() {
         d.joints = vec![Joint::new("pin", &[GROUND, BodyRef::Body(0)], pin)];
     });
     let (refined, why) = refinement(&large);
-    assert!(refined && why.contains("far from a metre"), "{why}");
+    assert!(refined && why.contains("far from 1 m"), "{why}");
 }
 
 #[test]
@@ -206,7 +206,7 @@ fn rows_that_nobody_wants_are_not_computed() {
         ends.evaluations,
         all.evaluations
     );
-    // Steps are seen all the same, and may end the run.
+    // Steps are reported nevertheless, and may end the run.
     let mut rows = 0;
     let stopped = plan
         .simulate_watched(
@@ -227,7 +227,8 @@ fn rows_that_nobody_wants_are_not_computed() {
     assert!(stopped.t < 2.0 && rows == 1, "{} {rows}", stopped.t);
 }
 
-/// A pendulum: the same steps, and rows that miss the pivot by no more than the tolerance.
+/// A pendulum: the same steps, and interpolated rows that violate the hinge constraint by at most
+/// the tolerance.
 #[test]
 fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
     let p = scene(|d| pendulum(d, "bob", 0.0));
@@ -259,8 +260,8 @@ fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
     assert!(0.0 < largest && largest < 1e-6, "{largest:e}");
 }
 
-/// A mass of 1 kg on a spring of 1 N/m, let go at 1 m and at 10 µm: `x = x₀·cos t`, which runs
-/// without stated tolerances follow to a part in 10⁷, and to a nanometre.
+/// A mass of 1 kg on a spring of 1 N/m, released at 1 m and at 10 µm: `x = x₀·cos t`. Runs with
+/// default tolerances are accurate to 1e-7 and to a nanometre, respectively.
 #[test]
 fn motions_without_stated_tolerances_have_the_digits_that_are_read() {
     for (x_0, most) in [(1.0, 1e-7), (1e-5, 1e-9)] {
@@ -344,8 +345,8 @@ fn components_move_as_they_do_alone_and_each_at_its_own_pace() {
 
 #[test]
 fn the_first_component_to_stop_stops_all() {
-    // An arm of length 1 turns down, away from a rail at 0.8 that its rod of length 1 reaches as
-    // long as sin t < 0.2.
+    // An arm of length 1 rotates downwards, away from a rail at 0.8; its rod of length 1 reaches
+    // the rail as long as sin t < 0.2.
     let p = scene(|d| {
         pendulum(d, "bob", 0.0);
         d.bodies.push(body("arm", [9.5, 0.0]));
@@ -398,7 +399,7 @@ fn the_first_component_to_stop_stops_all() {
     assert_eq!(rows.len(), (stopped / 0.05).floor() as usize + 1);
 }
 
-/// Calls of the kernels of the first joint in a run with this plan, the start left out.
+/// Calls of the kernels of the first joint in a run with this plan, without the start.
 fn calls(
     build: impl FnOnce(&mut Description),
     options: &MotionOptions,
@@ -447,7 +448,7 @@ fn a_component_does_not_work_for_another() {
         pendulum(d, "bob", 0.0);
         stiff(d);
     };
-    // Rows that are passed on together are computed in advance: only the requested values.
+    // For rows that are passed on together, only the requested values are computed in advance.
     let wanted = OutputRequest {
         accelerations: false,
         ..OutputRequest::default()
@@ -459,8 +460,8 @@ fn a_component_does_not_work_for_another() {
     assert!(with == alone, "{} and {} of C", with.c, alone.c);
 }
 
-/// A block on a rail through the ground that rises by 0.6 in 1, pushed along it by a drive, with a
-/// weight that hangs from it.
+/// A block on a rail through the ground with a slope of 0.6 in 1. A drive moves it along the rail,
+/// and a weight is suspended from the block.
 fn guided(d: &mut Description) {
     let axis = Direction::new([0.8, 0.6]).expect("a direction");
     let [block, held, bob] = [0, 1, 2].map(BodyRef::Body);
@@ -472,7 +473,7 @@ fn guided(d: &mut Description) {
     d.bodies.push(body("bob", [1.0, -1.0]));
     let rail = Translational::new([0.0; 2], [0.3, 0.2], axis);
     let mut rail = Joint::new("rail", &[GROUND, block], rail);
-    // The point of the block that slides is on the rail.
+    // The sliding point of the block is on the rail.
     d.bodies[0].position = [
         -(0.7_f64.cos() * 0.3 - 0.7_f64.sin() * 0.2),
         -(0.7_f64.sin() * 0.3 + 0.7_f64.cos() * 0.2),
@@ -524,7 +525,7 @@ fn bodies_that_do_not_turn_have_one_sine_and_cosine() {
             &OutputRequest::default(),
         );
         assert_eq!(seen.sines.len(), 1, "joint {turn}: {:?}", seen.sines);
-        // Rows of angles have constant C and no Γ.
+        // Rows of angles have a constant C and no Γ.
         assert_eq!((seen.c == 0, seen.gamma == 0), (turn == 1, turn == 1));
         assert!(seen.phi > 0);
     }
@@ -546,16 +547,16 @@ fn too_many_components_stay_one() {
     let (n, reason) = components(&free(257));
     assert_eq!(
         (n, reason.split(',').next()),
-        (1, Some("257 do not feel each other"))
+        (1, Some("257 independent components"))
     );
-    // They fall all the same.
+    // The bodies fall nevertheless.
     let (rows, _) = record(&free(256), &to(1.0));
     let fallen = rows.last().expect("there are rows").1[3 * 40 + 1];
     assert!((fallen + 0.5 * 9.81).abs() < 1e-12, "{fallen}");
 }
 
-/// Free bodies that are too many for threads of their own are solved as one: no matrix of all their
-/// velocities is made.
+/// If there are too many free bodies for separate threads, they are solved together, without a
+/// matrix of all their velocities.
 #[test]
 fn free_bodies_take_memory_in_proportion() {
     let of = |count: usize| {
@@ -567,6 +568,6 @@ fn free_bodies_take_memory_in_proportion() {
     };
     let (few, many) = (of(400), of(4000));
     assert!(many < 11 * few, "{few} and {many} bytes");
-    // Some hundred numbers of eight bytes for each of the velocities.
+    // Some hundred numbers of eight bytes for each velocity.
     assert!(many < 4000 * 3 * 256 * 8, "{many} bytes");
 }

@@ -1,5 +1,5 @@
 //! The state as a function of time, for mechanisms without a degree of freedom: stages are moved
-//! onto the constraints, and in a step no time is evaluated twice.
+//! onto the constraint manifold, and no time is evaluated twice in a step.
 
 use crate::error::MotionFault;
 use crate::limits::REMEMBERED;
@@ -10,14 +10,14 @@ use crate::prepare::PreparedMechanism;
 #[derive(Default)]
 pub(super) struct ByTime {
     times: Vec<f64>,
-    /// The derivatives, one after the other.
+    /// The derivatives, in sequence.
     derivatives: Vec<f64>,
 }
 
 impl ByTime {
-    /// Storage for a run that evaluates derivatives as functions of time, otherwise `None`. It is
-    /// not used with generated code: there the interpreter is called near singular configurations
-    /// only, and the integrator determines the state.
+    /// Work memory for a run that evaluates derivatives as functions of time, otherwise `None`. It
+    /// is not used with generated code: then the interpreter is called only near singular
+    /// configurations, and the integrator determines the state.
     pub(super) fn for_run(prepared: &PreparedMechanism, options: &MotionOptions) -> Option<Self> {
         let is_interpreted = prepared.code_for(options).is_err();
         (is_interpreted && prepared.is_function_of_time(options)).then(Self::default)
@@ -42,7 +42,8 @@ impl ByTime {
         Ok(())
     }
 
-    /// Takes the derivative at the end of a step if a stage was at this time; clears the storage.
+    /// Copies the derivative at the end of a step if a stage was at this time; clears the stored
+    /// values.
     pub(super) fn take(&mut self, t: f64, dy: &mut [f64]) -> bool {
         let is_known = self.copy(t, dy);
         self.forget();
@@ -57,7 +58,7 @@ impl ByTime {
         true
     }
 
-    /// Clears the storage, because the state jumps.
+    /// Clears the stored values, because the state jumps.
     pub(super) fn forget(&mut self) {
         self.times.clear();
         self.derivatives.clear();

@@ -1,4 +1,4 @@
-//! What the caller of a run is asked and reported, and the error that it is given.
+//! Functions of the caller that a run calls, and the error that the run returns.
 
 use std::ops::ControlFlow;
 
@@ -7,7 +7,7 @@ use integrators::{Cause, IntegrationError};
 use super::sample::Sample;
 use crate::error::{MotionError, MotionFault};
 
-/// Receives each row. A trait object, so that a run is compiled once, here, and not for each
+/// Receives each row. It is a trait object, so that a run is compiled once, here, and not for each
 /// caller.
 pub(super) type ShowRow<'r> =
     dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + 'r;
@@ -15,11 +15,11 @@ pub(super) type ShowRow<'r> =
 /// Receives the time (s) of each accepted step of each component, and may end the run.
 pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
 
-/// Whether the caller wants a run to end. Asked at each evaluation, by all threads of a run, so
-/// that it is heard within a step; it should cost no more than reading a flag.
+/// Whether the caller wants a run to end. All threads of a run call this function at each
+/// evaluation, so that a run ends within a step; a call should cost no more than reading a flag.
 pub type Stop<'w> = dyn Fn() -> bool + Sync + 'w;
 
-/// The cause behind a collapsed step, if it is ours.
+/// The cause of a collapsed step size, if it is an error of this crate.
 pub(super) fn named(error: IntegrationError<MotionFault>) -> MotionError {
     match error {
         IntegrationError::StepSizeCollapsed {

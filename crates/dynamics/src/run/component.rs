@@ -1,4 +1,5 @@
-//! The run of one component of a plan: its integration, its rows, and the reason if it stops.
+//! The run of one component of a plan: its integration, its output rows, and the reason if it
+//! stops.
 
 use std::time::Instant;
 
@@ -22,7 +23,7 @@ use crate::options::MotionOptions;
 use crate::plan::{self, ComponentPlan, Plan, Verdicts};
 use crate::prepare::PreparedMechanism;
 
-/// The failure of a run that has not begun.
+/// The failure of a run that has not started.
 pub(super) fn not_begun(error: MotionError) -> Box<Failure> {
     let summary = Summary::default();
     Box::new(Failure { error, summary })
@@ -63,8 +64,8 @@ pub(super) fn run_component(
         .iter()
         .filter_map(|group| component.share(group))
         .collect();
-    // Verdicts are those of the whole mechanism, also where the reactions of other components are
-    // wanted alone.
+    // Verdicts refer to the whole mechanism, even if only the reactions of other components are
+    // requested.
     let has_verdicts = plan
         .components
         .iter()
@@ -131,8 +132,8 @@ pub(super) fn run_component(
     Err(Box::new(Failure { error, summary }))
 }
 
-/// What solves for the choices of a plan in one of its components; `None` if none is requested, or
-/// no reaction.
+/// The solver for the choices of a plan in one of its components; `None` if no choice or no
+/// reaction is requested.
 fn carried_choices<'p>(
     plan: &Plan<'_>,
     component: &'p ComponentPlan<'_>,
@@ -154,9 +155,9 @@ fn carried_choices<'p>(
     Ok(Some(carried))
 }
 
-/// Within a stated tolerance data explain what joints miss where drives move them, so that no
-/// dropped row shows during the run that a drive prescribes what joints forbid: it does not begin
-/// then.
+/// Within a stated tolerance, the data explain the violation of joints that drives move. Then no
+/// redundant row shows during the run that a drive prescribes a motion which joints prevent; so the
+/// run does not start in this case.
 fn drives_agree(prepared: &PreparedMechanism, t_end: f64) -> Result<(), MotionError> {
     if !prepared.may_miss {
         return Ok(());
@@ -168,7 +169,8 @@ fn drives_agree(prepared: &PreparedMechanism, t_end: f64) -> Result<(), MotionEr
     }
 }
 
-/// Refuses a start at which second order excludes the acceleration that the loads cause.
+/// Rejects a start at which the constraints exclude, at second order, the acceleration that the
+/// loads cause.
 fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
     let (mechanism, decision) = (&prepared.mechanism, &prepared.decision);
     let layout = mechanism.layout();
@@ -180,7 +182,7 @@ fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
     mechanism.pose(0.0, q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    // What is redundant within a stated tolerance only is not redundant here.
+    // Rows that are redundant only within a stated tolerance do not count as redundant here.
     let Ok(decision) = decide_dropping(mechanism, &s, q, &decision.dropped) else {
         return Ok(());
     };
@@ -191,15 +193,15 @@ fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
     }
 }
 
-/// If drives contradict each other or prescribe what joints forbid, names these drives as the cause
-/// of a violated dropped row, whichever row was dropped.
+/// If drives contradict each other or prescribe a motion that joints prevent, reports these drives
+/// as the cause of a violated redundant row, whichever row was redundant.
 fn of_drives(prepared: &PreparedMechanism, t_end: f64, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow { time, .. }) = &error else {
         return error;
     };
     let mechanism = &prepared.mechanism;
-    // Drives that barely differ at this time are compared at a later one, where they differ
-    // clearly.
+    // Drives whose values barely differ at this time are compared at a later time, at which they
+    // differ clearly.
     match contradicting_drives_along(mechanism, &prepared.q, t_end).unwrap_or_default() {
         Some(contradiction) => MotionFault::Drives {
             time: *time,
@@ -210,8 +212,8 @@ fn of_drives(prepared: &PreparedMechanism, t_end: f64, error: MotionError) -> Mo
     }
 }
 
-/// If drives prescribe what no configuration near the last state satisfies, names these drives as
-/// the cause why the steps end there, whichever row or number was found first.
+/// If drives prescribe values that no configuration near the last state can reach, reports these
+/// drives as the cause of the stop, whichever row or number was found first.
 fn at_drive_limit(
     prepared: &PreparedMechanism,
     (t, y): (f64, &[f64]),
@@ -248,8 +250,8 @@ fn at_drive_limit(
     }
 }
 
-/// Checks whether a violated dropped row is redundant at the start only; then it does not
-/// contradict any other row.
+/// Checks whether a violated redundant row is redundant only at the start; then it contradicts no
+/// other row.
 fn at_singular_start(prepared: &PreparedMechanism, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow {
         time,
@@ -274,7 +276,7 @@ fn at_singular_start(prepared: &PreparedMechanism, error: MotionError) -> Motion
     }
 }
 
-/// The times of the rows.
+/// The times of the output rows.
 fn output_times(plan: &Plan<'_>) -> OutputTimes {
     let t_end = plan.options().t_end;
     match plan.rows.value {

@@ -1,22 +1,22 @@
 //! The energy balance of a run: kinetic energy and potential of the weight, compared with the
-//! measured work.
+//! computed work.
 
 use model::Mechanism;
 
 use crate::limits::ENERGY_ROUNDINGS;
 
-/// Energy at the start, and the largest gap of the balance.
+/// Energy at the start, and the largest error of the balance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EnergyBalance {
     start: f64,
     largest_kinetic: f64,
     largest_gap: f64,
-    /// Rounding of the largest potential (J).
+    /// Rounding error of the largest potential (J).
     rounding: f64,
 }
 
 impl EnergyBalance {
-    /// Takes the energy at the start of a run.
+    /// Stores the energy at the start of a run.
     pub(super) fn new(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Self {
         let kinetic = mechanism.kinetic_energy(v);
         Self {
@@ -27,7 +27,7 @@ impl EnergyBalance {
         }
     }
 
-    /// Takes a state on the constraints and the work up to it (J).
+    /// Adds a state on the constraint manifold and the work up to it (J).
     pub(super) fn note(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64], work: f64) {
         let kinetic = mechanism.kinetic_energy(v);
         let gap = kinetic + mechanism.potential_energy(q) - self.start - work;
@@ -36,7 +36,7 @@ impl EnergyBalance {
         self.rounding = larger(self.rounding, rounding(mechanism, q));
     }
 
-    /// The largest gap (J); zero for a motion at rest, where it is rounding beside rounding.
+    /// The largest energy error (J); zero for a motion at rest, for which it is a rounding error.
     pub(super) fn largest_gap(&self) -> f64 {
         if self.largest_gap.max(self.largest_kinetic) <= self.rounding {
             0.0
@@ -51,7 +51,7 @@ impl EnergyBalance {
     }
 }
 
-/// Rounding of the potential of the weight at q (J).
+/// Rounding error of the potential of the weight at q (J).
 fn rounding(mechanism: &Mechanism, q: &[f64]) -> f64 {
     let space = mechanism.space();
     let of_body = |body: usize| -> f64 {
@@ -72,7 +72,7 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-/// A gap relative to a kinetic energy; zero if both are zero.
+/// An energy error relative to a kinetic energy; zero if both are zero.
 pub(super) fn relative(gap: f64, kinetic: f64) -> f64 {
     if gap > 0.0 || gap.is_nan() {
         gap / kinetic
@@ -89,7 +89,7 @@ mod tests {
     fn what_cannot_be_balanced_is_not_balanced() {
         assert_eq!(larger(larger(1.0, 2.0), 0.5), 2.0);
         assert!(larger(larger(1.0, f64::NAN), 3.0).is_nan());
-        // ½·m·v² beyond the largest number: ∞ − ∞.
+        // ½·m·v² larger than the largest number: ∞ − ∞.
         assert!(relative(f64::INFINITY - f64::INFINITY, f64::INFINITY).is_nan());
         assert_eq!(relative(0.0, 0.0), 0.0);
     }

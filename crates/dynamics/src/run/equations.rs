@@ -1,5 +1,9 @@
 //! The differential equation of a run: y = [q; v], and the work of drives and applied forces if
-//! there are any. Steps are projected; if a rate jumps, the velocities jump as well.
+//! there are any. Steps are projected. If a rate jumps, the velocities also jump.
+//!
+//! All methods integrate this state. For implicit methods f reads only the independent entries of y
+//! (`reduced`). Projection, dense output, output rows and changes of the independent coordinates
+//! use the full state.
 
 use std::ops::ControlFlow;
 
@@ -25,36 +29,37 @@ use crate::prepare::PreparedMechanism;
 use crate::solve::Misfit;
 use crate::watch::{Next, Now, are_delicate};
 
-/// Who leads over singular configurations.
+/// The integration method near singular configurations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Leader {
-    /// The method of the run.
+    /// The method of the run integrates throughout.
     Alone,
-    /// The method of the run, until one is near; `is_due` if a step has met one unforeseen.
+    /// The method of the run integrates up to a singular configuration; `is_due` if a step has
+    /// reached one without a prediction.
     HandsOver { is_due: bool },
-    /// The method that passes them.
+    /// The method that steps over singular configurations integrates.
     Passes,
 }
 
-/// The equations of a run with what is noted on the way.
+/// The equations of a run, with its record.
 pub(super) struct RunEquations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
     pub(super) record: Record,
-    /// Output requested at rows.
+    /// Values requested at output rows.
     wanted: AtRows,
-    /// Choices requested at rows, with what solves for them.
+    /// Choices of multipliers requested at output rows, with their solvers.
     choices: &'m [NamedChoice],
     carried_choices: Option<CarriedChoices<'m>>,
-    /// Verdicts on the way, if reactions are requested.
+    /// Verdicts during the run, if reactions are requested.
     verdicts: Option<RunVerdicts<'m>>,
     /// Linear systems of implicit methods, allocated by their first step.
     reduced: Option<ReducedJacobian>,
     until: EndCondition<'m>,
     passing: Passing,
     /// Whether stages of the present step were evaluated by generated code that is no longer in
-    /// use; then the step begins again.
+    /// use; then the step starts again.
     is_void: bool,
-    /// The function that has ended the run by having no value.
+    /// The fault of the external function that ended the run because it returned no value.
     pub(super) failed: Option<MotionFault>,
     /// Derivatives as functions of time, for a mechanism without degrees of freedom.
     by_time: Option<ByTime>,
@@ -63,17 +68,17 @@ pub(super) struct RunEquations<'m> {
     scratch: Scratch,
 }
 
-/// How the run goes through singular configurations.
+/// Treatment of singular configurations in a run.
 struct Passing {
     leader: Leader,
-    /// Whether coordinates are so large relative to the mechanism that their rounding shows in
-    /// stages on the way to a singular configuration.
+    /// Whether coordinates are so large relative to the mechanism that their rounding errors affect
+    /// stages before a singular configuration.
     is_coarse: bool,
-    /// Whether the stages of the present step are moved onto the constraints.
+    /// Whether the stages of the present step are moved onto the constraint manifold.
     is_careful: bool,
 }
 
-/// When the run ends.
+/// Conditions at which the run ends.
 struct EndCondition<'m> {
     t_end: f64,
     stop: &'m Stop<'m>,
@@ -82,7 +87,7 @@ struct EndCondition<'m> {
 struct Scratch {
     /// The state before a projection.
     before: Vec<f64>,
-    /// A stage on the constraints.
+    /// A stage on the constraint manifold.
     stage: Vec<f64>,
 }
 
@@ -137,13 +142,13 @@ impl<'m> RunEquations<'m> {
         equations
     }
 
-    /// The misfits of dropped rows so far.
+    /// The constraint violations of redundant rows so far.
     pub(super) fn misfits(&self) -> Vec<Misfit> {
         let misfits = self.motion.equations.misfits.as_ref();
         misfits.map_or_else(Vec::new, |m| m.found().to_vec())
     }
 
-    /// y at the start, before anything is evaluated.
+    /// y at the start, before any evaluation.
     pub(super) fn y0(&self) -> Vec<f64> {
         self.scratch.stage.clone()
     }
@@ -154,9 +159,9 @@ impl<'m> RunEquations<'m> {
         self.by_time.is_some() && self.motion.watch.delicate_time().is_none()
     }
 
-    /// Whether the next stages have to be moved onto the constraints: near singular configurations,
-    /// and if this makes them functions of time. With independent coordinates all stages satisfy
-    /// the constraints; without projection none are moved.
+    /// Whether the next stages must be moved onto the constraint manifold: near singular
+    /// configurations, and if this makes the stages functions of time. With independent
+    /// coordinates, all stages satisfy the constraints; without projection, no stage is moved.
     fn wants_care(&self) -> bool {
         let motion = &self.motion;
         let off = motion.manifold.projects() && motion.independent().is_none();
@@ -165,7 +170,7 @@ impl<'m> RunEquations<'m> {
         off && (self.is_by_time() || is_near)
     }
 
-    /// From here on `leader` leads; on all coordinates, unless it is implicit and chooses
+    /// From now on, `leader` integrates; on all coordinates, unless it is implicit and chooses
     /// independent ones.
     pub(super) fn follow(&mut self, leader: Leader) {
         let KeptRowMotion {
@@ -181,10 +186,11 @@ impl<'m> RunEquations<'m> {
         self.passing.is_careful = self.wants_care();
     }
 
-    /// Whether another method has to lead after an accepted step over these times.
+    /// Whether another method must continue after an accepted step over these times.
     pub(super) fn hands_over(&self, [t0, t]: [f64; 2]) -> bool {
         let delicate = self.motion.watch.delicate_time();
-        // Explicit steps up to it would be far shorter than those of an implicit method.
+        // Explicit steps up to the singular configuration would be far shorter than those of an
+        // implicit method.
         let reach = if self.motion.independent().is_some() {
             IMPLICIT_REACH * (t - t0)
         } else {
@@ -200,7 +206,7 @@ impl<'m> RunEquations<'m> {
     }
 
     /// The work is computed without error control: its error has no weight. It still counts as a
-    /// component of the mean, which loosens the control by the factor √((n + 1)/n).
+    /// component of the mean error; this loosens the control by the factor √((n + 1)/n).
     pub(super) fn tolerance(&self, options: &MotionOptions) -> Tolerance {
         let (rtol, atol) = (options.rtol, options.atol);
         let moving = self.motion.parts(&self.scratch.stage);
@@ -214,8 +220,8 @@ impl<'m> RunEquations<'m> {
         Tolerance::PerComponent { rtol, atol }
     }
 
-    /// Projects a row of output, if states are projected, and passes it on. At a break time it is
-    /// the state just before.
+    /// Projects an output row, if states are projected, and passes it to the caller. At a break
+    /// time it is the state just before.
     pub(super) fn show(
         &mut self,
         t: f64,
@@ -228,8 +234,8 @@ impl<'m> RunEquations<'m> {
             t
         };
         let (q, v, _) = self.motion.parts_mut(y);
-        // With independent coordinates only these are interpolated, and generated code uses its own
-        // coordinates.
+        // If the motion uses independent coordinates, only these are interpolated; generated code
+        // uses its own coordinates.
         let is_whole = self.motion.independent().is_none() && !self.motion.is_on_code();
         self.lead_completion(t);
         let found = if self.wanted.on_constraints || !is_whole {
@@ -290,13 +296,14 @@ impl<'m> RunEquations<'m> {
         (&mut self.motion, reduced)
     }
 
-    /// Takes an accepted step, for the rows within it.
+    /// Stores an accepted step for the output rows within it.
     pub(super) fn take_step(&mut self, times: [f64; 2], ends: [&[f64]; 4]) {
         self.last.take(times, ends);
     }
 
-    /// Cuts the verdicts at the events of an accepted step, which are those from `first_event` on.
-    /// Returns times between two cuts between which nothing else is looked at.
+    /// Starts new intervals of verdicts at the events of an accepted step, which are the events
+    /// from `first_event` on. Returns one time between each two interval boundaries without another
+    /// evaluation of verdicts.
     pub(super) fn cut_verdicts(&mut self, times: [f64; 2], first_event: usize) -> Vec<f64> {
         let ends_there = times[1] == self.until.t_end || self.is_break(times[1]);
         let Some(verdicts) = &mut self.verdicts else {
@@ -307,8 +314,8 @@ impl<'m> RunEquations<'m> {
         verdicts.cut(&cuts, times, ends_there)
     }
 
-    /// Reads the verdicts at a time within an accepted step, ahead of its rows. A state that is not
-    /// on the constraints is moved there first.
+    /// Computes the verdicts at a time within an accepted step, before its output rows. A state
+    /// that violates the constraints is moved onto the constraint manifold first.
     pub(super) fn judge_ahead(
         &mut self,
         t: f64,
@@ -338,12 +345,12 @@ impl<'m> RunEquations<'m> {
         looked
     }
 
-    /// Whether verdicts are read on the way.
+    /// Whether verdicts are computed during the run.
     pub(super) fn reads_verdicts(&self) -> bool {
         self.verdicts.as_ref().is_some_and(RunVerdicts::may_change)
     }
 
-    /// Whether verdicts are read at the end of the accepted step.
+    /// Whether verdicts are computed at the end of the accepted step.
     pub(super) fn reads_verdicts_at_step(&self) -> bool {
         let verdicts = self.verdicts.as_ref();
         verdicts.is_some_and(RunVerdicts::are_wanted_at_step)
@@ -364,8 +371,8 @@ impl<'m> RunEquations<'m> {
         Some(verdicts.finish(&self.motion, groups, to))
     }
 
-    /// The reason why steps have collapsed at time t, if it is known: a singular configuration
-    /// nearby, or a dropped row.
+    /// The reason why the step size has collapsed at time t, if there is one: a singular
+    /// configuration nearby, or a redundant row.
     pub(super) fn cause(
         &mut self,
         error: &IntegrationError<MotionFault>,
@@ -373,8 +380,8 @@ impl<'m> RunEquations<'m> {
     ) -> Option<MotionFault> {
         let motion = &mut self.motion;
         match error {
-            // Error control fails near a singular configuration because accelerations are rounding
-            // there.
+            // Error control fails near a singular configuration, because accelerations are rounding
+            // errors there.
             IntegrationError::StepSizeCollapsed { .. }
                 if are_delicate(&motion.equations.velocity) =>
             {
@@ -385,8 +392,8 @@ impl<'m> RunEquations<'m> {
         }
     }
 
-    /// If generated code was left, the interpreter continues from the last accepted state as if it
-    /// had computed that state.
+    /// If the motion stopped using generated code, the interpreter continues from the last accepted
+    /// state as if it had computed this state.
     fn note_departure(&mut self) {
         let motion = &mut self.motion;
         if let Some(code) = &mut motion.code
@@ -399,15 +406,16 @@ impl<'m> RunEquations<'m> {
         }
     }
 
-    /// Ends the run if a called function has no value.
+    /// Ends the run if an external function returns no value.
     fn note_failure(&mut self, fault: &MotionFault) {
         if matches!(fault, MotionFault::Function { .. }) {
             self.failed.get_or_insert_with(|| fault.clone());
         }
     }
 
-    /// Within the last accepted step, states on independent coordinates are completed from where
-    /// the step leads: what the integrator carries for the others is a guess over a whole step.
+    /// Within the last accepted step, the completion of states on independent coordinates starts
+    /// from the interpolated path of the step. The integrator's values of the dependent coordinates
+    /// are estimates over a whole step.
     fn lead_completion(&mut self, t: f64) {
         if let Some(coordinates) = &mut self.motion.manifold.coordinates
             && let Some(led) = self.last.lead(t)
@@ -495,7 +503,7 @@ impl<'m> RunEquations<'m> {
                 coordinates.check_travel(&equations.at, (step.t_rhs, q, v))?;
             }
         }
-        // From here on the step is accepted.
+        // From here on, the step is accepted.
         motion.equations.accept_misfits(true);
         self.record.note(mechanism, (q, v, work(q, v, y)), found);
         let layout = mechanism.layout();
@@ -551,17 +559,17 @@ fn now<'a>(mechanism: &Mechanism, t: f64, y: &'a [f64], dy: &'a [f64]) -> Now<'a
     Now { t, q, v, a }
 }
 
-/// Work of drives and applied forces (J), if y contains it.
+/// Work of drives and applied forces (J), if y contains the work.
 fn work(q: &[f64], v: &[f64], y: &[f64]) -> f64 {
     y.get(q.len() + v.len()).copied().unwrap_or(0.0)
 }
 
-/// Checks that a row of output y = [q; v; …] has finite numbers: even between finite ends of a
-/// step, sums may overflow.
+/// Checks that an output row y = [q; v; …] has finite numbers: sums may overflow even if both ends
+/// of a step are finite.
 fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), MotionFault> {
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
     let y = &y[..n_q + n_v];
-    // x·0 is NaN exactly for NaN and infinities.
+    // x·0 is NaN if and only if x is NaN or infinite.
     if y.iter().map(|x| x * 0.0).sum::<f64>() == 0.0 {
         return Ok(());
     }
@@ -639,7 +647,7 @@ impl Ode for RunEquations<'_> {
         self.motion.watch.delicate(self.motion.equations.at.size)
     }
 
-    /// If rates jump, an impulse of the constraints makes the velocities jump.
+    /// If rates jump, an impulse of the constraints causes a jump of the velocities.
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), MotionFault> {
         self.by_time.iter_mut().for_each(ByTime::forget);
         let (q, v, work) = self.motion.parts_mut(y);

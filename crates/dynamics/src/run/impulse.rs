@@ -1,6 +1,9 @@
 //! If a drive changes its rate instantaneously, an impulse of the constraints changes the
 //! velocities by the smallest change in the mass metric that satisfies the new rates. A jump of the
-//! prescribed position itself would need an infinite force and is refused.
+//! prescribed position itself would need an infinite force and is rejected.
+//!
+//! The energy of the impulse is part of the energy balance and is reported as an event. Output rows
+//! at a break time contain the values just before it.
 
 use model::System;
 
@@ -14,12 +17,13 @@ use crate::solve::Evaluation;
 pub(crate) struct Impulse {
     /// Work of the impulse (J).
     pub(crate) energy: f64,
-    /// Multipliers Λ of all rows (N·s, N·m·s), `M·(v⁺ − v⁻) + Cᵀ·Λ = 0`; zero on dropped rows.
+    /// Multipliers Λ of all rows (N·s, N·m·s), `M·(v⁺ − v⁻) + Cᵀ·Λ = 0`; zero for redundant rows.
     pub(crate) multipliers: Vec<f64>,
     pub(crate) event: Event,
 }
 
-/// Computes the velocities just after a break time from those just before; t is just after it.
+/// Computes the velocities just after a break time from the velocities just before it; t is just
+/// after it.
 ///
 /// # Errors
 /// [`MotionFault::PositionJump`] if a constraint requires another position; otherwise as
@@ -31,7 +35,7 @@ pub(super) fn cross_break(
 ) -> Result<Option<Impulse>, MotionFault> {
     let at = &mut motion.equations.at;
     let (mechanism, layout) = (at.mechanism, at.mechanism.layout());
-    // Residuals that a state without projection already has are not jumps.
+    // Residuals that a state without projection already has do not count as jumps.
     let before = t.next_down();
     let [phi, rate] = change(at, [before.next_down(), t], q, v);
     let wide = WIDE * f64::EPSILON * before.abs().max(f64::MIN_POSITIVE);
@@ -85,8 +89,7 @@ pub(super) fn cross_break(
     }))
 }
 
-/// Change of Φ and C·v − b of a fixed state between two times, which comes from functions of time
-/// only.
+/// Change of Φ and C·v − b for a fixed state between two times; only functions of time cause it.
 fn change(at: &mut Evaluation<'_>, times: [f64; 2], q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
     let [[phi_from, rate_from], [phi, rate]] = times.map(|t| {
         at.pose_and_phi(t, q);

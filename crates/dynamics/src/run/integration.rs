@@ -1,10 +1,10 @@
-//! The integration of one component: its method, and another one over singular configurations.
+//! The integration of one component: its method, and another method over singular configurations.
 //!
-//! Near a singular configuration accelerations are quotients of two small numbers, so a step has to
-//! pass it from as far away as it can. `dop853` passes with the longest steps; implicit methods do
-//! not pass at all, because their coordinates cease to be independent. So every other method stops
-//! before a singular configuration that is foreseen, `dop853` passes it, and the method goes on
-//! behind it.
+//! Near a singular configuration, accelerations are quotients of two small numbers, so the step
+//! over it must start and end as far away from it as possible. `dop853` makes the longest steps
+//! over it. Implicit methods cannot step over it at all, because their coordinates become
+//! dependent. Therefore every other method stops before a predicted singular configuration,
+//! `dop853` steps over it, and the method of the run continues after it.
 
 use std::ops::ControlFlow;
 
@@ -19,21 +19,21 @@ use super::passages;
 use crate::error::{MotionError, MotionFault};
 use crate::options::Method;
 
-/// A run on its way.
+/// A run during its integration.
 pub(super) struct Run<'r, 'm> {
     pub(super) equations: RunEquations<'m>,
-    /// Rows that are still to be shown.
+    /// Output rows that are not yet passed to the caller.
     rows: Rows,
     row: &'r mut ShowRow<'r>,
     watch: &'r Watch<'r>,
-    /// Why it was stopped between two steps.
+    /// Reason why the run was stopped between two steps.
     pub(super) stopped: Option<MotionError>,
 }
 
 type IntegrationResult = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
 
 impl<'r, 'm> Run<'r, 'm> {
-    /// A run that has not begun.
+    /// A run that has not started.
     pub(super) fn new(
         equations: RunEquations<'m>,
         rows: Rows,
@@ -49,7 +49,7 @@ impl<'r, 'm> Run<'r, 'm> {
         }
     }
 
-    /// Integrates from `y0` over the interval and shows its rows.
+    /// Integrates from `y0` over the interval and passes its output rows to the caller.
     pub(super) fn go(
         &mut self,
         method: Method,
@@ -108,7 +108,7 @@ impl<'r, 'm> Run<'r, 'm> {
         }
     }
 
-    /// Shows the row of the start, if there is one.
+    /// Passes the row of the start to the caller, if it is requested.
     fn show_start(&mut self, y0: &[f64]) -> ControlFlow<()> {
         let Self {
             equations,
@@ -120,7 +120,8 @@ impl<'r, 'm> Run<'r, 'm> {
         rows.start(equations, y0, |e, t, y| show(e, (t, y), row, stopped))
     }
 
-    /// Integrates until the end, or until another method has to lead; whether it has.
+    /// Integrates until the end, or until another method must continue; returns whether another
+    /// method must continue.
     fn stretch<M: integrators::Method<RunEquations<'m>>>(
         &mut self,
         method: &M,
@@ -170,8 +171,8 @@ impl<'r, 'm> Run<'r, 'm> {
     }
 }
 
-/// Reads the verdicts at an accepted step: at its ends and between its events, which are those from
-/// `first_event` on.
+/// Computes the verdicts at an accepted step: at its ends and between its events, which are the
+/// events from `first_event` on.
 fn judge_ahead(
     step: &mut integrators::Step<'_, RunEquations<'_>>,
     first_event: usize,
@@ -182,7 +183,7 @@ fn judge_ahead(
     let times = [step.t0(), step.t1()];
     for t in step.ode().cut_verdicts(times, first_event) {
         let mut y = step.y0().to_vec();
-        // Times after the begin lie within the step.
+        // Times after the start are within the step.
         let is_begin = t == times[0];
         if is_begin || step.interpolate_accurately(t, &mut y).is_ok() {
             step.ode().judge_ahead(t, &mut y, is_begin)?;
@@ -195,7 +196,7 @@ fn judge_ahead(
     Ok(())
 }
 
-/// Shows a row; a fault ends the run.
+/// Passes a row to the caller; a fault ends the run.
 fn show(
     equations: &mut RunEquations<'_>,
     (t, y): (f64, &mut [f64]),

@@ -1,5 +1,5 @@
-//! Records the singular configurations that the steps of a run have passed: their times, by how
-//! much the rank drops, and whether the motion is unique there.
+//! Records the singular configurations that the steps of a run have passed: their times, the loss
+//! of rank, and whether the motion is unique there.
 
 use integrators::Step;
 use model::System;
@@ -15,7 +15,7 @@ pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
         return;
     }
     for singular in found(step) {
-        // Passages with the same drop of rank have the same result.
+        // Singular configurations with the same loss of rank have the same result.
         if step
             .ode()
             .record
@@ -85,7 +85,7 @@ fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
     found
 }
 
-/// Result of the second-order test of a passage within a step.
+/// Result of the second-order test of a singular configuration within a step.
 fn judge(step: &mut Step<'_, RunEquations<'_>>) -> Option<String> {
     let mechanism = step.ode().motion.mechanism();
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);

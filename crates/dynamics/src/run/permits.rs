@@ -1,9 +1,10 @@
-//! Limits the number of threads that compute at the same time; the others wait for one to pause.
+//! Limits the number of threads that compute at the same time; the others wait until a thread
+//! pauses.
 
 use std::num::NonZeroUsize;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Permits to compute.
+/// A set of permits to compute.
 pub(super) struct Permits {
     free: Mutex<usize>,
     returned: Condvar,
@@ -28,20 +29,20 @@ impl Permits {
         permit
     }
 
-    /// The count stays valid even if a thread has panicked.
+    /// The count remains valid even if a thread has panicked.
     fn free(&self) -> MutexGuard<'_, usize> {
         self.free.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// A permit; it is returned when it is dropped.
+/// A permit; dropping it returns it.
 pub(super) struct Permit<'p> {
     all: &'p Permits,
     is_held: bool,
 }
 
 impl Permit<'_> {
-    /// Runs `wait`, which may wait for other threads, without holding the permit.
+    /// Runs `wait`, which may wait for other threads, without the permit.
     pub(super) fn leave_for<T>(&mut self, wait: impl FnOnce() -> T) -> T {
         self.give_back();
         let found = wait();

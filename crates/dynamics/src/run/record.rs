@@ -17,9 +17,9 @@ pub(super) struct Record {
     pub(super) normalisations: u64,
     pub(super) min_pivot_ratio: f64,
     pub(super) events: Vec<Event>,
-    /// Number of events that rows have shown.
+    /// Number of events that output rows already contain.
     pub(super) shown: usize,
-    /// Whether the motion is unique at a passage, by the number of dependent rows.
+    /// Whether the motion is unique at a singular configuration, by the number of dependent rows.
     pub(super) uniqueness: Vec<(usize, String)>,
 }
 
@@ -38,7 +38,7 @@ impl Record {
         }
     }
 
-    /// Records residuals and energy of a state, and the work up to it (J).
+    /// Records residuals and energy of a state, and the work up to this state (J).
     pub(super) fn note(
         &mut self,
         mechanism: &Mechanism,
@@ -52,7 +52,7 @@ impl Record {
         }
     }
 
-    /// The recorded uniqueness of passages with this number of dependent rows.
+    /// The recorded uniqueness at singular configurations with this number of dependent rows.
     pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {
         let known = self.uniqueness.iter().find(|(d, _)| *d == dependent);
         known.map(|(_, words)| words.as_str())

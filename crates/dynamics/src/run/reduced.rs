@@ -1,9 +1,9 @@
 //! The Jacobian of the motion on independent coordinates, and the linear systems of implicit
 //! methods.
 //!
-//! `f(y) = F(P·y)` depends on w = [z; u] only, so `∂f/∂y = D·S`, where S reads w from y (if q̇ = v
-//! it selects entries) and D has a column for each entry of w. By implicit differentiation, with
-//! the factors that solve the equations of motion themselves:
+//! The function `f(y) = F(P·y)` depends only on w = [z; u], so `∂f/∂y = D·S`. S reads w from y (if
+//! q̇ = v it selects entries), and D has a column for each entry of w. Implicit differentiation,
+//! with the factors that also solve the equations of motion, gives:
 //!
 //! | | equation |
 //! | --- | --- |
@@ -11,12 +11,13 @@
 //! | velocities | `C·dv = −∂(C·v − b)/∂q·dq`, dv given on u |
 //! | accelerations | `M·da + Cᵀ·dλ = ∂(Q − Cᵀ·λ)/∂q·dq + ∂Q/∂v·dv`, `C·da = −∂(C·a − Γ)/∂q·dq + ∂Γ/∂v·dv` |
 //!
-//! `(σ·I − D·S)·x = r` needs only a factorisation of the order of w, `(σ·I − S·D)·x_w = r_w`. The
-//! dependent entries of x are only a guess for completions, so they follow from x_w as those of dq
-//! and dv do. If they were computed from the exact solution, `σ·x = r + D·x_w`, Newton's method
-//! would see the stiff forces outside the slow motion through all levers of the mechanism, and
-//! would fail to converge although w has converged. Along the normals of the coordinates, along
-//! which no pose changes, f does not depend on y; there the exact solution `σ·x = r` is used.
+//! The system `(σ·I − D·S)·x = r` needs only a factorisation of the order of w,
+//! `(σ·I − S·D)·x_w = r_w`. The dependent entries of x are only estimates for completions, so they
+//! follow from x_w like the dependent entries of dq and dv. The exact solution, `σ·x = r + D·x_w`,
+//! is not used for them: the stiff forces outside the slow motion would enter Newton's method
+//! through all levers of the mechanism. Then the method would fail to converge although w has
+//! converged. Along the normals of the coordinates, along which no pose changes, f does not depend
+//! on y; the exact solution `σ·x = r` is used there.
 
 use linalg::{Lu, Matrix};
 use model::{Derivatives, Mechanism, System};
@@ -27,7 +28,7 @@ use crate::manifold::Origin;
 use crate::motion::KeptRowMotion;
 use crate::solve::KeptEquations;
 
-/// The Jacobian at one instant, and factors of shifted ones.
+/// The Jacobian at one instant, and factors of shifted Jacobians.
 ///
 /// ```
 /// use pfaff_dynamics::{KeptRowMotion, ReducedJacobian, RowChoice, prepare};
@@ -51,16 +52,17 @@ use crate::solve::KeptEquations;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct ReducedJacobian {
-    /// Storage, made when it is first needed.
+    /// Work memory, allocated at the first use.
     derivatives: Option<Derivatives>,
     partition: ReducedCoordinates,
     /// Row j: column j of D.
     columns: Matrix,
     /// The product S·D.
     on_w: Matrix,
-    /// Row j: change of y with w_j along the constraints, without what feeds nothing back.
+    /// Row j: change of y with w_j along the constraint manifold, without the entries on which no
+    /// rate depends.
     tangents: Matrix,
-    /// Row j: the displacements of the tangent j along the columns of C, n_v.
+    /// Row j: the displacements of tangent j along the columns of C, n_v.
     displacements: Matrix,
     /// Time of the Jacobian.
     time: f64,
@@ -68,21 +70,22 @@ pub struct ReducedJacobian {
     storage: EvaluationStorage,
 }
 
-/// How w is read from y for one choice of independent coordinates.
+/// Computation of w from y for one choice of independent coordinates.
 #[derive(Default)]
 struct ReducedCoordinates {
     generation: u64,
-    /// Number of the configuration against which rotations are read.
+    /// Number of the reference configuration for rotations.
     base: u64,
-    /// Columns of C whose coordinates are independent, and those whose velocities are.
+    /// Columns of C whose coordinates are independent, and columns whose velocities are
+    /// independent.
     z: Vec<usize>,
     u: Vec<usize>,
     /// Row j of S: entry j of w, as indices into y with coefficients.
     reads: Vec<Vec<(usize, f64)>>,
     /// Directions of y along which no pose changes.
     normals: Vec<Vec<(usize, f64)>>,
-    /// Entries of y on which no rate depends, each with an equation of its own: counted angles, of
-    /// which only turns are read, and the work.
+    /// Entries of y on which no rate depends, each with its own equation: unwrapped angles, of
+    /// which only the revolutions are used, and the work.
     quadratures: Vec<usize>,
 }
 
@@ -108,7 +111,7 @@ struct EvaluationStorage {
 }
 
 impl ReducedCoordinates {
-    /// Reads coordinates, and finds the normals, at this configuration.
+    /// Sets this configuration as the reference for coordinates, and computes the normals.
     fn read_from(&mut self, mechanism: &Mechanism, q: &[f64], base: u64) {
         self.base = base;
         for (terms, &z) in self.reads.iter_mut().zip(&self.z) {
@@ -119,7 +122,7 @@ impl ReducedCoordinates {
 }
 
 impl ShiftedFactors {
-    /// Storage for k entries of w.
+    /// Work memory for k entries of w.
     fn new(k: usize) -> Self {
         Self {
             real: Lu::new(k),
@@ -132,7 +135,7 @@ impl ShiftedFactors {
 }
 
 impl ReducedJacobian {
-    /// Allocates storage for a motion; nothing is linearised yet.
+    /// Allocates memory for a motion; the Jacobian is not yet evaluated.
     #[must_use]
     pub fn new(motion: &KeptRowMotion<'_>) -> Self {
         note(WorkKind::LinearSystems);
@@ -158,15 +161,15 @@ impl ReducedJacobian {
         }
     }
 
-    /// Evaluates the Jacobian at t and y, which is completed first. A motion on all coordinates is
+    /// Evaluates the Jacobian at t and y; y is completed first. A motion on all coordinates is
     /// switched to independent ones.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::derivative`], and [`MotionFault::NoDerivatives`]: a force calls a
-    /// function.
+    /// Returns the same errors as [`KeptRowMotion::derivative`], and
+    /// [`MotionFault::NoDerivatives`]: a force calls an external function.
     ///
     /// # Panics
-    /// If y is shorter than n_q + n_v.
+    /// Panics if y is shorter than n_q + n_v.
     pub fn linearise(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -214,11 +217,11 @@ impl ReducedJacobian {
         Ok(())
     }
 
-    /// Linearises and factors again if the partition changed at the beginning of the step: then f
-    /// is another function of y, although the motion is the same.
+    /// Linearises and factors again if the partition changed at the start of the step: then f is
+    /// another function of y, although the motion is the same.
     ///
     /// # Errors
-    /// As [`ReducedJacobian::linearise`] and [`ReducedJacobian::factor`].
+    /// Returns the same errors as [`ReducedJacobian::linearise`] and [`ReducedJacobian::factor`].
     pub(crate) fn follow_partition(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -234,7 +237,8 @@ impl ReducedJacobian {
             if coordinates.bases != own.base {
                 let (mechanism, q) = (motion.mechanism(), &coordinates.base);
                 own.read_from(mechanism, q, coordinates.bases);
-                // The Jacobian in terms of rotations serves on; quaternions have turned.
+                // The Jacobian in terms of rotations remains valid; only the quaternions have
+                // changed.
                 for j in 0..own.reads.len() {
                     let tangent = &mut self.tangents.row_mut(j)[..q.len()];
                     mechanism.rate(q, self.displacements.row(j), tangent);
@@ -261,7 +265,7 @@ impl ReducedJacobian {
         self.columns.transpose()
     }
 
-    /// Takes the partition of the motion, and how w is read from y.
+    /// Stores the partition of the motion, and the computation of w from y.
     fn take_partition(&mut self, motion: &KeptRowMotion<'_>, y: &[f64]) {
         let coordinates = motion.manifold.coordinates.as_ref();
         let coordinates = coordinates.expect("linearise has chosen them");
@@ -367,7 +371,7 @@ impl ReducedJacobian {
     /// Factors `σ·I − ∂f/∂y` for a real σ and a complex one, `[Re σ, Im σ]`.
     ///
     /// # Errors
-    /// [`MotionFault::IterationMatrix`] if one is singular.
+    /// [`MotionFault::IterationMatrix`] if a matrix is singular.
     pub fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), MotionFault> {
         let (k, time, on_w) = (self.partition.reads.len(), self.time, &self.on_w);
         let own = &mut self.shifted;
@@ -391,8 +395,8 @@ impl ReducedJacobian {
         Ok(())
     }
 
-    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ; `x` holds r on entry. Dependent entries follow
-    /// from the independent ones.
+    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ; `x` contains r at the call. Dependent entries
+    /// follow from the independent ones.
     pub fn solve(&mut self, x: &mut [f64]) {
         let Self {
             partition, shifted, ..
@@ -446,7 +450,7 @@ impl ReducedJacobian {
         }
     }
 
-    /// Change along w of the rate of an entry on which nothing depends.
+    /// Change along w of the rate of an entry on which no rate depends.
     fn rate_along(&self, w: &[f64], at: usize) -> f64 {
         w.iter()
             .enumerate()
@@ -470,7 +474,7 @@ impl ReducedJacobian {
     }
 }
 
-/// Storage for the derivatives that implicit methods need.
+/// Work memory for the derivatives that implicit methods need.
 pub(crate) fn derivatives(mechanism: &Mechanism) -> Result<Derivatives, MotionFault> {
     Derivatives::of(mechanism).map_err(|source| MotionFault::NoDerivatives {
         needs: "method radau5 needs",

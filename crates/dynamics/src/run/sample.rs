@@ -1,4 +1,4 @@
-//! One row of output: a state, and values computed from it on request.
+//! One output row: a state, and values computed from it on request.
 
 use model::{Mechanism, Reaction, System};
 use solvability::{CarriedChoices, CarriedSolution, ChoiceError, ChosenValues, NamedChoice};
@@ -7,7 +7,7 @@ use crate::error::MotionFault;
 use crate::events::Event;
 use crate::motion::KeptRowMotion;
 
-/// One row of output: a state on the constraints, and values computed from it on request.
+/// One output row: a state on the constraint manifold, and values computed from it on request.
 pub struct Sample<'s, 'm> {
     /// Time (s).
     pub t: f64,
@@ -17,17 +17,17 @@ pub struct Sample<'s, 'm> {
     pub v: &'s [f64],
     /// Work of drives and applied forces since the start (J), without the weight.
     pub work: f64,
-    /// Events that were found since the row before; their times may be later than that of the row,
-    /// by less than a step.
+    /// Events since the previous row; their times may be later than the time of the row, by less
+    /// than a step.
     pub events: &'s [Event],
-    /// The rows (from 0) whose multipliers are zero by choice in this row of output.
+    /// The rows (from 0) whose multipliers are zero by choice in this output row.
     pub dropped: &'s [usize],
-    /// The choices that are requested besides.
+    /// The additional choices of multipliers that are requested.
     pub choices: &'s [NamedChoice],
     pub(super) source: Source<'s, 'm>,
 }
 
-/// Reactions by a choice, at a row of output.
+/// Reactions for a choice of multipliers, at an output row.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ChosenReactions {
@@ -35,63 +35,63 @@ pub struct ChosenReactions {
     pub multipliers: ChosenValues<f64>,
     /// Reactions of all joints and drives, NaN as in [`Sample::reactions`].
     pub reactions: ChosenValues<Reaction>,
-    /// Why the choice selects no solution here; then all numbers are NaN.
+    /// Reason why the choice selects no solution here; then all numbers are NaN.
     pub refused: Option<ChoiceError>,
 }
 
 /// Source of the other values.
 pub(super) enum Source<'s, 'm> {
-    /// The motion of all bodies.
+    /// The motion of the whole mechanism.
     Motion(OfMotion<'s, 'm>),
     /// Motions of components, which have already computed the values.
     Several(&'s Values),
 }
 
-/// A motion, and the output requested from it.
+/// A motion, and the output requested from this motion.
 pub(super) struct OfMotion<'s, 'm> {
-    /// The time of the row, or the last floating-point number before a break time.
+    /// The time of the output row, or the last floating-point number before a break time.
     pub(super) t_before: f64,
     pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
     pub(super) known: SolveProgress,
-    /// What solves for the requested choices.
+    /// The solver for the requested choices.
     pub(super) choices: Option<&'s CarriedChoices<'m>>,
-    /// Multipliers, once they were asked for.
+    /// Multipliers, once they were requested.
     pub(super) lambda: Option<Vec<f64>>,
-    /// The same for each choice.
+    /// Multipliers and reactions for each choice, once they were requested.
     pub(super) chosen: Option<Vec<OfChoice>>,
 }
 
-/// How far the equations of a row have been solved; they are solved at most once.
+/// Progress of the solution of the equations at an output row; each part is solved at most once.
 pub(super) enum SolveProgress {
     Nothing,
-    /// Rows are factored at the pose of the scratch, which is that of the row.
+    /// Rows are factored at the pose in the scratch memory, which is the pose of the output row.
     Factored,
-    /// The accelerations are known from the last evaluation of the motion.
+    /// The accelerations of the last evaluation of the motion are available.
     Solved(Vec<f64>),
 }
 
-/// Output requested at the rows of a component.
+/// Values requested at the output rows of a component.
 #[derive(Clone, Debug)]
 pub(super) struct AtRows {
-    /// Whether states are moved onto the constraints.
+    /// Whether states are moved onto the constraint manifold.
     pub(super) on_constraints: bool,
     pub(super) accelerations: bool,
     /// Joints and drives whose reactions are requested, ascending.
     pub(super) reactions: Vec<usize>,
 }
 
-/// Values at a row, of a component or of the whole mechanism.
+/// Values at an output row, of a component or of the whole mechanism.
 #[derive(Clone)]
 pub(super) struct Values {
     pub(super) acceleration: Result<Vec<f64>, MotionFault>,
     pub(super) multipliers: Result<Vec<f64>, MotionFault>,
     pub(super) reactions: Result<Vec<Reaction>, MotionFault>,
-    /// By each requested choice.
+    /// Values for each requested choice.
     pub(super) chosen: Result<Vec<OfChoice>, MotionFault>,
 }
 
-/// Numbers by a choice.
+/// Numbers for one choice.
 #[derive(Clone)]
 pub(super) struct OfChoice {
     pub(super) multipliers: Vec<f64>,
@@ -99,11 +99,11 @@ pub(super) struct OfChoice {
     pub(super) refused: Option<ChoiceError>,
 }
 
-/// All requested values of a row, and its rows without multiplier.
+/// All requested values of an output row, and its rows without multiplier.
 pub(super) type RowValues = (Values, Vec<usize>);
 
 impl Sample<'_, '_> {
-    /// All requested values of the row.
+    /// All requested values of the output row.
     pub(super) fn values(&mut self) -> RowValues {
         let values = match &mut self.source {
             Source::Motion(source) => source.values(self.q, self.v),
@@ -112,10 +112,10 @@ impl Sample<'_, '_> {
         (values, self.dropped.to_vec())
     }
 
-    /// Accelerations, NaN if the plan omits them; allocates.
+    /// Accelerations, NaN if the plan omits them; allocates memory.
     ///
     /// # Errors
-    /// If the equations have no unique solution at this state.
+    /// Returns an error if the equations have no unique solution at this state.
     pub fn acceleration(&mut self) -> Result<Vec<f64>, MotionFault> {
         match &mut self.source {
             Source::Motion(source) => source.acceleration(self.q, self.v),
@@ -124,10 +124,10 @@ impl Sample<'_, '_> {
     }
 
     /// Multipliers of all rows as in [`KeptRowMotion::multipliers`]; NaN for rows of joints and
-    /// drives whose reactions the plan omits; allocates.
+    /// drives whose reactions the plan omits; allocates memory.
     ///
     /// # Errors
-    /// If the equations have no unique solution at this state.
+    /// Returns an error if the equations have no unique solution at this state.
     pub fn multipliers(&mut self) -> Result<ChosenValues<f64>, MotionFault> {
         let multipliers = match &mut self.source {
             Source::Motion(source) => source.multipliers(self.q, self.v),
@@ -137,11 +137,11 @@ impl Sample<'_, '_> {
     }
 
     /// Reactions of all joints and drives in the order of their rows; NaN for those that the plan
-    /// omits. Reactions that are not unique belong to the choice of this run (its kept rows) and to
-    /// no other; allocates.
+    /// omits. Reactions that are not unique are valid only for the choice of this run (its
+    /// independent rows); allocates memory.
     ///
     /// # Errors
-    /// If the equations have no unique solution at this state.
+    /// Returns an error if the equations have no unique solution at this state.
     pub fn reactions(&mut self) -> Result<ChosenValues<Reaction>, MotionFault> {
         let reactions = match &mut self.source {
             Source::Motion(source) => source.reactions(self.q, self.v),
@@ -150,11 +150,11 @@ impl Sample<'_, '_> {
         Ok(ChosenValues::new(reactions?, self.dropped.to_vec()))
     }
 
-    /// Multipliers and reactions by each of [`Self::choices`], of the same accelerations. What the
-    /// model determines is the same in all of them; allocates.
+    /// Multipliers and reactions for each of [`Self::choices`], all for the same accelerations.
+    /// Values that the model determines are the same in all of them; allocates memory.
     ///
     /// # Errors
-    /// If the equations have no unique solution at this state.
+    /// Returns an error if the equations have no unique solution at this state.
     pub fn chosen(&mut self) -> Result<Vec<ChosenReactions>, MotionFault> {
         let chosen = match &mut self.source {
             Source::Motion(source) => source.chosen(self.q, self.v).map(<[OfChoice]>::to_vec),
@@ -226,14 +226,14 @@ impl<'m> OfMotion<'_, 'm> {
         vec![f64::NAN; self.motion.mechanism().layout().rows()]
     }
 
-    /// Kept rows that are nearly dependent at this instant have no multipliers.
+    /// Independent rows that are ill-conditioned at this instant have no multipliers.
     fn blind(&self, lambda: &mut [f64]) {
         if self.motion.equations.velocity.relative_pivot() < self.motion.watch.blind() {
             lambda.fill(f64::NAN);
         }
     }
 
-    /// Leaves out what is not requested.
+    /// Sets values that are not requested to NaN.
     fn leave_out(&self, lambda: &mut [f64]) {
         let groups = self.motion.mechanism().layout().groups.iter().enumerate();
         for (_, group) in groups.filter(|(k, _)| !self.wants(*k)) {
@@ -272,7 +272,7 @@ impl<'m> OfMotion<'_, 'm> {
         Ok(self.chosen.insert(chosen))
     }
 
-    /// Solves for the choices on the rows that the motion keeps.
+    /// Solves for the choices with the independent rows of the motion.
     fn choose(
         &mut self,
         choices: &CarriedChoices<'m>,
@@ -282,7 +282,7 @@ impl<'m> OfMotion<'_, 'm> {
         let mut multipliers = self.all_multipliers(q, v)?.to_vec();
         self.motion.equations.factor_at(self.t_before, q)?;
         if self.motion.equations.requested_rows.is_some() {
-            // Those asked for are nearly dependent here.
+            // The requested rows are ill-conditioned here.
             let mut a = vec![0.0; v.len()];
             self.motion.solve_factored(v, &mut a)?;
             self.motion.multipliers_for(&a, &mut multipliers)?;
@@ -329,7 +329,7 @@ impl<'m> OfMotion<'_, 'm> {
     }
 }
 
-/// The reaction of a joint or drive that is not computed.
+/// Reaction of a joint or drive that is not computed.
 pub(super) fn left_out(mechanism: &Mechanism, group: usize) -> Reaction {
     let component = mechanism.layout().groups[group].spec.component;
     let space = mechanism.space();

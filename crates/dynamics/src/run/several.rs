@@ -1,7 +1,8 @@
-//! Independent components, run at the same time: each on its own thread with its own method, steps,
-//! events and break times. Each computes the output that the plan requests and runs ahead of the
-//! others by a limited number of rows; a row is passed on once all components have reached it. How
-//! bodies are assigned to components is decided in `plan::split`.
+//! Independent components that run at the same time: each on its own thread with its own method,
+//! steps, events and break times. Each component computes the output that the plan requests, and
+//! may be ahead of the others by a limited number of output rows. A row is passed to the caller
+//! when all components have reached it. The module `plan::split` decides how bodies are assigned to
+//! components.
 
 use std::ops::ControlFlow;
 use std::sync::mpsc::{Receiver, channel, sync_channel};
@@ -21,7 +22,7 @@ use crate::events::Event;
 use crate::limits::AHEAD;
 use crate::plan::Plan;
 
-/// A row of a component with all requested values.
+/// An output row of a component with all requested values.
 struct Row {
     t: f64,
     q: Vec<f64>,
@@ -31,7 +32,7 @@ struct Row {
     values: RowValues,
 }
 
-/// A component on its thread, as seen by the thread that collects rows.
+/// A component on its thread, as the thread that collects the rows uses it.
 struct Link<'p> {
     places: &'p Places,
     rows: Receiver<Row>,
@@ -39,7 +40,7 @@ struct Link<'p> {
 
 type RunResult = Result<Summary, Box<Failure>>;
 
-/// Runs all components of a plan and passes on their combined rows.
+/// Runs all components of a plan and passes their combined rows to the caller.
 pub(super) fn run(
     plan: &Plan<'_>,
     watched: (&Watch<'_>, &Stop<'_>),
@@ -64,8 +65,8 @@ pub(super) fn run(
             let places = component.places().unwrap_or(&whole);
             let (rows, handle) = match thread::Builder::new().spawn_scoped(scope, work) {
                 Ok(handle) => (rows, Ok(handle)),
-                // The system has no more threads: this one runs the component before it collects
-                // rows, and so has to store them.
+                // The system has no more threads: this thread runs the component before it collects
+                // rows, and therefore must store them.
                 Err(_) => {
                     let (told, rows) = channel();
                     let send = |own| told.send(own).is_ok();
@@ -88,7 +89,7 @@ pub(super) fn run(
     conclude(plan, outcomes, stopped, clock.elapsed().as_secs_f64())
 }
 
-/// The result of a thread; a panic in it is passed on.
+/// The result of a thread; a panic in the thread is passed on.
 fn joined(handle: ScopedJoinHandle<'_, RunResult>) -> RunResult {
     handle
         .join()
@@ -112,8 +113,8 @@ fn tell(sample: &mut Sample<'_, '_>, send: impl Fn(Row) -> bool) -> ControlFlow<
     }
 }
 
-/// Passes on rows as long as all components reach them and the caller continues. Returns the fault
-/// of a row, if one stopped the run.
+/// Passes rows to the caller as long as all components reach them and the caller continues. Returns
+/// the fault of a row, if one stopped the run.
 fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<MotionFault> {
     let mechanism = &plan.prepared().mechanism;
     let layout = mechanism.layout();
@@ -184,7 +185,7 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Mo
     }
 }
 
-/// Collects values of all parts into the whole; the first failure is returned.
+/// Copies values of all parts into the whole; returns the first failure.
 fn gather<T: Copy>(
     own: Result<Vec<T>, MotionFault>,
     places: &[usize],
@@ -197,7 +198,8 @@ fn gather<T: Copy>(
     }
 }
 
-/// The same for the numbers of choices; a component without reactions has none.
+/// Copies the numbers of choices of all parts into the whole; a component without reactions has no
+/// such numbers.
 fn gather_chosen(
     own: Result<Vec<OfChoice>, MotionFault>,
     places: &Places,
@@ -216,14 +218,14 @@ fn gather_chosen(
     }
 }
 
-/// Copies values of a part to their places in the whole.
+/// Copies values of a part to their indices in the whole.
 fn spread<T: Copy>(own: &[T], places: &[usize], whole: &mut [T]) {
     for (x, &place) in own.iter().zip(places) {
         whole[place] = *x;
     }
 }
 
-/// The outcome of the whole mechanism from those of its components.
+/// The result for the whole mechanism from the results of its components.
 fn conclude(
     plan: &Plan<'_>,
     outcomes: Vec<RunResult>,
@@ -263,7 +265,8 @@ fn conclude(
     }
 }
 
-/// The verdicts of the whole mechanism from those of its components; `None` if one has none.
+/// The verdicts on the whole mechanism from the verdicts on its components; `None` if a component
+/// has no verdicts.
 fn verdicts(plan: &Plan<'_>, summary: &Summary) -> Option<Stretches> {
     let mechanism = &plan.prepared().mechanism;
     let mut whole = Stretches::unique(mechanism, [0.0, summary.t], &plan.groups);

@@ -1,5 +1,5 @@
-//! Checks that a row of output lies on the path of its step. The error test checks only the ends of
-//! a step: near a singular configuration, dense output or the completion of its independent entries
+//! Checks that an output row is on the path of its step. The error test checks only the ends of a
+//! step. Near a singular configuration, dense output or the completion of its independent entries
 //! may be on another branch, although it satisfies the constraints.
 
 use model::{Mechanism, System};
@@ -7,12 +7,12 @@ use model::{Mechanism, System};
 use crate::error::MotionFault;
 use crate::limits::{PEAK, ROW_DEVIATION, ROW_DEVIATION_AT_REST};
 
-/// An accepted step: times, and y0, f0, y1, f1.
+/// An accepted step: its times, and y0, f0, y1, f1.
 #[derive(Default)]
 pub(super) struct Span {
     times: [f64; 2],
     ends: [Vec<f64>; 4],
-    /// Sizes with which rows of this step are compared, computed at its first row.
+    /// Sizes with which output rows of this step are compared, computed at its first row.
     sizes: Option<StepScales>,
     led: Vec<f64>,
 }
@@ -22,14 +22,14 @@ pub(super) struct Span {
 struct StepScales {
     /// The longest displacement along a column of C, in units of the mechanism.
     way: f64,
-    /// Momentum in the mass metric: that of the velocities at the ends of the step, and that of a
-    /// uniform motion over the same displacement.
+    /// Momentum in the mass metric: of the velocities at the ends of the step, and of a uniform
+    /// motion over the same displacement.
     speed: f64,
     mean: f64,
 }
 
 impl Span {
-    /// Takes the last accepted step.
+    /// Stores the last accepted step.
     pub(super) fn take(&mut self, times: [f64; 2], ends: [&[f64]; 4]) {
         self.times = times;
         self.sizes = None;
@@ -39,7 +39,7 @@ impl Span {
         }
     }
 
-    /// Checks a projected row y = [q; v; …] at time t; lengths are divided by `size`.
+    /// Checks a projected output row y = [q; v; …] at time t; lengths are divided by `size`.
     ///
     /// # Errors
     /// [`MotionFault::FarRow`]
@@ -94,7 +94,7 @@ impl Span {
         StepScales {
             way,
             speed: momentum(mass, (n_q..n_q + n_v).map(fastest)),
-            // A long step of a drive may begin and end at rest.
+            // A drive may be at rest at both ends of a long step.
             mean: momentum(
                 mass,
                 (0..n_v).map(|j| (way + ROW_DEVIATION_AT_REST) * unit(j) / h),
@@ -102,7 +102,8 @@ impl Span {
         }
     }
 
-    /// Where the step leads at a time t between its ends: the cubic Hermite interpolant of them.
+    /// The predicted path at a time t between the ends of the step: the cubic Hermite interpolant
+    /// of its ends.
     pub(super) fn lead(&mut self, t: f64) -> Option<&[f64]> {
         let [t0, t1] = self.times;
         if !(t0 < t && t < t1) {
@@ -120,7 +121,7 @@ impl Span {
     }
 }
 
-/// The norm of a velocity in the metric of the masses.
+/// The norm of a velocity in the mass metric.
 fn momentum(mass: &[f64], v: impl Iterator<Item = f64>) -> f64 {
     mass.iter()
         .zip(v)
@@ -150,8 +151,8 @@ mod tests {
         Mechanism::build(&description).unwrap()
     }
 
-    /// Whether a row at 0.5 s with coordinate x and velocity v along x is accepted, if a step of 1
-    /// s leads from x = 0 to `way` with the velocities `speed` at both ends.
+    /// Whether an output row at 0.5 s with coordinate x and velocity v along x is accepted. The
+    /// step takes 1 s and moves from x = 0 to `way` with the velocity `speed` at both ends.
     fn is_shown([x, v]: [f64; 2], way: f64, speed: f64) -> bool {
         let state = |x: f64, v: f64| [x, 0.0, 0.0, v, 0.0, 0.0];
         let mut span = Span::default();
@@ -166,10 +167,10 @@ mod tests {
     /// The cubic is at half of the displacement.
     #[test]
     fn rows_lie_where_their_step_leads() {
-        // Deviation by less than a quarter of the displacement.
+        // Deviation of less than a quarter of the displacement.
         assert!(is_shown([0.5 + 0.2, 1.0], 1.0, 1.0));
         assert!(!is_shown([0.5 + 0.3, 1.0], 1.0, 1.0));
-        // At rest, deviation by less than a thousandth of the size.
+        // At rest, deviation of less than a thousandth of the size.
         assert!(is_shown([0.8e-3, 0.0], 0.0, 0.0));
         assert!(!is_shown([1.5e-3, 0.0], 0.0, 0.0));
     }

@@ -1,4 +1,4 @@
-//! Numbers of a run, and of a run with separate components.
+//! Results of a run, and of a run with separate components.
 
 use model::{ConstraintId, Places};
 
@@ -9,89 +9,91 @@ use crate::options::Method;
 use crate::solve::Misfit;
 use solvability::Stretches;
 
-/// Numbers of a run.
+/// Results of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Summary {
     /// Last time reached (s).
     pub t: f64,
-    /// The integrator, given or chosen; `auto` if components have different ones.
+    /// Integration method, given or chosen; `auto` if components have different methods.
     pub method: Method,
     /// Accepted steps.
     pub steps: u64,
     /// Rejected steps.
     pub rejected: u64,
-    /// Evaluations of accelerations, including rejected steps, start, projections and output.
+    /// Number of evaluations of accelerations, including rejected steps, start, projections and
+    /// output.
     pub evaluations: u64,
-    /// Projections of steps.
+    /// Number of projections of steps.
     pub projections: u64,
-    /// Quaternions that had drifted far from length one and were scaled, at accepted steps.
+    /// Number of quaternions that were scaled at accepted steps because their length was far from
+    /// one.
     pub normalisations: u64,
-    /// Factorisations of iteration matrices of implicit methods.
+    /// Number of factorisations of iteration matrices of implicit methods.
     pub factorisations: u64,
     /// Wall-clock time of the integration alone (s).
     pub wall_seconds: f64,
-    /// Largest |Φ| at accepted steps and written rows.
+    /// Largest |Φ| at accepted steps and output rows.
     pub max_position_residual: f64,
-    /// Largest |C·v − b| at accepted steps and written rows.
+    /// Largest |C·v − b| at accepted steps and output rows.
     pub max_velocity_residual: f64,
     /// Largest |E − E₀ − work of drives and applied forces| relative to the largest kinetic energy.
-    /// For components run separately it is an upper bound: the sum of their largest gaps relative
-    /// to the largest of their kinetic energies.
+    /// For components that ran separately it is an upper bound: the sum of their largest energy
+    /// errors relative to the largest of their kinetic energies.
     pub energy_balance: f64,
     /// Largest |E − E₀ − work| (J).
     pub energy_gap: f64,
-    /// Largest kinetic energy (J); for components run separately, the largest of theirs.
+    /// Largest kinetic energy (J); for components that ran separately, the largest kinetic energy
+    /// of any component.
     pub largest_kinetic_energy: f64,
-    /// Smallest pivot ratio of the kept rows at the start and at accepted steps evaluated without
+    /// Smallest pivot ratio of the independent rows at the start and at accepted steps without
     /// generated code.
     pub min_pivot_ratio: f64,
-    /// What rows miss at most that are redundant within a stated tolerance only, by row.
+    /// Largest violations, by row, of the rows that are redundant only within a stated tolerance.
     pub misfits: Vec<Misfit>,
     /// Events of the run.
     pub events: Vec<Event>,
-    /// Verdicts on reactions and groups, by stretches of time; `None` if no reactions were
-    /// requested.
+    /// Verdicts on reactions and groups, by time intervals; `None` if no reactions were requested.
     pub verdicts: Option<Stretches>,
-    /// The rows whose multipliers were zero by choice in rows of output, each from the time on at
-    /// which they were; empty if no reactions were requested.
+    /// The rows whose multipliers were zero by choice in output rows, with the time from which this
+    /// choice was used; empty if no reactions were requested.
     pub dropped: Vec<DroppedRows>,
-    /// Components that were run separately; empty if the mechanism was not split.
+    /// Components that ran separately; empty if the mechanism was not split.
     pub components: Vec<ComponentSummary>,
 }
 
-/// Rows whose multipliers were zero by choice, from a time on.
+/// Rows whose multipliers were zero by choice from some time on.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DroppedRows {
-    /// Time of the first row of output (s).
+    /// Time of the first output row (s).
     pub from: f64,
     /// The rows, from 0, ascending.
     pub rows: Vec<usize>,
 }
 
-/// Numbers of a component that was run separately.
+/// Results of a component that ran separately.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ComponentSummary {
-    /// Its bodies.
+    /// Names of its bodies.
     pub name: String,
-    /// Its places in the whole mechanism.
+    /// Indices of the component in the whole mechanism.
     pub places: Places,
-    /// Its numbers; rows and degrees of redundancy are those of the component.
+    /// Results of the component; rows and degrees of redundancy refer to the component.
     pub summary: Summary,
 }
 
 impl DroppedRows {
-    /// Rows (from 0, ascending) that have no multiplier from a row of output on.
+    /// Rows (from 0, ascending) that have no multiplier from an output row on.
     #[must_use]
     pub fn new(from: f64, rows: Vec<usize>) -> Self {
         Self { from, rows }
     }
 
-    /// Those of components with the rows of the whole mechanism.
+    /// The rows without multiplier of all components, as rows of the whole mechanism.
     pub(super) fn together(components: &[ComponentSummary]) -> Vec<Self> {
         let each = components.iter().map(|c| &c.summary.dropped);
         let mut times: Vec<f64> = each.flatten().map(|dropped| dropped.from).collect();
@@ -111,21 +113,21 @@ impl DroppedRows {
     }
 }
 
-/// A run that stopped early, with the numbers up to there.
+/// A run that stopped early, with the results up to the stop.
 #[derive(Debug, thiserror::Error)]
 #[error("{error}")]
 #[non_exhaustive]
 pub struct Failure {
-    /// Reason why it stopped.
+    /// Reason why the run stopped.
     pub error: MotionError,
-    /// The numbers up to there.
+    /// Results up to the stop.
     pub summary: Summary,
 }
 
 impl Summary {
-    /// The numbers of the whole mechanism: sums of work, the largest residuals, all events in the
-    /// order of time. The time reached is the smallest of the components. `dropped` are the rows
-    /// that each component dropped at the start, numbered in the component.
+    /// Results for the whole mechanism: sums of work, the largest residuals, all events in the
+    /// order of time. The time reached is the smallest of the components. `dropped` contains the
+    /// redundant rows of each component at the start, numbered in the component.
     pub(super) fn of_components(
         components: Vec<ComponentSummary>,
         dropped: &[&[usize]],
@@ -164,7 +166,7 @@ impl Summary {
     }
 }
 
-/// Misfits of components with the rows of the whole mechanism.
+/// Constraint violations of components as rows of the whole mechanism.
 fn misfits(components: &[ComponentSummary]) -> Vec<Misfit> {
     let of_component = |c: &ComponentSummary| {
         let places = c.places.rows.clone();
@@ -197,14 +199,14 @@ fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
 /// Events of components with the rows and the degree of redundancy of the whole mechanism, in the
 /// order in which they are given.
 pub(super) struct WholeEvents<'p> {
-    /// Joints and rows of each component in the whole.
+    /// Joints and rows of each component in the whole mechanism.
     places: Vec<&'p Places>,
-    /// Rows that each one drops, of the whole.
+    /// Redundant rows of each component, numbered in the whole mechanism.
     now: Vec<Vec<usize>>,
 }
 
 impl<'p> WholeEvents<'p> {
-    /// Components with their places, and the rows that they drop at the start.
+    /// Components with their indices, and their redundant rows at the start.
     pub(super) fn new<'d>(components: impl Iterator<Item = (&'p Places, &'d [usize])>) -> Self {
         let (places, now) = components
             .map(|(places, dropped)| (places, of_whole(&places.rows, dropped)))
@@ -233,7 +235,7 @@ impl<'p> WholeEvents<'p> {
     }
 }
 
-/// Rows of a component in the whole.
+/// Rows of a component, numbered in the whole mechanism.
 fn of_whole(places: &[usize], rows: &[usize]) -> Vec<usize> {
     rows.iter().map(|&i| places[i]).collect()
 }
@@ -275,8 +277,8 @@ mod tests {
 
     #[test]
     fn events_of_components_are_told_with_the_rows_of_the_whole() {
-        // Rows 0, 2, 4, of which the second is dropped first, and rows 1, 3, of which the first is
-        // dropped first.
+        // Rows 0, 2, 4, of which the second is redundant first, and rows 1, 3, of which the first
+        // is redundant first.
         let components = vec![
             component(
                 &[0, 2, 4],

@@ -1,4 +1,5 @@
-//! Forces that call a function: closed forms, what refuses them, and how a run ends at them.
+//! Forces that call a function: closed-form solutions, methods that reject such forces, and the end
+//! of a run at their faults.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -21,7 +22,7 @@ const STIFFNESS: f64 = 50.0;
 const DAMPING: f64 = 1.2;
 const START: f64 = 0.3;
 
-/// A mass on a guide along x, with a drive by this law of its place.
+/// A mass on a guide along x, with a drive whose force law depends on the position of the mass.
 fn guided(d: &mut Description, name: &str, y: f64, law: Law) {
     let body = d.body(Body {
         position: [START, y],
@@ -92,7 +93,7 @@ fn rows(prepared: &PreparedMechanism, method: Method) -> Vec<(f64, Vec<f64>, Vec
 
 const EXPLICIT: [Method; 4] = [Method::Auto, Method::Dop853, Method::Dopri5, Method::Tsit5];
 
-/// x = e^(−δt)·(x₀·cos ωt + x₀·δ/ω·sin ωt), to what the tolerance of the run gives.
+/// x = e^(−δt)·(x₀·cos ωt + x₀·δ/ω·sin ωt), accurate to the tolerance of the run.
 #[test]
 fn a_called_oscillator_swings_as_by_hand() {
     let delta = DAMPING / (2.0 * MASS);
@@ -138,7 +139,7 @@ fn what_needs_derivatives_refuses_a_called_law_by_name() {
     let error = equilibrium(&prepared, &EquilibriumOptions::default()).expect_err("derivatives");
     let named = matches!(&error, EquilibriumError::NoDerivatives(of) if of.name == "motor of mass");
     assert!(named, "{error}");
-    // By operations all three work.
+    // With recorded operations, all three calls succeed.
     let prepared = of_law(written());
     assert!(equilibrium(&prepared, &EquilibriumOptions::default()).is_ok());
     let state = (0.0, &[0.0; 3][..], &[0.0; 3][..]);
@@ -178,8 +179,8 @@ fn auto_chooses_an_explicit_method_and_one_clock() {
     assert!(method.reason.contains("`motor of a`"), "{}", method.reason);
 }
 
-/// The run ends at once: no shorter steps are tried, and the last accepted state is before the
-/// fault. Calls after it only name the cause.
+/// The run ends immediately: no shorter steps are tried, and the last accepted state is before the
+/// fault. Later calls only determine the name of the cause.
 #[test]
 fn a_function_without_a_value_ends_the_run_by_name() {
     let faults: [fn() -> Result<f64, CallError>; 3] = [
@@ -214,11 +215,11 @@ fn a_function_without_a_value_ends_the_run_by_name() {
                 text.contains("measure = ") && text.contains("rate = "),
                 "{source}"
             );
-            // The force of the stage, and twice to name it.
+            // One call for the force at the stage, and two to determine its name.
             assert!(after.load(Ordering::Relaxed) <= 3, "{after:?}");
         }
     }
-    // At the start there is no run.
+    // If the fault is at the start, no run takes place.
     let prepared = called(|_| Ok(f64::NAN));
     let ended = simulate(&prepared, &options(Method::Auto), |_| {
         Ok(ControlFlow::Continue(()))
@@ -230,7 +231,7 @@ fn a_function_without_a_value_ends_the_run_by_name() {
     );
 }
 
-/// m·ẍ = F, J·φ̈ = T − c·φ̇ in the plane, by a function of the state of the body.
+/// m·ẍ = F, J·φ̈ = T − c·φ̇ in the plane, with a function of the state of the body.
 #[test]
 fn a_body_is_pushed_by_a_called_wrench() {
     let (force, torque, drag, inertia) = ([3.0, -1.0, 0.0], 0.4, 0.5, 0.1);
@@ -267,12 +268,12 @@ fn a_body_is_pushed_by_a_called_wrench() {
     );
 }
 
-/// A torque about the vertical of the ground turns a body about it, whatever its own axes are: its
-/// tensor has products of inertia, and y is a principal axis.
+/// A torque about the vertical axis of the ground rotates a body about this axis, whatever the
+/// body's own axes are: its inertia tensor has products of inertia, and y is a principal axis.
 #[test]
 fn a_called_wrench_of_space_is_in_ground_axes() {
     let torque = 0.6;
-    // Turned by 30° about the vertical and by 90° about x: the vertical is y of the body.
+    // Rotated by 30° about the vertical and by 90° about x: the vertical is y of the body.
     let (half, quarter) = (15.0_f64.to_radians(), 45.0_f64.to_radians());
     let (w, x) = (half.cos() * quarter.cos(), half.cos() * quarter.sin());
     let (y, z) = (half.sin() * quarter.sin(), half.sin() * quarter.cos());

@@ -1,5 +1,8 @@
-//! The verdicts of a run: at accepted steps and written rows they are read from the rows that are
-//! factored there.
+//! The verdicts of a run: at accepted steps and output rows they are computed from the rows that
+//! are factored there.
+//!
+//! A parameter sweep needs only the verdicts of the whole run, so it reads them at the ends of each
+//! stretch.
 
 use std::collections::HashMap;
 
@@ -14,25 +17,25 @@ use crate::options::MotionOptions;
 use crate::plan::Verdicts;
 use crate::prepare::PreparedMechanism;
 
-/// What is noted of the verdicts of a run.
+/// Record of the verdicts of a run.
 pub(super) struct RunVerdicts<'m> {
-    /// `None` if no row is dropped: everything is unique.
+    /// `None` if no row is redundant: then all reactions are unique.
     carried: Option<CarriedVerdicts<'m>>,
-    /// Storage for dependencies.
+    /// Work memory for dependencies.
     dependencies: Vec<Vec<f64>>,
-    /// The rows without multiplier at rows of output.
+    /// The rows without multiplier at output rows.
     dropped: Vec<DroppedRows>,
-    /// The last event, break or begin (s).
+    /// Time of the last event or break, or of the start (s).
     last_cut: f64,
     wanted: Verdicts,
     /// Number of steps.
     steps: usize,
-    /// Whether the end of the last step is the first of a stretch.
+    /// Whether the end of the last step is the first in its time interval.
     ends_first: bool,
 }
 
 impl<'m> RunVerdicts<'m> {
-    /// For a run on these rows.
+    /// The record for a run with these independent rows.
     pub(super) fn new(
         motion: &KeptRowMotion<'m>,
         prepared: &PreparedMechanism,
@@ -57,13 +60,13 @@ impl<'m> RunVerdicts<'m> {
         }
     }
 
-    /// Whether there is anything that could change on the way.
+    /// Whether a verdict can change during the run.
     pub(super) fn may_change(&self) -> bool {
         self.carried.is_some()
     }
 
-    /// Reads the verdicts at a row of output if instants that differ are wanted, and at the start.
-    /// Takes note of its rows without multiplier.
+    /// Computes the verdicts at an output row if differing instants are requested, and at the
+    /// start. Records its rows without multiplier.
     pub(super) fn look_at_row(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -77,8 +80,8 @@ impl<'m> RunVerdicts<'m> {
         self.look(motion, state, is_factored, InstantOrder::Next)
     }
 
-    /// Reads the verdicts at a state: its time, the time at which functions are evaluated, and its
-    /// coordinates. `is_factored` states whether the rows are factored there.
+    /// Computes the verdicts at a state: its time, the time at which functions are evaluated, and
+    /// its coordinates. `is_factored` states whether the rows are factored there.
     pub(super) fn look(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -109,8 +112,8 @@ impl<'m> RunVerdicts<'m> {
         Ok(())
     }
 
-    /// The impulses of all joints and drives for these multipliers of all rows, which are those of
-    /// one choice, with the verdicts at this instant, at which the rows are factored.
+    /// The impulses of all joints and drives for these multipliers of all rows, which belong to one
+    /// choice. The verdicts refer to this instant, at which the rows are factored.
     pub(super) fn impulses(
         &mut self,
         motion: &mut KeptRowMotion<'_>,
@@ -159,7 +162,7 @@ impl<'m> RunVerdicts<'m> {
         Ok(layout.constraint_ids().map(of).collect())
     }
 
-    /// Takes note of the rows without multiplier at a row of output.
+    /// Records the rows without multiplier at an output row.
     fn note_row(&mut self, motion: &KeptRowMotion<'_>, t: f64) {
         let dropped = motion.equations.without_multiplier();
         if self.dropped.last().is_none_or(|last| last.rows != *dropped) {
@@ -170,8 +173,9 @@ impl<'m> RunVerdicts<'m> {
         }
     }
 
-    /// The joints and drives that have neither a force nor a torque that is determined on the run,
-    /// whatever comes, if only this is asked. The last look was inside a stretch.
+    /// If only verdicts on the whole run are requested: the joints and drives that have neither a
+    /// determined force nor a determined torque on the run, whatever the following steps show. The
+    /// last evaluation was inside a time interval.
     pub(super) fn not_of_run(&self) -> Vec<ConstraintId> {
         let asked = self
             .carried
@@ -180,7 +184,7 @@ impl<'m> RunVerdicts<'m> {
         asked.map_or_else(Vec::new, CarriedVerdicts::without_determined)
     }
 
-    /// Whether the verdicts are to be read at the end of a step.
+    /// Whether the verdicts are to be computed at the end of a step.
     pub(super) fn are_wanted_at_step(&self) -> bool {
         self.carried.as_ref().is_some_and(|carried| {
             self.wanted == Verdicts::WithInstants
@@ -189,9 +193,10 @@ impl<'m> RunVerdicts<'m> {
         })
     }
 
-    /// Begins stretches at events within a step, given in the order of time, and after it if
-    /// `ends_there`. Returns times at which to look before its end: between two cuts between which
-    /// nothing else is looked at, and the begin of the last step of a stretch.
+    /// Starts time intervals at events within a step, given in the order of time, and after the
+    /// step if `ends_there`. Returns the times at which verdicts must be computed before the end of
+    /// the step: one between each two boundaries without another evaluation, and the start of the
+    /// last step of an interval.
     pub(super) fn cut(&mut self, events: &[f64], [t0, t1]: [f64; 2], ends_there: bool) -> Vec<f64> {
         let Some(carried) = &mut self.carried else {
             return Vec::new();

@@ -1,9 +1,9 @@
-//! The equations of motion on kept rows.
+//! The equations of motion with independent rows.
 //!
-//! The rank is never decided at a stage: there the state violates the constraints by δ, and a
-//! singular value that is exactly zero appears as about δ. Positions and velocities have separate
-//! kept rows: a holonomic row may be dropped at velocity level because knife edges imply its
-//! velocity, but nothing implies its position, and without it the configuration would drift.
+//! The rank is never decided at a stage: a stage violates the constraints by δ, so a singular value
+//! that is exactly zero appears as about δ. Positions and velocities have separate independent
+//! rows. A holonomic row may be redundant at velocity level because knife edges imply its velocity.
+//! But no row implies its position, and without it the configuration would drift.
 
 use model::System;
 
@@ -14,18 +14,18 @@ use super::{Accelerations, State};
 use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
 
-/// A mechanism with its kept rows. All storage is allocated here.
+/// A mechanism with its independent rows. All memory is allocated here.
 pub(crate) struct KeptEquations<'m> {
     pub(crate) at: Evaluation<'m>,
     /// Independent rows of C.
     pub(crate) velocity: KeptRows,
     /// Independent rows of Φq.
     pub(crate) position: KeptRows,
-    /// Rows requested by the user, while they are nearly dependent and others are kept.
+    /// Rows requested by the user, while they are ill-conditioned and others are used.
     pub(crate) requested_rows: Option<KeptRows>,
-    /// Misfits of dropped rows, if a tolerance is stated.
+    /// Constraint violations of redundant rows, if a tolerance is stated.
     pub(crate) misfits: Option<Box<Misfits>>,
-    /// Scratch: an acceleration, n_v.
+    /// Work memory: an acceleration, n_v.
     a: Vec<f64>,
 }
 
@@ -63,9 +63,9 @@ impl<'m> KeptEquations<'m> {
         solved.map_err(|fault| self.at.named(fault))
     }
 
-    /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are
-    /// zero. NaN if kept rows are dependent at exactly this instant, because then no multipliers
-    /// belong to them.
+    /// Multipliers of all rows for accelerations a from the last solution; zero for redundant rows.
+    /// They are NaN if independent rows are dependent at exactly this instant, because then the
+    /// multipliers are not defined.
     pub(crate) fn multipliers_for(
         &mut self,
         a: &[f64],
@@ -83,21 +83,21 @@ impl<'m> KeptEquations<'m> {
         Ok(())
     }
 
-    /// Accepts the misfits of the state last checked, if there are any: of the end of a step or of
-    /// a row of output.
+    /// Accepts the constraint violations of the state last checked, if there are any: at the end of
+    /// a step or at an output row.
     pub(crate) fn accept_misfits(&mut self, is_end_of_step: bool) {
         if let Some(misfits) = &mut self.misfits {
             misfits.accept(&self.at, is_end_of_step);
         }
     }
 
-    /// Whether dropped rows have missed by more than rounding.
+    /// Whether violations of redundant rows were larger than rounding errors.
     pub(crate) fn have_missed(&self) -> bool {
         self.misfits.as_ref().is_some_and(|m| !m.found().is_empty())
     }
 
-    /// The kept row with the largest part in the dependency of a dropped row at t = 0 and
-    /// coordinates q, among those that are not taken.
+    /// The independent row with the largest coefficient in the dependency of a redundant row at t =
+    /// 0 and coordinates q, among the rows that are not yet used.
     pub(crate) fn partner(
         &mut self,
         q: &[f64],
@@ -114,7 +114,7 @@ impl<'m> KeptEquations<'m> {
         Ok(largest.filter(|i| part(i) > 0.0))
     }
 
-    /// Exchanges the kept rows and the requested ones, if others are kept.
+    /// Exchanges the independent rows and the requested rows, if they differ.
     pub(crate) fn swap_requested_rows(&mut self) {
         if let Some(requested) = &mut self.requested_rows {
             std::mem::swap(requested, &mut self.velocity);

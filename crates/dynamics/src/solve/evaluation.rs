@@ -1,4 +1,5 @@
-//! A mechanism with the results of its kernels at one state.
+//! A mechanism with the results of its kernels at one state: the functions that compute poses,
+//! constraints and forces.
 
 use model::{Mechanism, RowLabel, Scratch, System};
 
@@ -84,7 +85,8 @@ impl<'m> Evaluation<'m> {
         self.mechanism.layout().labels[i].clone()
     }
 
-    /// The fault, replaced by one with the name of a force that has no value, if there is one.
+    /// Replaces the fault by one with the name of a force that has no value, if there is such a
+    /// force.
     pub(super) fn named(&mut self, fault: MotionFault) -> MotionFault {
         match fault {
             MotionFault::NotFinite { time, what } => {

@@ -5,19 +5,19 @@ use crate::code::SceneCode;
 use crate::guards::GUARDED;
 use crate::limits::LEAVE;
 
-/// Code that was generated for a mechanism, or what evaluates it.
+/// Code that was generated for a mechanism, or its evaluator.
 pub(crate) struct GeneratedCode<'m>(pub(crate) &'m dyn SceneCode);
 
-/// Reason why a result of generated code is not reliable.
+/// Reason why a result of generated code is unreliable.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Doubt {
     /// A pivot is small, or has changed its sign.
     Health { health: f64 },
     /// A result is NaN or infinite.
     NotFinite,
-    /// A kept row is still violated after all corrections.
+    /// An independent row is still violated after all corrections.
     OffConstraints { row: usize, by: f64 },
-    /// A dropped row is not implied by the kept rows.
+    /// The independent rows do not imply a redundant row.
     DroppedRow { row: usize, by: f64 },
 }
 

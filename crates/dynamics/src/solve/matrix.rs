@@ -1,16 +1,16 @@
-//! Kept rows of C as a sparse matrix, in units of the mechanism.
+//! Independent rows of C as a sparse matrix, in units of the mechanism.
 
 use linalg::SparseMatrix;
 use model::{Mechanism, System};
 
-/// Kept rows, and the places of their entries among the entries of C.
+/// Independent rows, and the indices of their entries among the entries of C.
 #[derive(Clone)]
 pub(super) struct KeptMatrix {
     pub(super) c: SparseMatrix,
     /// For each value: its index among the entries of C, and its unit.
     first: Vec<(u32, f64)>,
-    /// Entries that are added to a value, with its index: a joint may contribute twice to a
-    /// coordinate.
+    /// Further entries that are added to a value, with the index of the value: a joint may
+    /// contribute twice to a coordinate.
     more: Vec<(u32, (u32, f64))>,
 }
 
@@ -36,7 +36,7 @@ impl KeptMatrix {
         Self { c, first, more }
     }
 
-    /// Takes the values from these entries of C.
+    /// Copies the values from these entries of C.
     pub(super) fn take(&mut self, entries: &[f64]) {
         let values = self.c.values_mut();
         for (value, &(entry, unit)) in values.iter_mut().zip(&self.first) {
@@ -47,19 +47,19 @@ impl KeptMatrix {
         }
     }
 
-    /// Memory of so many entries (bytes).
+    /// Memory for this number of entries (bytes).
     pub(super) fn bytes(entries: usize) -> usize {
         entries * (size_of::<(usize, f64)>() + size_of::<(u32, f64)>())
     }
 }
 
-/// The sparsity pattern of the kept rows, with zeros as entries.
+/// The sparsity pattern of the independent rows, with zeros as entries.
 pub(super) fn pattern_of(mechanism: &Mechanism, kept: &[usize]) -> SparseMatrix {
     let layout = mechanism.layout();
     let pattern = &layout.pattern;
     let row =
         |&i: &usize| (pattern.start[i]..pattern.start[i + 1]).map(|at| (pattern.column[at], 0.0));
-    // The columns of a pattern are always below n_v; without entries there is nothing to solve.
+    // The columns of a pattern are always below n_v; without entries there is no equation to solve.
     SparseMatrix::from_rows(layout.n_v, kept.iter().map(row))
         .unwrap_or_else(|_| unreachable!("columns of a pattern are below {}", layout.n_v))
 }

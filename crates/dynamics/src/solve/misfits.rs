@@ -1,10 +1,11 @@
-//! Misfits of dropped rows. Rows that are redundant within a stated tolerance only hold up to what
-//! data within it explain: what such a row misses is a result of the motion, and it has a bound.
+//! Constraint violations (misfits) of redundant rows. Rows that are redundant only within a stated
+//! tolerance may be violated up to a bound that follows from the tolerance of the data. The
+//! violation of such a row is a result of the motion.
 //!
-//! With `z` = 1 at a dropped row and minus the coefficients of the kept rows that imply it, the
-//! bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j; for velocities
-//! `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: the residual of rows that share a
-//! misfit, and the pose, which moves with the data.
+//! Let `z` be 1 at a redundant row, and minus the coefficients at the independent rows that imply
+//! it. Then the bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j; for
+//! velocities `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: it includes the residual
+//! of rows that share a violation, and the pose, which moves with the data.
 
 use model::{Bodies, DataBlock, Level, RowLabel, System};
 
@@ -13,36 +14,36 @@ use super::rows::KeptRows;
 use crate::error::MotionFault;
 use crate::limits::SAME_MISFIT;
 
-/// What a dropped row misses at most during a motion.
+/// Largest constraint violation of a redundant row during a motion.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Misfit {
     /// The row, from 0.
     pub row: usize,
-    /// Its name.
+    /// Name of the row.
     pub label: RowLabel,
-    /// Unit of the misfit: m or rad, and per second for a nonholonomic row.
+    /// Unit of the violation: m or rad, and per second for a nonholonomic row.
     pub unit: &'static str,
-    /// The largest |Φ| of the row (|C·v − b| of a nonholonomic one), in its unit.
+    /// Largest |Φ| of the row (|C·v − b| of a nonholonomic row), in its unit.
     pub largest: f64,
-    /// When it occurs (s).
+    /// Time of the largest violation (s).
     pub time: f64,
-    /// What data within their tolerances explain then, in the unit of the row.
+    /// Violation that data within their tolerances explain at this time, in the unit of the row.
     pub bound: f64,
-    /// For a row of angles: its misfit times the size of the mechanism (m, or m/s).
+    /// For a row of angles: its violation times the size of the mechanism (m, or m/s).
     pub at_size: Option<f64>,
 }
 
-/// Record of the misfits of a motion.
+/// Record of the constraint violations of a motion.
 #[derive(Clone)]
 pub(crate) struct Misfits {
     blocks: Vec<DataBlock>,
-    /// With respect to all numbers of the constraints.
+    /// Gradient with respect to all numbers of the constraints.
     gradient: Vec<f64>,
     /// Coefficients of all rows.
     z: Vec<f64>,
-    /// The state last checked, and the accepted one before it.
+    /// The state last checked, and the previous accepted state.
     here: Instant,
     before: Option<Instant>,
     found: Vec<Misfit>,
@@ -50,14 +51,14 @@ pub(crate) struct Misfits {
     start: Bodies,
 }
 
-/// Residuals of the dropped rows at one time.
+/// Residuals of the redundant rows at one time.
 #[derive(Clone, Default)]
 struct Instant {
     t: f64,
     rows: Vec<Residual>,
 }
 
-/// The residual of a dropped row.
+/// The residual of a redundant row.
 #[derive(Clone, Copy)]
 struct Residual {
     row: usize,
@@ -65,7 +66,7 @@ struct Residual {
     value: f64,
     /// dΦ/dt; `None` for a nonholonomic row.
     rate: Option<f64>,
-    /// What the data explain, if the residual is above rounding.
+    /// Residual that the data explain, if the residual is larger than rounding errors.
     bound: Option<f64>,
 }
 
@@ -84,8 +85,8 @@ impl Misfits {
         }
     }
 
-    /// What data within their tolerances explain of the residual of the dropped row i at a level.
-    /// The rows must be factored.
+    /// Residual of the redundant row i at a level that data within their tolerances explain. The
+    /// rows must be factored.
     pub(crate) fn bound(
         &mut self,
         (at, rows): (&Evaluation<'_>, &mut KeptRows),
@@ -97,13 +98,13 @@ impl Misfits {
         Ok(data.explained(&at.s, &self.blocks, &self.z, level, gradient))
     }
 
-    /// Begins the record of a state at time t.
+    /// Starts the record of a state at time t.
     pub(crate) fn look_at(&mut self, t: f64) {
         self.here.t = t;
         self.here.rows.clear();
     }
 
-    /// Notes the residual of a dropped row at this state, at the level of velocities or of
+    /// Records the residual of a redundant row at this state, at the level of velocities or of
     /// positions.
     pub(crate) fn see(
         &mut self,
@@ -128,8 +129,8 @@ impl Misfits {
         }
     }
 
-    /// Accepts the state last checked as one of the motion: as the end of a step, whose largest
-    /// misfits may lie within it, or as a row of output.
+    /// Accepts the state last checked as a state of the motion. It is either the end of a step,
+    /// within which the largest violations may occur, or an output row.
     pub(crate) fn accept(&mut self, at: &Evaluation<'_>, is_end_of_step: bool) {
         for k in 0..self.here.rows.len() {
             let now = self.here.rows[k];
@@ -154,7 +155,7 @@ impl Misfits {
         }
     }
 
-    /// Forgets the last step: from here on other rows are kept.
+    /// Deletes the last step from the record, because other independent rows are used from now on.
     pub(crate) fn interrupt(&mut self) {
         self.before = None;
     }
@@ -184,7 +185,7 @@ impl Misfits {
             }
         };
         let misfit = &mut self.found[k];
-        // The first time of a misfit that stays the same.
+        // The first time of a violation that does not grow further.
         if value.abs() > misfit.largest * (1.0 + SAME_MISFIT) {
             misfit.largest = value.abs();
             (misfit.time, misfit.bound) = (time, bound);
@@ -192,13 +193,13 @@ impl Misfits {
         }
     }
 
-    /// The misfits so far, by row.
+    /// The constraint violations so far, by row.
     pub(crate) fn found(&self) -> &[Misfit] {
         &self.found
     }
 
-    /// How far the mechanism has moved since its start, in words: the body that has turned most, or
-    /// moved farthest relative to the size of the mechanism.
+    /// Describes how far the mechanism has moved since its start: the body with the largest
+    /// rotation, or with the largest translation relative to the size of the mechanism.
     pub(crate) fn way(&self, at: &Evaluation<'_>) -> String {
         let bodies = &at.s.bodies;
         let moved = (0..bodies.len()).map(|body| bodies.moved(&self.start, body));
@@ -218,14 +219,14 @@ impl Misfits {
 }
 
 /// Time and value of the extremum of a cubic between two times, given its values and rates there.
-/// Returns `None` if it has none inside.
+/// Returns `None` if there is no extremum inside.
 fn peak([t0, t1]: [f64; 2], [y0, y1]: [f64; 2], [r0, r1]: [f64; 2]) -> Option<(f64, f64)> {
     let h = t1 - t0;
     let (m0, m1, d) = (r0 * h, r1 * h, y1 - y0);
     // y = y0 + m0·x + b·x² + a·x³, 0 ≤ x ≤ 1
     let (a, b) = (m0 + m1 - 2.0 * d, 3.0 * d - 2.0 * m0 - m1);
     let value = |x: f64| y0 + x * (m0 + x * (b + x * a));
-    // The stable form of both roots of 3·a·x² + 2·b·x + m0.
+    // The numerically stable form of both roots of 3·a·x² + 2·b·x + m0.
     let discriminant = b * b - 3.0 * a * m0;
     let w = -(b + discriminant.max(0.0).sqrt().copysign(b));
     let roots = [w / (3.0 * a), m0 / w];

@@ -1,9 +1,9 @@
-//! Independent rows of C with everything needed to solve with them.
+//! Independent rows of C with all data for their solution.
 //!
 //! They are factored in units of the mechanism ([`super::units`]). Otherwise the pivot of a
-//! rotation, a length, would be compared with one of a translation, which has no dimension: pivots
-//! would become small and determinants change sign only because of the unit of length. Callers see
-//! SI units only.
+//! rotation, which is a length, would be compared with the pivot of a translation, which has no
+//! dimension. Pivots would become small and determinants would change sign only because of the unit
+//! of length. Callers use only SI units.
 
 use linalg::{PivotedQr, SaddleError};
 use model::System;
@@ -16,28 +16,29 @@ use crate::counts::{WorkKind, note};
 use crate::error::MotionFault;
 use crate::limits::{PIVOT_SINGULAR, SUMMED_FROM};
 
-/// Kept rows and the factored saddle matrix.
+/// Independent rows and the factored saddle-point matrix.
 #[derive(Clone)]
 pub(crate) struct KeptRows {
     /// Rows of C, ascending.
     pub(crate) kept: Vec<usize>,
     /// The other rows of the same level.
     pub(crate) dropped: Vec<usize>,
-    /// Right-hand side, one value for each kept row.
+    /// Right-hand side, one value for each independent row.
     pub(crate) rhs: Vec<f64>,
     /// Multipliers of the last solution.
     pub(crate) lambda: Vec<f64>,
-    /// Masses, and the force and the motion of a solution, in units of the mechanism.
+    /// Masses, and force and motion of a solution, in units of the mechanism.
     scaled: ScaledVectors,
-    /// The rows in these units, and their factors.
+    /// The rows in these units, with their factors.
     solver: Solver,
-    /// Number of kept rows of C, by which the solver was chosen.
+    /// Number of independent rows of C, which determines the solver.
     of_c: usize,
     /// Whether the size of the mechanism is so far from a metre that solutions are refined.
     is_far: bool,
-    /// Pivot ratio at the time when these rows were chosen; later ones are compared with it.
+    /// Pivot ratio at the time when these rows were chosen; later pivot ratios are compared with
+    /// it.
     reference_pivot: Option<f64>,
-    /// The same for the present partition, if there is one.
+    /// Pivot ratio of the present partition, if there is one.
     partition: Option<PartitionPivot>,
 }
 
@@ -46,8 +47,8 @@ pub(crate) struct KeptRows {
 struct PartitionPivot(Option<f64>);
 
 impl KeptRows {
-    /// Allocates storage for the rows of a decision, with the solver for `of_c` kept rows of C:
-    /// both levels are solved in the same way.
+    /// Allocates memory for the rows of a decision, with the solver for `of_c` independent rows of
+    /// C. Both levels use the same kind of solver.
     pub(crate) fn new(
         at: &Evaluation<'_>,
         rows: &RowDecision,
@@ -80,7 +81,7 @@ impl KeptRows {
         })
     }
 
-    /// The same for the rows of another decision at this level.
+    /// The rows of another decision at this level.
     pub(crate) fn others(
         &self,
         at: &Evaluation<'_>,
@@ -89,7 +90,7 @@ impl KeptRows {
         Self::new(at, rows, self.of_c)
     }
 
-    /// Factors the rows with the entries of C in the scratch. Rows that are dependent for an
+    /// Factors the rows with the entries of C in the scratch memory. Rows that are dependent for an
     /// instant are skipped, but not in the first factorisation.
     pub(crate) fn factor(&mut self, at: &Evaluation<'_>) -> Result<(), MotionFault> {
         let reference = self.reference();
@@ -116,7 +117,7 @@ impl KeptRows {
         Ok(())
     }
 
-    /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
+    /// Like [`KeptRows::factor`], without rows whose pivot is below this share of the reference.
     pub(crate) fn factor_above(
         &mut self,
         share: f64,
@@ -130,9 +131,9 @@ impl KeptRows {
         factored.map_err(|e| self.fault(at, e))
     }
 
-    /// Chooses the coordinates that these rows determine best with the entries of C in the scratch,
-    /// each relative to its accuracy; from now on the rows are solved for these. Leaves the rows
-    /// factored and returns the other coordinates, ascending.
+    /// Chooses the coordinates that these rows determine best with the entries of C in the scratch
+    /// memory, each relative to its accuracy. From now on the rows are solved for these
+    /// coordinates. Afterwards the rows are factored; returns the other coordinates, ascending.
     pub(crate) fn partition(
         &mut self,
         at: &Evaluation<'_>,
@@ -162,7 +163,7 @@ impl KeptRows {
         Ok(free)
     }
 
-    /// Removes the partition: every factorisation chooses again for which coordinates it solves.
+    /// Removes the partition: every factorisation chooses its coordinates again.
     pub(crate) fn forget_partition(&mut self) {
         if let Ok((_, saddle)) = self.solver.null_space() {
             saddle.forget_partition();
@@ -175,7 +176,7 @@ impl KeptRows {
         self.partition.and_then(|p| p.0)
     }
 
-    /// Pivot ratio with which the present ones are compared.
+    /// Pivot ratio with which present pivot ratios are compared.
     fn reference(&self) -> Option<f64> {
         match self.partition {
             Some(partition) => partition.0,
@@ -183,14 +184,14 @@ impl KeptRows {
         }
     }
 
-    /// Sets the right-hand side: `of(i)` for each kept row i of C.
+    /// Sets the right-hand side: `of(i)` for each independent row i of C.
     pub(crate) fn take_rhs(&mut self, mut of: impl FnMut(usize) -> f64) {
         for (rhs, &i) in self.rhs.iter_mut().zip(&self.kept) {
             *rhs = of(i);
         }
     }
 
-    /// Overwrites the dependent entries of x so that `C·x = rhs`. Not possible if a row was
+    /// Overwrites the dependent entries of x so that `C·x = rhs`. This is not possible if a row was
     /// skipped.
     pub(crate) fn complete(
         &mut self,
@@ -229,8 +230,8 @@ impl KeptRows {
         self.written(at, solved, x)
     }
 
-    /// Computes accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined if
-    /// plain ones may lose digits.
+    /// Computes accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q in the scratch memory. The
+    /// solution is refined if it would otherwise lose digits.
     pub(super) fn accelerate(
         &mut self,
         at: &Evaluation<'_>,
@@ -251,8 +252,7 @@ impl KeptRows {
         self.is_far || self.solver.wants_refinement()
     }
 
-    /// Computes the λ that belongs to the accelerations a just computed; refined solutions already
-    /// include it.
+    /// Computes λ for the accelerations a just computed; refined solutions already include λ.
     pub(super) fn find_multipliers(
         &mut self,
         at: &Evaluation<'_>,
@@ -267,7 +267,7 @@ impl KeptRows {
     }
 
     /// Multipliers Λ of all rows with `M·change + C_Kᵀ·Λ = 0` for a change of the velocities by an
-    /// impulse of the kept rows; zero on other rows. The rows must be factored.
+    /// impulse of the independent rows; zero for other rows. The rows must be factored.
     pub(crate) fn impulses(
         &mut self,
         at: &Evaluation<'_>,
@@ -291,12 +291,12 @@ impl KeptRows {
         self.solver.multipliers(force, motion, &mut self.lambda)
     }
 
-    /// The largest coefficient of a kept row in a dropped one, with the entries of C in the
-    /// scratch, at which the rows must be factored: rounding of the kept rows is multiplied by it
-    /// in the dropped ones.
+    /// The largest coefficient of an independent row in a redundant row, with the entries of C in
+    /// the scratch memory, at which the rows must be factored. The rounding error of the
+    /// independent rows is multiplied by this coefficient in the redundant rows.
     pub(crate) fn largest_coefficient(&mut self, at: &Evaluation<'_>) -> f64 {
         note(WorkKind::Coefficients);
-        // Large mechanisms have thousands of dropped rows, each implied by a few rows: instead of
+        // Large mechanisms have thousands of redundant rows, each implied by a few rows: instead of
         // all of them, two sums with random weights are used.
         let are_summed = self.kept.len() >= SUMMED_FROM;
         let samples = if are_summed { 2 } else { self.dropped.len() };
@@ -315,10 +315,10 @@ impl KeptRows {
         largest
     }
 
-    /// Size of the dropped row i and of the contributions of the kept rows to it: with
+    /// Size of the redundant row i and of the contributions of the independent rows to it: with
     /// `c_i = Σ T_ik·c_k` the sum of `scale(i)` and `|T_ik|·scale(k)`. The residual of the row may
-    /// be as large as the rounding of these terms. Needs the factorisation with the entries of C in
-    /// the scratch.
+    /// be as large as the rounding error of these terms. The function needs the factorisation with
+    /// the entries of C in the scratch memory.
     pub(crate) fn implied_scale(
         &mut self,
         at: &Evaluation<'_>,
@@ -331,8 +331,9 @@ impl KeptRows {
         Ok(scale(i) + terms.sum::<f64>())
     }
 
-    /// Writes the dependency of a dropped row on the kept ones over all rows: 1 at the dropped row,
-    /// and minus the coefficients of the kept ones. The rows must be factored.
+    /// Writes the dependency of a redundant row on the independent rows over all rows: 1 at the
+    /// redundant row, and minus the coefficients at the independent rows. The rows must be
+    /// factored.
     pub(crate) fn dependency(
         &mut self,
         at: &Evaluation<'_>,
@@ -348,8 +349,8 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Writes the dependency of each dropped row on the kept ones, as [`Self::dependency`] does.
-    /// The rows must be factored.
+    /// Writes the dependency of each redundant row on the independent rows, like
+    /// [`Self::dependency`]. The rows must be factored.
     pub(crate) fn all_dependencies(
         &mut self,
         at: &Evaluation<'_>,
@@ -363,8 +364,8 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Like [`Self::all_dependencies`], but if there are many, of sums of all dropped rows with
-    /// random weights.
+    /// Like [`Self::all_dependencies`]; if there are many redundant rows, the dependencies of sums
+    /// of all redundant rows with random weights are written instead.
     pub(crate) fn dependencies(
         &mut self,
         at: &Evaluation<'_>,
@@ -387,7 +388,7 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Corrects a dependency once by what is left of `Cᵀ·z`.
+    /// Corrects a dependency once by the residual `Cᵀ·z`.
     fn refine(&mut self, at: &Evaluation<'_>, z: &mut [f64]) -> Result<(), MotionFault> {
         let scaled = &mut self.scaled;
         scaled.motion.fill(0.0);
@@ -405,8 +406,9 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Stores the coefficients of the kept rows in a dropped one as multipliers: as a force, a row
-    /// that the kept ones imply moves nothing, `M·0 + C_Kᵀ·λ = c_Dᵀ`.
+    /// Stores the coefficients of the independent rows in a redundant row as multipliers. If a row
+    /// that the independent rows imply acts as a force, it causes no acceleration,
+    /// `M·0 + C_Kᵀ·λ = c_Dᵀ`.
     fn imply(&mut self, at: &Evaluation<'_>, dropped: usize) -> Result<(), SaddleError> {
         let scaled = &mut self.scaled;
         scaled.motion.fill(0.0);
@@ -419,7 +421,7 @@ impl KeptRows {
         self.solve_for_multipliers()
     }
 
-    /// Like [`Self::imply`], for the sum of all dropped rows with random weights.
+    /// Like [`Self::imply`], for the sum of all redundant rows with random weights.
     fn imply_sum(&mut self, at: &Evaluation<'_>, seed: u64) -> Result<(), SaddleError> {
         let scaled = &mut self.scaled;
         scaled.motion.fill(0.0);
@@ -433,7 +435,7 @@ impl KeptRows {
         self.solve_for_multipliers()
     }
 
-    /// Takes the reference pivot of other rows, because the present configuration may be singular.
+    /// Uses the reference pivot of other rows, because the present configuration may be singular.
     pub(crate) fn compare_as(&mut self, others: &Self) {
         self.reference_pivot = others.reference_pivot;
     }
@@ -443,7 +445,7 @@ impl KeptRows {
         self.solver.n_left_out()
     }
 
-    /// Whether the last factorisation uses the k-th kept row.
+    /// Whether the last factorisation uses the k-th independent row.
     pub(crate) fn uses(&self, k: usize) -> bool {
         self.solver.uses(k)
     }
@@ -453,8 +455,8 @@ impl KeptRows {
         self.solver.pivot_ratio()
     }
 
-    /// Smallest pivot relative to the one when the rows were chosen, whatever coordinates are
-    /// solved for; infinite without rows.
+    /// Smallest pivot relative to its value when the rows were chosen, whatever the coordinates of
+    /// the solution; infinite without rows.
     pub(crate) fn relative_pivot(&self) -> f64 {
         match self.reference_pivot {
             Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
@@ -467,8 +469,8 @@ impl KeptRows {
         self.solver.null_frame(frame);
     }
 
-    /// Sign of the determinant of the factored rows bordered by a basis of motions; 0 if it is not
-    /// known.
+    /// Sign of the determinant of the factored rows bordered by a basis of motions; 0 if the sign
+    /// is unknown.
     pub(crate) fn orientation(&mut self, frame: &[f64]) -> f64 {
         self.solver.orientation(frame)
     }
@@ -485,7 +487,7 @@ impl KeptRows {
         Ok(())
     }
 
-    /// The fault for a failed solve at the instant of the scratch.
+    /// The fault for a failed solution at the instant of the scratch memory.
     fn fault(&self, at: &Evaluation<'_>, e: SaddleError) -> MotionFault {
         let time = at.s.t;
         match e {
@@ -525,8 +527,8 @@ impl KeptRows {
     }
 }
 
-/// A pseudo-random weight of a row in a sum, between 1 and 2 in size. Signs alone would not do: two
-/// rows that take part in a number alike would cancel in one sum of two.
+/// A pseudo-random weight of a row in a sum, between 1 and 2 in absolute value. Random signs alone
+/// would not be enough: two rows with equal coefficients would cancel in one of two sums.
 fn weight_of(k: usize, seed: u64) -> f64 {
     let mut mixed = (k as u64).wrapping_add(seed << 40);
     for odd in [0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9] {
@@ -541,7 +543,7 @@ fn weight_of(k: usize, seed: u64) -> f64 {
 mod tests {
     use super::weight_of;
 
-    /// In a sum no two rows cancel, nor does one of them fail to count.
+    /// In a sum no two rows cancel, and each row has a significant weight.
     #[test]
     fn weights_of_rows_differ_in_size() {
         for seed in 1..=8 {

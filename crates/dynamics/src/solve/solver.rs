@@ -1,11 +1,12 @@
-//! One of two solvers of kept rows: in their null space, or through the Schur complement of the
-//! masses.
+//! One of two solvers of independent rows: in their null space, or through the Schur complement of
+//! the masses.
 //!
-//! The first one eliminates C itself, solves for the coordinates that its rows determine best,
+//! The first solver eliminates C itself, solves for the coordinates that its rows determine best,
 //! computes the sign of a bordered determinant, supports independent coordinates, and allows zero
-//! masses. Its work grows with the number of free motions times that of the entries. The second one
-//! is for large mechanisms with many free motions: chains, trains of vehicles. Where many rows of a
-//! large mechanism of few motions are skipped for an instant, it takes the place of the first one.
+//! masses. Its work grows with the number of free motions times the number of entries. The second
+//! solver is for large mechanisms with many free motions: chains, trains of vehicles. It also
+//! replaces the first one at instants at which many rows of a large mechanism with few free motions
+//! are skipped.
 
 use linalg::{
     GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, SchurSaddle, SchurStructure,
@@ -17,7 +18,7 @@ use super::matrix::{KeptMatrix, pattern_of};
 use super::units::mass_spread;
 use crate::limits::{FREE_DENSE, FREE_MOST, NULL_SPACE_MOST, REFINED_MOST, SCHUR_FROM, VECTORS};
 
-/// Kept rows and their factors.
+/// Independent rows and their factors.
 #[derive(Clone)]
 pub(super) struct Solver {
     rows: KeptMatrix,
@@ -35,7 +36,7 @@ enum Factors {
 struct NullSpace {
     saddle: KeptRowSaddle,
     refinement: Refinement,
-    /// For instants at which many motions are free; `None` for small mechanisms, and where the
+    /// Solver for instants at which many motions are free; `None` for small mechanisms, and if the
     /// Schur complement is not accurate enough.
     many: Option<Box<Many>>,
 }
@@ -44,17 +45,17 @@ struct NullSpace {
 #[derive(Clone)]
 struct Many {
     saddle: SchurSaddle,
-    /// The smallest relative pivot of its reference over that of the null space; 0 before it is
-    /// known.
+    /// The smallest relative pivot of its reference divided by that of the null space; 0 before it
+    /// has been computed.
     share: f64,
-    /// Whether the last factorisation is its own, with this floor and these masses.
+    /// Whether the last factorisation was made by this solver, with this floor and these masses.
     is_used: bool,
     floor: f64,
     mass: Vec<f64>,
 }
 
-/// One value from the solver in the null space that made the last factorisation, or another from
-/// the Schur complement.
+/// A value from the null-space solver if it made the last factorisation, otherwise another value
+/// from the Schur complement.
 macro_rules! either {
     ($factors:expr, $null_space:ident => $a:expr, $schur:ident => $b:expr) => {
         match $factors {
@@ -67,11 +68,11 @@ macro_rules! either {
     };
 }
 
-/// Whether this number of kept rows of C of a mechanism of this size (m) is solved through the
-/// Schur complement, and so are its kept rows of Φq: if there are many of them that leave many
-/// motions free, every coordinate has a mass, and solutions need no refinement because of different
-/// masses; or if there is too much of both for the null space. Many free motions without rows leave
-/// nothing to eliminate.
+/// Whether the independent rows of C and of Φq are solved through the Schur complement, for this
+/// number of independent rows of C and this size of the mechanism (m). There are two such cases. In
+/// the first, there are many rows and many free motions, every coordinate has a mass, and solutions
+/// need no refinement because of different masses. In the second, there are too many of both for
+/// the null space. Many free motions without rows leave no equation to eliminate.
 pub(crate) fn is_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     let free = mechanism.layout().n_v.saturating_sub(rows);
     let is_free = || rows == 0 && free > FREE_DENSE && mechanism.mass().iter().all(|&m| m > 0.0);
@@ -79,7 +80,7 @@ pub(crate) fn is_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
 }
 
 /// Whether the Schur complement is accurate enough for this number of rows of a mechanism of this
-/// size (m), and worth its memory.
+/// size (m), and whether it justifies its memory.
 fn allows_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     let is_graded = || mass_spread(mechanism, size) >= GRADED_MASSES;
     rows >= SCHUR_FROM
@@ -87,8 +88,8 @@ fn allows_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
         && (rows > REFINED_MOST || !is_graded())
 }
 
-/// Estimated upper bound (bytes) on the memory of a motion: solvers of the kept rows of C and of
-/// Φq, stages, and rows of output.
+/// Estimated upper bound (bytes) on the memory of a motion: solvers of the independent rows of C
+/// and of Φq, stages, and output rows.
 pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) -> usize {
     let layout = mechanism.layout();
     let of_level = |kept: &[usize]| {
@@ -211,7 +212,7 @@ impl Solver {
             schur => schur.multipliers(&self.rows.c, force, x, lambda))
     }
 
-    /// The Schur complement, if the last factorisation is its own.
+    /// The Schur complement, if it made the last factorisation.
     fn schur(&self) -> Option<&SchurSaddle> {
         match &self.factors {
             Factors::NullSpace(it) => {
@@ -222,7 +223,7 @@ impl Solver {
         }
     }
 
-    /// The solver in the null space, if the last factorisation is its own.
+    /// The null-space solver, if it made the last factorisation.
     fn own(&self) -> Option<&NullSpace> {
         match &self.factors {
             Factors::NullSpace(it) if self.schur().is_none() => Some(it),
@@ -264,7 +265,7 @@ impl Solver {
         }
     }
 
-    /// Compares the rows of the next factorisations with what this one has left of them.
+    /// Stores the pivots of this factorisation as the reference for the following factorisations.
     pub(super) fn keep_shares(&mut self, mass: &[f64]) {
         match &mut self.factors {
             Factors::Schur(it) => it.keep_shares(),
@@ -272,7 +273,7 @@ impl Solver {
         }
     }
 
-    /// The rows and the solver in their null space, which alone supports independent coordinates.
+    /// The rows and their null-space solver; only this solver supports independent coordinates.
     pub(super) fn null_space(
         &mut self,
     ) -> Result<(&SparseMatrix, &mut KeptRowSaddle), SaddleError> {
@@ -307,7 +308,7 @@ impl Solver {
 }
 
 impl NullSpace {
-    /// The Schur complement, if the last factorisation is its own.
+    /// The Schur complement, if it made the last factorisation.
     fn used(&mut self) -> Option<&mut SchurSaddle> {
         let many = self.many.as_mut().filter(|many| many.is_used);
         many.map(|many| &mut many.saddle)
@@ -337,7 +338,7 @@ impl NullSpace {
         }
     }
 
-    /// The solver itself, with the factors of these rows even where the Schur complement is used.
+    /// The null-space solver with the factors of these rows, even if the Schur complement is used.
     fn factored(&mut self, c: &SparseMatrix) -> Result<&mut KeptRowSaddle, SaddleError> {
         if let Some(many) = self.many.as_mut().filter(|many| many.is_used) {
             many.is_used = false;
@@ -348,7 +349,7 @@ impl NullSpace {
     }
 
     /// Factors the rows of the last factorisation by the Schur complement as well, so that its
-    /// pivots can be compared with those here.
+    /// pivots can be compared with those of the null-space solver.
     fn keep_shares(&mut self, c: &SparseMatrix, mass: &[f64]) {
         let Some(many) = &mut self.many else { return };
         let usual = self.saddle.pivot_ratio();

@@ -1,5 +1,6 @@
 //! Units of a mechanism: lengths are divided by its size, rounded to a power of two so that scaling
-//! causes no rounding; and the sizes and masses that decide whether solutions are refined.
+//! causes no rounding error. The module also computes the sizes and masses that decide whether
+//! solutions are refined.
 
 use model::{Mechanism, System};
 
@@ -16,7 +17,7 @@ pub(super) struct ScaledVectors {
 }
 
 impl ScaledVectors {
-    /// No force and no motion, with these units and masses in them.
+    /// Zero force and zero motion, with these units and masses.
     pub(super) fn new(units: Vec<f64>, mass: Vec<f64>) -> Self {
         Self {
             force: vec![0.0; units.len()],
@@ -26,14 +27,14 @@ impl ScaledVectors {
         }
     }
 
-    /// Takes a force in SI units.
+    /// Copies a force in SI units.
     pub(super) fn take_force(&mut self, force: &[f64]) {
         for ((scaled, f), unit) in self.force.iter_mut().zip(force).zip(&self.units) {
             *scaled = f * unit;
         }
     }
 
-    /// Takes a motion in SI units.
+    /// Copies a motion in SI units.
     pub(super) fn take_motion(&mut self, x: &[f64]) {
         for ((scaled, x), unit) in self.motion.iter_mut().zip(x).zip(&self.units) {
             *scaled = x / unit;
@@ -54,9 +55,10 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     exponents.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
-/// The unit of each column of C by the bodies: a translation in metres, a rotation by the metres
-/// that it moves the joints of its body. The links of a row of a thousand metres have masses of one
-/// kind, although their moments of inertia are nothing beside the square of its size.
+/// The unit of each column of C for each body: a translation in metres, a rotation by the distance
+/// (m) that it moves the joints of the body. An example is a chain of a thousand metres. With these
+/// units its links have masses of one order of magnitude, although their moments of inertia are
+/// negligible relative to the square of the size of the chain.
 fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let (layout, space) = (mechanism.layout(), mechanism.space());
     let mut units = vec![1.0; layout.n_v];
@@ -67,9 +69,9 @@ fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     units
 }
 
-/// The length (m) of each body: the longest arm from its mass centre to a point of its joints, or
-/// its largest radius of gyration if that is longer; the size of the mechanism (m) if both are zero
-/// or rounding.
+/// The length (m) of each body: the longest arm from its centre of mass to a point of its joints,
+/// or its largest radius of gyration if that is longer. It is the size of the mechanism (m) if both
+/// are zero or rounding errors.
 fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let space = mechanism.space();
     let gyration = |mass: &[f64]| {
@@ -104,9 +106,10 @@ pub(super) fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     mass.map(|(unit, m)| unit * m * unit).collect()
 }
 
-/// The same where holonomic rows alone are solved: what only nonholonomic rows hold is free there,
-/// and in the metric of a body without mass or inertia no correction of it would be the smallest.
-/// So what has none gets the smallest value among those that have some, or 1.
+/// Masses and moments of inertia if only holonomic rows are solved. Motions that only nonholonomic
+/// rows restrict are free in this case. Without mass or inertia, the mass metric defines no
+/// smallest correction for them. Therefore a coordinate without mass gets the smallest positive
+/// value of the other coordinates, or 1.
 pub(super) fn mass_of_positions(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     let mut mass = mass_in_units(mechanism, units);
     let some = mass.iter().copied().filter(|&m| m > 0.0);
@@ -117,14 +120,14 @@ pub(super) fn mass_of_positions(mechanism: &Mechanism, units: &[f64]) -> Vec<f64
     mass
 }
 
-/// Whether the size of a mechanism (m) is far from that of ordinary machines: then the terms that
-/// are added up, such as weights and centrifugal terms, also differ by many powers of ten.
+/// Whether the size of a mechanism (m) is far from the size of ordinary machines. Then the terms
+/// that are added, such as weights and centrifugal terms, also differ by many powers of ten.
 pub(crate) fn is_far(size: f64) -> bool {
     !(1.0 / FAR_FROM_A_METRE..=FAR_FROM_A_METRE).contains(&size)
 }
 
-/// The largest mass divided by the smallest non-zero one, by the lengths of the bodies. It decides
-/// whether solutions are refined.
+/// The largest mass divided by the smallest nonzero mass, scaled by the lengths of the bodies. This
+/// ratio decides whether solutions are refined.
 pub(crate) fn mass_spread(mechanism: &Mechanism, size: f64) -> f64 {
     let units = units_of_bodies(mechanism, size);
     linalg::mass_spread(&mass_in_units(mechanism, &units))

@@ -1,11 +1,11 @@
 //! Switching between generated code and the interpreter. Generated code is used as long as its
 //! results are reliable at every stage and step; otherwise the interpreter continues from the last
-//! accepted state. Nothing here ends a run. Whether code belongs to a mechanism is checked in
-//! [`crate::code`].
+//! accepted state. Nothing in this module ends a run. The module [`crate::code`] checks whether
+//! code belongs to a mechanism.
 //!
-//! The interpreter is idle while generated code is used. When it takes over, it first evaluates the
-//! last two accepted states, because it predicts singular configurations from the pivots of two
-//! states.
+//! The interpreter does not run while generated code is used. Before it continues the run, it
+//! evaluates the last two accepted states, because it predicts singular configurations from the
+//! pivots of two states.
 
 use model::System;
 
@@ -23,9 +23,9 @@ use crate::solve::{Accelerations, Doubt, GeneratedCode, KeptEquations, State};
 /// The present evaluator of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
-    /// The code.
+    /// The generated code.
     Code,
-    /// The interpreter, which has not yet seen the last accepted states.
+    /// The interpreter, which has not yet evaluated the last accepted states.
     Waking,
     /// The interpreter, for this number of accepted steps.
     Interpreter(u64),
@@ -67,21 +67,21 @@ pub(crate) struct CodeSwitch<'m> {
     accepted: [AcceptedState; 2],
     n_accepted: usize,
     departure: Option<Departure>,
-    /// Scratch: accelerations of generated code that may be used again, n_v.
+    /// Work memory: accelerations of generated code that may be used again, n_v.
     found: Vec<f64>,
 }
 
 /// The switch from generated code to the interpreter.
 pub(crate) struct Departure {
-    /// The event that reports it.
+    /// The event that reports the switch.
     pub(crate) event: Event,
-    /// Whether stages of the present step were evaluated by generated code, so that the step has to
-    /// begin again.
+    /// Whether stages of the present step were evaluated by generated code, so that the step must
+    /// start again.
     pub(crate) is_within_step: bool,
 }
 
 impl<'m> CodeSwitch<'m> {
-    /// Uses generated code from the state q at time t on.
+    /// Uses generated code from time t on, starting from the state q.
     pub(crate) fn new(
         code: &'m dyn SceneCode,
         equations: &mut KeptEquations<'_>,
@@ -112,8 +112,8 @@ impl<'m> CodeSwitch<'m> {
         self.phase == Phase::Code
     }
 
-    /// Accelerations for an evaluation of a run. Returns `false` if the interpreter has to compute
-    /// them. Generated code that is not reliable is left.
+    /// Accelerations for an evaluation of a run. Returns `false` if the interpreter must compute
+    /// them. The motion stops using generated code that is unreliable.
     pub(crate) fn evaluate(
         &mut self,
         state: State<'_>,
@@ -135,8 +135,8 @@ impl<'m> CodeSwitch<'m> {
         }
     }
 
-    /// Moves a state onto the constraints by the code in use; leaves the state unchanged if the
-    /// result is not reliable.
+    /// Moves a state onto the constraint manifold by generated code; the state is unchanged if the
+    /// result is unreliable.
     pub(crate) fn project(
         &mut self,
         equations: &KeptEquations<'_>,
@@ -147,7 +147,7 @@ impl<'m> CodeSwitch<'m> {
         self.projection.project(&self.code, mechanism, t, state)
     }
 
-    /// Takes a state accepted with generated code.
+    /// Stores a state accepted with generated code.
     pub(crate) fn accept(&mut self, now: Now<'_>) {
         if GUARDED {
             self.accepted.swap(0, 1);
@@ -157,7 +157,8 @@ impl<'m> CodeSwitch<'m> {
         }
     }
 
-    /// Velocities have jumped at t: earlier states cannot be used for predictions.
+    /// Resets the predictions after a jump of the velocities at t: earlier states cannot be used
+    /// for them.
     pub(crate) fn restart(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -170,7 +171,7 @@ impl<'m> CodeSwitch<'m> {
         }
     }
 
-    /// Returns the departure once after generated code was left.
+    /// Returns the departure once, after the motion stopped using generated code.
     pub(crate) fn take_departure(&mut self) -> Option<Departure> {
         self.departure.take()
     }
@@ -231,7 +232,7 @@ impl<'m> CodeSwitch<'m> {
         Some(Event::at(t, EventKind::CodeUsed, dropped, text))
     }
 
-    /// Leaves generated code at an evaluation or a projection at time t.
+    /// Switches from generated code to the interpreter, at an evaluation or a projection at time t.
     pub(crate) fn leave(
         &mut self,
         t: f64,

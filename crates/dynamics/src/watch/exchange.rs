@@ -1,5 +1,5 @@
-//! Exchange of kept rows that have become nearly dependent although the rank stays the same, at
-//! accepted and polished points only. The motion does not change.
+//! Exchange of independent rows that have become ill-conditioned although the rank stays the same.
+//! It occurs only at accepted and corrected states, and the motion does not change.
 
 use model::System;
 use model::words::listed;
@@ -13,16 +13,16 @@ use crate::limits::WORTH_EXCHANGE;
 use crate::options::RowChoice;
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
-/// Rows to be kept from an accepted point on.
+/// Independent rows to be used from an accepted state on.
 pub(crate) struct Exchange {
     position: Option<KeptRows>,
     velocity: Option<Velocity>,
 }
 
 enum Velocity {
-    /// The rows requested by the user, which are independent again.
+    /// The rows requested by the user, which are well-conditioned again.
     Requested,
-    /// Other rows than the present ones; the flag states whether the present ones were requested.
+    /// Rows other than the present ones; the flag states whether the present ones were requested.
     Others(Box<KeptRows>, bool),
 }
 
@@ -55,9 +55,9 @@ impl Exchange {
         Ok(is_due.then_some(Self { position, velocity }))
     }
 
-    /// The same after dropped rows have missed: other rows then move the mechanism by as much, so
-    /// rows are exchanged only if they are lost.
-    /// Without nonholonomic rows both levels keep the same ones.
+    /// The check after redundant rows were violated: other independent rows then move the mechanism
+    /// by a similar amount, so rows are exchanged only if they are lost. Without nonholonomic rows
+    /// both levels have the same independent rows.
     fn due_within_tolerance(
         equations: &mut KeptEquations<'_>,
         q: &[f64],
@@ -85,7 +85,7 @@ impl Exchange {
         }))
     }
 
-    /// Keeps the rows. Returns whether other rows determine the position, which then has to be
+    /// Uses the new rows. Returns whether other rows determine the position, which must then be
     /// settled again, and the event.
     pub(crate) fn keep(
         self,
@@ -139,8 +139,9 @@ pub(super) fn may_be_due(equations: &mut KeptEquations<'_>, choice: &RowChoice) 
         || want_exchange(equations, choice)
 }
 
-/// Rows that imply the others better than the kept ones do, at a settled row of output: between two
-/// steps, the mechanism may pass configurations for which the kept rows are not suitable.
+/// Rows with smaller coefficients than the present independent rows, at a settled output row.
+/// Between two steps, the mechanism may reach configurations for which the present rows are not
+/// suitable.
 pub(super) fn better_for_row(
     equations: &mut KeptEquations<'_>,
     choice: &RowChoice,
@@ -153,7 +154,7 @@ pub(super) fn better_for_row(
     better(at, decide_rows(at.mechanism, &at.s, q), old)
 }
 
-/// The same for the rows that determine the position.
+/// Such rows for the determination of the position.
 pub(super) fn better_position_for_row(
     equations: &mut KeptEquations<'_>,
     q: &[f64],
@@ -165,7 +166,7 @@ pub(super) fn better_position_for_row(
     better(at, decide_holonomic_rows(at.mechanism, &at.s, q), old)
 }
 
-/// Whether a row of output takes the rows of the surrounding steps without asking for others.
+/// Whether an output row uses the rows of the surrounding steps without a search for others.
 fn suit_output(equations: &KeptEquations<'_>) -> bool {
     !GUARDED || equations.have_missed() || are_sound(&equations.velocity)
 }
@@ -175,8 +176,8 @@ fn requested_rows_recovered(equations: &mut KeptEquations<'_>) -> bool {
     requested.is_some_and(|rows| rows.factor(&equations.at).is_ok() && are_recovered(rows))
 }
 
-/// Freshly factored kept rows of a new decision, if they have the same rank as the old ones and
-/// imply the dropped ones with smaller coefficients. A different rank belongs to a singular
+/// Freshly factored independent rows of a new decision, if they have the same rank as the old ones
+/// and smaller coefficients in the redundant rows. A different rank belongs to a singular
 /// configuration nearby, not to the motion.
 fn better<E: std::fmt::Display>(
     at: &Evaluation<'_>,

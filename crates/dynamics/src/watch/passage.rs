@@ -1,13 +1,13 @@
-//! Detects whether a step passes a singular configuration. There the kept rows are dependent for an
-//! instant: branches of the motion may meet, and a step may end on another branch with every
-//! residual at rounding.
+//! Detects whether a step moves through a singular configuration. There the independent rows are
+//! dependent for an instant: branches of the motion may meet, and a step may end on another branch
+//! although every residual is a rounding error.
 //!
-//! The accelerations there are a quotient of two numbers that both vanish: at the distance σ, a
+//! The accelerations there are a quotient of two numbers that both vanish. At the distance σ, a
 //! relative pivot, a constraint violation δ of a stage causes an error δ/σ, and rounding causes
-//! eps/σ². So near a singular configuration stages are moved onto the constraints before they are
-//! evaluated, steps are chosen such that the configuration lies between two stages
-//! ([`Passage::expected`]), and rows with relative pivots below 1e-6 are skipped in a solve. A step
-//! must not end so close that a projection could not distinguish the branches, and a step over a
+//! eps/σ². Therefore stages near a singular configuration are moved onto the constraint manifold
+//! before their evaluation. Steps are chosen such that the configuration is between two stages
+//! ([`Passage::expected`]), and rows with relative pivots below 1e-6 are left out of the solution.
+//! A step must not end so close that a projection could not distinguish the branches. A step over a
 //! singular configuration is accepted only if its correction is small relative to the distance of
 //! the branches: the run continues on the smooth branch.
 
@@ -24,14 +24,15 @@ pub(crate) struct Now<'a> {
     pub(crate) a: &'a [f64],
 }
 
-/// A basis of the motions that were possible at the last accepted step, the sign of the determinant
-/// of the kept rows bordered by it, and the smallest pivot of the stages since then.
+/// Data of the last accepted step: a basis of the possible motions, and the sign of the determinant
+/// of the independent rows bordered by this basis. Also the smallest pivot of the stages since
+/// then.
 #[derive(Default)]
 pub(crate) struct Passage {
     frame: Vec<f64>,
     sign: f64,
     t: f64,
-    /// Relative pivot at this step, and its rate since the step before.
+    /// Relative pivot at this step, and its rate since the previous step.
     pivot: f64,
     rate: f64,
     lowest: Option<f64>,
@@ -57,7 +58,8 @@ impl Passage {
         self.pivot
     }
 
-    /// When the pivots of the last two accepted steps, continued as a straight line, vanish.
+    /// Time at which the pivots vanish if those of the last two accepted steps are extrapolated
+    /// along a straight line.
     pub(super) fn expected(&self) -> Option<f64> {
         (self.rate < 0.0).then(|| self.t - self.pivot / self.rate)
     }
@@ -77,9 +79,9 @@ impl Passage {
         self.sign * rows.orientation(&self.frame) < 0.0
     }
 
-    /// Whether velocities v at time t, with accelerations a and the weights `mass`, continue those
-    /// before the singular configuration. On another branch they have another direction. Called
-    /// once the rows have good pivots again.
+    /// Whether velocities v at time t, with accelerations a and the weights `mass`, continue the
+    /// velocities before the singular configuration. On another branch they have another direction.
+    /// The function is called when the rows have good pivots again.
     pub(super) fn is_continued_by(&self, Now { t, v, a, .. }: Now<'_>, mass: &[f64]) -> bool {
         let Some(entry) = &self.entry else {
             return true;
@@ -95,7 +97,7 @@ impl Passage {
         kink <= KINK * (speed + change)
     }
 
-    /// Takes an accepted state as the last one before pivots become small.
+    /// Stores an accepted state as the last one before pivots become small.
     pub(super) fn enter(&mut self, Now { t, v, a, .. }: Now<'_>) {
         let entry = self.entry.get_or_insert_with(|| Entry {
             t,
@@ -107,17 +109,18 @@ impl Passage {
         entry.a.copy_from_slice(a);
     }
 
-    /// Forgets this state, because velocities jump for another reason.
+    /// Deletes this state, because velocities jump for another reason.
     pub(crate) fn forget_entry(&mut self) {
         self.entry = None;
     }
 
-    /// Whether a step that ends at freshly factored rows may have passed a singular configuration.
+    /// Whether a step that ends at freshly factored rows may have moved through a singular
+    /// configuration.
     pub(super) fn is_suspect(&self, rows: &mut KeptRows) -> bool {
         self.lowest.is_some_and(|lowest| lowest < SUSPECT) || self.is_beyond(rows)
     }
 
-    /// Takes the freshly factored rows of an accepted step at time t.
+    /// Stores the freshly factored rows of an accepted step at time t.
     pub(crate) fn take(&mut self, rows: &mut KeptRows, t: f64) {
         if !GUARDED {
             self.t = t;

@@ -1,4 +1,4 @@
-//! Classification of kept rows by their pivots, for freshly factored rows.
+//! Classification of independent rows by their pivots, for freshly factored rows.
 
 use crate::limits::{
     DELICATE, LARGE_COEFFICIENT, PARTITION_WORN, PIVOT_LOSS, PIVOT_RECOVERY, SOUND,
@@ -6,8 +6,9 @@ use crate::limits::{
 use crate::options::RowChoice;
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
-/// Whether the motion is so close to a singular configuration that stages have to satisfy the
-/// constraints: a violation δ makes accelerations wrong by δ divided by the relative pivot.
+/// Whether the motion is so close to a singular configuration that stages must satisfy the
+/// constraints: a constraint violation δ causes an error of the accelerations of δ divided by the
+/// relative pivot.
 pub(crate) fn are_delicate(rows: &KeptRows) -> bool {
     rows.relative_pivot() < DELICATE
 }
@@ -21,17 +22,18 @@ pub(crate) fn are_worn(equations: &KeptEquations<'_>) -> bool {
     worn(&equations.velocity) || worn(&equations.position) || equations.requested_rows.is_some()
 }
 
-/// Whether rows of output are implied well: above this limit no other rows are considered.
+/// Whether output rows satisfy the redundant rows accurately: above this limit no other rows are
+/// considered.
 pub(super) fn are_sound(rows: &KeptRows) -> bool {
     rows.relative_pivot() >= SOUND
 }
 
-/// Whether the requested rows are as independent as before.
+/// Whether the requested rows are as well-conditioned as before.
 pub(super) fn are_recovered(rows: &KeptRows) -> bool {
     rows.relative_pivot() > PIVOT_RECOVERY
 }
 
-/// Whether other kept rows should be considered. Rows chosen by the user are kept as long as
+/// Whether other independent rows should be considered. Rows chosen by the user are used as long as
 /// possible.
 pub(super) fn want_exchange(equations: &mut KeptEquations<'_>, choice: &RowChoice) -> bool {
     let (rows, at) = (&mut equations.velocity, &equations.at);
@@ -39,18 +41,18 @@ pub(super) fn want_exchange(equations: &mut KeptEquations<'_>, choice: &RowChoic
 }
 
 /// Like [`want_exchange`], for the rows that determine the position, which the user does not
-/// choose. A projection without corrections has not factored them here.
+/// choose. A projection without corrections does not factor them.
 pub(super) fn position_wants_exchange(equations: &mut KeptEquations<'_>) -> bool {
     let (rows, at) = (&mut equations.position, &equations.at);
     !rows.dropped.is_empty() && rows.factor(at).is_ok() && (are_lost(rows) || are_poor(rows, at))
 }
 
-/// Whether the rows have become nearly dependent since they were chosen, and other rows exist.
+/// Whether the rows have become ill-conditioned since they were chosen, and other rows exist.
 pub(super) fn are_lost(rows: &KeptRows) -> bool {
     !rows.dropped.is_empty() && rows.relative_pivot() < PIVOT_LOSS
 }
 
-/// Whether the rows imply the dropped ones with large coefficients.
+/// Whether the coefficients of the rows in the redundant rows are large.
 fn are_poor(rows: &mut KeptRows, at: &Evaluation<'_>) -> bool {
     !rows.dropped.is_empty() && rows.largest_coefficient(at) > LARGE_COEFFICIENT
 }
@@ -63,7 +65,7 @@ mod tests {
     use joints::{Line, PointOnLine};
     use model::{Body, Description, Mechanism, StartOptions};
 
-    /// A beam on rollers at 0, ε and 1, of which the last is dropped:
+    /// A beam on rollers at 0, ε and 1, of which the last row is redundant:
     /// `row 2 = (1 − 1/ε)·row 0 + 1/ε·row 1`.
     #[test]
     fn rows_that_multiply_their_rounding_are_exchanged() {

@@ -15,18 +15,18 @@ use crate::solve::{Evaluation, KeptEquations, KeptRows};
 pub(crate) struct Singular {
     /// Time (s).
     pub(crate) t: f64,
-    /// Number of kept rows that are dependent there; in a reported event, the loss of rank.
+    /// Number of independent rows that are dependent there; in a reported event, the loss of rank.
     pub(crate) dependent: usize,
 }
 
-/// The largest change between neighbours.
+/// The largest change between neighbouring values.
 fn steepest(pivots: &[f64]) -> f64 {
     let changes = pivots.windows(2).map(|w| (w[1] - w[0]).abs());
     changes.fold(0.0, f64::max)
 }
 
-/// The time at which a motion that is at `now`, the last accepted state, will be singular, if its
-/// pivots vanish near the expected time.
+/// The time at which a motion from the last accepted state `now` will be singular, if its pivots
+/// vanish near the expected time.
 pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64) -> Option<f64> {
     let noise = VANISHES * equations.velocity.relative_pivot();
     let mut way = vec![0.0; now.v.len()];
@@ -47,7 +47,7 @@ pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64
     }
 }
 
-/// Searches for singular configurations on kept rows.
+/// Searches for singular configurations of the independent rows.
 pub(crate) struct SingularitySearch<'m> {
     at: Evaluation<'m>,
     rows: KeptRows,
@@ -63,7 +63,8 @@ impl<'m> SingularitySearch<'m> {
     }
 
     /// Whether the pivots fall, or the bordered determinant has changed its sign, at one of a few
-    /// times. Each time costs a factorisation until one does. Returns `true` in case of doubt.
+    /// times. Each time costs a factorisation, until the result is true. Returns `true` in case of
+    /// doubt.
     fn is_promising(
         &mut self,
         [now, end]: [f64; 2],
@@ -98,8 +99,8 @@ impl<'m> SingularitySearch<'m> {
     }
 
     /// The singular configuration between t0 and t1, if there is one: at a change of sign of the
-    /// bordered determinant, or where the smallest relative pivot falls below `noise` and rises
-    /// again. `state` returns the coordinates at a time.
+    /// bordered determinant, or at a minimum of the smallest relative pivot below `noise`. `state`
+    /// returns the coordinates at a time.
     pub(crate) fn find(
         &mut self,
         [t0, t1]: [f64; 2],
@@ -120,7 +121,7 @@ impl<'m> SingularitySearch<'m> {
         }
         let flip = signs.windows(2).position(|w| w[0] * w[1] < 0.0);
         let t = match flip {
-            // The pivot with the sign of the determinant crosses zero nearly linearly.
+            // The pivot multiplied by the sign of the determinant crosses zero nearly linearly.
             Some(k) => {
                 let ends = [pivots[k], -pivots[k + 1]];
                 let signed = |t: f64| {
@@ -138,7 +139,7 @@ impl<'m> SingularitySearch<'m> {
                 let enough = SHARP * (interval[1] - interval[0]);
                 let least = minimum(interval, noise, enough, |t| at(t, self).ok_or(()));
                 let (t, pivot) = least.ok()??;
-                // At an end of what is searched the pivot only falls.
+                // At an end of the searched interval the pivot falls without rising again.
                 if pivot > RISES * pivots[k - 1].min(pivots[k + 1]) {
                     return None;
                 }
@@ -157,8 +158,9 @@ impl<'m> SingularitySearch<'m> {
         })
     }
 
-    /// Amount by which the rank of all rows drops if that of the kept ones does: kept rows may
-    /// become dependent while others replace them. In case of doubt, the same amount.
+    /// Loss of rank of all rows at a configuration at which the independent rows lose rank: the
+    /// independent rows may become dependent while others replace them. In case of doubt, both
+    /// losses are equal.
     pub(crate) fn rank_lost(
         &mut self,
         Singular { t, dependent }: Singular,
@@ -195,7 +197,7 @@ impl<'m> SingularitySearch<'m> {
             dropped: self.rows.dropped.clone(),
             text: format!(
                 "passed a singular configuration, where {dependent} more {rows} {verb} on the others for an instant: {uniqueness}. \
-                 The run went on as smoothly as it came."
+                 The run continued smoothly."
             ),
             impulses: Vec::new(),
         }
@@ -206,8 +208,8 @@ impl<'m> SingularitySearch<'m> {
 mod tests {
     use super::*;
 
-    /// A pivot that falls to zero as a root does between two places is steeper there than any
-    /// change between places shows: by 1/(√3 − 1) if it vanishes in the middle.
+    /// A pivot that falls to zero like a square root between two instants is steeper there than its
+    /// changes between instants show: by 1/(√3 − 1) if it vanishes in the middle.
     #[test]
     fn a_pivot_that_vanishes_as_a_root_is_searched_for() {
         for middle in 0..=10 {
@@ -219,7 +221,7 @@ mod tests {
         }
     }
 
-    /// A pivot that changes by a sixth of its least value between places stays away from zero.
+    /// A pivot that changes by a sixth of its smallest value between instants stays away from zero.
     #[test]
     fn a_pivot_that_hardly_changes_is_not_searched_for() {
         let pivots = [4.0, 3.5, 3.0, 3.5, 4.0].map(|x: f64| x / 3.0);

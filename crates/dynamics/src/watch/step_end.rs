@@ -1,10 +1,11 @@
-//! Decides whether a step may end, and keeps what is known of singular configurations on the way.
+//! Decides whether a step may end, and stores information about singular configurations during the
+//! motion.
 //!
-//! Near a singular configuration, stages are moved onto the constraints before they are evaluated,
-//! and steps are chosen such that the configuration lies between two stages. A step must not end so
-//! close to it that a projection could not distinguish the branches. A step over it is accepted
-//! only if its correction is small relative to the distance of the branches and its velocities
-//! continue those before it.
+//! Near a singular configuration, stages are moved onto the constraint manifold before their
+//! evaluation, and steps are chosen such that the configuration is between two stages. A step must
+//! not end so close to it that a projection could not distinguish the branches. A step over it is
+//! accepted only if its correction is small relative to the distance of the branches and its
+//! velocities continue the velocities before it.
 
 use integrators::Delicate;
 use model::System;
@@ -29,14 +30,15 @@ pub(crate) enum Next {
     Accept,
     /// The step is repeated with a smaller length.
     Reject,
-    /// The step is accepted with other kept rows.
+    /// The step is accepted with other independent rows.
     Keep(Box<Exchange>),
-    /// The step is refused; if no shorter step is accepted, the run stops with this fault.
+    /// The step is rejected; if no shorter step is accepted, the run stops with this fault.
     Stop(MotionFault),
 }
 
 impl Next {
-    /// The exchange of rows to carry out if the step is accepted, or the result that refuses it.
+    /// The exchange of rows to carry out if the step is accepted, or the result that rejects the
+    /// step.
     pub(crate) fn stands(self) -> Result<Option<Box<Exchange>>, Self> {
         match self {
             Self::Accept => Ok(None),
@@ -60,11 +62,11 @@ pub(crate) struct Monitors {
     pending: Option<Event>,
     rtol: f64,
     t_end: f64,
-    /// Whether the last accepted step may have passed a singular configuration.
+    /// Whether the last accepted step may have moved through a singular configuration.
     pub(crate) is_suspect: bool,
     /// Expected time of the next singular configuration.
     pub(super) delicate: Option<f64>,
-    /// The last time at which a step was refused because of a dropped row, with the fault.
+    /// The last time at which a step was rejected because of a redundant row, with the fault.
     contradicted: Option<(f64, MotionFault)>,
 }
 
@@ -82,8 +84,8 @@ impl Monitors {
         }
     }
 
-    /// Relative pivot below which this run treats a pivot as zero; steps must not end closer to a
-    /// singular configuration, unless they have to end there.
+    /// Relative pivot below which this run treats a pivot as zero. Steps must not end closer to a
+    /// singular configuration, unless they must end there.
     pub(crate) fn nearest(&self) -> f64 {
         (NEAREST_TOLERANCES * self.rtol).clamp(NEAREST, NEAREST_MAX)
     }
@@ -98,8 +100,8 @@ impl Monitors {
         self.delicate
     }
 
-    /// Expected time of a singular configuration of a mechanism of this size (m), and by how much
-    /// steps over it may exceed their tolerance.
+    /// Expected time of a singular configuration of a mechanism of this size (m), and the factor by
+    /// which steps over it may exceed their tolerance.
     pub(crate) fn delicate(&self, size: f64) -> Option<Delicate> {
         self.delicate.map(|t| Delicate {
             t,
@@ -108,9 +110,9 @@ impl Monitors {
         })
     }
 
-    /// Whether the end of a step at t is a place where it must not end, at freshly factored rows.
-    /// Steps have to end at break times and at the end of the run, wherever that is; one that has
-    /// come near to a singular configuration all at once had better end farther away.
+    /// Whether a step must not end at t, at freshly factored rows. Steps must end at break times
+    /// and at the end of the run, whatever the configuration. A step that suddenly approaches a
+    /// singular configuration should end farther away from it.
     pub(crate) fn judge_place(
         &self,
         equations: &KeptEquations<'_>,
@@ -124,7 +126,8 @@ impl Monitors {
         if pivot < self.nearest() {
             return Next::Stop(self.no_way_over(t));
         }
-        // The next step would have to pass from so near that its stages are mostly rounding.
+        // The next step over the singular configuration would start so close to it that its stages
+        // are mostly rounding errors.
         let fell = pivot < FALLEN * self.passage.pivot();
         if fell && pivot < NEARBY * self.nearest() {
             Next::Reject
@@ -133,7 +136,8 @@ impl Monitors {
         }
     }
 
-    /// Decides which rows to keep at a settled position, at which the rows are factored.
+    /// Decides which rows are independent rows at a settled position, at which the rows are
+    /// factored.
     pub(crate) fn judge_rows(&self, equations: &mut KeptEquations<'_>, q: &[f64]) -> Next {
         match Exchange::due(equations, &self.choice, q) {
             Ok(Some(exchange)) => Next::Keep(Box::new(exchange)),
@@ -142,12 +146,12 @@ impl Monitors {
         }
     }
 
-    /// Whether [`Monitors::judge_rows`] has a decision to make for freshly factored rows.
+    /// Whether [`Monitors::judge_rows`] must make a decision for freshly factored rows.
     pub(crate) fn may_exchange(&self, equations: &mut KeptEquations<'_>) -> bool {
         exchange::may_be_due(equations, &self.choice)
     }
 
-    /// Rows that determine the position of a row of output better than those of the surrounding
+    /// Rows that determine the position of an output row better than the rows of the surrounding
     /// steps.
     pub(crate) fn position_rows_for_output(
         &self,
@@ -157,7 +161,7 @@ impl Monitors {
         exchange::better_position_for_row(equations, q)
     }
 
-    /// Rows that are more suitable for a row of output than those of the surrounding steps.
+    /// Rows that are more suitable for an output row than the rows of the surrounding steps.
     pub(crate) fn rows_for_output(
         &self,
         equations: &mut KeptEquations<'_>,
@@ -166,12 +170,12 @@ impl Monitors {
         exchange::better_for_row(equations, &self.choice, q)
     }
 
-    /// Stores an event that is reported once the step is accepted.
+    /// Stores an event; it is reported when the step is accepted.
     pub(crate) fn tell_later(&mut self, event: Option<Event>) {
         self.pending = event.or(self.pending.take());
     }
 
-    /// Records a step to t that was refused because of a dropped row.
+    /// Records a step to t that was rejected because of a redundant row.
     pub(crate) fn note_refused(&mut self, t: f64, fault: &MotionFault) {
         let is_of_dropped_row = matches!(
             fault,
@@ -182,14 +186,14 @@ impl Monitors {
         }
     }
 
-    /// The dropped row that made steps collapse at time t. The small steps accepted before a
-    /// contradiction are valid and do not show it.
+    /// The redundant row that caused the collapse of the step size at time t. The small steps
+    /// accepted before a contradiction are valid and do not show it.
     pub(crate) fn contradiction(&mut self, t: f64) -> Option<MotionFault> {
         let (end, fault) = self.contradicted.take()?;
         (end - t <= JUST_AHEAD * self.t_end).then_some(fault)
     }
 
-    /// Whether a step to freshly factored rows may have passed a singular configuration.
+    /// Whether a step to freshly factored rows may have moved through a singular configuration.
     pub(crate) fn may_have_passed(
         &self,
         equations: &mut KeptEquations<'_>,
@@ -204,8 +208,9 @@ impl Monitors {
         self.passage.pivot() >= SUSPECT
     }
 
-    /// Judges a step to t that may have passed a singular configuration by its correction, in the
-    /// norm of the step: other branches are as far away as the place where it ends.
+    /// Checks the correction, in the error norm, of a step to t that may have moved through a
+    /// singular configuration. The distance to other branches is as large as the distance to the
+    /// end of the step.
     pub(crate) fn judge_correction(
         &self,
         equations: &KeptEquations<'_>,
@@ -221,7 +226,7 @@ impl Monitors {
     }
 
     /// Checks the velocities and accelerations at the end of a step: after a singular configuration
-    /// they must continue those before it. While the motion is still close to it, the check is
+    /// they must continue those before it. If the motion is still close to it, the check is
     /// postponed.
     pub(crate) fn judge_motion(
         &mut self,
@@ -242,9 +247,10 @@ impl Monitors {
         Next::Accept
     }
 
-    /// The time of a singular configuration just ahead that nothing had announced: pivots that grew
-    /// until then have fallen within the step. It is passed from farther away, where stages are not
-    /// yet rounding, so the step is repeated with this knowledge.
+    /// The time of a singular configuration just ahead that was not predicted: its pivots grew up
+    /// to the last step and have fallen within this step. The step is repeated with this
+    /// prediction, so that the step over the singular configuration starts farther away, where
+    /// stages are not yet rounding errors.
     fn came_upon(&self, equations: &KeptEquations<'_>, now: Now<'_>) -> Option<f64> {
         let (before, pivot) = (self.passage.pivot(), equations.velocity.relative_pivot());
         if !GUARDED || self.delicate.is_some() || pivot >= FALLEN * before.min(1.0) {
@@ -261,8 +267,8 @@ impl Monitors {
         }
     }
 
-    /// Takes the state just evaluated as the end of an accepted step; returns the event since the
-    /// last one.
+    /// Stores the state just evaluated as the end of an accepted step; returns the event since the
+    /// last accepted step.
     pub(crate) fn accept(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -283,7 +289,7 @@ impl Monitors {
         self.delicate = expected.and_then(|expected| search::foresee(equations, now, expected));
     }
 
-    /// The fault for a step to t over a singular configuration that is refused.
+    /// The fault for a step to t over a singular configuration that is rejected.
     pub(crate) fn no_way_over(&self, t: f64) -> MotionFault {
         MotionFault::SingularPassage {
             from: self.passage.since(),
@@ -296,9 +302,9 @@ impl Monitors {
 mod tests {
     use super::*;
 
-    /// A row off its motion by the tolerance has reactions wrong by tolerance over pivot: those
-    /// that are reported keep three digits, where the tolerance is neither rounding nor loose.
-    /// Branches are distinguished with two.
+    /// A row with a motion error equal to the tolerance has a reaction error of tolerance/pivot.
+    /// Reported reactions keep three digits, if the tolerance is neither loose nor near the
+    /// rounding error. Two digits are enough to distinguish branches.
     #[test]
     fn pivots_are_compared_with_what_the_tolerance_leaves_of_them() {
         for (rtol, nearest, blind) in [
@@ -318,8 +324,8 @@ mod tests {
         }
     }
 
-    /// A step that was refused just ahead of where the run stands says why it cannot go on; one
-    /// farther away does not.
+    /// A step that was rejected just ahead of the present time explains why the run cannot
+    /// continue; one farther away does not.
     #[test]
     fn a_contradiction_just_ahead_is_why_a_run_stops() {
         for (ahead, is_why) in [(0.7e-9, true), (1.4e-9, false)] {

@@ -1,4 +1,4 @@
-//! What loops miss at a pose, and how that changes with the coordinates of the joints.
+//! Gaps of loops at a pose, and their derivatives with respect to the joint coordinates.
 
 use nalgebra::{DMatrix, DVector, Isometry3, Point3, UnitQuaternion, Vector3};
 
@@ -7,7 +7,7 @@ use crate::limits::{DIFFERENCE, OPEN};
 use crate::mechanism::{Joint, JointKind, Model};
 use crate::pose::{JointPlacement, placing, rotation};
 
-/// A way in which a joint moves the links behind it.
+/// A degree of freedom by which a joint moves the links after it.
 #[derive(Clone, Copy)]
 pub(super) struct Freedom {
     joint: usize,
@@ -18,17 +18,17 @@ pub(super) struct Freedom {
 enum Way {
     /// A coordinate of the joint.
     Coordinate(usize),
-    /// A turn about the k-th axis of the ground through its point.
+    /// A rotation about the k-th axis of the ground through the point of the joint.
     Turn(usize),
-    /// A shift along the k-th axis of the ground.
+    /// A translation along the k-th axis of the ground.
     Shift(usize),
 }
 
-/// What one loop or coupling misses.
+/// Gap of one loop or coupling.
 pub(super) struct Gap {
     pub(super) name: String,
     miss: Miss,
-    /// Length of which shares are shares (m).
+    /// Length to which shares refer (m).
     size: f64,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Gap {
 struct Miss {
     /// Components of distances, as shares of a length.
     shares: Vec<f64>,
-    /// Unit: rad.
+    /// Angles (rad).
     angles: Vec<f64>,
 }
 
@@ -50,7 +50,7 @@ impl Gap {
         self.rows().fold(0.0, |most: f64, x| most.max(x.abs()))
     }
 
-    /// The gap as distance and angle.
+    /// The gap as text: distance and angle.
     pub(super) fn words(&self) -> String {
         let norm = |list: &[f64]| list.iter().map(|x| x * x).sum::<f64>().sqrt();
         let (far, turned) = (norm(&self.miss.shares), norm(&self.miss.angles));
@@ -65,13 +65,13 @@ impl Gap {
     }
 }
 
-/// The tree of links with what moves it.
+/// The tree of links with the degrees of freedom that move it.
 #[derive(Clone)]
 pub(super) struct Tree {
     pub(super) freedoms: Vec<Freedom>,
     /// Joints and coordinates that keep their values.
     pub(super) held: Vec<(usize, usize)>,
-    /// For each link the joints between the ground and it.
+    /// For each link, the joints between the ground and the link.
     chains: Vec<Vec<usize>>,
     /// Length by which gaps between points are divided (m).
     size: f64,
@@ -114,8 +114,8 @@ impl Tree {
             let mut add = |kind| freedoms.push(Freedom { joint: k, kind });
             match joint.kind {
                 JointKind::Spherical => (0..3).for_each(|axis| add(Way::Turn(axis))),
-                // Out of the plane the steps are taken back by the loops alone: planar joints of a
-                // tree stay where they are.
+                // Steps out of the plane are corrected only by the loops: planar joints of a tree
+                // do not move.
                 JointKind::Fixed | JointKind::Free | JointKind::Planar => {}
                 kind => (0..kind.measures().len()).for_each(|c| add(Way::Coordinate(c))),
             }
@@ -146,7 +146,7 @@ impl Tree {
         }
     }
 
-    /// The same with coordinates that keep their values.
+    /// The same tree with coordinates that keep their values.
     pub(super) fn holding(&self, held: &[(usize, usize)]) -> Self {
         let mut tree = self.clone();
         tree.held = held.to_vec();
@@ -157,7 +157,7 @@ impl Tree {
         tree
     }
 
-    /// What every active loop and coupling misses at these poses.
+    /// Gaps of every active loop and coupling at these poses.
     pub(super) fn gaps(&self, model: &Model, poses: &[Isometry3<f64>], q: &[[f64; 2]]) -> Vec<Gap> {
         let closing = model
             .joints
@@ -205,7 +205,7 @@ impl Tree {
         DVector::from_vec(rows)
     }
 
-    /// The misses of one joint: of points as a share of the size, of directions in rad.
+    /// Gaps of one joint: between points as a share of the size, between directions in rad.
     fn miss(&self, model: &Model, joint: &Joint, poses: &[Isometry3<f64>]) -> Miss {
         let of =
             |side: usize| joint.links[side].map_or_else(Isometry3::identity, |link| poses[link]);
@@ -237,7 +237,8 @@ impl Tree {
         }
     }
 
-    /// Derivatives of the residuals by the freedoms, by central differences of rigid motions.
+    /// Derivatives of the residuals with respect to the degrees of freedom, by central differences
+    /// of rigid motions.
     pub(super) fn jacobian(
         &self,
         model: &Model,
@@ -273,7 +274,7 @@ impl Tree {
         out
     }
 
-    /// Lengths are counted in sizes.
+    /// Lengths are measured in sizes of the model.
     fn unit(&self, model: &Model, freedom: Freedom) -> f64 {
         match freedom.kind {
             Way::Shift(_) => self.size,
@@ -326,7 +327,7 @@ impl Tree {
         }
     }
 
-    /// Moves a state along the freedoms.
+    /// Moves a state along the degrees of freedom.
     pub(super) fn advance(&self, model: &Model, state: &mut State, step: &DVector<f64>) {
         let displaced = state.displacements(model);
         for (freedom, by) in self.freedoms.iter().zip(step.iter()) {
@@ -348,7 +349,7 @@ impl Tree {
     }
 }
 
-/// A rigid motion of one freedom, in ground axes.
+/// A rigid motion of one degree of freedom, in ground axes.
 struct Screw {
     point: Vector3<f64>,
     axis: Vector3<f64>,

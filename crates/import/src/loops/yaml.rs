@@ -1,10 +1,10 @@
-//! A YAML file as its keys of the first level, with values and places.
+//! The keys of the first level of a YAML file, with values and positions.
 
 use saphyr_parser::{Event, Marker, Parser, Span, StrInput};
 
 use crate::limits::DEEPEST_LIST;
 
-/// A place (byte) and what is wrong there.
+/// A position (byte) and the description of the fault.
 pub(super) type Wrong = (usize, String);
 
 /// A key of the first level.
@@ -14,7 +14,7 @@ pub(super) struct Key {
     pub(super) value: Node,
 }
 
-/// A value with its place.
+/// A value with its position.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Node {
     Text(String, usize),
@@ -40,8 +40,8 @@ impl Node {
 /// The keys of a file, in their order.
 ///
 /// # Errors
-/// The file is not YAML, has no keys or several documents, or needs what is not read: aliases and
-/// deep lists.
+/// The file is not YAML, has no keys or several documents, or contains unsupported elements:
+/// aliases and deep lists.
 pub(super) fn keys(text: &str) -> Result<Vec<Key>, Wrong> {
     let mut events = Events::of(text);
     let mut keys = Vec::new();
@@ -65,10 +65,10 @@ pub(super) fn keys(text: &str) -> Result<Vec<Key>, Wrong> {
     }
 }
 
-/// What the parser finds, with places in bytes.
+/// The events of the parser, with positions in bytes.
 struct Events<'t> {
     parser: Parser<'t, StrInput<'t>>,
-    /// The byte at which each character begins.
+    /// The start byte of each character.
     bytes: Vec<usize>,
 }
 

@@ -22,7 +22,7 @@ struct MjcfJoint {
     load: Load,
 }
 
-/// What the file says of a joint.
+/// Data of a joint in the file.
 struct GivenJoint<'a> {
     element: Element<'a>,
     kind: Option<Value<'a>>,
@@ -111,8 +111,9 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// The links of a body with its joints: one for each joint or pair of hinges of a universal
-    /// joint, all but the last without mass. Returns the last.
+    /// The links of a body with its joints. There is one link for each joint, or for each pair of
+    /// hinges that forms a universal joint; all links except the last one are massless. Returns the
+    /// last link.
     fn chain(
         &mut self,
         name: &str,
@@ -283,7 +284,7 @@ impl<'a> Reader<'a, '_> {
         None
     }
 
-    /// The coordinate in the axes of the file, and that at which the spring is without a load.
+    /// The coordinate in the axes of the file, and the coordinate at which the spring has no load.
     fn coordinates_of(&mut self, given: &GivenJoint<'a>, kind: JointKind) -> [f64; 2] {
         let [zero, reference, _] = &given.coordinates;
         let coordinates = [zero, reference].map(|value| numbers_of(self.source.findings, value)[0]);
@@ -299,7 +300,7 @@ impl<'a> Reader<'a, '_> {
         coordinates.map(|x| x * angle)
     }
 
-    /// The load on the coordinate; what else acts on it is left out.
+    /// The load on the coordinate; other loads on it are omitted.
     fn load_of(
         &mut self,
         given: &GivenJoint<'a>,
@@ -377,7 +378,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Scales all masses, where `<compiler>` gives their sum.
+    /// Scales all masses, if `<compiler>` gives their sum.
     pub(super) fn finish_masses(&mut self, root: Element<'a>) {
         let Some(total) = self.source.compiler.total_mass else {
             return;
@@ -428,7 +429,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// The numbers of a value, one zero without it.
+/// The numbers of a value; one zero if the value is missing.
 fn numbers_of(findings: &mut Findings, value: &Option<Value<'_>>) -> Vec<f64> {
     let numbers = value.as_ref();
     let numbers = numbers.and_then(|value| findings.numbers(value, [1, 16], NumberKind::Other));

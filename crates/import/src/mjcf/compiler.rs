@@ -1,4 +1,4 @@
-//! `<compiler>`: what numbers and angles mean; and orientations.
+//! `<compiler>`: meaning of numbers and angles; and orientations.
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
@@ -6,10 +6,10 @@ use crate::findings::{Fault, Findings, NumberKind, unit};
 use crate::pose::{along_z, quaternion, rotation};
 use crate::xml::{Element, Value};
 
-/// What is done with the inertia of geoms.
+/// Use of the inertia of geoms.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum FromGeoms {
-    /// Where a body has none of its own.
+    /// If a body has no inertia of its own.
     Auto,
     Always,
     Never,
@@ -21,7 +21,7 @@ pub(super) struct Compiler {
     /// Axes of Euler angles: 0, 1, 2, and whether they are fixed.
     pub(super) euler: [(usize, bool); 3],
     pub(super) from_geoms: FromGeoms,
-    /// Groups of geoms that have inertia.
+    /// Groups of geoms that contribute inertia.
     pub(super) groups: [f64; 2],
     pub(super) least_mass: f64,
     pub(super) least_inertia: f64,
@@ -98,7 +98,7 @@ impl Compiler {
         }
     }
 
-    /// Place and orientation of an element. `get` gives its attributes.
+    /// Position and orientation of an element. `get` returns its attributes.
     pub(super) fn pose<'a>(
         &self,
         get: impl Fn(&str) -> Option<Value<'a>>,
@@ -109,7 +109,7 @@ impl Compiler {
         Isometry3::from_parts(position.unwrap_or_default().into(), turned)
     }
 
-    /// One of `quat`, `axisangle`, `euler`, `xyaxes`, `zaxis`.
+    /// The orientation, from one of the attributes `quat`, `axisangle`, `euler`, `xyaxes`, `zaxis`.
     pub(super) fn orientation<'a>(
         &self,
         get: impl Fn(&str) -> Option<Value<'a>>,

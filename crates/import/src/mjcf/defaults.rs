@@ -1,4 +1,4 @@
-//! `<default>`: classes of attributes, each within another one.
+//! `<default>`: nested classes of attributes.
 
 use std::collections::HashMap;
 
@@ -15,7 +15,7 @@ pub(super) struct Defaults<'a> {
 #[derive(Default)]
 struct Class<'a> {
     around: Option<usize>,
-    /// By element and attribute.
+    /// Values by element and attribute.
     values: HashMap<(&'a str, &'a str), Value<'a>>,
 }
 
@@ -40,7 +40,8 @@ impl<'a> Defaults<'a> {
         defaults
     }
 
-    /// The attributes of one class, and the classes within it. The depth is that of the file.
+    /// The attributes of one class, and the nested classes. Their depth is limited by the depth of
+    /// the file.
     fn class(
         &mut self,
         files: &'a Files<'a>,
@@ -51,7 +52,7 @@ impl<'a> Defaults<'a> {
         for child in files.children(section, findings) {
             if child.name() != "default" {
                 for (key, value) in child.attributes() {
-                    // `joint` is written for free joints, too, which have no such attributes.
+                    // `joint` also applies to free joints, which do not have these attributes.
                     self.classes[class]
                         .values
                         .insert((child.name(), key), value);
@@ -84,7 +85,7 @@ impl<'a> Defaults<'a> {
         self.by_name.get(name).copied()
     }
 
-    /// An attribute of a class, or of the nearest class around it that has it.
+    /// An attribute of a class, or of the nearest surrounding class that has it.
     pub(super) fn get(&self, class: usize, element: &str, key: &str) -> Option<Value<'a>> {
         let mut at = Some(class);
         while let Some(class) = at {

@@ -1,4 +1,4 @@
-//! `<equality>`: soft constraints of MuJoCo, which are exact ones in a scene.
+//! `<equality>`: soft constraints of MuJoCo, which become exact constraints in a scene.
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
@@ -37,7 +37,7 @@ impl<'a> Reader<'a, '_> {
                         self.model.couplings.push(coupling);
                     }
                 }
-                // One that is not active changes nothing.
+                // An inactive constraint has no effect.
                 _ if !self.is_active(element) => {
                     let subject = format!("{name}, <{}>", element.name());
                     let kind = "constraints that are not active";
@@ -59,7 +59,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Refuses a constraint that is not read.
+    /// Rejects an unsupported constraint.
     fn refuse(&mut self, element: Element<'a>, message: String) {
         let help = "give it active=\"false\" to leave it out".to_owned();
         let (source, span) = (element.source, element.span());
@@ -144,7 +144,7 @@ impl<'a> Reader<'a, '_> {
             ),
             None => None,
         };
-        // A quaternion of zeros stands for the relation at the described pose.
+        // A quaternion of zeros means the relative pose at the described pose.
         let given = given.filter(|n| n[3..].iter().any(|x| *x != 0.0));
         let anchor = anchor.unwrap_or_default();
         match given {
@@ -208,8 +208,8 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// `<tendon>`: L₁ − L₁₀ = P(L₂ − L₂₀) with lengths L = Σ cᵢ·qᵢ of fixed tendons; a coupling if
-    /// two coordinates are in it, one of each tendon or both of the first one.
+    /// `<tendon>`: L₁ − L₁₀ = P(L₂ − L₂₀) with lengths L = Σ cᵢ·qᵢ of fixed tendons. It is a
+    /// coupling if it contains two coordinates, one of each tendon or both of the first one.
     fn coupling_of_tendons(&mut self, element: Element<'a>, name: String) -> Option<Coupling> {
         let is_active = self.is_active(element);
         let Some(first) = element.attribute("tendon1") else {
@@ -258,7 +258,7 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// The coordinates of a fixed tendon with their coefficients, which are not zero.
+    /// The coordinates of a fixed tendon with their nonzero coefficients.
     fn length(
         &mut self,
         element: Element<'a>,

@@ -1,4 +1,4 @@
-//! `<geom>`: only its mass is of use; contacts are left out.
+//! `<geom>`: only its mass is used; contacts are omitted.
 
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
@@ -9,7 +9,7 @@ use crate::mass::{Mass, Solid};
 use crate::pose::along_z;
 use crate::xml::{Element, Value};
 
-/// What gives a geom its mass.
+/// Source of the mass of a geom.
 #[derive(Clone, Copy)]
 enum Weight {
     Mass(f64),
@@ -41,7 +41,7 @@ impl Geoms {
     }
 }
 
-/// The solid of a type and size, or why there is none.
+/// The solid for a type and a size, or the reason why there is none.
 fn solid_of(word: &str, size: &[f64]) -> Result<Solid, (Fault, String)> {
     let solid = match (word, size) {
         ("sphere", &[radius, ..]) => Solid::Sphere { radius },
@@ -182,7 +182,7 @@ impl<'a> Source<'a, '_> {
         (size != 0.0).then_some(weight)
     }
 
-    /// Notes that a geom may touch others.
+    /// Records that a geom may have contacts.
     pub(super) fn contact_of(&mut self, item: &Item<'a>) {
         let attributes = self.attributes(item.element, item.class);
         let off = |value: Option<Value>| value.is_some_and(|value| value.text.trim() == "0");

@@ -1,11 +1,11 @@
-//! `<keyframe>`: states by name.
+//! `<keyframe>`: named states.
 
 use super::reader::Reader;
 use crate::findings::{Fault, NumberKind};
 use crate::mechanism::{JointKind, Keyframe};
 use crate::xml::Element;
 
-/// Numbers of coordinates and velocities that a joint has in a keyframe.
+/// Numbers of coordinates and velocities of a joint in a keyframe.
 fn counts(kind: JointKind) -> (usize, usize) {
     match kind {
         JointKind::Free => (7, 6),

@@ -9,7 +9,7 @@ use crate::mass::Mass;
 use crate::xml::Element;
 
 impl<'a> Source<'a, '_> {
-    /// Mass of a body: its own, or that of its geoms.
+    /// Mass of a body: its own, or the mass of its geoms.
     pub(super) fn mass(&mut self, body: Element<'a>, items: &[Item<'a>]) -> Mass {
         let own = items.iter().find(|item| item.element.name() == "inertial");
         let own = own.filter(|_| self.compiler.from_geoms != FromGeoms::Always);
@@ -29,7 +29,8 @@ impl<'a> Source<'a, '_> {
             return None;
         };
         let mass = self.findings.not_negative(&mass, NumberKind::Other)?;
-        // The centre of mass is no place of a joint: its digits say nothing of them.
+        // The centre of mass is not the position of a joint, so its digits do not show the accuracy
+        // of positions of joints.
         let centre = match get("pos") {
             Some(value) => self.findings.vector(&value, NumberKind::Other)?,
             None => Vector3::zeros(),
@@ -65,7 +66,7 @@ impl<'a> Source<'a, '_> {
         })
     }
 
-    /// The bounds of `<compiler>`, on the principal moments.
+    /// Applies the bounds of `<compiler>` to the principal moments.
     fn bounded(&self, mut mass: Mass) -> Mass {
         let compiler = &self.compiler;
         mass.mass = mass.mass.max(compiler.least_mass);

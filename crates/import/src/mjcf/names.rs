@@ -1,11 +1,11 @@
-//! The names of MJCF: <https://mujoco.readthedocs.io/en/stable/XMLreference.html>, with those of
-//! former versions.
+//! The names of MJCF: <https://mujoco.readthedocs.io/en/stable/XMLreference.html>, including names
+//! of earlier versions.
 
 use crate::vocabulary::{Entry, Vocabulary};
 
 const SOLVER: &str = "settings of MuJoCo's solver";
 
-/// What bodies and frames may hold.
+/// Elements that bodies and frames may contain.
 macro_rules! contents {
     () => {
         "<body> <frame> <joint> <freejoint> <geom> <site> <inertial> <composite> <flexcomp> \
@@ -13,7 +13,7 @@ macro_rules! contents {
     };
 }
 
-/// Attributes of a place.
+/// Attributes of a position.
 macro_rules! place {
     () => {
         "pos quat axisangle euler xyaxes zaxis"

@@ -1,4 +1,4 @@
-//! What has been read of a file: the model, and the names by which elements refer to its parts.
+//! The data read from a file so far: the model, and the names by which elements refer to its parts.
 
 use std::collections::{HashMap, HashSet};
 
@@ -9,7 +9,7 @@ use crate::findings::Fault;
 use crate::mechanism::Model;
 use crate::xml::{Element, Value};
 
-/// What has been read of a file.
+/// The data read from a file so far.
 pub(super) struct Reader<'a, 'f> {
     pub(super) source: Source<'a, 'f>,
     pub(super) model: Model,
@@ -17,7 +17,7 @@ pub(super) struct Reader<'a, 'f> {
     pub(super) bodies: HashMap<String, Option<usize>>,
     /// Joint and coordinate of the joints of the file, by name.
     pub(super) joints: HashMap<String, (usize, usize)>,
-    /// Names that the file gives to joints.
+    /// Names of joints in the file.
     pub(super) names: HashSet<String>,
     /// Tendons by name.
     pub(super) tendons: HashMap<String, Element<'a>>,

@@ -1,4 +1,4 @@
-//! The elements of a file, and the settings that say what their attributes mean.
+//! The elements of a file, and the settings that determine the meaning of their attributes.
 
 use nalgebra::Isometry3;
 
@@ -9,7 +9,7 @@ use crate::findings::{Fault, Findings};
 use crate::limits::DEEPEST;
 use crate::xml::{Element, Value};
 
-/// The elements of a file, and the settings that say what their attributes mean.
+/// The elements of a file, and the settings that determine the meaning of their attributes.
 pub(super) struct Source<'a, 'f> {
     pub(super) files: &'a Files<'a>,
     pub(super) findings: &'f mut Findings,
@@ -17,7 +17,7 @@ pub(super) struct Source<'a, 'f> {
     pub(super) defaults: Defaults<'a>,
 }
 
-/// An element of a body, with the place of the frames around it and its class.
+/// An element of a body, with the pose of the frames around it and its class.
 #[derive(Clone)]
 pub(super) struct Item<'a> {
     pub(super) element: Element<'a>,
@@ -40,12 +40,13 @@ impl<'a> Attributes<'a, '_> {
 }
 
 impl<'a> Source<'a, '_> {
-    /// The elements within an element, with those of included files in their places.
+    /// The child elements of an element; includes are replaced by the elements of the included
+    /// files.
     pub(super) fn children(&mut self, element: Element<'a>) -> Vec<Element<'a>> {
         self.files.children(element, self.findings)
     }
 
-    /// The class of an element: its own, or that of the body around it.
+    /// The class of an element: its own, or the class of the surrounding body.
     pub(super) fn attributes(&mut self, element: Element<'a>, around: usize) -> Attributes<'a, '_> {
         let class = match element.attribute("class") {
             Some(value) => self.class(&value),
@@ -58,7 +59,7 @@ impl<'a> Source<'a, '_> {
         }
     }
 
-    /// The number of a class.
+    /// The index of a class.
     pub(super) fn class(&mut self, value: &Value) -> usize {
         self.defaults.find(value.text.trim()).unwrap_or_else(|| {
             let message = format!("{}: there is no class `{}`", value.subject, value.text);
@@ -67,7 +68,7 @@ impl<'a> Source<'a, '_> {
         })
     }
 
-    /// The elements of a body, those within frames included.
+    /// The elements of a body, including those within frames.
     pub(super) fn items(
         &mut self,
         around: Element<'a>,

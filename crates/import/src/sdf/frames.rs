@@ -10,9 +10,9 @@ use crate::pose::quaternion;
 use crate::solids::roll_pitch_yaw;
 use crate::xml::Element;
 
-/// A place that a file names.
+/// A named pose in a file.
 struct Place {
-    /// The name of that to which it is relative; `None` for the model.
+    /// The name of the reference frame; `None` for the model.
     base: Option<String>,
     own: Isometry3<f64>,
     what: What,
@@ -22,16 +22,16 @@ struct Place {
 enum What {
     Link(usize),
     Joint,
-    /// With what it is attached to.
+    /// A frame, with the item to which it is attached.
     Frame(Option<String>),
 }
 
-/// The key of the frame of a joint: a joint may have the name of a link.
+/// The key for the frame of a joint, because a joint may have the name of a link.
 fn of_joint(name: &str) -> String {
     format!("{name}\0joint")
 }
 
-/// All places of a model, in ground axes at the described pose.
+/// All named poses of a model, in ground axes at the described pose.
 #[derive(Default)]
 pub(super) struct Frames {
     places: HashMap<String, Place>,
@@ -95,7 +95,7 @@ impl Frames {
         frames
     }
 
-    /// Adds up poses along the chains.
+    /// Combines the poses along the chains.
     fn resolve(&mut self, model: Element, findings: &mut Findings) {
         let mut names: Vec<&String> = self.places.keys().collect();
         names.sort();
@@ -113,7 +113,7 @@ impl Frames {
                     .get_key_value(name)
                     .or_else(|| self.places.get_key_value(&joint))
                 else {
-                    // A joint of a link that is not there is refused by its reader.
+                    // The reader of joints rejects a joint of a missing link.
                     if !matches!(
                         chain.last(),
                         Some((
@@ -134,7 +134,8 @@ impl Frames {
                 if chain.len() > self.places.len() {
                     let message = format!("the pose of `{name}` is relative to itself");
                     findings.of(Fault::Structure, model, message);
-                    // Its names get some poses, so that the others do not find it again.
+                    // The names of a cycle get arbitrary poses, so that other names do not report
+                    // it again.
                     break;
                 }
                 at = place.base.as_ref();
@@ -177,7 +178,7 @@ impl Frames {
         }
     }
 
-    /// Frames with the links that have them, in the axes of these.
+    /// Frames with the links to which they are attached, in the axes of these links.
     pub(super) fn places(&self, links: &[Link]) -> Vec<(String, Option<usize>, Isometry3<f64>)> {
         let frames = self
             .places
@@ -195,7 +196,8 @@ impl Frames {
     }
 }
 
-/// Six numbers: place, and angles about fixed axes; or seven with a quaternion (x, y, z, w).
+/// Six numbers: position, and angles about fixed axes; or seven numbers with a quaternion (x, y, z,
+/// w).
 pub(super) fn pose_of(
     element: Element,
     counted: NumberKind,
@@ -212,7 +214,7 @@ pub(super) fn pose_of(
     if value.text.is_empty() {
         return Some(Isometry3::identity());
     }
-    // Digits of lengths and of angles are different ones.
+    // Digits of lengths and of angles are counted separately.
     let numbers = findings.numbers(&value, [n, n], NumberKind::Other)?;
     if counted != NumberKind::Other {
         for (k, word) in value.text.split_whitespace().enumerate() {

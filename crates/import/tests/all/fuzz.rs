@@ -1,12 +1,13 @@
-//! Files with random changes: each is imported or refused, and what is imported is written in a
-//! form that the reader of scenes takes apart. `PFAFF_FUZZ=100000` sets the number of files.
+//! Imports files with random changes: each is imported or rejected, and every imported file is
+//! written in a form that the reader of scenes can parse. `PFAFF_FUZZ=100000` sets the number of
+//! files.
 
 use model::Registry;
 use pfaff_import::{Axes, Folder, Options};
 
 use super::{path_of, text_of};
 
-/// Changed files of an ordinary run.
+/// Number of changed files in an ordinary run.
 const FEW: u64 = 600;
 
 const FILES: [&str; 22] = [
@@ -34,10 +35,10 @@ const FILES: [&str; 22] = [
     "sdf/bare.sdf",
 ];
 
-/// Loops of one of them.
+/// Loop closures of one of the files.
 const LOOPS: &str = "urdf/triangle.yaml";
 
-/// Pieces that are put in somewhere.
+/// Pieces that are inserted at random positions.
 const PIECES: [&str; 34] = [
     "<",
     ">",
@@ -75,7 +76,7 @@ const PIECES: [&str; 34] = [
     "φ\u{202e}",
 ];
 
-/// A generator of numbers (xorshift64*).
+/// A generator of pseudo-random numbers (xorshift64*).
 struct Random(u64);
 
 impl Random {
@@ -88,7 +89,8 @@ impl Random {
     }
 }
 
-/// A text with one to six changes: pieces put in, bytes taken out, parts moved, numbers exchanged.
+/// Returns a text with one to six changes: inserted pieces, deleted bytes, moved parts, exchanged
+/// numbers.
 fn changed(text: &str, random: &mut Random) -> String {
     let mut text = text.to_owned();
     for _ in 0..=random.below(4) {
@@ -104,7 +106,8 @@ fn changed(text: &str, random: &mut Random) -> String {
                 let to = place(&text, random.below(text.len() + 1));
                 text.insert_str(to, &piece);
             }
-            // A word of quotes for another one: names, numbers and lists change their places.
+            // One quoted word is replaced by another: names, numbers and lists change their
+            // positions.
             _ => {
                 let words: Vec<(usize, usize)> = text
                     .match_indices('"')
@@ -181,7 +184,7 @@ fn changed_files_are_imported_or_refused() {
                 imported += 1;
                 match scene::read("changed.toml", &done.scene, &registry) {
                     Ok(_) => read += 1,
-                    // A scene may have faults of mechanics, but none of its form.
+                    // A scene may contain errors of mechanics, but no syntax errors.
                     Err(problems) => {
                         let of_form = [
                             "P0101", "P0102", "P0103", "P0105", "P0106", "P0108", "P0109", "P0127",

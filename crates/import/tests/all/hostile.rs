@@ -1,4 +1,4 @@
-//! Files that want memory, the stack, or other files.
+//! Files that would use up memory or the stack, or that include other files.
 
 use pfaff_import::{Folder, Options};
 
@@ -29,8 +29,8 @@ fn hostile_files_are_refused() {
     }
 }
 
-/// An element with 64 000 attributes or name spaces, also where a value, a comment or a section
-/// looks like the end of it, and a list of loops with 64 000 keys.
+/// The cases are an element with 64 000 attributes or name spaces, and a list of loops with 64 000
+/// keys. The element may contain a value, a comment or a section that looks like its end.
 #[test]
 fn many_attributes_cost_no_time() {
     let many = |what: &str| -> String { (0..64_000).map(|k| format!("{what}{k}='1' ")).collect() };
@@ -62,12 +62,12 @@ fn many_attributes_cost_no_time() {
     };
     let done = pfaff_import::import("robot.urdf", robot, &options).expect("imported");
     assert_eq!(done.omissions.len(), 64_000);
-    // Elements in one line, each of which is left out.
+    // The elements are in one line, and each of them is omitted.
     let left = "<x/>".repeat(64_000);
     let wide = robot.replacen("<link", &format!("{left}<link"), 1);
     let done = pfaff_import::import("robot.urdf", &wide, &Options::default()).expect("imported");
     assert_eq!(done.omissions.len(), 64_000);
-    // Poses in one circle.
+    // The poses form one circle of references.
     let frame = |k: usize| {
         let next = (k + 1) % 8_000;
         format!("<frame name='f{k}'><pose relative_to='f{next}'>0 0 0 0 0 0</pose></frame>")
@@ -76,25 +76,26 @@ fn many_attributes_cost_no_time() {
     let circle =
         format!("<sdf version='1.7'><model name='m'><link name='l'/>{circle}</model></sdf>");
     assert_eq!(first(&refused(&circle)).0, "P0609");
-    // Proportional to their lengths: less than a second; comparing all with all takes minutes here.
+    // The time is proportional to the length: less than a second; a comparison of all pairs takes
+    // minutes here.
     assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
 }
 
-/// Time for files of a megabyte, without optimisation and on a busy machine.
+/// Time limit for files of a megabyte, without optimisation and on a busy machine.
 const PATIENCE: std::time::Duration = std::time::Duration::from_secs(60);
 
-/// As many as are allowed, and quotes within quotes.
+/// The file has the largest allowed number of attributes, and quotes within quotes.
 #[test]
 fn attributes_within_the_limit_are_read() {
     let many: String = (0..250)
         .map(|k| format!("a{k}='\"<' ").replace('<', ""))
         .collect();
     let text = format!("<robot name='r' {many}/>");
-    // An empty robot, but one that was read.
+    // The robot is empty, but it was read.
     assert_eq!(first(&refused(&text)).0, "P0609");
 }
 
-/// As deep as is allowed, on the stack of a thread.
+/// The file has the largest allowed depth, and is read on the stack of a thread.
 #[test]
 fn deep_files_are_read() {
     let (open, close) = (
@@ -141,12 +142,12 @@ fn includes_stay_in_their_folder() {
         (first(&refusal).0.as_str(), refusal.file.as_str()),
         ("P0611", "self.xml")
     );
-    // Each of two includes of a file in itself has two again: 2^300 of them.
+    // Each file includes itself twice, which would give 2^300 inclusions.
     let twice = "<mujoco><include file='twice.xml'/><include file='twice.xml'/></mujoco>";
     std::fs::write(folder.join("in/twice.xml"), twice).expect("writable");
     let refusal = pfaff_import::import("model.xml", twice, &at).expect_err("refused");
     assert_eq!(first(&refusal).0, "P0611");
-    // At most 64 files.
+    // The limit is 64 files.
     let mut all = String::new();
     for k in 0..65 {
         std::fs::write(folder.join(format!("in/{k}.xml")), "<mujoco/>").expect("writable");

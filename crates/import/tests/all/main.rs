@@ -1,4 +1,4 @@
-//! Files of our own as scenes, and files that are refused.
+//! Tests of files written for this project as scenes, and of files that are rejected.
 
 mod fuzz;
 mod hostile;
@@ -12,7 +12,7 @@ use model::Registry;
 use pfaff_import::{Folder, ImportedScene, Options, Refusal};
 use scene::Scene;
 
-/// A file of this folder.
+/// Returns a file of this folder.
 fn text_of(file: &str) -> String {
     let path = path_of(file);
     std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{path}: {e}"))
@@ -30,7 +30,7 @@ fn options_of(file: &str) -> Options {
     }
 }
 
-/// A file of this folder as a scene.
+/// Imports a file of this folder as a scene.
 fn imported(file: &str) -> ImportedScene {
     let done = pfaff_import::import(file, &text_of(file), &options_of(file));
     done.unwrap_or_else(|refusal| panic!("{file}: {:?}", refusal.diagnostics))
@@ -41,13 +41,13 @@ fn refused(text: &str) -> Refusal {
     *done.err().unwrap_or_else(|| panic!("imported: {text}"))
 }
 
-/// What the reader of scenes makes of it.
+/// Returns the scene as the reader of scenes reads it.
 fn read(imported: &ImportedScene) -> Scene {
     let read = scene::read("imported.toml", &imported.scene, &Registry::standard());
     read.unwrap_or_else(|e| panic!("{e:?}\n{}", imported.scene))
 }
 
-/// Code, line and message of the first problem.
+/// Returns code, line and message of the first problem.
 fn first(refusal: &Refusal) -> (String, usize, String) {
     let problem = &refusal.diagnostics[0];
     (
@@ -57,7 +57,7 @@ fn first(refusal: &Refusal) -> (String, usize, String) {
     )
 }
 
-/// The value of a key of a table of a scene, as text.
+/// Returns the value of a key of a table of a scene, as text.
 fn value(scene: &str, table: &str, name: &str, key: &str) -> Option<String> {
     let head = format!("[[{table}]]\nname = \"{name}\"\n");
     let (_, rest) = scene.split_once(&head)?;
@@ -68,7 +68,7 @@ fn value(scene: &str, table: &str, name: &str, key: &str) -> Option<String> {
     Some(line.to_owned())
 }
 
-/// The numbers of a list.
+/// Returns the numbers of a list.
 fn numbers(list: &str) -> Vec<f64> {
     let (_, rest) = list.split_once('[').expect("a list");
     let (inner, _) = rest.split_once(']').expect("a list");
@@ -78,24 +78,24 @@ fn numbers(list: &str) -> Vec<f64> {
         .collect()
 }
 
-/// A MJCF with one body around what is given, which stands in line 4.
+/// Returns an MJCF file with one body around the given text, which is in line 4.
 fn body(inner: &str) -> String {
     format!("<mujoco>\n<worldbody>\n<body name='b'>\n{inner}\n</body>\n</worldbody>\n</mujoco>")
 }
 
-/// A text as a scene.
+/// Imports a text as a scene.
 fn import_text(text: &str, options: &Options) -> ImportedScene {
     let done = pfaff_import::import("file.xml", text, options);
     done.unwrap_or_else(|refusal| panic!("{:?}", refusal.diagnostics))
 }
 
-/// Values of a pose.
+/// Returns the values of a pose.
 fn pose(values: &[(&str, f64)]) -> Vec<(String, f64)> {
     let own = values.iter().map(|(name, q)| ((*name).to_owned(), *q));
     own.collect()
 }
 
-/// Angle of a body about y.
+/// Returns the angle of a body about y.
 fn about_y(scene: &str, body: &str) -> f64 {
     let turned = value(scene, "body", body, "orientation").expect("turned");
     let (_, q) = turned.split_once("quaternion = ").expect("a quaternion");

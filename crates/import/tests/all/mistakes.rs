@@ -1,5 +1,5 @@
-//! Mistakes of files: names that no format knows, macros, angles in another unit, constraints that
-//! are not read, files of loops.
+//! Mistakes in files: names that the format does not define, macros, angles in another unit,
+//! constraints that are not imported, files of loop closures.
 
 use pfaff_import::{Base, Options};
 
@@ -8,7 +8,7 @@ use super::{
     text_of, value,
 };
 
-/// The text of a URDF with one hinge, whose parts may be exchanged.
+/// Returns the text of a URDF file with one hinge, with replaced parts.
 fn arm(changes: &[(&str, &str)]) -> String {
     let mut text = "<robot name='r'>\n<link name='base'/>\n<link name='arm'><inertial>\n\
         <origin xyz='0.1 0 0'/><mass value='1'/>\n\
@@ -33,7 +33,7 @@ fn link(inner: &str) -> String {
     )
 }
 
-/// A misspelt attribute would give another mass, axis or damper.
+/// A misspelt attribute would give a wrong mass, axis or damper.
 #[test]
 fn names_that_no_format_knows_are_refused() {
     for (text, line, wrong, near) in [
@@ -97,7 +97,7 @@ fn names_that_no_format_knows_are_refused() {
         assert!(help.contains(near), "{help}");
         assert_eq!(refusal.diagnostics.len(), 1, "{text}");
     }
-    // All of one file, and long names and lists in short.
+    // The test uses all errors of one file, and shortened long names and lists.
     let long = "n".repeat(500);
     let refusal = refused(&body(&format!("<geom {long}='1' sise='1'/><joint q='1'/>")));
     assert_eq!(refusal.diagnostics.len(), 3);
@@ -106,7 +106,8 @@ fn names_that_no_format_knows_are_refused() {
     assert_eq!(help.matches('`').count(), 2 * 16, "{help}");
 }
 
-/// What is plainly not of the format is left out and told; what it may change is refused.
+/// An element that clearly does not belong to the format is omitted and reported; an element that
+/// it may change is rejected.
 #[test]
 fn extensions_are_told() {
     let text = arm(&[
@@ -143,12 +144,12 @@ fn extensions_are_told() {
     ]);
     let (code, line, message) = first(&refused(&text));
     assert_eq!((code.as_str(), line), ("P0608", 9), "{message}");
-    // A name space of all elements is none.
+    // A name space that covers all elements is not an extension.
     let text = arm(&[("<robot", "<robot xmlns='http://d'")]);
     assert_eq!(import(&text, &Options::default()).counts, [1, 1]);
 }
 
-/// Only the macro is told, not what comes of it.
+/// Only the macro is reported, and not its consequences.
 #[test]
 fn macros_are_refused() {
     let text = arm(&[
@@ -184,14 +185,15 @@ fn cycles_are_named() {
     assert!(message.starts_with("`j`, `k` form a cycle"), "{message}");
 }
 
-/// 90 is a quarter turn in degrees and 14 turns in rad; 1.5708 is a quarter turn in rad.
+/// The number 90 is a quarter turn in degrees and 14 revolutions in rad; 1.5708 is a quarter turn
+/// in rad.
 #[test]
 fn angles_in_another_unit_are_told() {
     let told = |text: &str, words: &str| {
         let done = import(text, &Options::default());
         done.remarks.iter().any(|remark| remark.contains(words))
     };
-    let degrees = "Is this file in degrees?";
+    let degrees = "Does this file use degrees?";
     assert!(told(&arm(&[("0 0.1 0", "0 90 0")]), degrees));
     assert!(!told(&arm(&[]), degrees));
     let pose = "<pose>0 0 0 0 0 90</pose><axis><xyz>0 0 1</xyz></axis>";
@@ -200,7 +202,7 @@ fn angles_in_another_unit_are_told() {
         &link(&pose.replace("<pose>", "<pose degrees='true'>")),
         degrees
     ));
-    let radians = "Is this file in rad?";
+    let radians = "Does this file use radians?";
     let hinged = |attributes: &str| body(&format!("<joint {attributes}/><geom size='0.1'/>"));
     assert!(told(&hinged("range='-1.57 1.57'"), radians));
     assert!(told(&hinged("springref='0.785'"), radians));
@@ -211,7 +213,7 @@ fn angles_in_another_unit_are_told() {
     assert!(!told(&says, radians));
 }
 
-/// Constraints that take freedoms away are refused where they stand, unless they are not active.
+/// Constraints that remove freedoms are rejected at their positions, unless they are not active.
 #[test]
 fn constraints_that_are_not_read_are_refused() {
     let joints = "<joint name='j'/><joint name='k' pos='1 0 0'/><joint name='l' pos='2 0 0'/>\
@@ -239,8 +241,8 @@ fn constraints_that_are_not_read_are_refused() {
     }
 }
 
-/// Fixed tendons of two joints: 0.5·j − k = 0.1 is j = 0.2 + 2·k, and 2·k = 0.1 − 3·(−l)² is
-/// k = 0.05 − 1.5·l².
+/// The file has fixed tendons of two joints: 0.5·j − k = 0.1 is j = 0.2 + 2·k, and 2·k = 0.1 −
+/// 3·(−l)² is k = 0.05 − 1.5·l².
 #[test]
 fn constraints_of_fixed_tendons_are_couplings() {
     let hinged = |name: &str| {
@@ -322,7 +324,7 @@ fn a_file_without_gravity_has_that_of_the_earth() {
     }
 }
 
-/// The quaternion of URDF 1.2: half a turn about z.
+/// The quaternion of URDF 1.2 is half a turn about z.
 #[test]
 fn a_quaternion_of_a_urdf_is_read() {
     let text = arm(&[("rpy='0 0.1 0'", "quat_xyzw='0 0 1 0'")]);
@@ -331,7 +333,7 @@ fn a_quaternion_of_a_urdf_is_read() {
     assert_eq!(turned, "{ quaternion = [0.0, 0.0, 0.0, 1.0] }");
 }
 
-/// Messages of a file of loops say what to write.
+/// Messages about a file of loop closures state the required text.
 #[test]
 fn a_yaml_of_loops_says_what_it_lacks() {
     let file = "urdf/triangle.urdf";
@@ -359,7 +361,7 @@ fn a_yaml_of_loops_says_what_it_lacks() {
         (
             &format!("{pair}type: [3d]\njoint_name: [A]\njoint_type: [REVOLUTE]\n"),
             4,
-            "`REVOLUTE` is no type of a joint here: `SPHERICAL`, or `UJOINT_XY`",
+            "`REVOLUTE` is not a joint type here: use `SPHERICAL`, or `UJOINT_XY`",
         ),
     ] {
         let options = Options {
@@ -373,7 +375,7 @@ fn a_yaml_of_loops_says_what_it_lacks() {
     }
 }
 
-/// A coordinate that is asked for twice has no value.
+/// A coordinate that is requested twice has no value.
 #[test]
 fn a_pose_names_a_coordinate_once() {
     let file = "urdf/triangle.urdf";
@@ -394,7 +396,7 @@ fn a_pose_names_a_coordinate_once() {
     );
 }
 
-/// All files of this folder have names that their formats know.
+/// All files of this folder contain only names that their formats define.
 #[test]
 fn files_without_mistakes_have_no_extensions() {
     for file in [

@@ -1,16 +1,17 @@
-//! MJCF: what becomes of each part of a file. Accelerations are compared with MuJoCo by
+//! MJCF: the scene elements for each part of a file. Accelerations are compared with MuJoCo by
 //! `tests/peers/import`.
 
 use pfaff_import::{FixedLinks, Options};
 
 use super::{first, imported, options_of, read, refused, text_of, value};
 
-/// Bodies, then joints and couplings of each file, counted by hand: intermediate bodies of several
-/// joints are bodies, bodies without joints are merged.
+/// Number of bodies, and of joints and couplings of each file, counted by hand: intermediate bodies
+/// of several joints are bodies, and bodies without joints are merged.
 const FILES: [(&str, [usize; 2]); 8] = [
     ("mjcf/pendulum.xml", [2, 2]),
     ("mjcf/free-and-ball.xml", [3, 2]),
-    // plate: 3 joints; cross: 2 hinges at right angles; wrist: 3 hinges that do not meet.
+    // The plate has 3 joints, the cross has 2 hinges at right angles, and the wrist has 3 hinges
+    // that do not meet.
     ("mjcf/many-joints.xml", [7, 7]),
     ("mjcf/classes.xml", [3, 3]),
     ("mjcf/four-bar.xml", [3, 4]),
@@ -29,7 +30,7 @@ fn every_file_is_a_scene() {
     }
 }
 
-/// The line of a piece of text in a file, from 1.
+/// Returns the line of a piece of text in a file, from 1.
 fn line_of(file: &str, piece: &str) -> usize {
     let text = text_of(file);
     let at = text
@@ -100,7 +101,7 @@ fn springs_dampers_and_rotors() {
         of("force", "hinge spring", "damping").as_deref(),
         Some("0.1")
     );
-    // springref −0.1, ref 0.2
+    // The file has springref −0.1 and ref 0.2.
     let free = of("force", "second hinge spring", "free_angle").expect("a spring");
     assert!((free.parse::<f64>().expect("a number") + 0.3).abs() < 1e-15);
     assert_eq!(
@@ -113,7 +114,8 @@ fn springs_dampers_and_rotors() {
     );
 }
 
-/// A box of 0.2 × 0.4 × 0.1 m with 1000 kg/m³: 8 kg, Jxx = m·(0.4² + 0.1²)/12 in its own axes.
+/// A box of 0.2 × 0.4 × 0.1 m with 1000 kg/m³ has the mass 8 kg and Jxx = m·(0.4² + 0.1²)/12 in its
+/// own axes.
 #[test]
 fn masses_come_from_geoms() {
     let text = "<mujoco><worldbody><body name='b'><joint/>\
@@ -140,7 +142,7 @@ fn bounds_of_the_compiler_hold() {
     let imported = imported("mjcf/bounds.xml");
     let of = |name, key| value(&imported.scene, "body", name, key).expect("there");
     assert_eq!(of("light", "mass"), "0.1");
-    // 0.002, 0.002, 0.01 break the triangle inequality: each becomes their mean.
+    // The moments 0.002, 0.002, 0.01 violate the triangle inequality: each becomes their mean.
     let inertia = of("light", "inertia");
     let numbers: Vec<f64> = inertia
         .trim_matches(['[', ']'])
@@ -151,7 +153,7 @@ fn bounds_of_the_compiler_hold() {
         numbers.iter().all(|x| (x - 0.014 / 3.0).abs() < 1e-15),
         "{inertia}"
     );
-    // Only the sphere of group 1 counts, and half of its weight is held.
+    // Only the sphere of group 1 counts, and half of its weight is compensated.
     let mass: f64 = of("hung", "mass").parse().expect("a number");
     let sphere = 4000.0 / 3.0 * std::f64::consts::PI * 1e-3;
     assert!((mass - sphere).abs() < 1e-12);
@@ -178,7 +180,7 @@ fn couplings_are_ones_of_changes() {
         Some("[0.05, 0.02, 0.0]")
     );
     assert_eq!(of("bolt", "active").as_deref(), Some("false"));
-    // The lever is described where the cam puts it: turned by 0.3 rad about z.
+    // The lever is described at the position that the cam gives it: rotated by 0.3 rad about z.
     let turned = value(&imported.scene, "body", "lever", "orientation").expect("turned");
     let z = turned
         .trim_end_matches("] }")
@@ -209,7 +211,7 @@ fn keyframes_are_starts() {
     };
     let up = at("up").expect("imported");
     let start = value(&up.scene, "body", "rod", "start").expect("a start");
-    // The rod is turned by 0.4 rad about y.
+    // The rod is rotated by 0.4 rad about y.
     let expected = format!(
         "quaternion = [{:?}, 0.0, {:?}, 0.0]",
         0.2_f64.cos(),
@@ -226,8 +228,8 @@ fn keyframes_are_starts() {
     assert!(message.contains("`up`"), "{message}");
 }
 
-/// Springs act on the angle with its turns, which the start of a body does not have; a coupling
-/// cannot be told of them.
+/// Springs act on the unwrapped angle, which the start of a body does not contain; a coupling
+/// cannot store it.
 #[test]
 fn keyframes_beyond_half_a_turn() {
     let text = |equality: &str| {
@@ -269,7 +271,7 @@ fn fixed_links_are_kept_on_request() {
         Some("\"fixed\"")
     );
     read(&kept);
-    // Merged, the toe has the mass of both.
+    // After the merge the toe has the mass of both bodies.
     let merged = imported(file);
     let mass = |scene: &str, body| -> f64 {
         value(scene, "body", body, "mass")
@@ -337,7 +339,7 @@ fn faults_have_codes_and_lines() {
     }
 }
 
-/// What a file has and a scene cannot have is told.
+/// Elements of a file that a scene cannot contain are reported.
 #[test]
 fn nothing_is_dropped_in_silence() {
     let text = "<mujoco><option density='1.2' timestep='0.01'><flag contact='disable'/></option>

@@ -1,11 +1,12 @@
-//! Poses that are asked for, axes that are made parallel before loops are closed, keyframes, and
-//! the names of coordinates.
+//! Requested poses, axes that are made parallel before loops are closed, keyframes, and the names
+//! of coordinates.
 
 use pfaff_import::{Axes, Options};
 
 use super::{about_y, body, first, import_text as import, options_of, pose, read, text_of, value};
 
-/// A parallelogram with sides 1 and 0.5 closes at every angle; a joint outside follows its crank.
+/// A parallelogram with sides 1 and 0.5 closes at every angle; a joint outside the loop follows its
+/// crank.
 fn follower() -> (String, Options) {
     let text = text_of("urdf/parallelogram.urdf").replace(
         "</robot>",
@@ -23,7 +24,7 @@ fn follower() -> (String, Options) {
     (text, options)
 }
 
-/// The values of a pose are held where loops close with them, and what follows them follows.
+/// The values of a pose are kept if loops close with them, and dependent joints follow.
 #[test]
 fn values_of_a_pose_are_held() {
     let (text, options) = follower();
@@ -54,7 +55,7 @@ fn values_of_a_pose_are_held() {
     }
 }
 
-/// A triangle with sides 3, 4 and 5 closes at acos(0.6) only.
+/// A triangle with sides 3, 4 and 5 closes only at acos(0.6).
 #[test]
 fn values_that_cannot_be_held_are_told() {
     let file = "urdf/triangle.urdf";
@@ -71,7 +72,7 @@ fn values_that_cannot_be_held_are_told() {
     assert!(remarks.iter().any(|r| r.contains(moved)), "{remarks:?}");
     let exact = at(0.6_f64.acos());
     assert!(!exact.iter().any(|r| r.contains("asked")), "{exact:?}");
-    // 40° are 0.69813 rad.
+    // The angle 40° is 0.69813 rad.
     let degrees = at(40.0);
     let words = ["40° are 0.69813 rad", "asked 40 rad"];
     for words in words {
@@ -79,8 +80,8 @@ fn values_that_cannot_be_held_are_told() {
     }
 }
 
-/// A parallelogram whose crank has an axis of 1.57 rad instead of π/2 closes in no plane; made
-/// parallel it does.
+/// A parallelogram whose crank has an axis of 1.57 rad instead of π/2 does not close; with parallel
+/// axes it closes.
 #[test]
 fn axes_are_snapped_before_loops_are_closed() {
     let inertial = "<inertial><origin xyz='0.1 0 0'/><mass value='1'/>\
@@ -133,7 +134,7 @@ fn axes_are_snapped_before_loops_are_closed() {
     assert!(help.contains("`D`") && help.contains("--snap"), "{help}");
 }
 
-/// The end of a rod of 1 m is 2·sin(0.1) m away from where it was, after a turn of 0.2 rad.
+/// The end of a rod of 1 m moves by 2·sin(0.1) m for a rotation of 0.2 rad.
 #[test]
 fn a_keyframe_that_opens_a_loop_is_told() {
     let text = "<mujoco><compiler angle='radian'/><worldbody>\n\
@@ -160,7 +161,7 @@ fn a_keyframe_that_opens_a_loop_is_told() {
     );
 }
 
-/// Two hinges that became one joint keep their names.
+/// Two hinges that were merged to one joint keep their names.
 #[test]
 fn parts_of_a_joint_have_their_own_names() {
     let text = body(
@@ -204,7 +205,7 @@ fn a_pose_and_a_keyframe_are_two_starts() {
     assert_eq!(first(&refusal).0, "P0605");
 }
 
-/// A chain of 401 hinges whose end is to be 1 m away from where it is.
+/// A chain of 401 hinges has an end that must move by 1 m.
 #[test]
 fn many_coordinates_are_not_tried() {
     let mut text = "<robot name='chain'><link name='l0'/>".to_owned();

@@ -1,17 +1,17 @@
-//! SDF: what becomes of each part of a file, digits, and axes that are nearly parallel.
+//! SDF: the scene elements for each part of a file, digits, and axes that are nearly parallel.
 
 use pfaff_import::{Axes, ImportedScene, Options};
 
 use super::{first, imported, numbers, options_of, read, refused, text_of, value};
 
-/// Bodies, then joints and couplings, by hand.
+/// Number of bodies, and of joints and couplings, counted by hand.
 const FILES: [(&str, [usize; 2]); 8] = [
     ("sdf/four-bar.sdf", [3, 4]),
     ("sdf/tilted.sdf", [3, 4]),
     ("sdf/rounded.sdf", [3, 4]),
-    // The base is glued to the world.
+    // The base is fixed to the world.
     ("sdf/frames.sdf", [1, 1]),
-    // The oblique joint has a body between its axes; f is glued to e.
+    // The oblique joint has a body between its axes; f is fixed to e.
     ("sdf/many-types.sdf", [6, 6]),
     ("sdf/old.sdf", [1, 1]),
     ("sdf/follows.sdf", [2, 3]),
@@ -34,7 +34,7 @@ fn every_file_is_a_scene() {
 #[test]
 fn loops_springs_and_limits() {
     let done = imported("sdf/four-bar.sdf");
-    // Limits of 1e16 are none.
+    // Limits of 1e16 do not count as limits.
     assert!(done.omissions.is_empty(), "{:?}", done.omissions);
     let of = |key| value(&done.scene, "force", "A spring", key).expect("there");
     assert_eq!(
@@ -57,7 +57,7 @@ fn loops_springs_and_limits() {
     assert_eq!(last.as_deref(), Some("[0.0, 0.6, 0.8]"));
 }
 
-/// The model stands at z = 1, turned by 90° about z: its x is y of the ground.
+/// The model is at z = 1 and rotated by 90° about z: its x-axis is the y-axis of the ground.
 #[test]
 fn frames_are_relative_to_each_other() {
     let done = imported("sdf/frames.sdf");
@@ -69,7 +69,7 @@ fn frames_are_relative_to_each_other() {
     assert!((axis[1] - 1.0).abs() < 1e-15, "{axis:?}");
     assert!(done.scene.contains("gravity = [0.0, 0.0, -1.62]"));
     assert_eq!(done.omissions[0].kind, "plugins");
-    // Before version 1.5 an axis is written in the axes of the model.
+    // Before version 1.5 an axis was written in the axes of the model.
     let old = imported("sdf/old.sdf");
     let axis = numbers(&value(&old.scene, "joint", "hinge", "axis").expect("there"));
     assert!((axis[0] - 1.0).abs() < 1e-15, "{axis:?}");
@@ -82,7 +82,7 @@ fn joints_that_follow_others() {
         value(&done.scene, "joint", "b follows a", "ratio").as_deref(),
         Some("2.0")
     );
-    // 2·(0 − 0.1) + 0.5 = 0.3 rad
+    // The expected angle is 2·(0 − 0.1) + 0.5 = 0.3 rad.
     let turned = value(&done.scene, "body", "b", "orientation").expect("turned");
     let q = numbers(turned.split_once("quaternion = ").expect("four").1);
     assert!((q[3] - 0.15_f64.sin()).abs() < 1e-15, "{turned}");
@@ -112,7 +112,7 @@ fn with_axes(file: &str, axes: Axes) -> ImportedScene {
 
 #[test]
 fn digits_give_the_tolerance() {
-    // Four decimals of lengths, four of angles.
+    // Lengths have four decimals, and angles have four decimals.
     let done = imported("sdf/rounded.sdf");
     assert!(
         done.scene
@@ -120,7 +120,7 @@ fn digits_give_the_tolerance() {
         "{}",
         done.scene
     );
-    // One decimal says nothing, sixteen are rounding.
+    // One decimal gives no information, and sixteen decimals are rounding.
     for file in ["sdf/four-bar.sdf", "sdf/old.sdf"] {
         assert!(!imported(file).scene.contains("\ntolerance ="), "{file}");
     }
@@ -136,7 +136,7 @@ fn tilted_axes_are_told() {
         assert!(found, "{name} {off} {end}: {:#?}", done.remarks);
     };
     let tilted = with_axes("sdf/tilted.sdf", Axes::Snapped);
-    // A tilt of 0.1 rad is meant, and stays.
+    // A tilt of 0.1 rad is intended and is not changed.
     told(&tilted, "C", "1.00e-1", "`A`, `B`, `D` of its loop.");
     assert_eq!(
         tilted

@@ -1,11 +1,11 @@
-//! URDF: what becomes of each part of a file, loops, and poses at which they are closed.
+//! URDF: the scene elements for each part of a file, loops, and poses at which they are closed.
 
 use pfaff_import::{Base, ImportedScene, Options, Refusal};
 
 use super::{first, imported, numbers, options_of, read, refused, text_of, value};
 
-/// Bodies, then joints and couplings, by hand: the root is fixed to the ground and merged, and so
-/// are links behind fixed joints.
+/// Number of bodies, and of joints and couplings, counted by hand: the root is fixed to the ground
+/// and merged, and so are links behind fixed joints.
 const FILES: [(&str, [usize; 2]); 8] = [
     ("urdf/arm.urdf", [2, 2]),
     ("urdf/gripper.urdf", [3, 5]),
@@ -95,7 +95,7 @@ fn joints_that_follow_others() {
         of("thumb follows left", "measures"),
         "[\"left.displacement\", \"thumb.angle\"]"
     );
-    // Its offset moves the right finger by 0.01 m along −y, where it is turned by π.
+    // The offset moves the right finger by 0.01 m along −y, because the finger is rotated by π.
     let at = numbers(&value(&imported.scene, "body", "right", "position").expect("there"));
     assert!((at[1] + 0.06).abs() < 1e-15, "{at:?}");
 }
@@ -106,7 +106,7 @@ fn loops_in_gazebo_are_closed() {
     let of = |key| value(&imported.scene, "joint", "C", key).expect("there");
     assert_eq!(of("bodies"), "[\"coupler\", \"rocker\"]");
     let points = of("points");
-    // C is at (1.5, 1.1), the coupler begins at (0.3, 0.8).
+    // C is at (1.5, 1.1), and the coupler begins at (0.3, 0.8).
     let coupler = numbers(points.split("\"rocker\"").next().expect("first"));
     assert!(
         (coupler[0] - 1.2).abs() < 1e-15 && (coupler[1] - 0.3).abs() < 1e-15,
@@ -124,7 +124,7 @@ fn loops_are_closed_from_a_guess() {
         2.0 * q[3].atan2(q[0])
     };
     let turn = 0.6_f64.acos();
-    // At zero the sides are in one line, where the first search cannot begin.
+    // At zero the sides are in one line, and the first search cannot begin there.
     for (pose, sign) in [
         (vec![], None),
         (vec![("A", 0.5)], Some(1.0)),
@@ -142,7 +142,7 @@ fn loops_are_closed_from_a_guess() {
         );
         assert!(found.remarks.iter().any(|r| r.contains("loops are closed")));
     }
-    // A pose that is assembled is left alone.
+    // A pose that is assembled is not changed.
     let flat = with_loops("parallelogram", &[]).expect("imported");
     assert!(!flat.remarks.iter().any(|r| r.contains("loops are closed")));
     read(&flat);
@@ -150,7 +150,7 @@ fn loops_are_closed_from_a_guess() {
 
 #[test]
 fn loops_that_cannot_close_are_refused() {
-    // A side of 3 m in place of 0.3 m from each other: 1 + 4 < 8.
+    // The side is 8 m instead of 5 m: 3 + 4 < 8.
     let text = text_of("urdf/triangle.urdf").replace("\"5 0 0\"", "\"8 0 0\"");
     let options = Options {
         loops: Some(("loops.yaml".into(), text_of("urdf/triangle.yaml"))),
@@ -163,8 +163,8 @@ fn loops_that_cannot_close_are_refused() {
         message.contains("`tip of three to tip of four`"),
         "{message}"
     );
-    // Sides 3 and 4 reach 7: 7.0003 is open by 4e-5 of the size, which rounding may be, 7.01 by
-    // 1e-3.
+    // Sides 3 and 4 reach 7: a third side of 7.0003 leaves a gap of 4e-5 of the size, which may be
+    // rounding; 7.01 leaves a gap of 1e-3.
     let far = |base: &str| {
         let text = text_of("urdf/triangle.urdf").replace("\"5 0 0\"", &format!("\"{base} 0 0\""));
         pfaff_import::import("far.urdf", &text, &options)
@@ -186,7 +186,7 @@ fn joints_of_a_yaml() {
     let of = |name, key| value(&imported.scene, "joint", name, key).expect("there");
     assert_eq!(of("hook", "type"), "\"universal\"");
     assert_eq!(of("socket", "type"), "\"spherical\"");
-    // The second axis is y of the joint: rpy (0.1, 0.2, 0.3) in the first link.
+    // The second axis is the y-axis of the joint: rpy (0.1, 0.2, 0.3) in the first link.
     let cross = numbers(&of("hook", "cross"));
     let (r, p, y) = (0.1_f64, 0.2_f64, 0.3_f64);
     let expected = [

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// `re + i·im`.
+/// The complex number `re + i·im`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Complex {
     pub(crate) re: f64,
@@ -45,8 +45,8 @@ impl Mul for Complex {
 impl Div for Complex {
     type Output = Self;
 
-    /// Smith's formula: neither |b|² nor its inverse is formed, so that nothing overflows before
-    /// the quotient does.
+    /// Smith's formula forms neither |b|² nor its inverse, so that no intermediate result overflows
+    /// before the quotient.
     fn div(self, b: Self) -> Self {
         if b.re.abs() >= b.im.abs() {
             let ratio = b.im / b.re;

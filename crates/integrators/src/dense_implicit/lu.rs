@@ -1,7 +1,7 @@
 //! LU decomposition with partial pivoting of a dense real or complex matrix: P·A = L·U, row by row
 //! in one array.
 //!
-//! For the small systems of plain problems; without blocking or scaling.
+//! It is intended for the small systems of plain problems, and has no blocking or scaling.
 
 use super::complex::Complex;
 use std::ops::{Add, Div, Mul, Sub};
@@ -10,7 +10,7 @@ use std::ops::{Add, Div, Mul, Sub};
 pub(crate) trait Scalar:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
-    /// Size by which pivots are compared: |x|, or |Re x| + |Im x|.
+    /// Returns the size for the comparison of pivots: |x|, or |Re x| + |Im x|.
     fn size(self) -> f64;
 }
 
@@ -30,7 +30,7 @@ impl Scalar for Complex {
 #[derive(Debug, Clone)]
 pub(crate) struct Lu<T> {
     n: usize,
-    /// Row by row: U with its diagonal, below it the multipliers of L.
+    /// Entries row by row: U with its diagonal, and below it the multipliers of L.
     a: Vec<T>,
     /// Row exchanged with row k in step k.
     exchanged: Vec<usize>,
@@ -45,8 +45,8 @@ impl<T: Scalar> Lu<T> {
         }
     }
 
-    /// Decomposes the matrix with the entries `entry(row, column)`. `Err(k)`: column k has no
-    /// pivot, because no entry is non-zero and finite.
+    /// Decomposes the matrix with the entries `entry(row, column)`. The result `Err(k)` means that
+    /// column k has no pivot, because no entry is non-zero and finite.
     pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> T) -> Result<(), usize> {
         let n = self.n;
         for (i, row) in self.a.chunks_exact_mut(n.max(1)).enumerate() {
@@ -108,7 +108,8 @@ impl<T: Scalar> Lu<T> {
 mod tests {
     use super::*;
 
-    /// 1 + i on the diagonal of a matrix that needs exchanges; solutions known by construction.
+    /// A matrix with 1 + i on the diagonal that needs exchanges; the solutions are known by
+    /// construction.
     #[test]
     fn solves_with_exchanges_and_names_the_column_without_pivot() {
         let a = [[0.0, 2.0, 1.0], [4.0, 1.0, 0.0], [2.0, 0.0, 3.0]];

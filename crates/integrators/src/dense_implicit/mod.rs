@@ -1,5 +1,5 @@
-//! Makes a plain problem [`Implicit`]: dense Jacobian, by a formula or by differences, and dense LU
-//! decompositions.
+//! Implements [`Implicit`] for a plain problem, with a dense Jacobian (by a formula or by
+//! differences) and dense LU decompositions.
 
 mod complex;
 pub(crate) mod lu;
@@ -33,16 +33,16 @@ use thiserror::Error;
 pub struct DenseImplicit<O, J> {
     ode: O,
     jacobian: J,
-    /// J row by row.
+    /// Jacobian J, row by row.
     j: Vec<f64>,
     real: Lu<f64>,
     complex: Lu<Complex>,
     x: Vec<Complex>,
 }
 
-/// How to compute the Jacobian of a problem `O`: a closure `f(t, y, j)`, or [`Differences`].
+/// Method for the Jacobian of a problem `O`: a closure `f(t, y, j)`, or [`Differences`].
 pub trait Jacobian<O: Ode> {
-    /// Writes J = ∂f/∂y at (t, y) to `j`, n×n row by row: `j[i·n + k]` = ∂f_i/∂y_k. On entry `j`
+    /// Writes J = ∂f/∂y at (t, y) to `j`, n×n row by row: `j[i·n + k]` = ∂f_i/∂y_k. On entry, `j`
     /// contains the last J.
     ///
     /// # Errors
@@ -58,8 +58,8 @@ impl<O: Ode, F: FnMut(f64, &[f64], &mut [f64])> Jacobian<O> for F {
     }
 }
 
-/// Forward differences with increments `√(eps·max(10⁻⁵, |y_k|))`, as in the program RADAU5: n + 1
-/// evaluations of f.
+/// Forward differences with increments `√(eps·max(10⁻⁵, |y_k|))`, as in the program RADAU5. They
+/// need n + 1 evaluations of f.
 #[derive(Debug, Clone, Default)]
 pub struct Differences {
     y: Vec<f64>,
@@ -79,7 +79,7 @@ impl<O: Ode> Jacobian<O> for Differences {
             let increment = (f64::EPSILON * y[k].abs().max(1e-5)).sqrt();
             self.y[k] = y[k] + increment;
             ode.rhs(t, &self.y, &mut self.f_k)?;
-            // The actual increment after rounding, not the intended one.
+            // The actual increment after rounding is used, not the intended one.
             let increment = self.y[k] - y[k];
             for i in 0..n {
                 j[i * n + k] = (self.f_k[i] - self.f[i]) / increment;
@@ -125,7 +125,7 @@ impl<O: Ode, J: Jacobian<O>> DenseImplicit<O, J> {
         }
     }
 
-    /// The wrapped problem.
+    /// Returns the wrapped problem.
     pub fn ode(&mut self) -> &mut O {
         &mut self.ode
     }

@@ -1,5 +1,5 @@
-//! The solution within an accepted step: of order 6 (local error O(h⁷)) without and of order 8
-//! (O(h⁹), like the step) with six extra evaluations.
+//! The solution within an accepted step. It has order 6 (local error O(h⁷)) without extra
+//! evaluations, and order 8 (O(h⁹), like the step) with six extra evaluations.
 //!
 //! Both are the cubic through (y0, f0), (y1, f1) plus terms that vanish at both ends together with
 //! their derivatives:
@@ -9,18 +9,19 @@
 //! p = 1, θ, θ(1 − θ), θ²(1 − θ), θ²(1 − θ)²
 //! ```
 //!
-//! so that they pass through the projected states with their own derivatives; k_13 is f1.
+//! Therefore they pass through the projected states with their own derivatives; k_13 is f1.
 //!
 //! **Order 6.** Thirteen stages are sufficient: the 37 conditions of order ≤ 6 have rank 12, so for
 //! each power of θ there is a solution and one free direction n. Weights Σ θ^m·x_m that satisfy the
 //! conditions and b(1) = b, b'(0) = e_1, b'(1) = e_13 need multiples θ²(α + β·θ)·n of that
-//! direction, and α, β are determined. The table was computed with 40 digits; degree 6, three rows.
+//! direction, which determines α and β. The table was computed with 40 digits; degree 6, three
+//! rows.
 //!
-//! **Order 8.** Call a combination of stages clean if Σ w_i k_i = Σ w_i y'(t0 + c_i h) + O(h⁸). A
-//! polynomial of degree 8 through y0 needs eight independent ones; k_1, k_13 and the step Σ b_i k_i
-//! are the only ones of thirteen stages. Bootstrapping (see `rk5::dense`) from Hairer, Nørsett and
-//! Wanner's output of order 7 would take its three extra stages, none of which is clean, and five
-//! clean ones. Six evaluations are enough:
+//! **Order 8.** A combination of stages is called clean if Σ w_i k_i = Σ w_i y'(t0 + c_i h) +
+//! O(h⁸). A polynomial of degree 8 through y0 needs eight independent clean combinations. Thirteen
+//! stages have only three: k_1, k_13 and the step Σ b_i k_i. Bootstrapping (see `rk5::dense`) from
+//! Hairer, Nørsett and Wanner's output of order 7 would take eight evaluations: its three extra
+//! stages, which are not clean, and five clean ones. Six evaluations are enough:
 //!
 //! - Stages 14, 15, 16 have order 6: their arguments are y(t0 + c_i h) + h⁷·δ_i + O(h⁸). Up to
 //!   combinations of the stages before, all such δ lie in a space of four dimensions, in which they
@@ -33,12 +34,12 @@
 //! - The eight clean combinations determine the weights of order 8 for each θ: degree 8, five rows.
 //!
 //! Five evaluations would need a clean stage 14, and thirteen stages are not sufficient for it. The
-//! free parameters are c_14, c_16 to c_19 and one weight of stage 14. They were optimised so that
-//! the error coefficients of order 9 are nowhere in the step larger than at its end, at which they
-//! are those of the method, and so that the weights are small: Σ|b_i(θ)| exceeds its value at the
-//! end, 12.91, by less than 0.1 %, and Σ|a_ij| < 8 in the extra stages (the method itself has
-//! values up to 95). All this is asserted in `order_conditions`. The tables were computed with 40
-//! digits from the rounded table of the method.
+//! free parameters are c_14, c_16 to c_19 and one weight of stage 14. They were optimised with two
+//! goals. The error coefficients of order 9 within the step do not exceed those at its end, where
+//! they are those of the method. The weights are small: Σ|b_i(θ)| exceeds its value at the end,
+//! 12.91, by less than 0.1 %, and Σ|a_ij| < 8 in the extra stages (the method itself has values up
+//! to 95). All this is asserted in `order_conditions`. The tables were computed with 40 digits from
+//! the rounded table of the method.
 
 use super::Dop853Stages;
 use super::tableau::{A, C, D, FREE, STAGES, STEP_STAGES};
@@ -91,8 +92,8 @@ impl Dop853Stages {
     }
 }
 
-/// Writes Σ w_j k_j, stage by stage. Stages 2 to 5 have no weight; further ones than `extra` are
-/// not read.
+/// Writes Σ w_j k_j, stage by stage. Stages 2 to 5 have no weight; stages after `extra` are not
+/// read.
 fn slopes(w: &[f64], ends: &Ends<'_>, k: &[Vec<f64>; 11], extra: &[Vec<f64>], out: &mut [f64]) {
     for (out, k) in out.iter_mut().zip(ends.f0) {
         *out = w[0] * k;
@@ -110,11 +111,11 @@ fn slopes(w: &[f64], ends: &Ends<'_>, k: &[Vec<f64>; 11], extra: &[Vec<f64>], ou
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Weights<const S: usize> {
     pub(super) delta: f64,
-    /// Zero for stages 2 to 5.
+    /// Weights of the stages, zero for stages 2 to 5.
     pub(super) stages: [f64; S],
 }
 
-/// The polynomial with the first rows of the products p_r.
+/// Computes the polynomial with the first rows of the products p_r.
 pub(super) fn weights<const R: usize, const S: usize>(
     rows: &[[f64; S]; R],
     theta: f64,

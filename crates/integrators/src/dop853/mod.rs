@@ -2,7 +2,7 @@
 //! output of order 6 and 8.
 //!
 //! Source: the program DOP853 of E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary
-//! Differential Equations I, 2nd ed., II.5, II.10. The dense outputs are of our own making.
+//! Differential Equations I, 2nd ed., II.5, II.10. The dense outputs were developed for this crate.
 
 mod dense;
 mod step;
@@ -16,10 +16,10 @@ use crate::method::Method;
 use crate::ode::Ode;
 use tableau::{STAGES, STEP_STAGES};
 
-/// Dormand–Prince 8(5,3): the method for smooth problems at 1e-6 and below. Order 8; an accepted
-/// step costs twelve evaluations, including the derivative at its end, a rejected one eleven. Dense
-/// output of order 6 (local error O(h⁷)) without and of order 8 (local error O(h⁹), like the step)
-/// with six extra evaluations in the step.
+/// Dormand–Prince 8(5,3): the method for smooth problems at 1e-6 and below. It has order 8. An
+/// accepted step costs twelve evaluations, including the derivative at its end; a rejected step
+/// costs eleven. The dense output has order 6 (local error O(h⁷)) without extra evaluations, and
+/// order 8 (local error O(h⁹), like the step) with six extra evaluations in the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dop853;
 
@@ -31,7 +31,7 @@ impl<O: Ode> Method<O> for Dop853 {
     }
 }
 
-/// The constants of the program DOP853: no memory of the previous error.
+/// The constants of the program DOP853, without memory of the previous error.
 const CONTROL: ControlConstants = ControlConstants {
     alpha: 1.0 / 8.0,
     beta: 0.0,
@@ -40,8 +40,8 @@ const CONTROL: ControlConstants = ControlConstants {
     max_factor: 6.0,
 };
 
-/// Stages and scratch; stages 1 and 13 are the derivatives at the ends of the step, kept by the
-/// caller.
+/// Stages and buffers. Stages 1 and 13 are the derivatives at the ends of the step, which the
+/// caller stores.
 #[derive(Debug)]
 pub struct Dop853Stages {
     control: Control,
@@ -49,7 +49,7 @@ pub struct Dop853Stages {
     k: [Vec<f64>; 11],
     /// Stages 14 to 19 of the last prepared step.
     extra: [Vec<f64>; STAGES - STEP_STAGES],
-    /// Scratch: argument of a stage.
+    /// Buffer for the argument of a stage.
     y: Vec<f64>,
 }
 

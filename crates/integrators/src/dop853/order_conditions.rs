@@ -1,13 +1,14 @@
-//! The table and both dense outputs checked with the order conditions (`trees`).
+//! Checks the table and both dense outputs with the order conditions (`trees`).
 
 use super::dense::weights;
 use super::tableau::{A, C, D, E3, E5, FREE, STAGES, STEP_STAGES};
 use crate::trees::{error_size, violation};
 
-/// Rounding of sums of up to 12 products of size ≤ 50, with weights ≤ 6; in 40 digits the rounded
-/// table has defects ≤ 7.2e-16.
+/// Rounding of sums of up to 12 products of size ≤ 50, with weights ≤ 6. With 40 digits, the
+/// rounded table has defects ≤ 7.2e-16.
 const TOLERANCE: f64 = 1e-14;
-/// The same for the dense outputs, whose coefficients go up to 2690 with a factor of at most 1/256.
+/// Corresponding rounding for the dense outputs, whose coefficients go up to 2690 with a factor of
+/// at most 1/256.
 const DENSE_TOLERANCE: f64 = 3e-14;
 
 fn padded<const S: usize>(weights: &[f64; S]) -> [f64; STAGES] {
@@ -44,7 +45,7 @@ fn nodes_are_row_sums() {
     }
 }
 
-/// The 200 conditions of order 8.
+/// The step satisfies the 200 conditions of order 8.
 #[test]
 fn step_has_order_eight() {
     for order in 1..=8 {
@@ -85,7 +86,7 @@ fn dense_outputs_have_order_six_and_eight_everywhere() {
     assert!(violation(&A, &dense(&D, 0.5), 9, 0.5) > 1e-7);
 }
 
-/// Largest norm of the error coefficients of one order over the step.
+/// Returns the largest norm of the error coefficients of one order over the step.
 fn largest_error<const R: usize, const S: usize>(rows: &[[f64; S]; R], order: i32) -> f64 {
     (1..=100)
         .map(|i| f64::from(i) / 100.0)
@@ -101,7 +102,7 @@ fn error_coefficients_of_the_free_output_are_small() {
     assert!(free < 2.4e-5, "{free:e}");
 }
 
-/// Nowhere in the step are the error coefficients larger than at its end.
+/// Within the step, the error coefficients do not exceed those at its end.
 #[test]
 fn accurate_output_is_as_accurate_as_the_step() {
     let at_end = error_size(&A, &step_weights(), 9, 1.0);
@@ -112,8 +113,8 @@ fn accurate_output_is_as_accurate_as_the_step() {
     );
 }
 
-/// Rounding is not amplified: sums of the weights of the accurate output (12.907 at the end of the
-/// step) and of its stages.
+/// Rounding is not amplified. The test computes sums of the weights of the accurate output (12.907
+/// at the end of the step) and of its stages.
 #[test]
 fn weights_of_the_accurate_output_are_small() {
     let size = |b: &[f64; STAGES]| b.iter().map(|b| b.abs()).sum::<f64>();

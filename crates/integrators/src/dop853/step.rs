@@ -52,8 +52,8 @@ impl<O: Ode> Stepper<O> for Dop853Stages {
         Ok(())
     }
 
-    /// `h·err5·(err5 / √(err5² + 0.01·err3²))` in the norm: the estimate of order 5 times a factor
-    /// of about h², so that the whole behaves like h⁸; HNW I, II.10, (10.17).
+    /// Returns `h·err5·(err5 / √(err5² + 0.01·err3²))` in the norm: the estimate of order 5 times a
+    /// factor of about h², so that the result behaves like h⁸; HNW I, II.10, (10.17).
     fn error_norm(
         &mut self,
         _ode: &mut O,
@@ -72,7 +72,8 @@ impl<O: Ode> Stepper<O> for Dop853Stages {
                 error_5 += E5[j] * k;
                 error_3 += E3[j] * k;
             }
-            // A component without error needs no weight: one that stays 0 may have weight 0.
+            // A component without error needs no weight: the weight of a component that stays 0 may
+            // be 0.
             if error_5 != 0.0 {
                 sum_5 += (error_5 / scale[i]) * (error_5 / scale[i]);
             }
@@ -105,7 +106,7 @@ impl<O: Ode> Stepper<O> for Dop853Stages {
     }
 }
 
-/// A step on trial.
+/// A trial step.
 struct Dop853Step<'a, O> {
     ode: &'a mut O,
     trial: &'a Trial<'a>,
@@ -114,8 +115,8 @@ struct Dop853Step<'a, O> {
 }
 
 impl<O: Ode> Dop853Step<'_, O> {
-    /// Writes `y0 + h·Σ a_sj·k_j` to y; `used` are the j with coefficients, `k` begins with stage
-    /// 1.
+    /// Writes `y0 + h·Σ a_sj·k_j` to y. `used` lists the j with coefficients, and `k` begins with
+    /// stage 1.
     #[inline]
     fn argument<const N: usize>(&self, s: usize, used: [usize; N], k: &[Vec<f64>], y: &mut [f64]) {
         let of = |j: usize| if j == 0 { self.start.f0 } else { &k[j - 1][..] };
@@ -123,7 +124,7 @@ impl<O: Ode> Dop853Step<'_, O> {
         combine(y, self.start.y0, self.trial.h, terms);
     }
 
-    /// Stage s of those before it.
+    /// Computes stage s from the previous stages.
     #[inline]
     fn stage<const N: usize>(
         &mut self,

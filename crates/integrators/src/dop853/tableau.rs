@@ -1,5 +1,5 @@
-//! The coefficients, to full precision; checked by `order_conditions`, which uses trees and no
-//! table.
+//! The coefficients, to full precision. The module `order_conditions` checks them with trees and
+//! without a table.
 //!
 //! The method and its error estimators are those of the program DOP853 of Hairer and Wanner;
 //! source: Hairer, Nørsett, Wanner I, 2nd ed., II.5. Stages 14 to 19, [`D`] and [`FREE`] were
@@ -33,7 +33,8 @@ pub(super) const C: [f64; STAGES] = [
     3.0 / 5.0,
 ];
 
-/// Rows for the arguments of the stages. Row 12 (counted from 0) also gives the new state.
+/// Rows of coefficients for the arguments of the stages. Row 12 (counted from 0) also gives the new
+/// state.
 #[rustfmt::skip]
 pub(super) const A: [[f64; STAGES]; STAGES] = [
     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],

@@ -1,7 +1,7 @@
 //! The solution within an accepted step.
 //!
 //! **Order 4** (local error O(h⁵)). The collocation polynomial p of degree 3 through y0, Y₁, Y₂, Y₃
-//! has the right derivative at the nodes, not at the start. The quartic
+//! has the correct derivative at the nodes, but not at the start. The quartic
 //!
 //! ```text
 //! u(θ) = p(θ) + D·φ(θ) + θ²(3 − 2θ)·c,   φ(θ) = ∫₀^θ (s − c₁)(s − c₂)(s − 1)/(−c₁c₂) ds
@@ -9,13 +9,13 @@
 //!
 //! corrects the start by its defect D = h·f0 − p'(0) and leaves the other values unchanged: φ(1) =
 //! 0, because the Radau quadrature is exact for cubics, and φ' = 0 at the nodes. c is the change of
-//! y1 by a projection. In a stiff problem the rounding of y0 becomes a large D; so D is filtered by
-//! (I − h/u₁·J)⁻¹, which changes it by O(h⁵) if the problem is smooth. It is the error estimate
-//! (times u₁), which is already known.
+//! y1 by a projection. In a stiff problem, rounding of y0 leads to a large D. Therefore D is
+//! filtered by (I − h/u₁·J)⁻¹, which changes it by O(h⁵) if the problem is smooth. The filtered D
+//! is the error estimate (times u₁), which has already been computed.
 //!
-//! **Order 5** (local error O(h⁶)). u plus the quintic that vanishes at both ends and whose
-//! derivative at θ = 0, ¼, ¾ and 1 equals the defects of u, `h·f(t, u) − u'`, filtered in the same
-//! way; two extra evaluations (the same idea as in `dopri5`).
+//! **Order 5** (local error O(h⁶)). This output is u plus the quintic that vanishes at both ends
+//! and whose derivative at θ = 0, ¼, ¾ and 1 equals the defects of u, `h·f(t, u) − u'`, filtered in
+//! the same way. It needs two extra evaluations (the same idea as in `dopri5`).
 
 use super::Radau5Stages;
 use super::newton::dot;
@@ -102,7 +102,7 @@ impl Quartic<'_> {
         }
     }
 
-    /// Component `i` of u'(θ).
+    /// Returns component `i` of u'(θ).
     fn derivative(&self, theta: f64, i: usize) -> f64 {
         dot(&lagrange_derivative(theta), &self.increments(i))
             + REAL * start_weight_derivative(theta) * self.defect[i]
@@ -113,17 +113,17 @@ impl Quartic<'_> {
         [self.z[0][i], self.z[1][i], self.z[2][i]]
     }
 
-    /// The change of y1 by the hook.
+    /// Returns the change of y1 by the hook.
     fn projection(&self, i: usize) -> f64 {
         (self.ends.y1[i] - self.ends.y0[i]) - self.z[2][i]
     }
 }
 
-/// φ(θ): φ(0) = φ(1) = 0, φ'(0) = 1, φ' = 0 at the nodes.
+/// Returns φ(θ), with φ(0) = φ(1) = 0, φ'(0) = 1, and φ' = 0 at the nodes.
 pub(super) fn start_weight(theta: f64) -> f64 {
     let [a, b, _] = C;
     let x = theta;
-    // ∫ (s³ − (a+b+1)·s² + (ab+a+b)·s − ab) ds
+    // The integral is ∫ (s³ − (a+b+1)·s² + (ab+a+b)·s − ab) ds.
     let integral =
         x * (-a * b + x * ((a * b + a + b) / 2.0 + x * (-(a + b + 1.0) / 3.0 + x / 4.0)));
     integral / (-a * b)
@@ -134,8 +134,8 @@ pub(super) fn start_weight_derivative(theta: f64) -> f64 {
     (theta - a) * (theta - b) * (theta - 1.0) / (-a * b)
 }
 
-/// The polynomials of degree 5 that vanish at θ = 0 and 1 and are dual to the derivatives at the
-/// four places.
+/// Returns the polynomials of degree 5 that vanish at θ = 0 and 1 and are dual to the derivatives
+/// at the four positions.
 pub(super) fn defect_weights(theta: f64) -> [f64; 4] {
     let x = theta;
     let rest = 1.0 - x;

@@ -2,9 +2,9 @@
 //! problems.
 //!
 //! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., IV.5 (method)
-//! and IV.8 (implementation), whose program RADAU5 is also the source of the constants.
-//! Differences: the Jacobian is renewed before a step is given up, and the dense output has a
-//! higher order (see `dense`).
+//! and IV.8 (implementation), whose program RADAU5 is also the source of the constants. There are
+//! two differences: the Jacobian is recomputed before a step is rejected, and the dense output has
+//! a higher order (see `dense`).
 
 mod dense;
 mod newton;
@@ -22,14 +22,14 @@ use crate::method::Method;
 
 /// Radau IIA of order 5 with simplified Newton iterations, for stiff problems.
 ///
-/// L-stable. The error estimate is of order 3: it is compared with `0.1·ρ^(−1/3)` times the
-/// tolerance, ρ ≤ 10⁻³ being the relative tolerance, so that the error of the step, which is of
-/// order 5, is proportional to the tolerance. Tolerances below 100 units of rounding of the state
-/// are replaced by 100, because stiff forces amplify rounding to noise.
+/// The method is L-stable. The error estimate is of order 3. It is compared with `0.1·ρ^(−1/3)`
+/// times the tolerance, where ρ ≤ 10⁻³ is the relative tolerance. The error of the step, which is
+/// of order 5, is therefore proportional to the tolerance. Tolerances below 100 units of rounding
+/// of the state are replaced by 100, because stiff forces amplify rounding to noise.
 ///
-/// Dense output of order 4 (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the
-/// step) with two extra evaluations in the step. It is continuous; at the ends of steps its
-/// derivative has jumps of the size of its error.
+/// The dense output has order 4 (local error O(h⁵)) without extra evaluations, and order 5 (local
+/// error O(h⁶), like the step) with two extra evaluations in the step. It is continuous; at the
+/// ends of steps its derivative has jumps of the size of its error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Radau5;
 
@@ -54,41 +54,43 @@ const CONTROL: ControlConstants = ControlConstants {
 #[derive(Debug)]
 pub struct Radau5Stages {
     control: Control,
-    /// z_i = Y_i − y0 of the last trial.
+    /// Values z_i = Y_i − y0 of the last trial.
     z: [Vec<f64>; 3],
     /// `h·f0 − u'(0)` of the last trial, filtered: the estimated error times u₁.
     defect: Vec<f64>,
     /// Filtered defects of the dense output at the positions of `dense`.
     defects: [Vec<f64>; 4],
-    /// Scratch: argument of a stage.
+    /// Buffer for the argument of a stage.
     y: Vec<f64>,
     /// Weights of the norms of this method.
     scale: Vec<f64>,
     matrices: Matrices,
     newton: Newton,
     before: Before,
-    /// At the start of a leg and after a rejection the estimate is filtered twice.
+    /// Whether the estimate is filtered twice, which is needed at the start of a leg and after a
+    /// rejection.
     filter_twice: bool,
 }
 
 /// Newton's method for the stages.
 #[derive(Debug)]
 struct Newton {
-    /// w = T⁻¹·z, in which the linear system separates into a real and a complex one.
+    /// Transformed values w = T⁻¹·z, in which the linear system separates into a real and a complex
+    /// one.
     w: [Vec<f64>; 3],
     /// Derivatives at the stages, then increments of w.
     k: [Vec<f64>; 3],
     convergence: Convergence,
-    /// The factor of the step size that it proposes after a failure.
+    /// The step-size factor that it proposes after a failure.
     factor_after_failure: Option<f64>,
 }
 
 /// The last accepted step since the start of the leg.
 #[derive(Debug)]
 struct Before {
-    /// Its z, used for starting values.
+    /// The values z of this step, used for starting values.
     z: [Vec<f64>; 3],
-    /// Its size.
+    /// The size of this step.
     h: Option<f64>,
     /// Size and error of the step with which the predictive controller compares.
     reference: Option<(f64, f64)>,

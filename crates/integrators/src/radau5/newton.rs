@@ -7,7 +7,7 @@
 //! ((α + iβ)/h·I − J)·(Δw₂ + iΔw₃) = (T⁻¹·f)₂ + i(T⁻¹·f)₃ − (α + iβ)/h·(w₂ + iw₃)
 //! ```
 //!
-//! The stopping criterion is in `convergence`.
+//! The module `convergence` contains the stopping criterion.
 
 use super::Radau5Stages;
 use super::scale::set_scale;
@@ -23,8 +23,8 @@ use crate::statistics::Statistics;
 /// Iterations stop if their increments are below this many units of rounding of the state.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
 impl Radau5Stages {
-    /// Starting values: the collocation polynomial of the last step, continued; zero if there is
-    /// none.
+    /// Computes starting values from the extrapolated collocation polynomial of the last step, or
+    /// zero if there is no last step.
     pub(super) fn predict(&mut self, h: f64) {
         let Some(h_before) = self.before.h else {
             for v in self.z.iter_mut().chain(&mut self.newton.w) {
@@ -32,7 +32,7 @@ impl Radau5Stages {
             }
             return;
         };
-        // u(1 + c·h/h_before) − u(1)
+        // The differences are u(1 + c·h/h_before) − u(1).
         let weights = C.map(|c| {
             let mut l = lagrange(1.0 + c * h / h_before);
             l[2] -= 1.0;
@@ -42,7 +42,7 @@ impl Radau5Stages {
         combine(&T_INVERSE, &self.z, &mut self.newton.w);
     }
 
-    /// Iterates until `z` is as accurate as the tolerance requires, or will not become so. An error
+    /// Iterates until `z` is as accurate as the tolerance requires, or cannot become so. An error
     /// of f at a stage is an error of the trial.
     pub(super) fn solve_stages<O: Implicit>(
         &mut self,
@@ -107,8 +107,8 @@ impl Radau5Stages {
             .map_err(|component| Cause::NonFinite { component })
     }
 
-    /// Weighted norm of the last increments, with the present end of the step in the weights, and
-    /// the largest norm allowed at the end.
+    /// Returns the weighted norm of the last increments, with the present end of the step in the
+    /// weights, and the largest permitted norm at the end.
     fn increment_norm(&mut self, start: &Start<'_>) -> (f64, f64) {
         for ((y, y0), z) in self.y.iter_mut().zip(start.y0).zip(&self.z[2]) {
             *y = y0 + z;
@@ -128,7 +128,7 @@ impl Radau5Stages {
     }
 }
 
-/// `out_i = Σ_j weights_ij·v_j`, component by component.
+/// Computes `out_i = Σ_j weights_ij·v_j`, component by component.
 fn combine(weights: &[[f64; 3]; 3], v: &[Vec<f64>; 3], out: &mut [Vec<f64>; 3]) {
     for component in 0..v[0].len() {
         let x = [v[0][component], v[1][component], v[2][component]];

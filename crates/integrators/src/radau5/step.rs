@@ -12,10 +12,10 @@ use crate::method::{Start, Stepper, Trial, widest_gap};
 use crate::ode::{evaluate, finite};
 use crate::statistics::Statistics;
 
-/// Factors are used again if the step size differs by less than this fraction: Newton's method then
-/// loses no more than a good rate.
+/// If the step size differs by less than this fraction, the factors are reused: Newton's method
+/// then still converges at a good rate.
 const SAME_SIZE: f64 = 1e-3;
-/// A step size that could increase by less than this factor is kept, and with it the factors.
+/// If a step size could increase by less than this factor, it is kept, and with it the factors.
 const WORTH_GROWING: f64 = 1.2;
 /// Smallest error with which the predictive controller compares.
 const SMALLEST_REFERENCE: f64 = 1e-2;
@@ -166,9 +166,9 @@ impl<O: Implicit> Stepper<O> for Radau5Stages {
         self.filter_twice = true;
     }
 
-    /// The smaller of two proposals: the classical one, and the predictive one of Gustafsson, which
-    /// continues the trend of the error. Many iterations have the same effect as a larger error. A
-    /// size that would hardly change is kept, and with it the factors.
+    /// Returns the smaller of two proposals: the classical one, and the predictive one of
+    /// Gustafsson, which continues the trend of the error. Many iterations have the same effect as
+    /// a larger error. If the size would change only slightly, it is kept, and with it the factors.
     fn after_acceptance(&mut self, h: f64, error_norm: f64) -> f64 {
         let effort = self.effort();
         let mut next = self.control.accept(h, error_norm * effort.powi(4));
@@ -206,8 +206,8 @@ impl<O: Implicit> Stepper<O> for Radau5Stages {
 }
 
 impl Radau5Stages {
-    /// (n + 2·n_max)/(1 + 2·n_max) for n iterations: the cost of the last step relative to its
-    /// smallest possible cost.
+    /// Returns (n + 2·n_max)/(1 + 2·n_max) for n iterations: the cost of the last step relative to
+    /// its smallest possible cost.
     fn effort(&self) -> f64 {
         let (n, n_max) = (
             f64::from(self.newton.convergence.iterations),

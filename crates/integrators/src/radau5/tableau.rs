@@ -1,9 +1,9 @@
-//! The coefficients: nodes, the transformation that makes A⁻¹ block diagonal, the collocation
+//! The coefficients: nodes, the transformation that makes A⁻¹ block diagonal, and the collocation
 //! polynomial.
 //!
-//! Checked by `tests` against the matrix A that follows from the nodes.
+//! The module `tests` compares them with the matrix A that follows from the nodes.
 
-/// √6.
+/// Square root √6.
 const SQRT_6: f64 = 2.449_489_742_783_178;
 
 /// Nodes c_i: zeros of the Radau polynomial d²/dx² [x²·(x − 1)³].
@@ -14,7 +14,7 @@ pub(super) const REAL: f64 = 3.637_834_252_744_496;
 /// Complex eigenvalue of A⁻¹ with positive imaginary part.
 pub(super) const COMPLEX: [f64; 2] = [2.681_082_873_627_752_3, 3.050_430_199_247_410_5];
 
-/// T: T⁻¹·A⁻¹·T is block diagonal with the blocks u₁ and [α, −β; β, α].
+/// Transformation T: T⁻¹·A⁻¹·T is block diagonal with the blocks u₁ and [α, −β; β, α].
 pub(super) const T: [[f64; 3]; 3] = [
     [
         9.123_239_487_089_295e-2,
@@ -29,7 +29,7 @@ pub(super) const T: [[f64; 3]; 3] = [
     [0.966_048_182_615_093, 1.0, 0.0],
 ];
 
-/// T⁻¹.
+/// Inverse T⁻¹.
 pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     [
         4.325_579_890_063_155,
@@ -48,16 +48,16 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     ],
 ];
 
-/// `E_i = −L_i'(0)`: h·f0 + Σ E_i·z_i is the defect of the collocation polynomial at the start, the
-/// estimated error of order 3.
+/// Weights `E_i = −L_i'(0)`: h·f0 + Σ E_i·z_i is the defect of the collocation polynomial at the
+/// start, the estimated error of order 3.
 pub(super) const E: [f64; 3] = [
     -(13.0 + 7.0 * SQRT_6) / 3.0,
     (-13.0 + 7.0 * SQRT_6) / 3.0,
     -1.0 / 3.0,
 ];
 
-/// Values at θ of the Lagrange polynomials L_i of the nodes 0, c₁, c₂, 1, without the one of 0:
-/// u(θ) = y0 + Σ L_i(θ)·z_i.
+/// Returns the values at θ of the Lagrange polynomials L_i of the nodes 0, c₁, c₂, 1, without the
+/// polynomial of node 0: u(θ) = y0 + Σ L_i(θ)·z_i.
 pub(super) fn lagrange(theta: f64) -> [f64; 3] {
     let [a, b, _] = C;
     let x = theta;
@@ -68,11 +68,11 @@ pub(super) fn lagrange(theta: f64) -> [f64; 3] {
     ]
 }
 
-/// L_i'(θ).
+/// Returns L_i'(θ).
 pub(super) fn lagrange_derivative(theta: f64) -> [f64; 3] {
     let [a, b, _] = C;
     let x = theta;
-    // d/dx x·(x − p)·(x − q)
+    // Returns d/dx x·(x − p)·(x − q).
     let cubic = |p: f64, q: f64| x * (3.0 * x - 2.0 * (p + q)) + p * q;
     [
         cubic(b, 1.0) / (a * (a - b) * (a - 1.0)),

@@ -1,5 +1,5 @@
-//! The method without step control: its coefficients, its stability function, its order, its dense
-//! output.
+//! Tests of the method without step control: its coefficients, its stability function, its order
+//! and its dense output.
 
 use super::Radau5Stages;
 use super::dense::{defect_weights, start_weight, start_weight_derivative};
@@ -26,8 +26,8 @@ fn assert_near(a: &Matrix, b: &Matrix, tolerance: f64) {
     }
 }
 
-/// A from its definition, Σ_j a_ij·c_j^k = c_i^(k+1)/(k+1) for k = 0, 1, 2, in the closed form of
-/// Hairer, Wanner II, table IV.5.6.
+/// Returns A from its definition, Σ_j a_ij·c_j^k = c_i^(k+1)/(k+1) for k = 0, 1, 2, in the closed
+/// form of Hairer, Wanner II, table IV.5.6.
 fn a() -> Matrix {
     let s = 6.0_f64.sqrt();
     [
@@ -118,8 +118,8 @@ where
         }
     }
 
-    /// Steps from t over h, at full accuracy; `inside` receives the two dense outputs at θ. Returns
-    /// the size of the estimated error.
+    /// Performs a step from t over h, at full accuracy; `inside` receives the two dense outputs at
+    /// θ. Returns the size of the estimated error.
     fn step(&mut self, t: f64, h: f64, theta: f64, inside: &mut [Vec<f64>; 2]) -> f64 {
         let legs = Interval::new(t, t + h)
             .legs::<Infallible>()
@@ -208,11 +208,11 @@ fn one_linear_step_is_the_stability_function() {
     }
 }
 
-/// Largest errors over [0, 2] with n steps: at the ends of steps, of both outputs at θ = 0.4, and
-/// the largest estimate.
+/// Returns the largest errors over [0, 2] with n steps: at the ends of steps, of both outputs at θ
+/// = 0.4, and the largest estimate.
 fn errors(n: u32) -> [f64; 4] {
-    // y₁' = y₂·cos t, y₂' = −y₁·cos t + (1 − y₁² − y₂²)·y₂: (sin s, cos s) with s = sin t,
-    // nonlinear in y and dependent on t.
+    // The solution of y₁' = y₂·cos t, y₂' = −y₁·cos t + (1 − y₁² − y₂²)·y₂ is (sin s, cos s) with s
+    // = sin t. The problem is nonlinear in y and depends on t.
     let f = |t: f64, y: &[f64], dy: &mut [f64]| {
         let excess = 1.0 - y[0] * y[0] - y[1] * y[1];
         dy.copy_from_slice(&[
@@ -242,8 +242,8 @@ fn errors(n: u32) -> [f64; 4] {
     largest
 }
 
-/// Ends and accurate output: order 5; output without extra evaluations: local error O(h⁵);
-/// estimate: O(h⁴), like one of order 3.
+/// The ends and the accurate output have order 5. The output without extra evaluations has the
+/// local error O(h⁵). The estimate is O(h⁴), like that of order 3.
 #[test]
 fn orders_of_the_step_its_outputs_and_its_estimate() {
     let runs = [16, 32, 64].map(errors);

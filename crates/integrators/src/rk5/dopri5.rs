@@ -1,5 +1,6 @@
 //! Dormand–Prince 5(4): the coefficients, as printed in the paper's table 2 and in Hairer, Nørsett,
-//! Wanner I, 2nd ed., table II.5.2. Checked by `order_conditions`, which uses trees and no table.
+//! Wanner I, 2nd ed., table II.5.2. The module `order_conditions` checks them with trees and
+//! without a table.
 //!
 //! Source: J. R. Dormand, P. J. Prince, A family of embedded Runge–Kutta formulae, J. Comput. Appl.
 //! Math. 6 (1980) 19–26, DOI 10.1016/0771-050X(80)90013-3. Dense output: L. F. Shampine, Some
@@ -8,9 +9,9 @@
 
 use super::tableau::Tableau;
 
-/// Dormand–Prince 5(4), seven stages, the last one reused; known as `ode45`. Order 5. Dense output
-/// of order 4 (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the step) with
-/// two extra evaluations in the step.
+/// Dormand–Prince 5(4) with seven stages, the last of which is reused; known as `ode45`. The method
+/// has order 5. The dense output has order 4 (local error O(h⁵)) without extra evaluations, and
+/// order 5 (local error O(h⁶), like the step) with two extra evaluations in the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dopri5;
 

@@ -1,5 +1,5 @@
-//! Pairs of order 5(4) with seven stages, the last of which is the first of the next step: one
-//! implementation, two tables.
+//! Pairs of order 5(4) with seven stages, the last of which is the first of the next step. There is
+//! one implementation with two tables.
 
 mod dense;
 mod dopri5;
@@ -35,7 +35,7 @@ impl<O: Ode> Method<O> for Tsit5 {
     }
 }
 
-/// For both pairs the constants of the program DOPRI5 of Hairer and Wanner: α = 1/5 − ¾·β.
+/// The constants of the program DOPRI5 of Hairer and Wanner for both pairs: α = 1/5 − ¾·β.
 const CONTROL: ControlConstants = ControlConstants {
     alpha: 0.2 - 0.75 * 0.04,
     beta: 0.04,
@@ -44,8 +44,8 @@ const CONTROL: ControlConstants = ControlConstants {
     max_factor: 10.0,
 };
 
-/// Stages and scratch; the first stage is the derivative at the start of the step, kept by the
-/// caller.
+/// Stages and buffers. The first stage is the derivative at the start of the step, which the caller
+/// stores.
 #[derive(Debug)]
 pub struct Rk5Stages<T> {
     control: Control,
@@ -54,7 +54,7 @@ pub struct Rk5Stages<T> {
     /// f at `NODE_A`, `NODE_B` of the last prepared step.
     f_a: Vec<f64>,
     f_b: Vec<f64>,
-    /// Scratch: argument of a stage.
+    /// Buffer for the argument of a stage.
     y: Vec<f64>,
     tableau: PhantomData<T>,
 }

@@ -1,10 +1,10 @@
-//! Both tables and their dense outputs checked with the order conditions (`trees`).
+//! Checks both tables and their dense outputs with the order conditions (`trees`).
 
 use super::dense::{NODE_A, NODE_B, quartic_weights, quintic_weights};
 use super::{Dopri5, Tableau, Tsit5};
 use crate::trees::{error_size, violation};
 
-/// Seven stages and the two extra evaluations.
+/// Number of stages: seven stages and the two extra evaluations.
 const STAGES: usize = 9;
 /// Rounding of sums of up to 9 products of size ≤ 50.
 const TOLERANCE: f64 = 1e-13;
@@ -94,7 +94,8 @@ fn dense_outputs_have_order_four_and_five_everywhere() {
     check_dense::<Tsit5>();
 }
 
-/// Largest error coefficients of the quintic in the step, relative to those of the step.
+/// Returns the largest error coefficients of the quintic in the step, relative to those of the
+/// step.
 fn quintic_over_step<T: Tableau>() -> f64 {
     let a = stage_matrix::<T>();
     let at_end = error_size(&a, &quintic::<T>(1.0), 6, 1.0);

@@ -4,7 +4,8 @@
 pub trait Tableau {
     /// Nodes of the stages 2 to 7; row sums of `A`.
     const C: [f64; 6];
-    /// Rows for the arguments of stages 2 to 7. The last row also gives the new state.
+    /// Rows of coefficients for the arguments of stages 2 to 7. The last row also gives the new
+    /// state.
     const A: [[f64; 6]; 6];
     /// Weights of the estimated error: order 5 minus order 4.
     const E: [f64; 7];

@@ -1,4 +1,4 @@
-//! Memory is allocated at the start only.
+//! Memory is allocated only at the start.
 
 use crate::problems::kepler;
 use crate::problems::{Plain, plain};

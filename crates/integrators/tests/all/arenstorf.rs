@@ -1,4 +1,5 @@
-//! The Arenstorf orbit: published results of the original program, and snapshots of cost and error.
+//! Compares the Arenstorf orbit with published results of the original program, and with snapshots
+//! of cost and error.
 
 use crate::problems::arenstorf::{PERIOD, Y0, rhs};
 use crate::problems::{Plain, distance, plain, run_function};
@@ -21,8 +22,8 @@ const PUBLISHED_ROWS: [(f64, f64, f64); 8] = [
     (16.0, 0.242_711_099_9, -0.389_994_883_3),
 ];
 const PUBLISHED_END: [f64; 2] = [0.994_002_101_6, 8.911_185_692e-6];
-/// Half a unit of the last printed digit is 5e-11 to 5e-10; rounding errors of another compiler are
-/// amplified on this orbit.
+/// Half a unit of the last printed digit is 5e-11 to 5e-10; this orbit amplifies the rounding
+/// errors of another compiler.
 const PRINTED: f64 = 1e-9;
 
 #[test]
@@ -51,8 +52,8 @@ fn reproduces_the_published_run_of_the_original_program() {
         "{:?}",
         end.y
     );
-    // fcn = 1442, step = 240, accpt = 216; the original does not count its 2 rejections before the
-    // first accepted step.
+    // The published counts are fcn = 1442, step = 240, accpt = 216; the original does not count its
+    // 2 rejections before the first accepted step.
     let s = end.statistics;
     assert_eq!((s.evaluations, s.accepted, s.rejected()), (1442, 216, 24));
 }
@@ -77,8 +78,8 @@ fn reproduces_the_original_program_with_given_first_step() {
     assert_eq!((s.evaluations, s.accepted, s.rejected()), (1429, 217, 21));
 }
 
-/// Snapshot: rtol = atol, evaluations, accepted, rejected, error at the end after one period
-/// (rounded up).
+/// Snapshot of a run: rtol = atol, evaluations, accepted, rejected, error at the end after one
+/// period (rounded up).
 type Snapshot = (f64, u64, u64, u64, f64);
 
 fn check_snapshots(name: &str, method: &impl Method<Plain>, snapshots: [Snapshot; 3]) {
@@ -129,8 +130,8 @@ fn costs_and_errors_are_as_recorded() {
     check_snapshots("dop853", &Dop853, dop853);
 }
 
-/// Rows are as accurate as steps: the largest distance of the rows from a much more accurate run,
-/// against that of the steps.
+/// Rows are as accurate as steps: the test compares the largest distance of the rows from a much
+/// more accurate run with that of the steps.
 #[test]
 fn rows_are_as_accurate_as_steps() {
     check_rows("dopri5", &Dopri5, 1.5);

@@ -1,4 +1,4 @@
-//! Kinks and jumps of f, declared and not.
+//! Kinks and jumps of f, declared and undeclared.
 
 use crate::problems::{Plain, fixed_step, plain, run};
 use pfaff_integrators::{
@@ -9,17 +9,17 @@ use std::ops::ControlFlow;
 
 const DECLARED: [f64; 1] = [1.0];
 
-/// y' = |t − 1|: y(2) = 1 from 0, a polynomial on either side.
+/// The equation y' = |t − 1| has y(2) = 1 from 0, with a polynomial on either side.
 fn kink(t: f64, _y: &[f64], dy: &mut [f64]) {
     dy[0] = (t - 1.0).abs();
 }
 
-/// y' = −y before t = 1, +y from t = 1 on: y(2) = 1 from 1.
+/// The equation is y' = −y before t = 1 and +y from t = 1 on: y(2) = 1 from 1.
 fn jump_with_less(t: f64, y: &[f64], dy: &mut [f64]) {
     dy[0] = if t < 1.0 { -y[0] } else { y[0] };
 }
 
-/// The same, with the value at t = 1 taken from the other side.
+/// The same equation, with the value at t = 1 taken from the other side.
 fn jump_with_less_or_equal(t: f64, y: &[f64], dy: &mut [f64]) {
     dy[0] = if t <= 1.0 { -y[0] } else { y[0] };
 }
@@ -76,8 +76,8 @@ fn declared_jump_needs_no_rejection_on_either_side() {
     assert!(undeclared.statistics.evaluations > less.statistics.evaluations);
 }
 
-/// The side from which f is evaluated does not depend on how the problem writes its condition, for
-/// any method.
+/// For all methods, the side from which f is evaluated does not depend on how the problem writes
+/// its condition.
 #[test]
 fn all_methods_stay_on_their_side_of_a_jump() {
     fn check(name: &str, method: &impl Method<Plain>) {
@@ -170,7 +170,7 @@ fn neighbouring_break_times_are_passed() {
     assert!((end.y[0] - 1.0).abs() < 1e-14, "{}", end.y[0]);
 }
 
-/// A ball of unit mass hit at t = 1, at which v jumps by 3.
+/// A ball of unit mass receives an impulse at t = 1, at which v jumps by 3.
 struct Hit;
 
 impl Ode for Hit {

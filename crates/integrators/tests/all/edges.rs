@@ -1,5 +1,5 @@
-//! Cases that every method must handle: an empty interval, zero weights, blow-up, values that are
-//! not numbers, extreme tolerances.
+//! Cases that every method must handle: an empty interval, zero weights, divergence in finite time,
+//! values that are not numbers, extreme tolerances.
 
 use crate::problems::{Plain, distance, kepler, oscillator, plain};
 use pfaff_integrators::{
@@ -28,7 +28,7 @@ fn run(
         |step| {
             let mut y = vec![0.0; step.y0().len()];
             let middle = 0.5 * (step.t0() + step.t1());
-            // Dense output must not panic, whatever its values.
+            // Dense output must not panic for any values.
             step.interpolate(middle, &mut y).expect("inside");
             let _ = step.interpolate_accurately(middle, &mut y);
             ControlFlow::Continue(())
@@ -52,7 +52,7 @@ fn check(name: &str, method: &impl Method<Plain>) {
     let from_zero = run(method, |_, _, dy| dy[0] = 1.0, 1.0, &[0.0], &relative).expect("leaves");
     assert!((from_zero.y[0] - 1.0).abs() < 1e-8, "{name}");
 
-    // y = 1/(1 − t).
+    // The solution is y = 1/(1 − t).
     let failure = run(
         method,
         |_, y, dy| dy[0] = y[0] * y[0],
@@ -67,7 +67,7 @@ fn check(name: &str, method: &impl Method<Plain>) {
     );
     assert!((failure.t - 1.0).abs() < 1e-6, "{name}: {}", failure.t);
 
-    // NaN beyond t = 1.
+    // The function returns NaN beyond t = 1.
     let failure = run(
         method,
         |t, _, dy| dy[0] = -(1.0 - t).sqrt(),
@@ -82,7 +82,7 @@ fn check(name: &str, method: &impl Method<Plain>) {
     assert!((t - 1.0).abs() < 1e-5, "{name}: {t}");
     assert_eq!(*cause, Cause::NonFinite { component: 0 }, "{name}");
 
-    // A component without error control, like the work of a mechanism.
+    // One component has no error control, like the work of a mechanism.
     let weights = Options {
         tolerance: Tolerance::PerComponent {
             rtol: vec![1e-9, 1e-9, 0.0],
@@ -95,7 +95,7 @@ fn check(name: &str, method: &impl Method<Plain>) {
     let exact = [6.0_f64.cos(), -6.0_f64.sin(), 6.0];
     assert!(distance(&end.y, &exact) < 1e-7, "{name}: {:?}", end.y);
 
-    // From very loose to the tightest tolerance.
+    // The tolerances range from very loose to the tightest one.
     let error = |tolerance: f64| {
         let options = Options::with_tolerance(tolerance, tolerance);
         let end = run(method, oscillator, 10.0, &[1.0, 0.0], &options).expect("smooth");
@@ -112,7 +112,8 @@ fn edges() {
     check("dop853", &Dop853);
 }
 
-/// Ten revolutions with eccentricity 0.6: the state after 10 periods of 2π is the initial one.
+/// The orbit makes ten revolutions with eccentricity 0.6: the state after 10 periods of 2π is the
+/// initial one.
 #[test]
 fn errors_follow_the_tolerance() {
     fn check(name: &str, method: &impl Method<Plain>) {
@@ -122,8 +123,8 @@ fn errors_follow_the_tolerance() {
             let end =
                 run(method, kepler, 20.0 * std::f64::consts::PI, &y0, &options).expect("smooth");
             let error = distance(&end.y, &y0);
-            // Sum of the local errors of some hundred to thousand steps, which grows with the
-            // square of time.
+            // The bound is the sum of the local errors of some hundred to thousand steps, which
+            // grows with the square of time.
             assert!(error < 2e5 * tolerance, "{name}, {tolerance}: {error:e}");
         }
     }

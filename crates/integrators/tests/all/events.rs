@@ -1,4 +1,4 @@
-//! Event times compared with closed forms, and events that are not detected.
+//! Event times are compared with closed forms; the module also tests events that are not detected.
 
 use crate::problems::{Plain, fixed_step, plain};
 use pfaff_integrators::{
@@ -8,12 +8,12 @@ use pfaff_integrators::{
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
-/// θ'' = −sin θ.
+/// The equation is θ'' = −sin θ.
 fn pendulum(_t: f64, y: &[f64], dy: &mut [f64]) {
     dy.copy_from_slice(&[y[1], -y[0].sin()]);
 }
 
-/// Period 2π/agm(1, cos(amplitude/2)), by the arithmetic-geometric mean.
+/// Returns the period 2π/agm(1, cos(amplitude/2)), by the arithmetic-geometric mean.
 fn period(amplitude: f64) -> f64 {
     let (mut a, mut g) = (1.0, (0.5 * amplitude).cos());
     for _ in 0..6 {
@@ -69,8 +69,8 @@ fn a_pendulum_passes_the_vertical_on_time() {
     );
 }
 
-/// Dropped from 1 m (g = 2 m/s²) and thrown back with half the speed each time: it lands at 1 s,
-/// and 2·v/g = v later each time.
+/// A ball is dropped from 1 m (g = 2 m/s²) and thrown back with half the speed each time: it lands
+/// at 1 s, and 2·v/g = v later each time.
 #[test]
 fn a_bouncing_ball_lands_when_it_should() {
     let mut fall = Function::new(2, |_t, y: &[f64], dy: &mut [f64]| {
@@ -93,8 +93,8 @@ fn a_bouncing_ball_lands_when_it_should() {
         )
         .expect("free fall");
         assert_eq!(end.end, End::Stopped);
-        // Rounding of t and y over some ten steps, magnified by 1/speed when the height is
-        // inverted.
+        // Rounding of t and y over some ten steps, amplified by 1/speed at the inversion of the
+        // height.
         let error = 1e-15 / speed;
         assert!(
             (end.t - landing).abs() < 20.0 * error,
@@ -113,7 +113,7 @@ fn a_bouncing_ball_lands_when_it_should() {
     }
 }
 
-/// Zeros of a function of time in one step from 0 to 1.
+/// Returns the zeros of a function of time in one step from 0 to 1.
 fn in_one_step(direction: Direction, g: impl Fn(f64) -> f64) -> Vec<Crossing> {
     let mut clock = Function::new(1, |_t, _y: &[f64], dy: &mut [f64]| dy[0] = 1.0);
     let mut crossings = Crossings::new(direction);
@@ -152,7 +152,7 @@ fn several_zeros_in_one_step() {
 
 #[test]
 fn zeros_at_ends_count_once_and_contacts_are_not_seen() {
-    // At the end of the only step; at the start, where the integration begins.
+    // A zero at the end of the only step counts; a zero at the start of the integration does not.
     let end = in_one_step(Direction::Any, |t| t - 1.0);
     assert_eq!(
         end,
@@ -162,7 +162,8 @@ fn zeros_at_ends_count_once_and_contacts_are_not_seen() {
         }]
     );
     assert_eq!(in_one_step(Direction::Any, |t| t), []);
-    // Documented as not detected: a contact between two places, and two zeros between them.
+    // Two cases are documented as not detected: a contact between two points, and two zeros between
+    // them.
     assert_eq!(in_one_step(Direction::Any, |t| (t - 0.55).powi(2)), []);
     assert_eq!(in_one_step(Direction::Any, |t| (t - 0.54) * (t - 0.56)), []);
     // A jump has no zero; the time just after it is found.
@@ -170,7 +171,7 @@ fn zeros_at_ends_count_once_and_contacts_are_not_seen() {
     assert!((jump[0].t - 0.3).abs() < 1e-15 && jump[0].t >= 0.3);
 }
 
-/// Backwards in time the order of events is reversed, and rising and falling are exchanged.
+/// Backwards in time the order of events is reversed, and rising and falling zeros are exchanged.
 #[test]
 fn backwards() {
     let mut clock = Function::new(1, |_t, _y: &[f64], dy: &mut [f64]| dy[0] = 1.0);
@@ -213,7 +214,7 @@ fn backwards() {
     assert_eq!((end.end, end.t), (End::Reached, 0.0));
 }
 
-/// Rows up to an event, and the event, in one observer.
+/// One observer receives the rows up to an event, and the event.
 #[test]
 fn rows_stop_at_an_event() {
     let interval = Interval::new(0.0, 10.0);

@@ -1,4 +1,4 @@
-//! All errors: with their names and the last good state, and without panic.
+//! Tests all errors: their names and the last good state, without panic.
 
 use crate::problems::{oscillator, run, run_function};
 use pfaff_integrators::{
@@ -26,7 +26,7 @@ fn decay(_t: f64, y: &[f64], dy: &mut [f64]) {
     dy[0] = -y[0];
 }
 
-/// y' = y², y(0) = 1: y = 1/(1 − t) ends at t = 1.
+/// The equation y' = y², y(0) = 1 has the solution y = 1/(1 − t), which ends at t = 1.
 #[test]
 fn blow_up_is_a_collapse_at_its_time() {
     let square = |_t: f64, y: &[f64], dy: &mut [f64]| dy[0] = y[0] * y[0];
@@ -53,7 +53,7 @@ fn blow_up_is_a_collapse_at_its_time() {
 
 #[test]
 fn nan_is_avoided_by_shorter_steps_or_named() {
-    // √(1 − t)' of a solution that ends at t = 1: f is NaN beyond.
+    // The solution √(1 − t) ends at t = 1: f is NaN beyond.
     let root = |t: f64, _y: &[f64], dy: &mut [f64]| dy[0] = -(1.0 - t).sqrt();
     let failure = fails(root, &Interval::new(0.0, 2.0), &[1.0], &Options::default());
     let IntegrationError::StepSizeCollapsed {
@@ -80,7 +80,7 @@ fn nan_is_avoided_by_shorter_steps_or_named() {
     );
 }
 
-/// y' = −y if |y − forbidden| ≥ width, otherwise an error.
+/// The equation is y' = −y if |y − forbidden| ≥ width; otherwise it returns an error.
 struct Guarded {
     refuses_below: f64,
     refusals_left: u32,
@@ -201,7 +201,7 @@ fn zero_state_with_relative_tolerance_only() {
     let options = Options::with_tolerance(1e-8, 0.0);
     let end = run_function(decay, (0.0, 1.0), &[0.0], &options);
     assert_eq!(end.y, [0.0]);
-    // From 0 to a value: the weight of the first step is that of its end.
+    // The state changes from 0 to a value: the weight of the first step is that of its end.
     let end = run_function(|_, _, dy| dy[0] = 1.0, (0.0, 1.0), &[0.0], &options);
     assert!((end.y[0] - 1.0).abs() < 1e-8);
 }

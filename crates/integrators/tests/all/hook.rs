@@ -8,8 +8,8 @@ use pfaff_integrators::{
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-/// The harmonic oscillator, projected onto the unit circle; rejects corrections above `limit` in
-/// the norm of the error.
+/// The harmonic oscillator with projection onto the unit circle; it rejects corrections above
+/// `limit` in the norm of the error.
 struct Circle {
     limit: f64,
 }
@@ -84,15 +84,16 @@ fn states_stay_on_the_circle_and_the_derivative_is_reused() {
         (s.projections, s.hook_evaluations),
         (s.accepted, s.accepted)
     );
-    // f at the start, once for the first step size, six stages for every trial.
+    // The count is f at the start, one evaluation for the first step size, and six stages for every
+    // trial.
     assert_eq!(s.evaluations, 2 + 6 * (s.accepted + s.rejected()));
     assert!(s.largest_correction > 0.0 && s.largest_correction < 1.0);
     assert!(distance(&end.y, &[20.0_f64.cos(), -20.0_f64.sin()]) < 1e-4);
 }
 
-/// For q'' = −q a step of size h multiplies q − i·v by R(ih), R(z) = 1 + z + … + z⁵/120 + z⁶/600
-/// being the stability function of the method (Hairer, Wanner II, IV.2); projection leaves the
-/// angle of R(ih) only, whose error is of order 6.
+/// For q'' = −q a step of size h multiplies q − i·v by R(ih). The stability function of the method
+/// is R(z) = 1 + z + … + z⁵/120 + z⁶/600 (Hairer, Wanner II, IV.2). After projection only the angle
+/// of R(ih) remains, whose error is of order 6.
 #[test]
 fn projected_steps_turn_by_the_angle_of_the_stability_function() {
     const ROUNDING: f64 = 1e-13; // some hundred steps
@@ -112,8 +113,8 @@ fn projected_steps_turn_by_the_angle_of_the_stability_function() {
     );
 }
 
-/// Value and slope of the dense outputs at step ends, by one-sided differences inside steps of size
-/// h, with large corrections.
+/// Compares value and slope of the dense outputs at step ends, by one-sided differences inside
+/// steps of size h, with large corrections.
 fn check_smoothness(name: &str, method: &impl Method<Circle>, h: f64) {
     let mut ode = Circle {
         limit: f64::INFINITY,
@@ -140,7 +141,8 @@ fn check_smoothness(name: &str, method: &impl Method<Circle>, h: f64) {
                 for i in 0..2 {
                     let slope_0 = (y[0][i] - step.y0()[i]) / (start - step.t0());
                     let slope_1 = (step.y1()[i] - y[1][i]) / (step.t1() - end);
-                    // Differences over 1e-6 of a step: truncation some 1e-6, rounding 1e-16/1e-6.
+                    // The differences use 1e-6 of a step: the truncation error is about 1e-6, the
+                    // rounding error 1e-16/1e-6.
                     let gap = (slope_0 - step.f0()[i])
                         .abs()
                         .max((slope_1 - step.f1()[i]).abs());
@@ -168,7 +170,7 @@ fn dense_output_passes_smoothly_through_projected_states() {
     check_smoothness("dop853", &Dop853, 2.5);
 }
 
-/// Twenty units of time on the circle with each method; `evaluations` is the number per trial,
+/// Each method runs for twenty units of time on the circle; `evaluations` is the number per trial,
 /// without that of the hook.
 #[test]
 fn all_methods_stay_on_the_circle() {

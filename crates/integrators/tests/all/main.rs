@@ -1,4 +1,4 @@
-//! Behaviour of the integrators on problems with known answers.
+//! Tests of the integrators on problems with known solutions.
 
 mod allocations;
 mod arenstorf;

@@ -6,8 +6,8 @@ use crate::problems::{
 use pfaff_integrators::{Dop853, Dopri5, Interval, Method, Options, Tsit5, integrate};
 use std::ops::ControlFlow;
 
-/// Observed orders differ from the exact one by the next term of the error, some per cent at these
-/// steps.
+/// Observed orders differ from the exact one by the next term of the error, by some percent at
+/// these steps.
 const ORDER_TOLERANCE: f64 = 0.2;
 
 fn assert_order(name: &str, errors: &[f64], claimed: f64) {
@@ -18,12 +18,12 @@ fn assert_order(name: &str, errors: &[f64], claimed: f64) {
     );
 }
 
-/// Solution of [`modulated`].
+/// Returns the solution of [`modulated`].
 fn exact(t: f64) -> f64 {
     t.sin().exp()
 }
 
-/// Largest errors over all steps: at the ends of the steps, and at nine places inside with both
+/// Largest errors over all steps: at the ends of the steps, and at nine points inside with both
 /// dense outputs.
 struct Errors {
     ends: f64,
@@ -69,12 +69,12 @@ fn largest_errors(
     .expect("smooth problem");
     let s = end.statistics;
     assert_eq!(s.accepted, u64::from(n));
-    // The number is the same in every step, however many times are requested.
+    // The number is the same in every step, for any number of requested times.
     assert_eq!(s.output_evaluations, output_evaluations * u64::from(n));
     errors
 }
 
-/// Errors from 0 to 10 with n and 2n steps.
+/// Returns the errors from 0 to 10 with n and 2n steps.
 fn halved(method: &impl Method<Plain>, n: u32, output_evaluations: u64) -> [Errors; 2] {
     [n, 2 * n].map(|n| largest_errors(method, 0.0, 10.0, n, output_evaluations))
 }
@@ -90,8 +90,8 @@ fn pairs_and_both_dense_outputs_converge_with_order_five() {
         assert_order(name, &errors.each_ref().map(|e| e.ends), 5.0);
         assert_order(name, &errors.each_ref().map(|e| e.cheap), 5.0);
         assert_order(name, &errors.each_ref().map(|e| e.accurate), 5.0);
-        // The accurate output adds almost nothing (the largest error lies between two ends); the
-        // other one is less accurate.
+        // The accurate output adds almost no error (the largest error is between two ends); the
+        // other output is less accurate.
         for e in &errors {
             assert!(
                 e.accurate < 1.1 * e.ends,
@@ -117,7 +117,7 @@ fn dop853_and_its_accurate_output_converge_with_order_eight_and_the_cheap_one_wi
     }
 }
 
-/// Errors inside one step from an exact state, over a step and its half.
+/// Returns the errors inside one step from an exact state, over a step and its half.
 fn one_step(method: &impl Method<Plain>, h: f64, output_evaluations: u64) -> [Errors; 2] {
     [h, 0.5 * h].map(|h| largest_errors(method, 1.0, 1.0 + h, 1, output_evaluations))
 }
@@ -134,7 +134,7 @@ fn dense_outputs_have_the_local_orders_they_claim() {
     }
 }
 
-/// Rotating the initial state rotates the solution: the formulas are linear in y and f.
+/// A rotation of the initial state rotates the solution: the formulas are linear in y and f.
 #[test]
 fn constant_steps_commute_with_rotation() {
     const ROUNDING: f64 = 1e-13;
@@ -159,8 +159,8 @@ fn backwards_returns_to_the_start() {
     let there = run_function(kepler, (0.0, 5.0), &y0, &options);
     let back = run_function(kepler, (5.0, 0.0), &there.y, &options);
     assert_eq!(back.t, 0.0);
-    // Some hundred steps, each with a local error of at most 1e-10, errors growing linearly with
-    // time.
+    // There are some hundred steps, each with a local error of at most 1e-10, and errors grow
+    // linearly with time.
     assert!(distance(&back.y, &y0) < 1e-7, "{:?}", back.y);
     assert!(back.statistics.accepted > 20);
 }

@@ -1,4 +1,4 @@
-//! Output times, early stops, failing output.
+//! Tests output times, early stops and failing output.
 
 use crate::problems::oscillator;
 use pfaff_integrators::{
@@ -49,7 +49,7 @@ fn rows_start_and_end_exactly_and_do_not_drift() {
     let rows = times(&Interval::new(0.0, 10.0), &every(0.05)); // 200·0.05 rounds to 10
     assert_eq!((rows.len(), rows[200]), (201, 10.0));
     assert!(rows.iter().enumerate().all(|(i, t)| *t == i as f64 * 0.05));
-    // 3·0.1 is larger than 0.3: one row there, not two, and none after the end.
+    // The product 3·0.1 is larger than 0.3: there is one row and not two, and no row after the end.
     assert_eq!(
         times(&Interval::new(0.0, 0.3), &every(0.1)),
         [0.0, 0.1, 0.2, 0.3]
@@ -157,7 +157,7 @@ fn the_observer_can_stop() {
     assert_eq!((end.end, rows), (End::Stopped, 5));
 }
 
-/// y' = 1 that cannot be evaluated at the times of the extra evaluations.
+/// The equation y' = 1, which cannot be evaluated at the times of the extra evaluations.
 struct OnlyAtStages;
 
 #[derive(Debug, Error)]
@@ -205,8 +205,8 @@ fn a_failing_extra_evaluation_is_named() {
     assert!(failure.t == 1.0 && (failure.y[0] - 1.0).abs() < 1e-15);
 }
 
-/// The step size of the outcome is the one with which to continue, although the last step was
-/// shortened by the end.
+/// The step size of the outcome is the one for a continuation, although the last step was shortened
+/// by the end.
 #[test]
 fn an_integration_goes_on_with_the_step_size_of_its_outcome() {
     let options = Options::with_tolerance(1e-9, 1e-9);

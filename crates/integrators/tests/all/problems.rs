@@ -1,12 +1,12 @@
-//! Right-hand sides and small helpers shared by the tests.
+//! Right-hand sides and small helpers that the tests share.
 
 use pfaff_integrators::{
     Dopri5, Function, InitialStep, Interval, Ode, Options, Outcome, Tolerance, integrate,
 };
 use std::ops::ControlFlow;
 
-/// Restricted three-body problem, mass ratio and period of Hairer, Nørsett, Wanner I, 2nd ed., II.0
-/// (0.1).
+/// Restricted three-body problem, with mass ratio and period of Hairer, Nørsett, Wanner I, 2nd ed.,
+/// II.0 (0.1).
 pub(crate) mod arenstorf {
     pub(crate) const MU: f64 = 0.012277471;
     pub(crate) const Y0: [f64; 4] = [0.994, 0.0, 0.0, -2.001_585_106_379_082_5];
@@ -23,18 +23,19 @@ pub(crate) mod arenstorf {
     }
 }
 
-/// q'' = −q/|q|³ in the plane, y = (q, q').
+/// The equation q'' = −q/|q|³ in the plane, with y = (q, q').
 pub(crate) fn kepler(_t: f64, y: &[f64], dy: &mut [f64]) {
     let d = y[0].hypot(y[1]).powi(3);
     dy.copy_from_slice(&[y[2], y[3], -y[0] / d, -y[1] / d]);
 }
 
-/// q'' = −q, y = (q, q'); solution (cos t, −sin t) from (1, 0).
+/// The equation q'' = −q with y = (q, q') has the solution (cos t, −sin t) from (1, 0).
 pub(crate) fn oscillator(_t: f64, y: &[f64], dy: &mut [f64]) {
     dy.copy_from_slice(&[y[1], -y[0]]);
 }
 
-/// y' = y·cos t; solution exp(sin t) from 1. Depends on t and on y.
+/// The equation y' = y·cos t has the solution exp(sin t) from 1. Its right-hand side depends on t
+/// and on y.
 pub(crate) fn modulated(t: f64, y: &[f64], dy: &mut [f64]) {
     dy[0] = y[0] * t.cos();
 }
@@ -49,7 +50,8 @@ pub(crate) fn plain(dim: usize, f: fn(f64, &[f64], &mut [f64])) -> Plain {
 /// Absolute tolerance that no error of the tests exceeds.
 pub(crate) const WEIGHT: f64 = 1e100;
 
-/// Constant step size: a tolerance that is always satisfied, and `h` as first and largest step.
+/// Options for a constant step size: a tolerance that is always satisfied, and `h` as first and
+/// largest step.
 pub(crate) fn fixed_step(h: f64) -> Options {
     Options {
         tolerance: Tolerance::Uniform {
@@ -62,7 +64,7 @@ pub(crate) fn fixed_step(h: f64) -> Options {
     }
 }
 
-/// Integrates to the end without observer; failures end the test.
+/// Integrates to the end without observer; an error ends the test.
 pub(crate) fn run<O: Ode>(
     ode: &mut O,
     interval: &Interval<'_>,
@@ -75,7 +77,7 @@ pub(crate) fn run<O: Ode>(
     .expect("the integration reaches its end")
 }
 
-/// Like [`run`], for a closure.
+/// See [`run`], for a closure.
 pub(crate) fn run_function(
     f: fn(f64, &[f64], &mut [f64]),
     t: (f64, f64),
@@ -90,7 +92,7 @@ pub(crate) fn run_function(
     )
 }
 
-/// Largest absolute difference.
+/// Returns the largest absolute difference.
 pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter()
         .zip(b)
@@ -98,7 +100,7 @@ pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// log₂ of the quotients of successive errors.
+/// Returns log₂ of the quotients of successive errors.
 pub(crate) fn observed_orders(errors: &[f64]) -> Vec<f64> {
     errors.windows(2).map(|e| (e[0] / e[1]).log2()).collect()
 }

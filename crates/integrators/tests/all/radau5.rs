@@ -1,4 +1,4 @@
-//! Radau IIA on stiff problems with published or closed-form answers.
+//! Tests Radau IIA on stiff problems with published or closed-form solutions.
 
 use crate::problems::distance;
 use pfaff_integrators::{
@@ -26,9 +26,9 @@ fn relative_error(y: &[f64], exact: &[f64]) -> f64 {
     errors.fold(0.0, f64::max)
 }
 
-/// Robertson's reaction to t = 10¹¹; reference of the Test Set for IVP Solvers. The program RADAU5
-/// in another translation needs 1095 and 2159 evaluations for the errors 4.8e-6 and 2.5e-8 at the
-/// first two tolerances.
+/// Integrates Robertson's reaction to t = 10¹¹; the reference is that of the Test Set for IVP
+/// Solvers. The program RADAU5 in another translation needs 1095 and 2159 evaluations for the
+/// errors 4.8e-6 and 2.5e-8 at the first two tolerances.
 #[test]
 fn robertson_over_seventeen_decades() {
     let f = |_t: f64, y: &[f64], dy: &mut [f64]| {
@@ -67,8 +67,8 @@ fn robertson_over_seventeen_decades() {
     }
 }
 
-/// Van der Pol's oscillator with ε = 10⁻⁶ through two fast transitions; reference of the Test Set
-/// for IVP Solvers.
+/// Integrates Van der Pol's oscillator with ε = 10⁻⁶ through two fast transitions; the reference is
+/// that of the Test Set for IVP Solvers.
 #[test]
 fn van_der_pol_keeps_its_jacobian_while_it_is_slow() {
     let f = |_t: f64, y: &[f64], dy: &mut [f64]| {
@@ -87,22 +87,23 @@ fn van_der_pol_keeps_its_jacobian_while_it_is_slow() {
         assert!(error < 2.0 * tolerance, "{tolerance}: {error:.2e}");
         let s = s.statistics;
         assert!(s.evaluations < evaluations, "{s:?}");
-        // A Jacobian and a factorisation are used for several steps, and each factorisation for
+        // One Jacobian and one factorisation are used for several steps, and each factorisation for
         // several solves.
         assert!(3 * s.jacobians < 2 * s.accepted, "{s:?}");
         assert!(s.factorisations < s.accepted + s.rejected(), "{s:?}");
         assert!(s.newton_iterations < 3 * s.accepted, "{s:?}");
     }
-    // Differences do not change the result, only the cost.
+    // Differences change only the cost, not the result.
     let options = Options::with_tolerance(1e-6, 1e-6);
     let end = run(f, Differences::default(), &[2.0, 0.0], 2.0, &options);
     assert!(relative_error(&end.y, &exact) < 2e-6, "{:?}", end.y);
 }
 
-/// A pendulum of length 1 on a damped spring of stiffness k in polar coordinates, y = (φ, r, φ',
-/// r'), φ from the horizontal. With k = 10¹² its stretch is 10⁻¹¹, so it moves like the rigid
-/// pendulum of the SUNDIALS examples (period 2), and the noise of the spring's force is k·eps =
-/// 2·10⁻⁴. Neither the number of steps nor the error may depend on that, at any tolerance.
+/// A pendulum of length 1 is on a damped spring of stiffness k in polar coordinates, y = (φ, r, φ',
+/// r'), with φ from the horizontal. With k = 10¹² its extension is 10⁻¹¹, so it moves like the
+/// rigid pendulum of the SUNDIALS examples (period 2), and the rounding noise of the spring force
+/// is k·eps = 2·10⁻⁴. At any tolerance, neither the number of steps nor the error may depend on
+/// this noise.
 #[test]
 fn noise_of_a_stiff_spring_neither_stalls_nor_shows() {
     const G: f64 = 13.750_371_636_040_746;
@@ -132,9 +133,9 @@ fn noise_of_a_stiff_spring_neither_stalls_nor_shows() {
     }
 }
 
-/// y' = λ·(y − cos t) − sin t from y(0) = 1: y = cos t. The step size is limited only by the error
-/// 1/|λ| of a stiff component (its order is that of the stages); the estimate measures it, so it is
-/// below the enlarged tolerance.
+/// The equation y' = λ·(y − cos t) − sin t from y(0) = 1 has the solution y = cos t. The step size
+/// is limited only by the error 1/|λ| of a stiff component (its order is that of the stages). The
+/// estimate measures this error, so it is below the enlarged tolerance.
 #[test]
 fn a_slow_solution_of_a_stiff_problem_takes_few_steps() {
     for lambda in [-1e6, -1e9, -1e12] {
@@ -185,10 +186,10 @@ impl<F: FnMut(f64, &[f64], &mut [f64])> Ode for OnCircle<F> {
 }
 
 /// Both outputs have the projected ends, even if the projection is much larger than the error of a
-/// step (a wrong rate is integrated on purpose).
+/// step (the test integrates a wrong rate).
 #[test]
 fn outputs_end_in_projected_states_and_restart_behind_a_break() {
-    // Exactly (cos t², sin t²)·√(1 + t/10⁴) without the hook.
+    // Without the hook the exact solution is (cos t², sin t²)·√(1 + t/10⁴).
     let f = |t: f64, y: &[f64], dy: &mut [f64]| {
         let (turn, growth) = (2.0 * t, 5e-5 / (1.0 + t / 1e4));
         dy.copy_from_slice(&[growth * y[0] - turn * y[1], growth * y[1] + turn * y[0]]);
@@ -266,7 +267,7 @@ fn failures_say_what_newton_and_the_factorisation_met() {
         "{cause}"
     );
 
-    // A force that changes its sign with the state: no step is short enough for the Jacobian 0.
+    // The force changes its sign with the state: no step is short enough for the Jacobian 0.
     let f = |_t: f64, y: &[f64], dy: &mut [f64]| dy[0] = if y[0] > 0.0 { -1e20 } else { 1e20 };
     let mut ode = DenseImplicit::new(Function::new(1, f), |_t: f64, _y: &[f64], j: &mut [f64]| {
         j[0] = 0.0;

@@ -1,6 +1,6 @@
-//! The numbers that a constraint stores: read and put back, and the derivatives by them. The
-//! references are differences through `set_data`, and dual numbers through the kernels, with the
-//! slopes that the constraint states of its stored numbers.
+//! The numbers that a constraint stores: how they are read and set, and the derivatives with
+//! respect to them. The references are differences through `set_data`, and dual numbers through the
+//! kernels, with the derivatives of the stored numbers that the constraint states.
 
 use joints::spec::{DatumShape, Unit};
 
@@ -15,13 +15,13 @@ use crate::number::{Dual, with_slopes};
 use crate::state::Along;
 use crate::subject::Subject;
 
-/// Added to each number in turn: nothing that a case draws.
+/// Added to each number in turn; no case contains this number by chance.
 const ANOTHER: f64 = 0.0625;
 
-/// Components of unit vectors carry the round-off of a quotient each.
+/// Each component of a unit vector has the rounding error of a quotient.
 const UNIT: f64 = 4.0 * f64::EPSILON;
 
-/// Everything that depends on the numbers.
+/// All kernels that depend on the numbers.
 const ALL: [Kernel; 6] = [
     Kernel::Phi,
     Kernel::C,
@@ -32,7 +32,7 @@ const ALL: [Kernel; 6] = [
 ];
 
 impl<S: Bodies> Check<'_, OfConstraint<S>> {
-    /// All that concerns the numbers that the constraint stores.
+    /// All checks of the numbers that the constraint stores.
     pub(super) fn data(&self) -> Result<(), Failure> {
         let numbers = self.numbers();
         self.data_facts(&numbers)?;
@@ -55,7 +55,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         out
     }
 
-    /// The answer of `ask` for the constraint with these numbers.
+    /// The result of `ask` for the constraint with these numbers.
     fn with_data<T>(&self, numbers: &[f64], ask: impl Fn(&Check<'_, OfConstraint<S>>) -> T) -> T {
         let made = self.made.with_data(numbers);
         ask(&Check {
@@ -95,16 +95,16 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         }
     }
 
-    /// What `data` returns is what `set_data` puts back, and nothing else changes.
+    /// `set_data` restores the numbers that `data` returns, and changes nothing else.
     fn data_put_back(&self, numbers: &[f64]) -> Result<(), Failure> {
         let same = self.with_data(numbers, bits);
         let changed = bits(self) != same;
         self.data_fact("kernels after `set_data` of the same numbers", changed)?;
-        // Changes of axes, and of angles by cosine and sine, are carried out, not stored.
+        // Changes of axes, and of angles stored by cosine and sine, are applied, not stored.
         let is_change = |k: usize| {
             self.of.spec.data.iter().any(|d| {
                 let is_kept_angle = d.shape == DatumShape::Kept(Unit::Angle);
-                // Those of space are kept by cosine and sine.
+                // Angles in space are stored by cosine and sine.
                 let turns = is_kept_angle && <S as joints::Space>::DIM > 2;
                 d.numbers().contains(&k) && (turns || matches!(d.shape, DatumShape::Axes { .. }))
             })
@@ -115,14 +115,15 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             let (told, back) = self.with_data(&other, |check| {
                 (check.numbers(), check.with_data(numbers, bits))
             });
-            self.data_fact(&format!("number {k}, set and told"), told != other)?;
+            self.data_fact(&format!("number {k}, set and read"), told != other)?;
             self.data_fact(&format!("number {k}, changed and put back"), back != same)?;
         }
         Ok(())
     }
 
-    /// The derivatives of `λᵀ·kernel` by all numbers, by differences. Steps of a small number are a
-    /// share of it: what divides by it has a pole at zero, which no step may cross.
+    /// The derivatives of `λᵀ·kernel` with respect to all numbers, by differences. The step of a
+    /// small number is a share of the number, because a kernel that divides by it has a pole at
+    /// zero, which no step may cross.
     fn by_data(&self, kernel: Kernel, numbers: &[f64], motion: &Motion) -> Block {
         let slope = |number: usize| {
             let unit = match numbers[number].abs() {
@@ -140,7 +141,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Block::column((0..numbers.len()).map(slope).collect())
     }
 
-    /// The derivatives of `λᵀ·kernel` by all numbers, by dual numbers through the kernel.
+    /// The derivatives of `λᵀ·kernel` with respect to all numbers, by dual numbers through the
+    /// kernel.
     fn by_stored(&self, kernel: Kernel, motion: &Motion) -> Block {
         let plain = self.made.plain();
         let mut stored = Vec::new();

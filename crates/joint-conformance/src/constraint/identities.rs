@@ -1,5 +1,5 @@
-//! What holds between the kernels of a constraint without derivatives: wrench, place, balance of
-//! forces, the start.
+//! Identities between the kernels of a constraint without derivatives: wrench, reference point,
+//! balance of forces, the start.
 
 use joints::spec::{Parameter, Role, Shape};
 
@@ -13,7 +13,7 @@ use crate::failure::{DUAL_TOLERANCE, Failure, Property};
 use crate::state::{Along, State};
 use crate::subject::{By, Subject};
 
-/// Time over which cosines and sines are differenced: rounding and curvature both change a rate of
+/// Time step for differences of cosines and sines: rounding and curvature both change a rate of
 /// order one by less than 1e-8.
 const STEP: f64 = 1e-5;
 /// Largest error of such a rate.
@@ -24,8 +24,9 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.at(kernel, &self.case.motions[0])
     }
 
-    /// The place, unless a body that touches a plane lies flat on it: it touches nowhere then, and
-    /// its place divides by zero. Any other place that is no number is compared, and fails.
+    /// The reference point, unless a body that should touch a plane is parallel to it. Then there
+    /// is no contact point, and the reference point contains a division by zero. In all other cases
+    /// a reference point that is not a number is compared, and the check fails.
     fn place_of_reaction(&self) -> Option<Block> {
         let place = self.first(Kernel::Place);
         let nowhere = place.entries().iter().any(|p| p.is_nan());
@@ -50,7 +51,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.identity(Property::Wrench, &self.first(Kernel::Wrench), &expected)
     }
 
-    /// At most the force of each multiplier, or its torque where it has no force; for a drive the
+    /// At most the force of each multiplier, or its torque if it has no force; for a drive, the
     /// force that does the work: `component·ḟ = b`.
     pub(super) fn component(&self) -> Result<(), Failure> {
         let wrench = self.first(Kernel::Wrench);
@@ -66,11 +67,12 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             squares.sum::<f64>().sqrt()
         };
         let bound = |row| match length(row, 0..S::DIM) {
-            // There is no torque about a place that does not exist at this pose.
+            // The torque about a reference point that does not exist at this pose is not checked.
             0.0 => length(row, S::DIM..S::N_DOF).max(0.0),
             force => force,
         };
-        // Equal where within the bound, else the bound: what exceeds it is the error.
+        // The expected value is the found one if it is within the bound, and otherwise the bound:
+        // the excess is the error.
         let within = |row| {
             let (value, bound): (f64, f64) = (found.get(row, 0), bound(row));
             if value.is_nan() {
@@ -83,9 +85,9 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.identity(Property::Component, &found, &expected)
     }
 
-    /// The place moves with the first body, or with the carrier of wheels that other joints bear,
-    /// and with no other. Where a plane of the ground is touched, the body touches it elsewhere as
-    /// it turns: then only its translation is asked.
+    /// The reference point moves with the first body, or with the carrier of wheels that other
+    /// joints support, and with no other body. A body that touches a plane of the ground has
+    /// another contact point after a rotation: then only its translation is checked.
     pub(super) fn place(&self) -> Result<(), Failure> {
         let Some(place) = self.place_of_reaction() else {
             return Ok(());
@@ -110,7 +112,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.identity(Property::Place, &found, &expected)
     }
 
-    /// The rate of each counted angle is c·ṡ − s·ċ of its cosine and sine, by differences.
+    /// The rate of each unwrapped angle is c·ṡ − s·ċ of its cosine and sine, by differences.
     pub(super) fn turned(&self) -> Result<(), Failure> {
         let angles = self.of.spec.turns.max(usize::from(self.of.spec.turning));
         if self.case.kind != Kind::Ordinary {
@@ -126,7 +128,9 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             let [before, now, after] = [-STEP, 0.0, STEP].map(|tau| at(number, tau));
             let slope = |k: usize| (after[k] - before[k]) / (2.0 * STEP);
             let expected = now[0] * slope(1) - now[1] * slope(0);
-            if (now[2] - expected).abs() > OF_DIFFERENCE {
+            // Off the constraint cosine and sine may be those of a longer vector.
+            let size = (now[0] * now[0] + now[1] * now[1]).max(1.0);
+            if (now[2] - expected).abs() > OF_DIFFERENCE * size {
                 let entry = format!("rate of counted angle {number}");
                 return Err(self.fact(Property::Turned, entry, [now[2], expected]));
             }
@@ -134,7 +138,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Ok(())
     }
 
-    /// Programs are recorded from the kernels of one constraint and run for all of its kind.
+    /// Programs are recorded from the kernels of one constraint and run for all constraints of its
+    /// kind.
     pub(super) fn programs(&self) -> Result<(), Failure> {
         let (plain, spec) = (self.made.plain(), self.of.spec);
         let at = Along::Time.state::<S, f64>(self.case, &self.case.motions[0], 0.0);
@@ -197,7 +202,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         }
     }
 
-    /// Only where Φ = 0: elsewhere two points that should coincide give the pair of forces a lever.
+    /// Checked only if Φ = 0: otherwise the distance between two points that should coincide is a
+    /// lever arm for the pair of forces.
     pub(super) fn rows_balance(&self) -> Result<(), Failure> {
         let ordinary = self.case.kind == Kind::Ordinary;
         if self.of.spec.holonomic == 0 || !(ordinary && is_internal(self.of)) {
@@ -220,8 +226,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Check { case, ..*self }
     }
 
-    /// The case with its poses moved until Φ = 0, or nearly so: corrections along one row of C
-    /// after the other, which need no rank.
+    /// The case with its poses moved until Φ is zero or nearly zero. The corrections use one row of
+    /// C after another, which needs no rank.
     fn closed(&self) -> Case<S> {
         const SWEEPS: usize = 100;
         let mut case = self.case.clone();
@@ -246,7 +252,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         case
     }
 
-    /// Rows that keep the start are zero there.
+    /// Rows that keep an initial value are zero at the start.
     pub(super) fn start(&self) -> Result<(), Failure> {
         let phi = phi_at_start(self);
         let kept = |row: usize| {
@@ -269,7 +275,7 @@ fn point(place: &Block) -> [f64; 3] {
     })
 }
 
-/// Φ at the start, functions of time zero.
+/// Φ at the start, with functions of time equal to zero.
 pub(super) fn phi_at_start<S: Bodies>(check: &Check<'_, OfConstraint<S>>) -> Block {
     let start = Case {
         x: check.case.start.clone(),
@@ -280,7 +286,7 @@ pub(super) fn phi_at_start<S: Bodies>(check: &Check<'_, OfConstraint<S>>) -> Blo
     check.with(&start).first(Kernel::Phi)
 }
 
-/// Whether a body touches a plane of the ground, by the parameters of the definition.
+/// Whether a body touches a plane of the ground, according to the parameters of the definition.
 fn touches_plane(parameters: &[Parameter]) -> bool {
     parameters
         .iter()

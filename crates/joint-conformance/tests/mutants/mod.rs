@@ -1,4 +1,4 @@
-//! Definitions with one wrong entry: the harness has to detect each of them and name the fault.
+//! Definitions with one wrong entry: the harness must detect each of them and name the fault.
 
 use joints::generated::{
     DistanceLengthDrive, Fixed, KnifeEdge, PinInSlotDisplacementDrive, SpringDamper, Velocity,
@@ -12,7 +12,7 @@ use pfaff_joint_conformance::{Failure, Property, check_constraint, check_force};
 
 use crate::SEED;
 
-/// The kernel that is wrong, as a constant of the mutant's type.
+/// The wrong kernel, as a constant of the mutant's type.
 mod wrong {
     pub(super) const PHI: u8 = 0;
     pub(super) const C_CONSTANT: u8 = 1;
@@ -39,11 +39,11 @@ mod wrong {
     pub(super) const NORMALISED: u8 = 22;
 }
 
-/// `K` with kernel `WRONG` changed in its first entry.
+/// `K` with a change of kernel `WRONG` in its first entry.
 #[derive(Clone)]
 struct Mutant<K, const WRONG: u8>(K);
 
-/// The first entry with the wrong sign, or another number where it is zero.
+/// The first entry with the wrong sign, or another number if the entry is zero.
 fn change<T: Ring>(out: &mut [T], here: bool) {
     if let (true, Some(first)) = (here, out.first_mut()) {
         *first = T::from(0.125) - *first;
@@ -54,7 +54,7 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     const SPEC: ConstraintSpec = {
         let mut spec = K::SPEC;
         if WRONG == wrong::PATTERN {
-            // One entry fewer: the derivative with respect to it does not vanish.
+            // With one entry fewer, the derivative with respect to it does not vanish.
             let (_, rest) = spec.d_residual_dx.split_at(1);
             spec.d_residual_dx = rest;
         }
@@ -62,7 +62,7 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
             spec.rheonomic = !spec.rheonomic;
         }
         if WRONG == wrong::DATUM {
-            // The first datum is a point, which is not a unit vector, and the others are missing.
+            // The first datum is a point instead of a unit vector, and the other data are missing.
             const WRONG_SHAPE: [Datum; 1] =
                 [Datum::new("s_i", DatumShape::Direction { slot: 0 }, 0, 2)];
             spec.data = &WRONG_SHAPE;
@@ -212,7 +212,8 @@ impl<K: Constraint, const WRONG: u8> ConstraintKernels for Mutant<K, WRONG> {
     }
 }
 
-/// `K` with Q or a derivative changed in its first entry, or all of it with the opposite sign.
+/// `K` with a change of Q or of a derivative in its first entry, or all of it with the opposite
+/// sign.
 #[derive(Clone)]
 struct ForceMutant<K, const WRONG: u8>(K);
 
@@ -271,7 +272,7 @@ impl<T: Real, K: Force, const WRONG: u8> ForceElement<T> for ForceMutant<K, WRON
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.element::<T>().q(x, v, f, out);
         if WRONG == wrong_force::Q {
-            // A constant load without a counterpart: no derivative detects it.
+            // A constant load without a counterpart; no derivative detects it.
             out[0] = out[0] + T::from(1.0);
         }
         Self::turn_round(out);
@@ -393,7 +394,7 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
 
 #[test]
 fn a_wrong_entry_of_a_velocity_row_is_named() {
-    // Γ is derived from C and b, so it detects a fault of either.
+    // Γ is derived from C and b, so its check detects an error of either.
     for found in [
         found(check_constraint::<Mutant<Velocity, { wrong::C }>, _>(SEED)),
         found(check_constraint::<Mutant<Velocity, { wrong::B }>, _>(SEED)),

@@ -1,13 +1,15 @@
 joint! { space Ball(i) {
-    /// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of `radius` about point `s` lies
-    /// in the plane and has no velocity along and across a fixed direction of the plane.
+    /// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of
+    /// `radius` about point `s` is in the plane and has no velocity along a fixed direction of the
+    /// plane or across it.
     params {
         /// The centre of the ball.
         s: Point in i,
         /// Radius of the ball.
         radius: Radius,
-        /// The plane, its normal towards the side of the ball. Longitudinal is the coordinate axis that lies least along the
-        /// normal, made orthogonal to it, and lateral = normal × longitudinal: x and y on the plane z = 0.
+        /// The plane, with its normal towards the ball. Longitudinal is the coordinate axis with
+        /// the smallest component along the normal, made orthogonal to it, and lateral = normal ×
+        /// longitudinal: x and y on the plane z = 0.
         plane: GroundPlane,
     }
     let n = normal(plane);

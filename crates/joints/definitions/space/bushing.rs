@@ -1,17 +1,20 @@
 force! { space Bushing(i, j) {
-    /// Springs and dampers along and about the axes of body i between point `s_i` of body i and point `s_j` of body j, at rest at the
-    /// start. With d the components in these axes of the vector from the first point to the second one, and θ those of the rotation vector
-    /// of body j against body i since the start, `−k·Δd − c·ḋ` and `−k·θ − c·θ̇` act on these six numbers: the springs have the energy
-    /// `½·Σ k·Δd² + ½·Σ k·θ²`, and torques are those of this energy. There is no value beyond 3 rad: at half a turn θ would change its sign.
-    /// The force on body j acts at its own point; body i takes the opposite force through the same point.
+    /// Springs and dampers along and about the axes of body i between point `s_i` of body i and
+    /// point `s_j` of body j, without load at the start. Here d are the components, in these axes,
+    /// of the vector from the first point to the second one. The components of the rotation vector
+    /// of body j relative to body i since the start are θ. The loads `−k·Δd − c·ḋ` and
+    /// `−k·θ − c·θ̇` act on these six numbers. The springs have the energy `½·Σ k·Δd² + ½·Σ k·θ²`,
+    /// and the torques are those of this energy. Rotations beyond 3 rad have no value, because θ
+    /// would change its sign at half a turn. The force on body j acts at its own point; the
+    /// opposite force acts on body i at the same point.
     params {
         /// End on body i.
         s_i: Point in i,
-        /// End on body j; the force on body i acts through this point, too.
+        /// End on body j; the force on body i acts at this point, too.
         s_j: Point in j,
-        /// Along x, y and z of the frame of body i, and about them.
+        /// Stiffness along x, y and z of the frame of body i, and about these axes.
         stiffness: [Stiffness, Stiffness, Stiffness, TorsionStiffness, TorsionStiffness, TorsionStiffness],
-        /// Along x, y and z of the frame of body i, and about them.
+        /// Damping along x, y and z of the frame of body i, and about these axes.
         damping: [Damping, Damping, Damping, TorsionDamping, TorsionDamping, TorsionDamping],
     }
     initial {

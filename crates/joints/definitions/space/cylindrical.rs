@@ -1,6 +1,6 @@
 joint! { space Cylindrical(i, j) {
-    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the axes of both bodies
-    /// are parallel: body j slides along the axis and turns about it.
+    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the
+    /// axes of both bodies are parallel: body j slides along the axis and rotates about it.
     params {
         /// A point of the axis on body i.
         s_i: Point in i,

@@ -1,13 +1,13 @@
 joint! { space Fixed(i, j) {
     /// Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies stay parallel.
     params {
-        /// The place on body i, at which the reaction is reported.
+        /// The point of body i at which the reaction is reported.
         s_i: Point in i,
-        /// The same place on body j.
+        /// The same point on body j.
         s_j: Point in j,
         /// Axes of body i.
         axes: Axes in i optional,
-        /// The axes of body j that are parallel to them.
+        /// The axes of body j, parallel to the axes of body i.
         axes_j: Axes in j like axes,
     }
     let w = direction(j, axes_j[2]);

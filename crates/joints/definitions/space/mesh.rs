@@ -1,9 +1,12 @@
 joint! { space Mesh(i, j, carrier) {
-    /// Teeth of two wheels, each of which turns about an axis of one carrier: at the pitch point P of the carrier both wheels have one
-    /// velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. Where the bearings hold, this is the rate of `Φ_i − Φ_j` with
-    /// `Φ_k = n·(s_k − p_k) + (m_k·a_k)·θ_k + (m_k − x_k·a_k × n)·(a_k × b_k)`: p_k and a_k are point and axis of the bearing on the
-    /// carrier, s_k and b_k those on wheel k, `m_k = (P − p_k) × n`, `x_k = a_k·(s_k − p_k)`, and θ_k is the angle that wheel k has turned,
-    /// with its full turns. The place of the reaction is P; λ is the force of the teeth, along −n on wheel i.
+    /// Gear mesh of two wheels, each of which rotates about an axis of one carrier: at the pitch
+    /// point P of the carrier both wheels have the same velocity along the line of action n,
+    /// `n·(v_i(P) − v_j(P)) = 0`. If the bearings are satisfied, this is the rate of `Φ_i − Φ_j`
+    /// with `Φ_k = n·(s_k − p_k) + (m_k·a_k)·θ_k + (m_k − x_k·a_k × n)·(a_k × b_k)`. Here p_k and
+    /// a_k are point and axis of the bearing on the carrier, and s_k and b_k those on wheel k. The
+    /// other symbols are `m_k = (P − p_k) × n`, `x_k = a_k·(s_k − p_k)`, and θ_k, the rotation
+    /// angle of wheel k with its full revolutions. The reference point of the reaction is P; λ is
+    /// the force of the gear mesh, along −n on wheel i.
     params {
         /// Point of the first bearing on wheel i.
         s_i: Point in i,

@@ -1,9 +1,9 @@
 joint! { space Orientation(i, j) {
-    /// The axes of both bodies stay parallel: the bodies do not turn against each other.
+    /// The axes of both bodies stay parallel: the bodies do not rotate relative to each other.
     params {
         /// Axes of body i.
         axes: Axes in i optional,
-        /// The axes of body j that are parallel to them.
+        /// The axes of body j, parallel to the axes of body i.
         axes_j: Axes in j like axes,
     }
     let w = direction(j, axes_j[2]);

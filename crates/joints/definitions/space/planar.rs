@@ -1,6 +1,6 @@
 joint! { space Planar(i, j) {
-    /// Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`, and the normals of both
-    /// bodies are parallel.
+    /// Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`,
+    /// and the normals of both bodies are parallel.
     params {
         /// A point of the plane on body i.
         s_i: Point in i,

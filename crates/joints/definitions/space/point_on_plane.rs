@@ -1,5 +1,5 @@
 joint! { space PointOnPlane(i, j) {
-    /// Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`.
+    /// Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`.
     params {
         /// A point of the plane in body i.
         s_i: Point in i,

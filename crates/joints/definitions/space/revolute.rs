@@ -5,7 +5,7 @@ joint! { space Revolute(i, j) {
         s_i: Point in i,
         /// The same point on body j.
         s_j: Point in j,
-        /// The axis on body i, about which body j turns right-handed.
+        /// The axis on body i, about which body j rotates right-handed.
         axis: Axes in i,
         /// The axis on body j.
         axis_j: Axes in j like axis,

@@ -1,6 +1,7 @@
 joint! { space Screw(i, j) {
-    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, the axes of both bodies are
-    /// parallel, and body j moves by `pitch` along the axis at each turn about it.
+    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`. The axes
+    /// of both bodies are parallel, and body j moves by `pitch` along the axis for each revolution
+    /// about it.
     params {
         /// A point of the axis on body i.
         s_i: Point in i,
@@ -10,7 +11,7 @@ joint! { space Screw(i, j) {
         axis: Axes in i,
         /// The axis on body j.
         axis_j: Axes in j like axis,
-        /// Advance along the axis at one turn, right-handed: negative for a left-handed thread.
+        /// Advance along the axis per revolution, right-handed: negative for a left-handed thread.
         pitch: Length,
     }
     let d = point(j, s_j) - point(i, s_i);

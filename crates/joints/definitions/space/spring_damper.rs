@@ -17,7 +17,8 @@ force! { space SpringDamper(i, j) {
     let length = norm(d);
     require "the two points are apart, or the free length is zero":
         free_length == 0.0 || length > 0.0;
-    // −k·l on l is −k on d·d/2, which needs no direction: the derivative is correct if the points coincide.
+    // −k·l on l is −k on d·d/2, which needs no direction: the derivative is correct even if the
+    // points coincide.
     force: -stiffness on 0.5 * dot(d, d);
     force: stiffness * free_length - damping * rate(length) on length;
 } }

@@ -1,6 +1,6 @@
 joint! { space Translational(i, j) {
-    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the bodies do not turn
-    /// against each other.
+    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the
+    /// bodies do not rotate relative to each other.
     params {
         /// A point of the line in body i.
         s_i: Point in i,
@@ -8,7 +8,7 @@ joint! { space Translational(i, j) {
         s_j: Point in j,
         /// The line in body i.
         axis: Axes in i,
-        /// The axes of body j that stay parallel to those of body i.
+        /// The axes of body j, which stay parallel to the axes of body i.
         axis_j: Axes in j like axis,
     }
     let d = point(j, s_j) - point(i, s_i);

@@ -14,7 +14,7 @@ joint! { space Universal(i, j) {
     let a = direction(i, axis);
     let b = direction(j, cross);
     let k = dot(a, b);
-    // The other axis of the cross, as it stood in each body at the start.
+    // The other axis of the cross, in the frame of each body at the start.
     initial {
         b_in_i: Vector in i = local(i, b),
         a_in_j: Vector in j = local(j, a),

@@ -1,10 +1,11 @@
 joint! { space Wheel(i) {
-    /// A wheel rolls without slip on a plane of the ground: a tube of radius `tube` bent round the circle of `radius` about
-    /// point `s` across `axis`, without `tube` this circle alone. Its lowest point, `tube` below that of the circle, lies in
-    /// the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the
-    /// plane, less `tube`, and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of
-    /// velocities are multiplied by h over the radius, so that no quotient is needed; arms are those of a wheel that
-    /// touches.
+    /// A wheel rolls without slip on a plane of the ground. The wheel is a tube of radius `tube`
+    /// around the circle of `radius` about point `s` normal to `axis`; without `tube` it is only
+    /// this circle. Its lowest point, `tube` below the lowest point of the circle, is in the plane
+    /// and has no velocity along the track (axis × up) or across it. With the height h of the
+    /// centre above the plane, minus `tube`, and the slope k = up·axis, the contact condition is
+    /// `(h² − radius²·(1 − k²))/(2·radius) = 0`. The velocity rows are multiplied by h/radius, so
+    /// that no quotient is needed; the lever arms are those of a wheel that touches the plane.
     params {
         /// The centre of the wheel.
         s: Point in i,
@@ -12,9 +13,10 @@ joint! { space Wheel(i) {
         axis: Direction in i,
         /// Radius of the circle that touches the plane, or of the centre circle of the tube.
         radius: Radius,
-        /// Radius of the tube round this circle (the cross-section of a tyre); 0 if it is not given.
+        /// Radius of the tube around this circle (the cross-section of a tyre); 0 if it is not
+        /// given.
         tube: Radius = 0.0,
-        /// The plane, its normal towards the side of the wheel.
+        /// The plane, with its normal towards the wheel.
         plane: GroundPlane,
     }
     let n = normal(plane);

@@ -8,17 +8,18 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
-/// Springs and dampers along the axes of body i and about the rotation between point `s_i` of body i and point `s_j` of body j, at rest
-/// at the start. The force on body j acts at its own point; body i takes the opposite force through the same point.
+/// Springs and dampers along the axes of body i and about the rotation between point `s_i` of
+/// body i and point `s_j` of body j, without load at the start. The force on body j acts at its
+/// own point; the opposite force acts on body i at the same point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bushing {
     /// End on body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// End on body j; the force on body i acts through this point, too. Point in the frame of body j (m).
+    /// End on body j; the force on body i acts at this point, too. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Along x and y of the frame of body i, and about the relative rotation. Units: [`Unit::Stiffness`], [`Unit::Stiffness`], [`Unit::TorsionStiffness`].
+    /// Stiffness along x and y of the frame of body i, and about the relative rotation. Units: [`Unit::Stiffness`], [`Unit::Stiffness`], [`Unit::TorsionStiffness`].
     pub stiffness: [f64; 3],
-    /// Along x and y of the frame of body i, and about the relative rotation. Units: [`Unit::Damping`], [`Unit::Damping`], [`Unit::TorsionDamping`].
+    /// Damping along x and y of the frame of body i, and about the relative rotation. Units: [`Unit::Damping`], [`Unit::Damping`], [`Unit::TorsionDamping`].
     pub damping: [f64; 3],
     /// Kept from the assembled start; set by `initialise`.
     offset: [f64; 2],
@@ -50,29 +51,29 @@ impl Force for Bushing {
             name: "Bushing",
             scene_type: "bushing",
             variant: None,
-            doc: "Springs and dampers along the axes of body i and about the rotation between point `s_i` of body i and point `s_j` of body j, at rest at the start. The force on body j acts at its own point; body i takes the opposite force through the same point.",
-            text: "force! { plane Bushing(i, j) {\n    /// Springs and dampers along the axes of body i and about the rotation between point `s_i` of body i and point `s_j` of body j, at rest\n    /// at the start. The force on body j acts at its own point; body i takes the opposite force through the same point.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j; the force on body i acts through this point, too.\n        s_j: Point in j,\n        /// Along x and y of the frame of body i, and about the relative rotation.\n        stiffness: [Stiffness, Stiffness, TorsionStiffness],\n        /// Along x and y of the frame of body i, and about the relative rotation.\n        damping: [Damping, Damping, TorsionDamping],\n    }\n    initial {\n        offset: Vector in i = local(i, point(j, s_j) - point(i, s_i)),\n        angle_0: Angle = angle(j) - angle(i),\n    }\n    let d = local(i, point(j, s_j) - point(i, s_i));\n    let twist = angle(j) - angle(i);\n    force: -(stiffness[0] * (d[0] - offset[0]) + damping[0] * rate(d[0])) on d[0];\n    force: -(stiffness[1] * (d[1] - offset[1]) + damping[1] * rate(d[1])) on d[1];\n    force: -(stiffness[2] * (twist - angle_0) + damping[2] * rate(twist)) on twist;\n} }",
+            doc: "Springs and dampers along the axes of body i and about the rotation between point `s_i` of body i and point `s_j` of body j, without load at the start. The force on body j acts at its own point; the opposite force acts on body i at the same point.",
+            text: "force! { plane Bushing(i, j) {\n    /// Springs and dampers along the axes of body i and about the rotation between point `s_i` of\n    /// body i and point `s_j` of body j, without load at the start. The force on body j acts at its\n    /// own point; the opposite force acts on body i at the same point.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j; the force on body i acts at this point, too.\n        s_j: Point in j,\n        /// Stiffness along x and y of the frame of body i, and about the relative rotation.\n        stiffness: [Stiffness, Stiffness, TorsionStiffness],\n        /// Damping along x and y of the frame of body i, and about the relative rotation.\n        damping: [Damping, Damping, TorsionDamping],\n    }\n    initial {\n        offset: Vector in i = local(i, point(j, s_j) - point(i, s_i)),\n        angle_0: Angle = angle(j) - angle(i),\n    }\n    let d = local(i, point(j, s_j) - point(i, s_i));\n    let twist = angle(j) - angle(i);\n    force: -(stiffness[0] * (d[0] - offset[0]) + damping[0] * rate(d[0])) on d[0];\n    force: -(stiffness[1] * (d[1] - offset[1]) + damping[1] * rate(d[1])) on d[1];\n    force: -(stiffness[2] * (twist - angle_0) + damping[2] * rate(twist)) on twist;\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required("s_i", Shape::Point { slot: 0 }, "End on body i."),
                 Parameter::required(
                     "s_j",
                     Shape::Point { slot: 1 },
-                    "End on body j; the force on body i acts through this point, too.",
+                    "End on body j; the force on body i acts at this point, too.",
                 ),
                 Parameter::required(
                     "stiffness",
                     Shape::Numbers(
                         &[Unit::Stiffness, Unit::Stiffness, Unit::TorsionStiffness],
                     ),
-                    "Along x and y of the frame of body i, and about the relative rotation.",
+                    "Stiffness along x and y of the frame of body i, and about the relative rotation.",
                 ),
                 Parameter::required(
                     "damping",
                     Shape::Numbers(
                         &[Unit::Damping, Unit::Damping, Unit::TorsionDamping],
                     ),
-                    "Along x and y of the frame of body i, and about the relative rotation.",
+                    "Damping along x and y of the frame of body i, and about the relative rotation.",
                 ),
             ],
             points_apart: false,

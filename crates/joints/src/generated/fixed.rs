@@ -15,12 +15,13 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.
+/// Point `s_j` of body j keeps its initial position in body i, and the relative angle keeps its
+/// initial value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixed {
-    /// The place on body i, at which the reaction is reported. Point in the frame of body i (m).
+    /// The point of body i at which the reaction is reported. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// The point of body j that keeps its place in body i. Point in the frame of body j (m).
+    /// The point of body j that keeps its position in body i. Point in the frame of body j (m).
     pub s_j: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
     offset: [f64; 2],
@@ -48,19 +49,19 @@ impl Constraint for Fixed {
                 name: "Fixed",
                 scene_type: "fixed",
                 variant: None,
-                doc: "Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.",
-                text: "joint! { plane Fixed(i, j) {\n    /// Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.\n    params {\n        /// The place on body i, at which the reaction is reported.\n        s_i: Point in i,\n        /// The point of body j that keeps its place in body i.\n        s_j: Point in j,\n    }\n    initial {\n        offset: Vector in i = local(i, point(j, s_j) - point(i, s_i)),\n        angle_0: Angle = angle(j) - angle(i),\n    }\n    rows: [x, y, angle];\n    phi: [\n        point(i, s_i) + vector(i, offset) - point(j, s_j),\n        angle(j) - angle(i) - angle_0,\n    ];\n    place: point(i, s_i);\n} }",
+                doc: "Point `s_j` of body j keeps its initial position in body i, and the relative angle keeps its initial value.",
+                text: "joint! { plane Fixed(i, j) {\n    /// Point `s_j` of body j keeps its initial position in body i, and the relative angle keeps its\n    /// initial value.\n    params {\n        /// The point of body i at which the reaction is reported.\n        s_i: Point in i,\n        /// The point of body j that keeps its position in body i.\n        s_j: Point in j,\n    }\n    initial {\n        offset: Vector in i = local(i, point(j, s_j) - point(i, s_i)),\n        angle_0: Angle = angle(j) - angle(i),\n    }\n    rows: [x, y, angle];\n    phi: [\n        point(i, s_i) + vector(i, offset) - point(j, s_j),\n        angle(j) - angle(i) - angle_0,\n    ];\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
                         "s_i",
                         Shape::Point { slot: 0 },
-                        "The place on body i, at which the reaction is reported.",
+                        "The point of body i at which the reaction is reported.",
                     ),
                     Parameter::required(
                         "s_j",
                         Shape::Point { slot: 1 },
-                        "The point of body j that keeps its place in body i.",
+                        "The point of body j that keeps its position in body i.",
                     ),
                 ],
                 points_apart: false,

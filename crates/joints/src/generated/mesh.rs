@@ -15,10 +15,12 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// Teeth of two wheels whose centres `s_i` and `s_j` are borne on a carrier: at the pitch point P of the carrier both wheels have one
-/// velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is
-/// `n·(p_i − p_j) + cos α·(r_i·(φ_i − φ_carrier) + r_j·(φ_j − φ_carrier)) = const` with `r_i + r_j = a`, the distance of the centres, and
-/// `r_j·ratio = −r_i`. The place of the reaction is the centre of wheel i; λ is the force of the teeth, along −n on wheel i.
+/// Gear mesh of two wheels that rotate on a carrier about their centres `s_i` and `s_j`. At the
+/// pitch point P of the carrier both wheels have the same velocity along the line of action n,
+/// `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is
+/// `n·(p_i − p_j) + cos α·(r_i·(φ_i − φ_carrier) + r_j·(φ_j − φ_carrier)) = const` with
+/// `r_i + r_j = a`, the distance of the centres, and `r_j·ratio = −r_i`. The reference point of
+/// the reaction is the centre of wheel i; λ is the force of the gear mesh, along −n on wheel i.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
     /// Centre of wheel i. Point in the frame of body i (m).
@@ -27,7 +29,7 @@ pub struct Mesh {
     pub s_j: [f64; 2],
     /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh. Unit: [`Unit::Ratio`].
     pub ratio: f64,
-    /// Angle by which the line of action is turned from the perpendicular of the centre line; 0 if it is not given. Its sign tells the flanks that touch. Unit: [`Unit::Angle`].
+    /// Angle of the line of action from the perpendicular of the centre line; 0 if it is not given. Its sign selects the tooth flanks that touch. Unit: [`Unit::Angle`].
     pub pressure_angle: Option<f64>,
     /// `pressure_angle`, or its value at the assembled start; set by `initialise`.
     pressure_angle_0: f64,
@@ -84,8 +86,8 @@ impl Constraint for Mesh {
                 name: "Mesh",
                 scene_type: "mesh",
                 variant: None,
-                doc: "Teeth of two wheels whose centres `s_i` and `s_j` are borne on a carrier: at the pitch point P of the carrier both wheels have one velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is `n·(p_i − p_j) + cos α·(r_i·(φ_i − φ_carrier) + r_j·(φ_j − φ_carrier)) = const` with `r_i + r_j = a`, the distance of the centres, and `r_j·ratio = −r_i`. The place of the reaction is the centre of wheel i; λ is the force of the teeth, along −n on wheel i.",
-                text: "joint! { plane Mesh(i, j, carrier) {\n    /// Teeth of two wheels whose centres `s_i` and `s_j` are borne on a carrier: at the pitch point P of the carrier both wheels have one\n    /// velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is\n    /// `n·(p_i − p_j) + cos α·(r_i·(φ_i − φ_carrier) + r_j·(φ_j − φ_carrier)) = const` with `r_i + r_j = a`, the distance of the centres, and\n    /// `r_j·ratio = −r_i`. The place of the reaction is the centre of wheel i; λ is the force of the teeth, along −n on wheel i.\n    params {\n        /// Centre of wheel i.\n        s_i: Point in i,\n        /// Centre of wheel j.\n        s_j: Point in j,\n        /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.\n        ratio: Ratio,\n        /// Angle by which the line of action is turned from the perpendicular of the centre line; 0 if it is not given. Its sign tells\n        /// the flanks that touch.\n        pressure_angle: Angle = 0.0,\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    initial {\n        share: Ratio = ratio / (ratio - 1.0),\n        centres: Vector in carrier = local(carrier, d),\n        line: Vector in carrier = local(carrier, cos(pressure_angle) * perp(d) + sin(pressure_angle) * d),\n        inverse: PerLength = 1.0 / norm(d),\n    }\n    require \"the ratio is not 1\": (ratio - 1.0) * (ratio - 1.0) > 0.0;\n    require \"the two centres are apart\": norm(d) > 0.0;\n    let n = vector(carrier, line);\n    let arm = perp(vector(carrier, centres));\n    let turns = share * (angle(i) - angle(carrier)) + (1.0 - share) * (angle(j) - angle(carrier));\n    let teeth = inverse * (dot(n, arm) * turns - dot(n, d));\n    initial { phase: Length = teeth }\n    rows: [teeth];\n    phi: teeth - phase;\n    place: point(i, s_i);\n} }",
+                doc: "Gear mesh of two wheels that rotate on a carrier about their centres `s_i` and `s_j`. At the pitch point P of the carrier both wheels have the same velocity along the line of action n, `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is `n·(p_i − p_j) + cos α·(r_i·(φ_i − φ_carrier) + r_j·(φ_j − φ_carrier)) = const` with `r_i + r_j = a`, the distance of the centres, and `r_j·ratio = −r_i`. The reference point of the reaction is the centre of wheel i; λ is the force of the gear mesh, along −n on wheel i.",
+                text: "joint! { plane Mesh(i, j, carrier) {\n    /// Gear mesh of two wheels that rotate on a carrier about their centres `s_i` and `s_j`. At the\n    /// pitch point P of the carrier both wheels have the same velocity along the line of action n,\n    /// `n·(v_i(P) − v_j(P)) = 0`. The integral of this row is\n    /// `n·(p_i − p_j) + cos α·(r_i·(φ_i − φ_carrier) + r_j·(φ_j − φ_carrier)) = const` with\n    /// `r_i + r_j = a`, the distance of the centres, and `r_j·ratio = −r_i`. The reference point of\n    /// the reaction is the centre of wheel i; λ is the force of the gear mesh, along −n on wheel i.\n    params {\n        /// Centre of wheel i.\n        s_i: Point in i,\n        /// Centre of wheel j.\n        s_j: Point in j,\n        /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.\n        ratio: Ratio,\n        /// Angle of the line of action from the perpendicular of the centre line; 0 if it is not\n        /// given. Its sign selects the tooth flanks that touch.\n        pressure_angle: Angle = 0.0,\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    initial {\n        share: Ratio = ratio / (ratio - 1.0),\n        centres: Vector in carrier = local(carrier, d),\n        line: Vector in carrier = local(carrier, cos(pressure_angle) * perp(d) + sin(pressure_angle) * d),\n        inverse: PerLength = 1.0 / norm(d),\n    }\n    require \"the ratio is not 1\": (ratio - 1.0) * (ratio - 1.0) > 0.0;\n    require \"the two centres are apart\": norm(d) > 0.0;\n    let n = vector(carrier, line);\n    let arm = perp(vector(carrier, centres));\n    let turns = share * (angle(i) - angle(carrier)) + (1.0 - share) * (angle(j) - angle(carrier));\n    let teeth = inverse * (dot(n, arm) * turns - dot(n, d));\n    initial { phase: Length = teeth }\n    rows: [teeth];\n    phi: teeth - phase;\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j", "carrier"],
                 parameters: &[
                     Parameter::required(
@@ -106,7 +108,7 @@ impl Constraint for Mesh {
                     Parameter::optional(
                         "pressure_angle",
                         Shape::Numbers(&[Unit::Angle]),
-                        "Angle by which the line of action is turned from the perpendicular of the centre line; 0 if it is not given. Its sign tells the flanks that touch.",
+                        "Angle of the line of action from the perpendicular of the centre line; 0 if it is not given. Its sign selects the tooth flanks that touch.",
                     ),
                 ],
                 points_apart: true,

@@ -16,16 +16,16 @@ use crate::spec::{
     Unit, Variant,
 };
 /// Rack i and pinion j roll on each other without slip:
-/// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. With a negative
-/// radius it rolls on the other side of the rack. The place of the reaction is the point of the rack at which the
-/// pinion's centre is at the start.
+/// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre
+/// `s_j`. With a negative radius, the pinion rolls on the other side of the rack. The reference
+/// point of the reaction is the point of the rack at which the pinion's centre is at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RackAndPinion {
     /// Centre of the pinion. Point in the frame of body j (m).
     pub s_j: [f64; 2],
     /// Direction of the rack. Unit vector in the frame of body i.
     pub axis: Direction,
-    /// Radius of the pinion; negative: it rolls on the other side of the rack. Unit: [`Unit::Length`].
+    /// Radius of the pinion; if negative, the pinion rolls on the other side of the rack. Unit: [`Unit::Length`].
     pub radius: f64,
     /// Kept from the assembled start; set by `initialise`.
     phase: f64,
@@ -61,8 +61,8 @@ impl Constraint for RackAndPinion {
                 name: "RackAndPinion",
                 scene_type: "rack-and-pinion",
                 variant: None,
-                doc: "Rack i and pinion j roll on each other without slip: `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. With a negative radius it rolls on the other side of the rack. The place of the reaction is the point of the rack at which the pinion's centre is at the start.",
-                text: "joint! { plane RackAndPinion(i, j) {\n    /// Rack i and pinion j roll on each other without slip:\n    /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. With a negative\n    /// radius it rolls on the other side of the rack. The place of the reaction is the point of the rack at which the\n    /// pinion's centre is at the start.\n    params {\n        /// Centre of the pinion.\n        s_j: Point in j,\n        /// Direction of the rack.\n        axis: Direction in i,\n        /// Radius of the pinion; negative: it rolls on the other side of the rack.\n        radius: Length,\n    }\n    initial {\n        phase: Length = dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)),\n        centre: Vector in i = local(i, point(j, s_j) - origin(i)),\n    }\n    rows: [mesh];\n    phi: dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)) - phase;\n    place: origin(i) + vector(i, centre);\n    note \"the reaction of a rack and its pinion is the force of the teeth along the rack, without the force that pushes the \\\n          two apart; the reactions of bearing and guide are without it, too\";\n} }",
+                doc: "Rack i and pinion j roll on each other without slip: `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. With a negative radius, the pinion rolls on the other side of the rack. The reference point of the reaction is the point of the rack at which the pinion's centre is at the start.",
+                text: "joint! { plane RackAndPinion(i, j) {\n    /// Rack i and pinion j roll on each other without slip:\n    /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre\n    /// `s_j`. With a negative radius, the pinion rolls on the other side of the rack. The reference\n    /// point of the reaction is the point of the rack at which the pinion's centre is at the start.\n    params {\n        /// Centre of the pinion.\n        s_j: Point in j,\n        /// Direction of the rack.\n        axis: Direction in i,\n        /// Radius of the pinion; if negative, the pinion rolls on the other side of the rack.\n        radius: Length,\n    }\n    initial {\n        phase: Length = dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)),\n        centre: Vector in i = local(i, point(j, s_j) - origin(i)),\n    }\n    rows: [mesh];\n    phi: dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)) - phase;\n    place: origin(i) + vector(i, centre);\n    note \"the reaction of a rack and its pinion is the force of the teeth along the rack, without the force that pushes the \\\n          two apart; the reactions of bearing and guide are without it, too\";\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
@@ -78,7 +78,7 @@ impl Constraint for RackAndPinion {
                     Parameter::required(
                         "radius",
                         Shape::Numbers(&[Unit::Length]),
-                        "Radius of the pinion; negative: it rolls on the other side of the rack.",
+                        "Radius of the pinion; if negative, the pinion rolls on the other side of the rack.",
                     ),
                 ],
                 points_apart: false,

@@ -23,7 +23,7 @@ pub struct Rolling {
     pub s: [f64; 2],
     /// Direction of rolling. Unit vector in the frame of body i.
     pub direction: Direction,
-    /// Radius of the spinner, not zero; negative: it turns the other way. Unit: [`Unit::Length`].
+    /// Radius of the spinner, not zero; if negative, the spinner rotates in the opposite direction. Unit: [`Unit::Length`].
     pub radius: f64,
 }
 impl Rolling {
@@ -43,7 +43,7 @@ impl Constraint for Rolling {
                 scene_type: "rolling",
                 variant: None,
                 doc: "The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j: `(R·d)·v_s − radius·ω_j = 0`.",
-                text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:\n    /// `(R·d)·v_s − radius·ω_j = 0`.\n    params {\n        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel.\n        s: Point in i,\n        /// Direction of rolling.\n        direction: Direction in i,\n        /// Radius of the spinner, not zero; negative: it turns the other way.\n        radius: Length,\n    }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
+                text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:\n    /// `(R·d)·v_s − radius·ω_j = 0`.\n    params {\n        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of\n        /// the wheel.\n        s: Point in i,\n        /// Direction of rolling.\n        direction: Direction in i,\n        /// Radius of the spinner, not zero; if negative, the spinner rotates in the opposite\n        /// direction.\n        radius: Length,\n    }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
@@ -59,7 +59,7 @@ impl Constraint for Rolling {
                     Parameter::required(
                         "radius",
                         Shape::Numbers(&[Unit::Length]),
-                        "Radius of the spinner, not zero; negative: it turns the other way.",
+                        "Radius of the spinner, not zero; if negative, the spinner rotates in the opposite direction.",
                     ),
                 ],
                 points_apart: false,

@@ -8,19 +8,20 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
-/// Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with the velocities v_n of the
-/// point along `normal` and v_t across it: the linear tyre, a side force C·α for a small slip angle α ≈ v_n/|v_t|
-/// (H. B. Pacejka, Tire and Vehicle Dynamics, 2012, chapter 1), made regular at standstill, where it is a damper C/v_0. At
-/// the speed v_t it is smaller by the share (v_0/v_t)²/2.
+/// Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with
+/// the velocities v_n of the point along `normal` and v_t across it. This is the linear tyre,
+/// with a side force C·α for a small slip angle α ≈ v_n/|v_t| (H. B. Pacejka, Tire and Vehicle
+/// Dynamics, 2012, chapter 1). It is made regular at standstill, where it is a damper C/v_0. At
+/// the speed v_t the force is smaller than C·α by the share (v_0/v_t)²/2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tyre {
     /// The contact point. Point in the frame of the body (m).
     pub s: [f64; 2],
-    /// Direction across the tyre, along which it resists. Unit vector in the frame of the body.
+    /// Direction across the tyre, along which the force acts. Unit vector in the frame of the body.
     pub normal: Direction,
     /// Cornering stiffness C, side force per slip angle. Unit: [`Unit::CorneringStiffness`].
     pub stiffness: f64,
-    /// Speed v_0 below which the force fades; 0.1 m/s if it is not given. Unit: [`Unit::Velocity`].
+    /// Speed v_0 below which the force decreases; 0.1 m/s if it is not given. Unit: [`Unit::Velocity`].
     pub low_speed: Option<f64>,
     /// `low_speed`, or its value at the assembled start; set by `initialise`.
     low_speed_0: f64,
@@ -51,15 +52,15 @@ impl Force for Tyre {
             name: "Tyre",
             scene_type: "tyre",
             variant: None,
-            doc: "Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with the velocities v_n of the point along `normal` and v_t across it: the linear tyre, a side force C·α for a small slip angle α ≈ v_n/|v_t| (H. B. Pacejka, Tire and Vehicle Dynamics, 2012, chapter 1), made regular at standstill, where it is a damper C/v_0. At the speed v_t it is smaller by the share (v_0/v_t)²/2.",
-            text: "force! { plane Tyre(i) {\n    /// Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with the velocities v_n of the\n    /// point along `normal` and v_t across it: the linear tyre, a side force C·α for a small slip angle α ≈ v_n/|v_t|\n    /// (H. B. Pacejka, Tire and Vehicle Dynamics, 2012, chapter 1), made regular at standstill, where it is a damper C/v_0. At\n    /// the speed v_t it is smaller by the share (v_0/v_t)²/2.\n    params {\n        /// The contact point.\n        s: Point in i,\n        /// Direction across the tyre, along which it resists.\n        normal: Direction in i,\n        /// Cornering stiffness C, side force per slip angle.\n        stiffness: CorneringStiffness,\n        /// Speed v_0 below which the force fades; 0.1 m/s if it is not given.\n        low_speed: Velocity = 0.1,\n    }\n    require \"the low speed is not zero\": low_speed != 0.0;\n    let n = direction(i, normal);\n    let v = velocity(point(i, s));\n    let side = dot(n, v);\n    let speed = norm(vector(i, [dot(perp(n), v), low_speed]));\n    force: -stiffness * side / speed * n[0] on point(i, s)[0];\n    force: -stiffness * side / speed * n[1] on point(i, s)[1];\n} }",
+            doc: "Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with the velocities v_n of the point along `normal` and v_t across it. This is the linear tyre, with a side force C·α for a small slip angle α ≈ v_n/|v_t| (H. B. Pacejka, Tire and Vehicle Dynamics, 2012, chapter 1). It is made regular at standstill, where it is a damper C/v_0. At the speed v_t the force is smaller than C·α by the share (v_0/v_t)²/2.",
+            text: "force! { plane Tyre(i) {\n    /// Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with\n    /// the velocities v_n of the point along `normal` and v_t across it. This is the linear tyre,\n    /// with a side force C·α for a small slip angle α ≈ v_n/|v_t| (H. B. Pacejka, Tire and Vehicle\n    /// Dynamics, 2012, chapter 1). It is made regular at standstill, where it is a damper C/v_0. At\n    /// the speed v_t the force is smaller than C·α by the share (v_0/v_t)²/2.\n    params {\n        /// The contact point.\n        s: Point in i,\n        /// Direction across the tyre, along which the force acts.\n        normal: Direction in i,\n        /// Cornering stiffness C, side force per slip angle.\n        stiffness: CorneringStiffness,\n        /// Speed v_0 below which the force decreases; 0.1 m/s if it is not given.\n        low_speed: Velocity = 0.1,\n    }\n    require \"the low speed is not zero\": low_speed != 0.0;\n    let n = direction(i, normal);\n    let v = velocity(point(i, s));\n    let side = dot(n, v);\n    let speed = norm(vector(i, [dot(perp(n), v), low_speed]));\n    force: -stiffness * side / speed * n[0] on point(i, s)[0];\n    force: -stiffness * side / speed * n[1] on point(i, s)[1];\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required("s", Shape::Point { slot: 0 }, "The contact point."),
                 Parameter::required(
                     "normal",
                     Shape::Direction { slot: 0 },
-                    "Direction across the tyre, along which it resists.",
+                    "Direction across the tyre, along which the force acts.",
                 ),
                 Parameter::required(
                     "stiffness",
@@ -69,7 +70,7 @@ impl Force for Tyre {
                 Parameter::optional(
                     "low_speed",
                     Shape::Numbers(&[Unit::Velocity]),
-                    "Speed v_0 below which the force fades; 0.1 m/s if it is not given.",
+                    "Speed v_0 below which the force decreases; 0.1 m/s if it is not given.",
                 ),
             ],
             points_apart: false,

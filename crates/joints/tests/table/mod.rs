@@ -15,7 +15,7 @@ use serde::Deserialize;
 pub(crate) struct Golden {
     #[serde(default)]
     parameters: BTreeMap<String, Value>,
-    /// The assembled start, if it is not the pose itself.
+    /// The assembled start, if it differs from the pose.
     start: Option<Vec<Vec<Scalar>>>,
     x: Vec<Vec<Scalar>>,
     v: Option<Vec<Vec<Scalar>>>,
@@ -24,7 +24,7 @@ pub(crate) struct Golden {
     #[serde(default)]
     lambda: Vec<Scalar>,
     pub(crate) phi: Option<Vec<Scalar>>,
-    /// C·v − b
+    /// The residual C·v − b of the velocity rows.
     pub(crate) velocity: Option<Vec<Scalar>>,
     pub(crate) gamma: Option<Vec<Scalar>>,
     pub(crate) wrench: Option<Vec<Scalar>>,
@@ -50,15 +50,15 @@ enum Value {
     Two([Vec<f64>; 2]),
 }
 
-/// A space as tables write it.
+/// A space in the notation of the tables.
 pub(crate) trait Tabled: Space {
     /// Folder of its tables.
     const FOLDER: &'static str;
-    /// A pose: x, y, angle, or x, y, z and a quaternion of any length.
+    /// Reads a pose: x, y, angle, or x, y, z and a quaternion of any length.
     fn tabled_pose(numbers: &[f64]) -> Self::Pose<f64>;
-    /// A point or a vector.
+    /// Reads a point or a vector.
     fn vector(numbers: &[f64]) -> Argument;
-    /// Two vectors: points of a line of the ground, or an axis and a vector across it.
+    /// Reads two vectors: points of a line of the ground, or an axis and a vector across it.
     fn two(vectors: &[Vec<f64>; 2]) -> Argument;
 }
 
@@ -104,7 +104,7 @@ fn directory<S: Tabled>() -> PathBuf {
     planar.join(S::FOLDER)
 }
 
-/// The file for a definition: `PinInSlot` has `pin_in_slot.toml`.
+/// Returns the file for a definition: `PinInSlot` has `pin_in_slot.toml`.
 pub(crate) fn file_name(definition: &str) -> String {
     let mut name = String::new();
     for c in definition.chars() {
@@ -116,7 +116,7 @@ pub(crate) fn file_name(definition: &str) -> String {
     name + ".toml"
 }
 
-/// All files of the definitions of a space.
+/// Returns all files of the definitions of a space.
 pub(crate) fn files<S: Tabled>() -> BTreeSet<String> {
     let entries = fs::read_dir(directory::<S>()).expect("the folder of tables exists");
     entries
@@ -126,7 +126,7 @@ pub(crate) fn files<S: Tabled>() -> BTreeSet<String> {
         .collect()
 }
 
-/// The poses of a definition.
+/// Returns the poses of a definition.
 pub(crate) fn read<S: Tabled>(definition: &str) -> Vec<Golden> {
     let path = directory::<S>().join(file_name(definition));
     let text = fs::read_to_string(&path)
@@ -165,7 +165,8 @@ impl Golden {
         poses::<S>(self.start.as_ref().unwrap_or(&self.x))
     }
 
-    /// Velocities, one for each degree of freedom of each slot. At rest if the table has no `v`.
+    /// Returns the velocities, one for each degree of freedom of each slot. They are zero if the
+    /// table has no `v`.
     pub(crate) fn v<S: Tabled>(&self) -> Vec<f64> {
         match &self.v {
             Some(v) => v.iter().flatten().map(Scalar::value).collect(),

@@ -1,4 +1,4 @@
-//! Examples at the end of `--help`.
+//! Examples that are printed at the end of `--help`.
 
 pub(super) const STRESS: &str = "Examples:
   lab stress --list                                the families of cases

@@ -1,4 +1,5 @@
-//! `lab fuzz`: random, damaged and degenerate scenes through check, analyze and simulate.
+//! The command `lab fuzz`: passes random, damaged and degenerate scenes through check, analyze and
+//! simulate.
 
 use std::fs;
 use std::io::{self, Read, Write};
@@ -145,7 +146,7 @@ pub(super) struct Scenes {
 }
 
 impl Scenes {
-    /// Motions.
+    /// Examines motions.
     fn examine_numbers(&self, console: &Console<'_>) -> Outcome {
         let Self { scenes, seed, .. } = *self;
         if let Some(number) = self.show {
@@ -225,7 +226,7 @@ impl Drawings {
     }
 }
 
-/// A progress bar; it hides itself if standard error is not a terminal.
+/// Creates a progress bar; it is hidden if standard error is not a terminal.
 fn progress(all: u64) -> ProgressBar {
     let bar = ProgressBar::new(all);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {per_sec}, {eta} left") {
@@ -234,7 +235,7 @@ fn progress(all: u64) -> ProgressBar {
     bar
 }
 
-/// Exit code 1 if a test failed; the failures have been printed already.
+/// Returns exit code 1 if a test failed; the failures have already been printed.
 fn passed(all: bool) -> Outcome {
     if all {
         Ok(())
@@ -354,7 +355,7 @@ fn answer(out: &mut impl Write, text: &str) -> io::Result<()> {
     written
 }
 
-/// The tally in words.
+/// Describes the tally as text.
 fn describe(tally: &campaign::Tally, seed: u64, inputs: u64, seconds: f64) -> String {
     let mut text = format!(
         "\nseed {seed}: {inputs} inputs in {seconds:.1} s, {:.0} each second\n",

@@ -1,4 +1,5 @@
-//! `lab generate`: writes a large scene with a known answer to a file or to standard output.
+//! The command `lab generate`: writes a large scene with a known answer to a file or to standard
+//! output.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -93,7 +94,7 @@ fn to_file(generator: &Generator, path: &Path) -> Result<u64, Failure> {
         bar.finish_and_clear();
         return written.map(|()| watched.bytes).map_err(refused);
     }
-    // A symbolic link is kept; the file that it refers to is replaced.
+    // A symbolic link is kept; the file to which it refers is replaced.
     let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     let name = path
         .file_name()
@@ -129,7 +130,7 @@ fn bar(generator: &Generator, target: ProgressDrawTarget) -> ProgressBar {
         reason = "a size below 10 GB"
     )]
     let bytes = generator.bytes() as u64;
-    // It hides itself if standard error is not a terminal.
+    // The bar is hidden if standard error is not a terminal.
     let bar = ProgressBar::with_draw_target(Some(bytes), target);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {bytes}, {eta} left") {
         bar.set_style(style);

@@ -1,4 +1,5 @@
-//! `lab stress`: runs the stiff and extreme cases and compares each with its known answer.
+//! The command `lab stress`: runs the stiff and extreme cases and compares each with its known
+//! answer.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -78,7 +79,7 @@ pub(super) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// The requested families, or all.
+/// Returns the requested families, or all families.
 fn families(arguments: &Stress) -> Result<Vec<Family>, Failure> {
     if arguments.family.is_empty() {
         return Ok(stress::families());
@@ -104,7 +105,7 @@ fn make(
 ) -> Result<(StressDocument, StressTable<OutputFile>), Failure> {
     let interrupt = Interrupt::listen()?;
     let cases: usize = families.iter().map(|f| (f.cases)().len()).sum();
-    // It hides itself if standard error is not a terminal.
+    // The bar is hidden if standard error is not a terminal.
     let bar = ProgressBar::new(cases as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases{msg}, {eta} left") {
         bar.set_style(style);
@@ -152,7 +153,7 @@ fn family(family: &Family, rows: &[StressRow]) -> StressFamily {
     }
 }
 
-/// The summary in words: the cases that fail, and the number of outcomes of each kind.
+/// Describes the results: the cases that fail, and the number of outcomes of each kind.
 fn describe(document: &StressDocument, out: &str) -> String {
     let mut text = String::new();
     for row in document.families.iter().flat_map(|f| &f.rows) {

@@ -1,10 +1,12 @@
-//! `lab work-precision`: error versus run time, for the methods of pfaff and others.
+//! The command `lab work-precision`: compares error and run time, for the methods of pfaff and
+//! others.
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use pfaff::RunOptions;
 use pfaff::question::{Control, Question};
+use pfaff::words::Verbosity;
 use pfaff::work_precision::{Rival, Subject};
 use pfaff_cli::ask::{Asking, Hears, OutputOptions};
 use pfaff_cli::console::Console;
@@ -51,6 +53,7 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     let asking = Asking {
         output: pfaff::questions::WorkPrecision::OUTPUT.map(|output| (output, &place)),
         is_json: arguments.json,
+        verbosity: Verbosity::Normal,
         threads: None,
         hears: Hears::Stops,
     };
@@ -59,7 +62,8 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     })
 }
 
-/// The requested scenes, or those of the suite. All are read before the first is run.
+/// Returns the requested scenes, or those of the suite. All scenes are read before the first one is
+/// run.
 fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subject>, Failure> {
     let case = |case| of_case(case).map_err(|e| Failure::stopped(e.to_string()));
     if arguments.scenes.is_empty() {

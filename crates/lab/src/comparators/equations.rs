@@ -24,24 +24,24 @@ pub struct Equations<'a> {
     mechanism: &'a Mechanism,
     s: Scratch,
     solver: Box<dyn Solver + 'a>,
-    /// Kept rows of Φq and of C, for projections.
+    /// Independent rows of Φq and of C, for projections.
     positions: KeptRows,
     velocities: KeptRows,
     drift: Drift,
     at: Scaled,
-    /// Number of right-hand sides evaluated, and of states projected.
+    /// Number of evaluated right-hand sides, and of projected states.
     pub(super) evaluations: u64,
     pub(super) projections: u64,
-    /// The time after which no more evaluations are made.
+    /// Time after which no more evaluations are performed.
     pub(super) deadline: Option<Instant>,
 }
 
-/// The saddle equations of an instant in units of the mechanism: lengths in its size.
+/// The saddle equations of an instant in units of the mechanism: lengths are divided by its size.
 struct Scaled {
     /// The unit of each coordinate, and the masses in these units, n_v each.
     units: Vec<f64>,
     mass: Vec<f64>,
-    /// All rows; holonomic ones are those of Φq.
+    /// All rows of C; the holonomic rows are those of Φq.
     c: Matrix,
     /// Q, replaced by the solution (accelerations or a correction), n_v.
     force: Vec<f64>,
@@ -63,14 +63,14 @@ impl Scaled {
         solver.solve(&at, &mut self.motion, &mut self.lambda)
     }
 
-    /// The solution in SI units.
+    /// Iterates over the solution in SI units.
     fn motion(&self) -> impl Iterator<Item = f64> + '_ {
         let of = |(x, unit): (&f64, &f64)| x * unit;
         self.motion.iter().zip(&self.units).map(of)
     }
 }
 
-/// C at a configuration in units of the mechanism: lengths in its size.
+/// Computes C at a configuration in units of the mechanism: lengths are divided by its size.
 pub(super) fn in_units(mechanism: &Mechanism, s: &Scratch, units: &[f64], c: &mut Matrix) {
     for i in 0..c.nrows() {
         let row = c.row_mut(i);
@@ -82,11 +82,11 @@ pub(super) fn in_units(mechanism: &Mechanism, s: &Scratch, units: &[f64], c: &mu
 }
 
 impl<'a> Equations<'a> {
-    /// Creates the equations; `solver` is made from C and M at the start, in units of the
+    /// Creates the equations; `solver` is constructed from C and M at the start, in units of the
     /// mechanism.
     ///
     /// # Errors
-    /// The error of the solver.
+    /// Returns the error of the solver.
     pub fn new(
         prepared: &'a PreparedMechanism,
         drift: Drift,
@@ -128,12 +128,12 @@ impl<'a> Equations<'a> {
         })
     }
 
-    /// The mechanism.
+    /// Returns the mechanism.
     pub(super) fn mechanism(&self) -> &'a Mechanism {
         self.mechanism
     }
 
-    /// n_q and n_v.
+    /// Returns n_q and n_v.
     pub(super) fn sizes(&self) -> [usize; 2] {
         [self.mechanism.layout().n_q, self.mechanism.layout().n_v]
     }
@@ -141,7 +141,7 @@ impl<'a> Equations<'a> {
     /// Computes the accelerations in `a` and the multipliers of all rows in `self.lambda`.
     ///
     /// # Errors
-    /// The errors of the solver; [`Fault::TooLong`].
+    /// Returns the errors of the solver, and [`Fault::TooLong`].
     pub fn accelerate(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         let (mechanism, s, at) = (self.mechanism, &mut self.s, &mut self.at);
         self.evaluations += 1;
@@ -186,7 +186,7 @@ impl<'a> Equations<'a> {
     /// Returns accelerations and reactions of all joints and drives at a state; allocates.
     ///
     /// # Errors
-    /// As [`Equations::accelerate`].
+    /// Returns the errors of [`Equations::accelerate`].
     pub fn observe(
         &mut self,
         t: f64,
@@ -204,7 +204,7 @@ impl<'a> Equations<'a> {
     /// Moves q and v onto the constraints by the smallest corrections in the mass metric.
     ///
     /// # Errors
-    /// [`Fault::Projection`], or those of the kept rows.
+    /// [`Fault::Projection`], or an error of the independent rows.
     pub fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Fault> {
         self.projections += 1;
         let (mechanism, mut before) = (self.mechanism, f64::INFINITY);
@@ -265,7 +265,7 @@ impl<'a> Equations<'a> {
     /// Ends a step with a projection, if states are projected. Returns whether it projected.
     ///
     /// # Errors
-    /// As [`Equations::project`].
+    /// Returns the errors of [`Equations::project`].
     pub(super) fn end(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Fault> {
         if self.drift != Drift::Projection {
             return Ok(false);
@@ -308,7 +308,7 @@ impl Ode for Equations<'_> {
         })
     }
 
-    /// At a jump of the prescribed rates the velocities jump, by an impulse of the constraints.
+    /// At a jump of the prescribed rates the velocities jump, with an impulse of the constraints.
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = y.split_at_mut(self.mechanism.layout().n_q);
         self.project_velocity(t, q, v)

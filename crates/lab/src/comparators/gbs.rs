@@ -18,9 +18,9 @@ use super::stepping::{Stepper, Trial};
 use columns::{COLUMNS, substeps};
 use order::{OrderControl, Verdict};
 
-/// Weights w of columns `first` to `last`: Σ w_j·c_j is the value at h = 0 of the polynomial in h²
-/// through the c_j at h = 1/n_j: `w_j = Π_{l ≠ j} n_j² / (n_j² − n_l²)`. Weights of other columns
-/// are zero.
+/// Returns weights w of columns `first` to `last`: Σ w_j·c_j is the value at h = 0 of the
+/// polynomial in h² through the c_j at h = 1/n_j: `w_j = Π_{l ≠ j} n_j² / (n_j² − n_l²)`. Weights
+/// of other columns are zero.
 fn weights(first: usize, last: usize) -> [f64; COLUMNS] {
     let mut w = [0.0; COLUMNS];
     for j in first..=last {
@@ -33,7 +33,7 @@ fn weights(first: usize, last: usize) -> [f64; COLUMNS] {
     w
 }
 
-/// The midpoint rule, extrapolated.
+/// The extrapolated midpoint rule.
 pub(super) struct Gbs {
     control: OrderControl,
     /// Change of the state over the whole step, for each column.
@@ -60,8 +60,8 @@ impl Gbs {
         }
     }
 
-    /// Column j: `z_1 = h_j·f0`, `z_{m+1} = z_{m−1} + 2·h_j·f(t + m·h_j, y0 + z_m)`, where z is the
-    /// change of the state.
+    /// Computes column j: `z_1 = h_j·f0`, `z_{m+1} = z_{m−1} + 2·h_j·f(t + m·h_j, y0 + z_m)`; z is
+    /// the change of the state.
     fn column(
         &mut self,
         ode: &mut Equations<'_>,
@@ -145,7 +145,7 @@ mod tests {
                     let column = |j: usize| w[j - 1] * (2.0 / substeps(j) as f64).powi(power);
                     (1..=COLUMNS).map(column).sum()
                 };
-                // Rounding of weights up to some thousand.
+                // The bound is the rounding error of weights up to some thousand.
                 assert!((sum(0) - 1.0).abs() < 1e-11);
                 for l in 1..=(last - first) {
                     assert!(sum(2 * l as i32).abs() < 1e-11, "{first} {last} {l}");

@@ -1,5 +1,5 @@
-//! The generalized-α method on the positions (index 3) and kept rows: order 2, with damping of high
-//! frequencies that is set by ρ∞.
+//! The generalized-α method on the positions (index 3) and independent rows: order 2, with damping
+//! of high frequencies according to ρ∞.
 //!
 //! ```text
 //! q1 = q0 + h·v0 + h²·((½ − β)·a0 + β·a1),   v1 = v0 + h·((1 − γ)·a0 + γ·a1)
@@ -7,9 +7,10 @@
 //! M·v'1 + Cᵀ·λ1 = Q(t1, q1, v1),   Φ(t1, q1) = 0,   C·v1 = b for rows that are not holonomic
 //! ```
 //!
-//! a is the acceleration at t + (α_m − α_f)·h; if the step size changes, it is converted to the new
-//! time. Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375, DOI 10.1115/1.2900803;
-//! M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007) 185–202, DOI 10.1007/s11044-007-9084-0.
+//! The vector a is the acceleration at t + (α_m − α_f)·h; if the step size changes, a is converted
+//! to the new time. Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375, DOI
+//! 10.1115/1.2900803; M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007) 185–202, DOI
+//! 10.1007/s11044-007-9084-0.
 
 use integrators::Ode;
 use linalg::{Lu, Matrix};
@@ -19,13 +20,13 @@ use super::Fault;
 use super::equations::Equations;
 use super::stepping::{Stepper, Trial};
 
-/// ρ∞: the factor of an oscillation of infinite frequency over one step.
+/// The parameter ρ∞: the factor of an oscillation of infinite frequency over one step.
 const RHO: f64 = 0.8;
 const ALPHA_M: f64 = (2.0 * RHO - 1.0) / (RHO + 1.0);
 const ALPHA_F: f64 = RHO / (RHO + 1.0);
 const GAMMA: f64 = 0.5 + ALPHA_F - ALPHA_M;
 const BETA: f64 = 0.25 * (GAMMA + 0.5) * (GAMMA + 0.5);
-/// ∂a1/∂v'1.
+/// The derivative ∂a1/∂v'1.
 const SHARE: f64 = (1.0 - ALPHA_F) / (1.0 - ALPHA_M);
 
 /// Local errors of q and v divided by h³·y''', by Taylor expansion with a = v'(t + (α_m − α_f)·h).
@@ -35,10 +36,10 @@ const OF_VELOCITY: f64 = 1.0 / 12.0 - 0.5 * LAG * LAG;
 
 /// Largest number of Newton iterations of a step.
 const ITERATIONS: usize = 10;
-/// Increments at which Newton's method may stop, relative to the tolerance: an error of Φ enters λ
-/// multiplied by 1/h².
+/// Increments at which Newton's method may stop, relative to the tolerance: an error of Φ is
+/// multiplied by 1/h² in λ.
 const PERMITTED: f64 = 1e-6;
-/// Increments below this fraction of the state are rounding.
+/// Increments below this fraction of the state count as rounding.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
 
 /// The state of the method at the end of a step.
@@ -49,12 +50,13 @@ struct Memory {
     lambda: Vec<f64>,
 }
 
-/// One step and memory.
+/// One step of the method, with its memory.
 pub(super) struct GeneralizedAlpha<'a> {
     mechanism: &'a Mechanism,
     s: Scratch,
     derivatives: Derivatives,
-    /// Kept rows, and the number of them that are holonomic. Position rows are those of Φq.
+    /// Independent rows, and the number of them that are holonomic. The position rows are those of
+    /// Φq.
     kept: Vec<usize>,
     matrix: Matrix,
     lu: Lu,
@@ -62,14 +64,14 @@ pub(super) struct GeneralizedAlpha<'a> {
     to: Memory,
     /// Size of the last accepted step, the derivative of a over it, and y' at its start.
     before: Option<(f64, Vec<f64>, Vec<f64>)>,
-    /// y' at both ends of the last trial.
+    /// Derivative y' at both ends of the last trial.
     f0: Vec<f64>,
     f1: Vec<f64>,
     x: Vec<f64>,
 }
 
 impl<'a> GeneralizedAlpha<'a> {
-    /// A force that calls a function is refused.
+    /// A force that calls a function is rejected.
     pub(super) fn new(mechanism: &'a Mechanism, kept: &[usize]) -> Result<Self, CalledForce> {
         let (layout, r) = (mechanism.layout(), kept.len());
         let n = layout.n_v + r;
@@ -150,8 +152,8 @@ impl<'a> GeneralizedAlpha<'a> {
         factored.map_err(|_| Fault::Newton)
     }
 
-    /// The negative residuals; rows of constraints are divided by the factor with which v'1 changes
-    /// them.
+    /// Computes the negative residuals; rows of constraints are divided by the factor with which
+    /// v'1 changes them.
     fn residual(&mut self, t: f64, y: &[f64], [c_v, c_q]: [f64; 2]) {
         let (mechanism, layout) = (self.mechanism, self.mechanism.layout());
         let (n, (q, v)) = (layout.n_v, y.split_at(layout.n_q));
@@ -241,7 +243,7 @@ impl Stepper for GeneralizedAlpha<'_> {
             before = size;
         }
         // The error is C·h³·y''', from y' at both ends of the step and at the start of the previous
-        // step, or in the middle.
+        // step, or at the midpoint.
         ode.rhs(t1, y1, &mut self.f1)?;
         let mut third = vec![0.0; y1.len()];
         if let Some((h_before, _, f_before)) = &self.before {
@@ -266,7 +268,7 @@ impl Stepper for GeneralizedAlpha<'_> {
         Ok(trial.norm(&third, y1))
     }
 
-    /// For a method of order 2 with an error estimate of order 2.
+    /// The rule is that for a method of order 2 with an error estimate of order 2.
     fn next_size(&mut self, h: f64, error: f64, is_accepted: bool) -> f64 {
         if is_accepted {
             let slopes = self.to.vd.iter().zip(&self.from.vd);

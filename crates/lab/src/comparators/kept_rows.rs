@@ -1,4 +1,4 @@
-//! Independent rows only: the formulation of pfaff, without its monitors and refinement.
+//! Uses only independent rows: the formulation of pfaff, without its monitors and refinement.
 
 use linalg::{KeptRowSaddle, SaddleError};
 
@@ -13,10 +13,10 @@ pub struct KeptRows {
 }
 
 impl KeptRows {
-    /// A solver that keeps these rows, for n coordinates.
+    /// Creates a solver with these independent rows, for n coordinates.
     ///
     /// # Errors
-    /// If there are more rows than coordinates.
+    /// Returns an error if there are more rows than coordinates.
     pub fn new(n: usize, kept: &[usize]) -> Result<Self, SaddleError> {
         Ok(Self {
             saddle: KeptRowSaddle::new(n, kept.len())?,

@@ -1,9 +1,10 @@
-//! All rows by a complete orthogonal decomposition of fixed rank: accelerations that satisfy
-//! contradicting rows in the sense of least squares, and the multipliers of minimum norm.
+//! Solves with all rows by a complete orthogonal decomposition of fixed rank: accelerations that
+//! satisfy contradicting rows in the sense of least squares, and the multipliers of minimum norm.
 //!
-//! `Cᵀ·P = [Q₁ Q₂]·[R; ≈0]`, R r × m, and `Rᵀ·P' = Q'·R'`: `C⁺ = Q₁·P'·R'⁻¹·Q'ᵀ·Pᵀ`. Source: G. H.
-//! Golub, C. F. Van Loan, Matrix Computations, section 5.4.7; F. E. Udwadia, R. E. Kalaba, Proc. R.
-//! Soc. A 439 (1992) 407–410, DOI 10.1098/rspa.1992.0158.
+//! With `Cᵀ·P = [Q₁ Q₂]·[R; ≈0]`, R r × m, and `Rᵀ·P' = Q'·R'`, the pseudo-inverse is
+//! `C⁺ = Q₁·P'·R'⁻¹·Q'ᵀ·Pᵀ`. Source: G. H. Golub, C. F. Van Loan, Matrix Computations, section
+//! 5.4.7; F. E. Udwadia, R. E. Kalaba, Proc. R. Soc. A 439 (1992) 407–410, DOI
+//! 10.1098/rspa.1992.0158.
 
 use linalg::{Matrix, PivotedQr};
 
@@ -16,7 +17,7 @@ pub struct MinimumNorm {
 }
 
 impl MinimumNorm {
-    /// For rows of this rank.
+    /// Creates a solver for rows of this rank.
     #[must_use]
     pub fn new(rank: usize) -> Self {
         Self { rank }
@@ -30,7 +31,7 @@ impl Solver for MinimumNorm {
         let rows = Matrix::from_fn(m, rank, |i, j| r[(j, i)]);
         let second = PivotedQr::of_columns(&rows);
 
-        // R'·y = Q'ᵀ·Pᵀ·γ, a_p = Q₁·P'·y.
+        // Solves R'·y = Q'ᵀ·Pᵀ·γ and a_p = Q₁·P'·y.
         let mut y: Vec<f64> = qr.permutation().iter().map(|&i| at.gamma[i]).collect();
         second.q_transpose_mul(&mut y);
         y.truncate(rank);
@@ -42,7 +43,7 @@ impl Solver for MinimumNorm {
         qr.q_mul(a);
         move_freely(&qr, rank, at, a)?;
 
-        // R'ᵀ·w = P'ᵀ·Q₁ᵀ·(f − M·a), λ = P·Q'·w.
+        // Solves R'ᵀ·w = P'ᵀ·Q₁ᵀ·(f − M·a) and λ = P·Q'·w.
         let mut left: Vec<f64> = (0..a.len())
             .map(|i| at.force[i] - at.mass[i] * a[i])
             .collect();

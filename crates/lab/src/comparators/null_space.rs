@@ -10,7 +10,7 @@ use linalg::{Lu, Matrix, PivotedQr};
 
 use super::{Fault, Saddle, Solver, dot};
 
-/// Pivots below this fraction of the first are rounding.
+/// Pivots below this fraction of the first count as rounding.
 const LOST: f64 = 1e-14;
 
 /// A solver for all rows, with a fixed rank; multipliers of rows that the pivoting does not select
@@ -20,14 +20,14 @@ pub struct NullSpace {
 }
 
 impl NullSpace {
-    /// For rows of this rank.
+    /// Creates a solver for rows of this rank.
     #[must_use]
     pub fn new(rank: usize) -> Self {
         Self { rank }
     }
 }
 
-/// `Cᵀ·P = Q·R` of the fixed rank.
+/// Factors `Cᵀ·P = Q·R` with the fixed rank.
 ///
 /// # Errors
 /// [`Fault::RankLost`].
@@ -40,7 +40,7 @@ pub(super) fn factored(c: &Matrix, rank: usize) -> Result<PivotedQr, Fault> {
     }
 }
 
-/// `a ← a + Z·w` with `(Zᵀ·M·Z)·w = Zᵀ·(f − M·a)`, Z the last columns of Q.
+/// Updates `a ← a + Z·w` with `(Zᵀ·M·Z)·w = Zᵀ·(f − M·a)`; Z contains the last columns of Q.
 ///
 /// # Errors
 /// [`Fault::Massless`].
@@ -74,14 +74,14 @@ impl Solver for NullSpace {
     fn solve(&mut self, at: &Saddle<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Fault> {
         let (rank, qr) = (self.rank, factored(at.c, self.rank)?);
         let rows = &qr.permutation()[..rank];
-        // R₁ᵀ·y = γ of the first rows, a_p = Q₁·y.
+        // Solves R₁ᵀ·y = γ of the first rows, and a_p = Q₁·y.
         let mut y: Vec<f64> = rows.iter().map(|&i| at.gamma[i]).collect();
         qr.solve_r_transpose(&mut y);
         a.fill(0.0);
         a[..rank].copy_from_slice(&y);
         qr.q_mul(a);
         move_freely(&qr, rank, at, a)?;
-        // R₁·λ = Q₁ᵀ·(f − M·a).
+        // Solves R₁·λ = Q₁ᵀ·(f − M·a).
         let mut left: Vec<f64> = (0..a.len())
             .map(|i| at.force[i] - at.mass[i] * a[i])
             .collect();

@@ -1,15 +1,16 @@
-//! All rows by proximal iterations (an augmented Lagrangian), tuned once:
+//! Solves with all rows by proximal iterations (an augmented Lagrangian), with parameters that are
+//! computed once:
 //!
 //! ```text
 //! (M + C̃ᵀ·C̃/μ)·δ = f − M·a − C̃ᵀ·(λ̃ + (C̃·a − γ̃)/μ),   a ← a + δ,   λ̃ ← λ̃ + (C̃·a − γ̃)/μ,   C̃ = W·C
 //! ```
 //!
-//! W makes the diagonal of C̃·M⁻¹·C̃ᵀ one; μ is compared with its eigenvalues σ². The relative
-//! error in a direction with singular value σ is `(μ/(μ + σ²))^k` after k iterations; a direction
-//! whose singular value is zero on the constraints and δ off them gives accelerations of `k·δ²/μ`:
-//! there a smaller μ is worse. No rank is needed for a solve. Source: J. Carpentier, R. Budhiraja,
-//! N. Mansard, Proximal and sparse resolution of constrained dynamic equations, Robotics: Science
-//! and Systems XVII (2021).
+//! W makes the diagonal of C̃·M⁻¹·C̃ᵀ one; μ is compared with the eigenvalues σ² of this matrix.
+//! The relative error in a direction with singular value σ is `(μ/(μ + σ²))^k` after k iterations.
+//! A direction whose singular value is zero on the constraints and δ off them gives accelerations
+//! of `k·δ²/μ`, so that a smaller μ is worse there. No rank is needed for a solve. Source: J.
+//! Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of constrained dynamic
+//! equations, Robotics: Science and Systems XVII (2021).
 
 use linalg::{Lu, Matrix, singular_values};
 
@@ -18,22 +19,22 @@ use super::{Fault, Saddle, Solver, dot};
 /// Ratio of μ to σ_r²: each iteration reduces the error by a factor of eleven.
 const DECADE: f64 = 0.1;
 
-/// Smallest mass by which tuning divides, relative to the largest: a massless body moves with
-/// others.
+/// Smallest mass by which the computation of the parameters divides, relative to the largest: a
+/// massless body moves with others.
 const LEAST_MASS: f64 = 1e-12;
 
-/// μ and the number of iterations.
+/// The parameter μ and the number of iterations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tuning {
-    /// μ, compared with the eigenvalues of C̃·M⁻¹·C̃ᵀ.
+    /// The parameter μ, compared with the eigenvalues of C̃·M⁻¹·C̃ᵀ.
     pub mu: f64,
-    /// k
+    /// Number of iterations k.
     pub iterations: usize,
 }
 
 impl Tuning {
-    /// μ a decade below σ_r², and so many iterations that the fraction `tolerance` remains in the
-    /// slowest direction.
+    /// Computes a value of μ one decade below σ_r², and the number of iterations after which the
+    /// fraction `tolerance` remains in the slowest direction.
     ///
     /// ```
     /// let tuning = lab::comparators::Tuning::rule(4e-3, 1e-8);
@@ -54,12 +55,13 @@ impl Tuning {
 /// A solver for all rows, of any rank.
 pub struct Proximal {
     tuning: Tuning,
-    /// Diagonal of W.
+    /// Diagonal of the matrix W.
     weights: Vec<f64>,
 }
 
 impl Proximal {
-    /// Weights and tuning for a relative `tolerance` with rows C of this rank and these masses.
+    /// Computes weights and parameters for a relative `tolerance` with rows C of this rank and
+    /// these masses.
     ///
     /// # Errors
     /// [`Fault::RankLost`].
@@ -90,13 +92,13 @@ impl Proximal {
         ))
     }
 
-    /// The same with the tuning and weights of the caller.
+    /// Creates the solver with the parameters and weights of the caller.
     #[must_use]
     pub fn with_tuning(tuning: Tuning, weights: Vec<f64>) -> Self {
         Self { tuning, weights }
     }
 
-    /// μ and the number of iterations.
+    /// Returns μ and the number of iterations.
     #[must_use]
     pub fn tuning(&self) -> Tuning {
         self.tuning

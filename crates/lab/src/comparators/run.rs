@@ -21,7 +21,7 @@ use super::{Fault, KeptRows, MinimumNorm, NullSpace, Proximal, Solver};
 pub struct Row {
     /// Time (s).
     pub t: f64,
-    /// Coordinates, velocities, accelerations.
+    /// Coordinates, velocities and accelerations.
     pub q: Vec<f64>,
     /// Velocities.
     pub v: Vec<f64>,
@@ -51,11 +51,11 @@ pub struct Run {
 /// Largest number of steps of a run.
 const MOST_STEPS: u64 = 1_000_000;
 
-/// Moves a prepared mechanism from t = 0 to the last of `times` (s; ascending and > 0), with a
+/// Simulates a prepared mechanism from t = 0 to the last of `times` (s; ascending and > 0), with a
 /// tolerance that is both relative and absolute.
 ///
 /// # Errors
-/// The reason why the run did not reach the end.
+/// Returns the reason why the run did not reach the end.
 pub fn run(
     prepared: &PreparedMechanism,
     way: Comparator,
@@ -65,10 +65,10 @@ pub fn run(
     run_within(prepared, way, tolerance, times, Duration::MAX)
 }
 
-/// The same, stopped with [`Fault::TooLong`] once it exceeds `budget`.
+/// Like [`run`], but stops with [`Fault::TooLong`] once the run exceeds `budget`.
 ///
 /// # Errors
-/// As [`run`].
+/// Returns the errors of [`run`].
 pub fn run_within(
     prepared: &PreparedMechanism,
     way: Comparator,
@@ -124,7 +124,7 @@ pub fn run_within(
     })
 }
 
-/// The row of a state, projected if the method projects.
+/// Returns the row of a state, projected if the method projects.
 fn observed(equations: &mut Equations<'_>, t: f64, y: &[f64]) -> Result<Row, Fault> {
     let mut y = y.to_vec();
     equations.end(t, &mut y)?;
@@ -169,7 +169,7 @@ fn integrated<'a, M: integrators::Method<Equations<'a>>>(
         &options,
         &wanted,
         |e, t, y| {
-            // A row at a break time shows the state just before it.
+            // A row at a break time contains the state just before it.
             let t = if breaks.contains(&t) {
                 t.next_down()
             } else {

@@ -1,5 +1,5 @@
-//! The loop of steps for methods with their own steppers. Steps end at all requested times, and at
-//! break times.
+//! The loop of steps for methods with their own step control. Steps end at all requested times, and
+//! at break times.
 
 use integrators::Ode;
 use model::System;
@@ -16,16 +16,16 @@ const SHORTEST: f64 = 16.0;
 /// Factor of the step size after a step that failed.
 const AFTER_FAILURE: f64 = 0.5;
 
-/// A method that makes its own steps.
+/// A method with its own steps.
 pub(super) trait Stepper {
-    /// Forgets the previous steps, because the solution may jump here.
+    /// Deletes the stored previous steps, because the solution may jump at this time.
     fn restart(&mut self);
 
-    /// Makes the step from (t, y0) with y0' = f0 over h to y1; returns its error, at most 1 if it
-    /// is small enough.
+    /// Performs the step from (t, y0) with y0' = f0 over h to y1; returns its error, at most 1 if
+    /// it is small enough.
     ///
     /// # Errors
-    /// If there is no such step.
+    /// Returns an error if there is no such step.
     fn step(
         &mut self,
         equations: &mut Equations<'_>,
@@ -38,7 +38,7 @@ pub(super) trait Stepper {
     fn next_size(&mut self, h: f64, error: f64, is_accepted: bool) -> f64;
 }
 
-/// One trial.
+/// One trial of a step.
 pub(super) struct Trial<'a> {
     /// Start and size (s), and the last time at which the equations of the step are valid.
     pub(super) t: f64,
@@ -48,17 +48,17 @@ pub(super) struct Trial<'a> {
     pub(super) is_cut: bool,
     pub(super) y0: &'a [f64],
     pub(super) f0: &'a [f64],
-    /// Relative and absolute.
+    /// The relative and absolute tolerance.
     pub(super) tolerance: f64,
 }
 
 impl Trial<'_> {
-    /// The time at the fraction c of the step.
+    /// Returns the time at the fraction c of the step.
     pub(super) fn time(&self, c: f64) -> f64 {
         (self.t + c * self.h).min(self.last)
     }
 
-    /// `√(1/n · Σ (d/scale)²)` with scale = tolerance·(1 + max(|y0|, |y1|)).
+    /// Returns the norm `√(1/n · Σ (d/scale)²)` with scale = tolerance·(1 + max(|y0|, |y1|)).
     pub(super) fn norm(&self, d: &[f64], y1: &[f64]) -> f64 {
         let terms = d.iter().zip(self.y0.iter().zip(y1));
         let sum: f64 = terms
@@ -71,7 +71,7 @@ impl Trial<'_> {
     }
 }
 
-/// Accepted and rejected steps.
+/// Numbers of accepted and rejected steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Steps {
     pub(super) accepted: u64,
@@ -100,7 +100,7 @@ impl Limits {
 /// 0.
 ///
 /// # Errors
-/// If steps become too short or too many, or if `show` returns an error.
+/// Returns an error if steps become too short or too many, or if `show` returns an error.
 pub(super) fn drive(
     stepper: &mut dyn Stepper,
     equations: &mut Equations<'_>,

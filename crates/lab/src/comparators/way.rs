@@ -3,18 +3,19 @@
 /// The treatment of redundant rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Formulation {
-    /// Independent rows, those of the start.
+    /// Independent rows, selected at the start.
     KeptRows,
     /// Null-space method: a basis of the motions that C allows.
     NullSpace,
     /// All rows by a complete orthogonal decomposition.
     MinimumNorm,
-    /// All rows by proximal iterations, tuned at the start to the tolerance of the run.
+    /// All rows by proximal iterations, with parameters for the tolerance of the run, computed at
+    /// the start.
     Proximal,
 }
 
 impl Formulation {
-    /// All of them.
+    /// All formulations.
     pub const ALL: [Self; 4] = [
         Self::KeptRows,
         Self::NullSpace,
@@ -22,7 +23,7 @@ impl Formulation {
         Self::Proximal,
     ];
 
-    /// Its name in tables.
+    /// Returns the name of the formulation in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -45,13 +46,13 @@ pub enum Method {
     Tsit5,
     /// Extrapolated midpoint rule, order 4 to 18.
     Gbs,
-    /// Generalized-α on positions and kept rows, order 2; the formulation is used for the first
-    /// accelerations and those of rows.
+    /// Generalized-α on positions and independent rows, order 2; the formulation is used for the
+    /// first accelerations and those of rows.
     GeneralizedAlpha,
 }
 
 impl Method {
-    /// All of them.
+    /// All methods.
     pub const ALL: [Self; 5] = [
         Self::Dop853,
         Self::Dopri5,
@@ -60,7 +61,7 @@ impl Method {
         Self::GeneralizedAlpha,
     ];
 
-    /// Its name in tables.
+    /// Returns the name of the method in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -78,28 +79,29 @@ impl Method {
 pub enum Drift {
     /// States are projected in the mass metric after each step.
     Projection,
-    /// Baumgarte's terms: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic rows.
+    /// Baumgarte stabilisation: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic
+    /// rows.
     Baumgarte {
-        /// α (1/s)
+        /// Gain α (1/s).
         alpha: f64,
-        /// β (1/s)
+        /// Gain β (1/s).
         beta: f64,
     },
-    /// No treatment.
+    /// No treatment of drift.
     None,
 }
 
 impl Drift {
-    /// Baumgarte's method with gains of 5/s.
+    /// Baumgarte stabilisation with gains of 5/s.
     pub const BAUMGARTE: Self = Self::Baumgarte {
         alpha: 5.0,
         beta: 5.0,
     };
 
-    /// All of them.
+    /// All treatments of drift.
     pub const ALL: [Self; 3] = [Self::Projection, Self::BAUMGARTE, Self::None];
 
-    /// Its name in tables.
+    /// Returns the name of the treatment in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

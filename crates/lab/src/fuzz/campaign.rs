@@ -1,4 +1,5 @@
-//! Many inputs, several at the same time. A text that fails is shortened and stored in a file.
+//! Tests many inputs, several at the same time. A text that fails is shortened and stored in a
+//! file.
 
 use clap::ValueEnum;
 use std::collections::BTreeMap;
@@ -19,7 +20,8 @@ use crate::fuzz::{input, minimise};
 /// Number of inputs that one process tests.
 const CHUNK: u64 = 2000;
 
-/// Longest time for shortening one text: texts that hang need a deadline for each trial.
+/// Time limit for shortening one text: texts that cause an endless loop need a time limit for each
+/// trial.
 const SHORTEN: Duration = Duration::from_secs(20);
 
 /// A set of inputs to test.
@@ -35,7 +37,7 @@ pub struct Campaign {
     pub inputs: u64,
     /// Number of processes at the same time.
     pub threads: usize,
-    /// How processes are started and limited.
+    /// Settings and limits of the processes.
     pub limits: Limits,
     /// Directory for texts that fail.
     pub found: PathBuf,
@@ -46,11 +48,11 @@ pub struct Campaign {
 pub struct Tally {
     /// Number of texts by the last stage that they reached.
     pub reached: BTreeMap<Reach, u64>,
-    /// Failures by place.
+    /// Failures by their location in the program.
     pub faults: BTreeMap<String, Found>,
 }
 
-/// The failures at one place.
+/// The failures at one location in the program.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// Number of failures.
@@ -67,7 +69,7 @@ impl Campaign {
     /// Tests all inputs. `progress` is called from time to time with the number of finished inputs.
     ///
     /// # Errors
-    /// If processes cannot be started, or texts cannot be stored.
+    /// Returns an error if processes cannot be started, or texts cannot be stored.
     pub fn run(&self, progress: impl Fn(u64) + Sync) -> io::Result<Tally> {
         let next = AtomicU64::new(0);
         let tally = Mutex::new(Tally::default());
@@ -133,7 +135,7 @@ impl Campaign {
         Ok(())
     }
 
-    /// Stores the first input of each place, shortened.
+    /// Stores the first input of each location, shortened.
     fn note(&self, number: u64, fault: Fault, tally: &Mutex<Tally>) -> io::Result<()> {
         let place = fault.place().to_owned();
         {

@@ -1,5 +1,5 @@
-//! Random changes of a text: mostly such that it remains valid TOML, so that the reader of scenes
-//! and the later stages are tested.
+//! Makes random changes of a text: mostly such that it remains valid TOML, so that the reader of
+//! scenes and the later stages are tested.
 
 use crate::fuzz::scenes::{EXTREMES, Space};
 use suite::numbers::Numbers;
@@ -78,7 +78,7 @@ const LINES: [&str; 36] = [
     "allow_correction = true",
 ];
 
-/// More values for a scene in space.
+/// Additional values for a scene in space.
 const SPACE_VALUES: [&str; 16] = [
     "[0, 0, 0]",
     "[0.0, 0.0, 1.0]",
@@ -98,7 +98,7 @@ const SPACE_VALUES: [&str; 16] = [
     "\"global\"",
 ];
 
-/// More lines for a scene in space.
+/// Additional lines for a scene in space.
 const SPACE_LINES: [&str; 14] = [
     "type = \"spherical\"",
     "type = \"universal\"",
@@ -116,7 +116,7 @@ const SPACE_LINES: [&str; 14] = [
     "angular_velocity = [0, 0, 30]",
 ];
 
-/// What a scene of this space is damaged with in addition.
+/// Returns additional changes for a scene in this space.
 fn more(space: Space, words: &'static [&'static str]) -> &'static [&'static str] {
     match space {
         Space::Plane => &[],
@@ -152,8 +152,8 @@ pub fn damaged(space: Space, text: &str, numbers: &mut Numbers) -> String {
         }
         3 => lines.insert(at, one_of(&LINES, more(space, &SPACE_LINES), numbers)),
         4 => {
-            // Repeats a range of lines: elements with the same name, or arrays that are twice as
-            // long.
+            // Repeats a range of lines: the result has elements with the same name, or arrays that
+            // are twice as long.
             let end = (at + 1 + numbers.below(8)).min(lines.len());
             let copy = lines[at..end].to_vec();
             lines.splice(at..at, copy);
@@ -202,7 +202,7 @@ fn with_value_of_another(lines: &[String], at: usize, numbers: &mut Numbers) -> 
     }
 }
 
-/// Replaces one of the quoted texts of the line by another of the file.
+/// Replaces one of the quoted texts of the line by another one of the file.
 fn with_other_name(text: &str, line: &str, numbers: &mut Numbers) -> String {
     let names: Vec<&str> = text.split('"').skip(1).step_by(2).collect();
     let mut parts: Vec<&str> = line.split('"').collect();

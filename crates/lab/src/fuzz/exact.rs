@@ -1,20 +1,20 @@
 //! Independent tests of verdicts: degenerate scenes are drawn in fractions, moved, written as text
-//! with every number rounded once, and judged by exact arithmetic. The results of `analyze` for the
-//! text must be those for the fractions: ranks, verdicts, components, rows, dependencies, and every
-//! sentence.
+//! with every number rounded once, and analysed by exact arithmetic. The results of `analyze` for
+//! the text must be those for the fractions: ranks, verdicts, components, rows, dependencies, and
+//! every sentence.
 //!
-//! The reference shares no code with the program: rows are wrenches, written by virtual work from
-//! points and lines of the drawing, not derivatives of Φ with respect to the coordinates of bodies,
-//! and their ranks come from elimination of whole numbers. One oracle examines the mechanisms of
-//! [`space`](crate::fuzz::space) and drawings of the plane, whose rows are lifted into space.
+//! The reference shares no code with the program. Rows are wrenches, derived by virtual work from
+//! points and lines of the drawing. They are not derivatives of Φ with respect to the coordinates
+//! of bodies. Their ranks come from elimination with integers. One oracle examines the mechanisms
+//! of [`space`](crate::fuzz::space) and planar drawings, whose rows are converted to space.
 //!
 //! | module | content |
 //! | --- | --- |
 //! | [`wrench`] | a mechanism as the wrenches of its rows |
-//! | [`truth`] | elimination, and what follows from it |
-//! | [`expected`] | the right answer as plain data |
+//! | [`truth`] | elimination, and its results |
+//! | [`expected`] | the correct results as plain data |
 //! | [`answer`] | the answer of the program |
-//! | [`examine`] | comparison of the two |
+//! | [`examine`] | comparison of answer and correct results |
 //! | [`findings`] | the errors in an answer |
 //! | [`words`] | comparison of the sentences |
 //! | [`distance`] | comparison of the rank within a tolerance |
@@ -22,22 +22,22 @@
 //! | [`outcome`] | the result for one scene |
 //! | [`tally`] | the suites, and the results for many scenes |
 //!
-//! Of the plane:
+//! The families in the plane are:
 //!
 //! | module | content |
 //! | --- | --- |
 //! | [`ratio`] | fractions, and sums with one square root |
 //! | [`drawing`] | bodies and joints at one configuration, in fractions |
-//! | [`families`] | kinds of degenerate drawings, with similar ones that are not degenerate |
-//! | [`pose`] | how a drawing is written: moved, turned, swapped, in another order |
+//! | [`families`] | families of degenerate drawings, with similar drawings that are not degenerate |
+//! | [`pose`] | writings of a drawing: translated, rotated, swapped, in another order |
 //! | [`text`] | the scene as text |
 //! | [`lift`] | its rows as wrenches in space |
 //! | [`doubles`] | a drawing in double precision, at any configuration and for any data |
 //! | [`minimax`] | the smallest change of data that satisfies equations, between proved bounds |
-//! | [`near`] | the distance of the data from a lower rank, computed with these two |
+//! | [`near`] | the distance of the data from a lower rank, computed with `doubles` and `minimax` |
 //! | [`loads`] | reactions under gravity, in double precision |
-//! | [`within`] | the answers within a tolerance, compared with these |
-//! | [`rounded`] | scenes with few digits, and scenes of full rank near a lower one |
+//! | [`within`] | comparison of the answers within a tolerance |
+//! | [`rounded`] | scenes with few digits, and scenes of full rank near a lower rank |
 
 pub mod answer;
 pub mod deletions;
@@ -70,18 +70,18 @@ use drawing::Drawing;
 use families::Family;
 use pose::{Posed, Writing};
 
-/// One scene: a drawing, and how it is written.
+/// One scene: a drawing in one writing.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Its family.
+    /// Family of the scene.
     pub family: Family,
-    /// How it is written.
+    /// Writing of the drawing.
     pub writing: Writing,
     /// The drawing after the move, with its elements in the order of the file.
     pub posed: Posed,
 }
 
-/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, written in the ways of
+/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, in the writings of
 /// [`Writing::ALL`].
 #[must_use]
 pub fn scene(seed: u64, number: u64) -> Scene {

@@ -1,8 +1,9 @@
-//! Sets of quadratic forms with whole coefficients: does [`solvability::common_zero`] decide
-//! correctly whether they have a common zero? A decision in whole numbers says what is true.
+//! Sets of quadratic forms with integer coefficients test whether [`solvability::common_zero`]
+//! decides correctly if they have a common zero. An independent decision with integers gives the
+//! correct result.
 //!
-//! Half of the sets are planted: with a common zero of whole numbers, with a double zero, or as the
-//! forms of mechanisms at symmetric poses. The others are random.
+//! Half of the sets are constructed: with a common zero of integers, with a double zero, or as the
+//! forms of mechanisms at symmetric configurations. The other sets are random.
 
 mod polynomial;
 mod truth;
@@ -16,23 +17,23 @@ use solvability::{CommonZero, common_zero};
 use suite::numbers::Numbers;
 use truth::{Truth, all_vanish, has_zero_near, value};
 
-/// A symmetric matrix of whole numbers.
+/// A symmetric matrix of integers.
 type Form = Vec<Vec<i64>>;
 
-/// Where a set of forms comes from.
+/// Origin of a set of forms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
     /// Random coefficients.
     Random,
-    /// With a common zero of whole numbers.
+    /// Forms with a common zero of integers.
     Zero,
-    /// With a common zero at which the gradients depend on each other.
+    /// Forms with a common zero at which the gradients are dependent.
     Double,
-    /// Of a mechanism at a symmetric pose.
+    /// Forms of a mechanism at a symmetric configuration.
     Mechanism,
 }
 
-/// A set of forms, with a zero that was planted.
+/// A set of forms, with a constructed zero if there is one.
 #[derive(Clone, Debug)]
 pub struct Forms {
     origin: Origin,
@@ -41,7 +42,7 @@ pub struct Forms {
 }
 
 impl Forms {
-    /// The set of this number: two to four unknowns, every other one planted.
+    /// Draws the set with this number: two to four unknowns, and every second set is constructed.
     #[must_use]
     pub fn draw(seed: u64, number: u64) -> Self {
         let mut n = Numbers::new(seed ^ number.wrapping_mul(0x2545_f491_4f6c_dd1d));
@@ -88,11 +89,11 @@ impl Forms {
     fn decided(&self) -> CommonZero {
         let matrix = |f: &Form| Matrix::from_fn(f.len(), f.len(), |i, j| f[i][j] as f64);
         let forms: Vec<Matrix> = self.forms.iter().map(matrix).collect();
-        // Whole numbers are exact.
+        // Integers are exact.
         common_zero(&forms, 0.0)
     }
 
-    /// Compares the decision with what is true.
+    /// Compares the decision with the correct result.
     fn compared(&self) -> Outcome {
         let planted = self
             .zero
@@ -113,8 +114,8 @@ impl Forms {
                 }
             }
             (_, Truth::None) => Outcome::Undecided { is_double: false },
-            // A simple zero of one form is decided; common ones of two forms or more in two
-            // unknowns are roots that coincide.
+            // A simple zero of one form is decided; common zeros of two or more forms in two
+            // unknowns are coincident roots.
             (_, Truth::Simple) => Outcome::Undecided { is_double: false },
             (_, Truth::Double) => Outcome::Undecided { is_double: true },
             (_, Truth::Open) => Outcome::Undecided { is_double: planted },
@@ -122,7 +123,7 @@ impl Forms {
     }
 }
 
-/// Coefficients of −9 to 9.
+/// Returns coefficients from −9 to 9.
 fn random(n: &mut Numbers, unknowns: usize) -> Form {
     let mut form = vec![vec![0; unknowns]; unknowns];
     for i in 0..unknowns {
@@ -137,7 +138,7 @@ fn random(n: &mut Numbers, unknowns: usize) -> Form {
     form
 }
 
-/// A point with one coordinate that is 1.
+/// Returns a point with one coordinate that is 1.
 fn point(n: &mut Numbers, unknowns: usize) -> Vec<i64> {
     let one = n.below(unknowns);
     (0..unknowns)
@@ -151,15 +152,15 @@ fn point(n: &mut Numbers, unknowns: usize) -> Vec<i64> {
         .collect()
 }
 
-/// The form minus `f(p)·x_k²`, with `p_k = 1`: zero at p.
+/// Returns the form minus `f(p)·x_k²`, with `p_k = 1`, which is zero at p.
 fn through(mut form: Form, p: &[i64]) -> Form {
     let k = p.iter().position(|x| *x == 1).unwrap_or(0);
     form[k][k] -= value(&form, p);
     form
 }
 
-/// Forms through p whose gradients there are parallel: f and `c·f + (∇f(p)·x)²`-like ones. A single
-/// form is the square of a linear one.
+/// Returns forms through p whose gradients there are parallel: f, and forms like
+/// `c·f + (∇f(p)·x)²`. A single form is the square of a linear form.
 fn double(n: &mut Numbers, count: usize, p: &[i64]) -> Vec<Form> {
     let unknowns = p.len();
     let square = |l: &[i64], c: i64| -> Form {
@@ -174,7 +175,7 @@ fn double(n: &mut Numbers, count: usize, p: &[i64]) -> Vec<Form> {
         .collect();
     let is_flat = gradient.iter().all(|g| *g == 0);
     if count == 1 || is_flat {
-        // l·p = 0
+        // The linear form satisfies l·p = 0.
         let (a, b) = (n.below(unknowns), n.below(unknowns));
         let mut l = vec![0; unknowns];
         l[a] += p[b];
@@ -197,7 +198,7 @@ fn double(n: &mut Numbers, count: usize, p: &[i64]) -> Vec<Form> {
     forms
 }
 
-/// Forms of mechanisms at symmetric poses.
+/// Returns forms of mechanisms at symmetric configurations.
 fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
     let zero = || vec![vec![0; unknowns]; unknowns];
     let add = |form: &mut Form, i: usize, j: usize, c: i64| {
@@ -207,7 +208,7 @@ fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
         }
     };
     match n.below(3) {
-        // A straight chain between two pins, with rods that point forward or back: Σ ±(y − y')²/l,
+        // A straight chain between two pins has rods that point forward or back: Σ ±(y − y')²/l,
         // times 12.
         0 => {
             let mut form = zero();
@@ -225,7 +226,8 @@ fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
             }
             vec![form]
         }
-        // Platforms on three equal legs, two freedoms each: x² − y² and x·y, seen from turned axes.
+        // Platforms on three equal legs have two freedoms each: x² − y² and x·y, described in
+        // rotated axes.
         1 => {
             let mut forms = Vec::new();
             for k in 0..unknowns / 2 {
@@ -249,7 +251,8 @@ fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
             }
             forms
         }
-        // A row of flat four-bars: (v' − v)·[(v' + v)/L − (v' − v)/d] = 0 for each coupler.
+        // A row of four-bars in the singular configuration: (v' − v)·[(v' + v)/L − (v' − v)/d] = 0
+        // for each coupler.
         _ => {
             let (length, pitch) = (i64::from(n.between(1, 6)), i64::from(n.between(7, 9)));
             (1..unknowns)
@@ -265,7 +268,7 @@ fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
     }
 }
 
-/// What came of one set.
+/// Result for one set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Outcome {
     None,
@@ -275,17 +278,17 @@ enum Outcome {
     Wrong,
 }
 
-/// What came of many sets.
+/// Results for many sets.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     counts: BTreeMap<(usize, Origin, Outcome), u64>,
-    /// Numbers of the sets that were decided wrongly, and of those in two unknowns that were not
+    /// Numbers of the sets with a wrong decision, and of the sets in two unknowns that were not
     /// decided although no roots coincide.
     pub faults: Vec<(u64, String)>,
 }
 
 impl Tally {
-    /// Of the sets `from`, … of a seed; `done` is called after each.
+    /// Tests the sets of a seed, beginning with `from`; `done` is called after each.
     #[must_use]
     pub fn of(seed: u64, from: u64, sets: u64, done: impl Fn()) -> Self {
         let mut tally = Self::default();
@@ -304,7 +307,8 @@ impl Tally {
         tally
     }
 
-    /// How many sets of random forms in so many unknowns were not decided, and how many there are.
+    /// Returns how many sets of random forms in this number of unknowns were not decided, and how
+    /// many there are.
     #[must_use]
     pub fn undecided(&self, unknowns: usize) -> [u64; 2] {
         let random = self.counts.iter();
@@ -316,15 +320,15 @@ impl Tally {
         })
     }
 
-    /// Whether none is wrong, in two unknowns only what coincides is open, and in three at most one
-    /// of twenty random sets.
+    /// Whether no decision is wrong, only coincident zeros are undecided in two unknowns, and in
+    /// three unknowns at most one of twenty random sets.
     #[must_use]
     pub fn passes(&self) -> bool {
         let [open, all] = self.undecided(3);
         self.faults.is_empty() && 20 * open <= all
     }
 
-    /// A table, and a line for each fault.
+    /// Returns a table, and a line for each fault.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = String::new();

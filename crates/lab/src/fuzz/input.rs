@@ -1,4 +1,4 @@
-//! The text of an input, determined by the seed of a campaign and a number.
+//! Generates the text of an input, determined by the seed of a campaign and a number.
 
 use std::sync::LazyLock;
 
@@ -13,10 +13,10 @@ use crate::fuzz::space::text::text as scene_of;
 /// Largest number of changes of one text.
 const DAMAGES: usize = 4;
 
-/// The text of input `number`: a random scene, or a known one; half of them damaged.
+/// Returns the text of input `number`: a random scene, or a known one; half of them are damaged.
 #[must_use]
 pub fn text(space: Space, seed: u64, number: u64) -> String {
-    // Each input has its own seed from one random number, so that consecutive inputs are
+    // Each input has a separate seed from one random number, so that consecutive inputs are
     // independent.
     let mut numbers = Numbers::new(seed ^ Numbers::new(number).bits());
     let from_suite = numbers.once_in(4);
@@ -34,7 +34,7 @@ pub fn text(space: Space, seed: u64, number: u64) -> String {
     text
 }
 
-/// A scene of the suite; in space, of the catalogue.
+/// Returns a scene of the suite, or in space a scene of the catalogue.
 fn known(space: Space, numbers: &mut Numbers) -> String {
     static PLANE: LazyLock<Vec<String>> = LazyLock::new(|| {
         let suite = suite::all().map(|case| case.scene).chain([suite::ROBOT]);
@@ -51,7 +51,7 @@ fn known(space: Space, numbers: &mut Numbers) -> String {
     all[numbers.below(all.len())].clone()
 }
 
-/// The catalogue judges one instant: here it moves, too.
+/// The catalogue describes one instant; here the mechanism also moves.
 fn drawn(drawing: &Drawing) -> String {
     scene_of(drawing) + "\n[simulate]\nt_end = 0.2\n"
 }

@@ -1,5 +1,5 @@
-//! The shortest text with the same failure: ranges of lines are removed, long ones first, then
-//! parts of lines (Zeller and Hildebrandt 2002, doi 10.1109/32.988498, without complements).
+//! Finds the shortest text with the same failure: ranges of lines are removed, long ones first,
+//! then parts of lines (Zeller and Hildebrandt 2002, doi 10.1109/32.988498, without complements).
 
 /// Shortens a text as long as `fails` is true.
 #[must_use]
@@ -44,7 +44,7 @@ fn shorten(pieces: &mut Vec<String>, mut fails: impl FnMut(&[String]) -> bool) {
     }
 }
 
-/// The words of a line; separators stay with the word before.
+/// Returns the words of a line; separators belong to the preceding word.
 fn words(line: &str) -> Vec<String> {
     line.split_inclusive([',', ' '])
         .map(str::to_owned)

@@ -1,8 +1,9 @@
-//! Parallelograms that turn through their flat poses at speed, where another branch of motion
-//! begins: near the origin and a thousand kilometres from it, by every method.
+//! Parallelograms rotate at speed through their singular configurations, at which another branch of
+//! motion begins. They are near the origin or a thousand kilometres away from it, and every method
+//! is tested.
 //!
-//! What is right has a closed form. All cranks keep one angle θ, so the coupler does not turn, and
-//! `½·I·θ̇² + W·sin θ` keeps its value with `I = Σ (J + m·l²/4) + M·l²` and
+//! The correct result has a closed form. All cranks have one angle θ, so the coupler does not
+//! rotate. The energy `½·I·θ̇² + W·sin θ` is constant with `I = Σ (J + m·l²/4) + M·l²` and
 //! `W = g·l·(n·m/2 + M)`; without gravity θ = θ₀ + ω·t.
 
 use std::collections::BTreeMap;
@@ -16,24 +17,24 @@ use model::{Mechanism, StartOptions};
 use crate::mechanisms::cranks::cranks_at;
 use suite::numbers::Numbers;
 
-/// How far from the origin the far ones stand at most (m).
+/// Largest distance of the far parallelograms from the origin (m).
 const FAR: f64 = 1e6;
 
-/// How long they turn (s).
+/// Duration of the motion (s).
 const SECONDS: f64 = 5.0;
 
-/// A run that stops is to say so within this time of its processor.
+/// A run that stops must report this within this processor time.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What angles and energies may be off by, in tolerances, and at least: a few dozen passages,
-/// each of which may miss its tolerance by a factor of ten.
+/// Error bounds of angles and energies in tolerances, and their smallest values: a few dozen
+/// singular configurations, each of which may exceed its tolerance by a factor of ten.
 const TOLERANCES: f64 = 1e4;
 
-/// No step of a run ends nearer to a flat pose than this (share of pivots; here the angle to it,
-/// in radians): a limit of the product, repeated here.
+/// No step of a run ends nearer to a singular configuration than this value (fraction of pivots;
+/// here the angle to it, in radians): a limit of the product, repeated here.
 const NEAREST: f64 = 1e-3;
 
-/// Stands in for gravity (m/s²).
+/// Acceleration of gravity (m/s²).
 const GRAVITY: f64 = 9.81;
 
 /// One run.
@@ -53,13 +54,13 @@ pub struct Parallelogram {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// On the right branch at every row.
+    /// The run is on the correct branch at every row.
     Right,
-    /// With an error by name.
+    /// The run stopped with an error.
     Stopped {
-        /// What it says.
+        /// Text of the error.
         error: String,
-        /// Whether it said so within a second of its processor.
+        /// Whether the error was reported within a second of processor time.
         in_time: bool,
     },
     /// A row contradicts the closed form.
@@ -84,7 +85,7 @@ impl fmt::Display for Parallelogram {
 }
 
 impl Parallelogram {
-    /// The one of this number; every other one stands far from the origin.
+    /// Draws the run with this number; every second one is far from the origin.
     #[must_use]
     pub fn draw(seed: u64, number: u64) -> Self {
         let mut n = Numbers::new(seed ^ number.wrapping_mul(0x2545_f491_4f6c_dd1d));
@@ -116,26 +117,27 @@ impl Parallelogram {
         }
     }
 
-    /// Whether it stands far from the origin.
+    /// Whether the parallelogram is far from the origin.
     #[must_use]
     pub fn is_far(&self) -> bool {
         self.origin != [0.0; 2]
     }
 
-    /// What rounding of the coordinates may change the speed by, as a share of it.
+    /// Relative change of the speed that rounding of the coordinates may cause.
     ///
-    /// Coordinates at a distance D from the origin are known to `ε·D`, so the angles of cranks of
-    /// length l to `ε·D/l`. At an angle σ to the flat pose the ratio of their speeds is wrong by
-    /// that over σ, and a step that begins or ends there hands the error on to the speed of all
-    /// cranks. Steps end at various σ, so the passage with the least one decides. The angle is then
-    /// off by this share of what has been turned, the energy by twice this share. Within 2 m of
-    /// the origin it is below 3e-12, and on another branch angles are off by some radians.
+    /// Coordinates at a distance D from the origin are accurate to `ε·D`, so the angles of cranks
+    /// of length l are accurate to `ε·D/l`. At an angle σ to the singular configuration the ratio
+    /// of their speeds has an error of this value divided by σ. A step that begins or ends there
+    /// transfers the error to the speed of all cranks. Steps end at various values of σ, so the
+    /// singular configuration with the smallest value decides. The angle then has an error of this
+    /// fraction of the rotation, and the energy of twice this fraction. Within 2 m of the origin
+    /// the value is below 3e-12, and on another branch angles have errors of some radians.
     fn speed_error(&self) -> f64 {
         let distance = self.origin[0].hypot(self.origin[1]);
         f64::EPSILON * (distance + self.length) / (self.length * NEAREST)
     }
 
-    /// Runs it and compares every row with the closed form.
+    /// Performs the run and compares every row with the closed form.
     #[must_use]
     pub fn run(&self) -> Verdict {
         let clock = Clock::start();
@@ -208,8 +210,8 @@ impl Parallelogram {
     }
 }
 
-/// The time of a thread: of the processor, which others on the machine do not change, or, where
-/// the system does not tell that, of the clock on the wall.
+/// The time of a thread: its processor time, which other processes do not change, or the wall-clock
+/// time if the system does not report it.
 struct Clock {
     wall: Instant,
     processor: Option<Duration>,
@@ -223,7 +225,7 @@ impl Clock {
         }
     }
 
-    /// Since the start.
+    /// Returns the time since the start.
     fn elapsed(&self) -> Duration {
         match (self.processor, Self::processor()) {
             (Some(then), Some(now)) => now.saturating_sub(then),
@@ -231,7 +233,7 @@ impl Clock {
         }
     }
 
-    /// What the thread has used so far; Linux tells it in nanoseconds.
+    /// Returns the processor time of the thread; Linux reports it in nanoseconds.
     fn processor() -> Option<Duration> {
         let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
         let used = told.split_whitespace().next()?.parse().ok()?;
@@ -239,17 +241,17 @@ impl Clock {
     }
 }
 
-/// What came out of many runs.
+/// Results of many runs.
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
-    /// By method and place: right ones, and all.
+    /// Number of correct runs and of all runs, by method and position.
     pub counts: BTreeMap<(String, bool), [u64; 2]>,
-    /// Runs that stopped, or were wrong: which, and what was said.
+    /// Runs that stopped or were wrong: their numbers, and their results.
     pub others: Vec<(u64, Parallelogram, Verdict)>,
 }
 
 impl Tally {
-    /// Of the runs `from`, … of a seed; `done` is called after each.
+    /// Performs the runs of a seed, beginning with `from`; `done` is called after each.
     #[must_use]
     pub fn of(seed: u64, from: u64, runs: u64, done: impl Fn()) -> Self {
         let mut tally = Self::default();
@@ -269,14 +271,14 @@ impl Tally {
         tally
     }
 
-    /// Right ones, and all.
+    /// Returns the number of correct runs, and of all runs.
     #[must_use]
     pub fn right(&self) -> [u64; 2] {
         let counts = self.counts.values();
         counts.fold([0, 0], |[a, b], [right, all]| [a + right, b + all])
     }
 
-    /// Whether none is wrong, none stopped late, and at least 97 of 100 passed.
+    /// Whether no run is wrong, no run stopped late, and at least 97 of 100 passed.
     #[must_use]
     pub fn passes(&self) -> bool {
         let in_time = |verdict: &Verdict| matches!(verdict, Verdict::Stopped { in_time: true, .. });
@@ -284,7 +286,7 @@ impl Tally {
         self.others.iter().all(|(_, _, v)| in_time(v)) && 100 * right >= 97 * all
     }
 
-    /// A table, and a line for each that did not pass.
+    /// Returns a table, and a line for each run that did not pass.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = String::new();
@@ -320,7 +322,7 @@ impl Tally {
 mod tests {
     use super::*;
 
-    /// As many as were asked for; every method is among them.
+    /// The number of runs is the requested one, and every method is among them.
     #[test]
     fn parallelograms_pass_their_flat_poses_at_speed() {
         let tally = Tally::of(1, 0, 150, || {});
@@ -328,7 +330,7 @@ mod tests {
         assert_eq!(tally.counts.len(), 8, "{:?}", tally.counts);
     }
 
-    /// Rounding explains nothing near the origin, and far away less than a ten-thousandth of a
+    /// Near the origin rounding explains no error, and far away less than a ten-thousandth of a
     /// radian.
     #[test]
     fn rounding_explains_errors_far_from_the_origin_only() {
@@ -341,8 +343,8 @@ mod tests {
         }
     }
 
-    /// Rounding at a passage far from the origin changes the speed by 4e-8 of it, and so the angle
-    /// by 1.0e-6 rad four seconds later.
+    /// Rounding at a singular configuration far from the origin changes the speed by a relative
+    /// 4e-8, and so the angle by 1.0e-6 rad four seconds later.
     #[test]
     fn a_passage_far_away_is_as_good_as_its_coordinates_are_known() {
         let one = Parallelogram::draw(202, 129);

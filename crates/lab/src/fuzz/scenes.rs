@@ -1,5 +1,5 @@
 //! A random scene: every joint, drive, force and function of time, on bodies that are mostly placed
-//! on a coarse grid, so that parallel axes, coinciding points and redundant loops are frequent.
+//! on a coarse grid, so that parallel axes, coincident points and redundant loops are frequent.
 
 mod draft;
 mod functions;
@@ -16,7 +16,8 @@ use draft::Draft;
 pub use draft::Space;
 pub(crate) use values::{EXTREMES, Values};
 
-/// The text of a random scene. Most can be read, many can be assembled, some can move.
+/// Returns the text of a random scene. Most scenes can be read, many can be assembled, and some can
+/// move.
 #[must_use]
 pub fn random(space: Space, numbers: &mut Numbers) -> String {
     let mut draft = Draft {

@@ -1,10 +1,10 @@
 //! Independent tests of verdicts in space: mechanisms with planted redundancy are drawn in
-//! fractions, moved, written as text with every number rounded once, and judged by exact
+//! fractions, moved, written as text with every number rounded once, and analysed by exact
 //! arithmetic.
 //!
-//! The reference shares no code with the program: its rows are wrenches, written by virtual work
-//! from the places and axes of the joints in the axes of the ground. Nothing is differentiated, and
-//! ranks come from elimination of whole numbers.
+//! The reference shares no code with the program: its rows are wrenches, derived by virtual work
+//! from the points and axes of the joints in the axes of the ground. The reference uses no
+//! derivatives, and ranks come from elimination with integers.
 //!
 //! ```
 //! use lab::fuzz::space::{Drawing, Expected, text};
@@ -24,15 +24,15 @@
 //! | [`mod@drawing`] | bodies, joints and drives at one configuration |
 //! | [`kind`] | types of joints |
 //! | [`rows`] | constraint rows as screws |
-//! | [`catalogue`] | mechanisms whose answer is known by hand |
+//! | [`catalogue`] | mechanisms with results derived by hand |
 //! | [`families`] | random mechanisms with planted redundancy |
-//! | [`relatives`] | the same with a weaker joint or a turned axis |
-//! | [`pose`] | how a drawing is written: moved, other frames, another order |
+//! | [`relatives`] | the same mechanisms with fewer rows in a joint, or with a rotated axis |
+//! | [`pose`] | writings of a drawing: moved, other frames, another order |
 //! | [`text`] | the scene as text |
 //! | [`mod@examine`] | comparison of the answer of the program with exact arithmetic |
-//! | [`lifted`] | scenes of the plane in space |
+//! | [`lifted`] | planar scenes converted to space |
 //! | [`graph`] | cycles of the joints that keep bodies in the plane |
-//! | [`permanence`] | whether a redundancy belongs to the mechanism or to its pose |
+//! | [`permanence`] | whether a redundancy belongs to the mechanism or to its configuration |
 //! | [`within`] | comparison of the answers for few digits |
 
 pub mod catalogue;
@@ -63,20 +63,20 @@ use families::Family;
 use pose::Writing;
 use text::Precision;
 
-/// One scene: a drawing, and how it is written.
+/// One scene: a drawing in one writing.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// Its number.
+    /// Number of the scene.
     pub number: u64,
-    /// Its family.
+    /// Family of the scene.
     pub family: Family,
-    /// How it is written.
+    /// Writing of the drawing.
     pub writing: Writing,
     /// The drawing after the move, with its elements in the order of the file.
     pub drawing: Drawing,
 }
 
-/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, written in the ways of
+/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, in the writings of
 /// [`Writing::ALL`].
 #[must_use]
 pub fn scene(seed: u64, number: u64) -> Scene {
@@ -94,19 +94,19 @@ pub fn scene(seed: u64, number: u64) -> Scene {
     }
 }
 
-/// The scenes of a seed, without end.
+/// Returns the infinite sequence of scenes of a seed.
 pub fn scenes(seed: u64) -> impl Iterator<Item = Scene> {
     (0..).map(move |number| scene(seed, number))
 }
 
 impl Drawing {
-    /// The text with all digits of a double, and the right answer.
+    /// Returns the text with all digits of a double, and the correct result.
     #[must_use]
     pub fn judged(&self) -> (String, Expected) {
         (text::text(self), Expected::of(self))
     }
 
-    /// The text with some significant digits and the tolerance that belongs to them.
+    /// Returns the text with some significant digits and the corresponding tolerance.
     #[must_use]
     pub fn rounded(&self, digits: usize) -> String {
         text::text_within(self, &Precision::of_digits(self, digits))

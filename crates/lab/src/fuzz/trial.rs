@@ -1,7 +1,7 @@
-//! Tests one text by passing it to the library in the same way as the commands do: check, analyze,
+//! Tests one text by passing it to the library in the same way as the commands: check, analyze,
 //! simulate. The results must be consistent.
 //!
-//! A failed test panics: a trial runs in a process that is supervised.
+//! A failed test panics: each trial runs in a supervised process.
 
 mod judged;
 mod moved;
@@ -30,10 +30,10 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// All of them, in their order.
+    /// All stages, in their order.
     pub const ALL: [Self; 4] = [Self::Read, Self::Prepare, Self::Judge, Self::Move];
 
-    /// Its letter in the answers of a process.
+    /// Returns its letter in the answers of a process.
     #[must_use]
     pub fn letter(self) -> char {
         match self {
@@ -48,7 +48,7 @@ impl Stage {
 /// Tests a text and reports each stage before it begins.
 ///
 /// # Panics
-/// If the library panics, or its results are inconsistent.
+/// Panics if the library panics, or if its results are inconsistent.
 #[must_use]
 pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     begin(Stage::Read);
@@ -82,7 +82,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
                 }
                 Err(e) => {
                     named(&e);
-                    // `check` and `analyze` warn of a start that `simulate` refuses, and all accept
+                    // `check` and `analyze` warn of a start that `simulate` rejects, and all accept
                     // the same inputs.
                     assert!(!e.is_input(), "a start that can be judged is refused: {e}");
                     Reach::NoStart
@@ -106,15 +106,15 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     begin(Stage::Move);
     let warning = study.cannot_begin();
     let (reach, rows) = moved::check(&study);
-    // `check` and `analyze` warn of a start that `simulate` refuses.
+    // `check` and `analyze` warn of a start that `simulate` rejects.
     assert!(
         rows > 0 || warning.is_some(),
-        "no motion begins, and nobody was warned"
+        "no motion begins, and there was no warning"
     );
     reach
 }
 
-/// Asserts that there are problems and that their places are in the text.
+/// Asserts that there are problems and that their positions are in the text.
 fn places(text: &str, problems: &[Diagnostic]) {
     assert!(!problems.is_empty(), "refused without a reason");
     for problem in problems {

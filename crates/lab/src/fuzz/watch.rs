@@ -1,5 +1,5 @@
-//! Processes that test texts, with limits of time and memory. A process that ends too early, or
-//! does not answer in time, has found a failure.
+//! Processes that test texts, with limits of time and memory. If a process ends too early, or does
+//! not answer in time, this is a failure.
 
 use std::io::{self, Read, Write};
 use std::path::PathBuf;
@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 
 use crate::fuzz::trial::{Reach, Stage};
 
-/// How a process is started, and its limits.
+/// Program of a process, and its limits.
 #[derive(Clone, Debug)]
 pub struct Limits {
-    /// The program.
+    /// Path of the program.
     pub program: PathBuf,
     /// Longest time for one text.
     pub deadline: Duration,
@@ -26,12 +26,12 @@ pub struct Limits {
 pub enum Fault {
     /// The process ended: a panic, a stack overflow, no memory.
     Died {
-        /// Place and cause: the line of the panic, or how the process ended.
+        /// Location and cause: the line of the panic, or the way in which the process ended.
         place: String,
-        /// Its last output.
+        /// Last output of the process.
         words: String,
     },
-    /// It took too long.
+    /// The trial took too long.
     Hung {
         /// The stage that took too long.
         place: String,
@@ -39,7 +39,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// The common property of two faults with the same cause.
+    /// Returns the common property of two faults with the same cause.
     #[must_use]
     pub fn place(&self) -> &str {
         match self {
@@ -51,7 +51,7 @@ impl Fault {
 /// Tests one text.
 ///
 /// # Errors
-/// If the process cannot be started.
+/// Returns an error if the process cannot be started.
 pub fn one(limits: &Limits, text: &str) -> io::Result<Result<Reach, Fault>> {
     let mut worker = Worker::begin(limits, &["try", "-"], Some(text))?;
     let answer = worker.answer(limits.deadline);
@@ -68,10 +68,10 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Starts it.
+    /// Starts the process.
     ///
     /// # Errors
-    /// If there is no such program, or no more processes are allowed.
+    /// Returns an error if there is no such program, or if no more processes are allowed.
     pub fn begin(limits: &Limits, arguments: &[&str], input: Option<&str>) -> io::Result<Self> {
         let mut command = if cfg!(unix) {
             let mut shell = Command::new("sh");
@@ -90,7 +90,7 @@ impl Worker {
             .stderr(Stdio::piped())
             .spawn()?;
         if let (Some(mut stdin), Some(text)) = (child.stdin.take(), input) {
-            // The process may have died already; then it does not answer.
+            // The process may already have ended; then it does not answer.
             let _ = stdin.write_all(text.as_bytes());
         }
         let (send, answers) = channel();
@@ -118,10 +118,10 @@ impl Worker {
         })
     }
 
-    /// The answer for the next text.
+    /// Returns the answer for the next text.
     ///
     /// # Errors
-    /// [`Fault`] if there is no answer.
+    /// Returns a [`Fault`] if there is no answer.
     pub fn answer(&mut self, deadline: Duration) -> Result<Reach, Fault> {
         let (end, mut stage) = (Instant::now() + deadline, None);
         loop {
@@ -158,9 +158,9 @@ impl Worker {
         Fault::Died { place, words }
     }
 
-    /// Ends the process at once.
+    /// Ends the process immediately.
     pub fn end(mut self) {
-        // It may have ended by itself.
+        // The process may have ended by itself.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

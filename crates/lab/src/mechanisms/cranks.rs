@@ -5,14 +5,14 @@ use model::{Body, BodyRef, Description, Drive, Function, Joint};
 
 use super::{revolute, rod};
 
-/// Cranks of length `length` at angle θ (from the x-axis) on ground pivots `(x, 0)`, under one
-/// horizontal coupler. Body k is crank k, the last one the coupler; joint 2k is the ground pivot of
-/// crank k, joint 2k + 1 its tip.
+/// Returns cranks of length `length` at angle θ (from the x-axis) on ground pivots `(x, 0)`, under
+/// one horizontal coupler. Body k is crank k, and the last body is the coupler; joint 2k is the
+/// ground pivot of crank k, joint 2k + 1 its tip.
 pub fn cranks(pivots: &[f64], length: f64, theta: f64) -> Description {
     cranks_at([0.0; 2], pivots, length, theta)
 }
 
-/// The same with all of it moved by `origin`.
+/// Returns the same mechanism, translated by `origin`.
 pub fn cranks_at(origin: [f64; 2], pivots: &[f64], length: f64, theta: f64) -> Description {
     let pivot = |x: f64| [origin[0] + x, origin[1]];
     let tip = |x: f64| {
@@ -55,7 +55,7 @@ pub fn cranks_at(origin: [f64; 2], pivots: &[f64], length: f64, theta: f64) -> D
     }
 }
 
-/// A drive of the angle of body k.
+/// Returns a drive of the angle of body k.
 pub fn motor(name: &str, k: usize, motion: Function) -> Drive {
     // The angle needs no points.
     let element = RevoluteAngleDrive::new([0.0; 2], [0.0; 2]);
@@ -68,7 +68,8 @@ pub fn motor(name: &str, k: usize, motion: Function) -> Drive {
     }
 }
 
-/// A parallelogram at θ = 1 with a drive on either crank, `one` and `other`: one drive too many.
+/// Returns a parallelogram at θ = 1 with a drive on either crank, `one` and `other`: one drive is
+/// redundant.
 pub fn driven_parallelogram(motions: [Function; 2]) -> Description {
     let mut d = cranks(&[0.0, 1.0], 0.5, 1.0);
     let [one, other] = motions;
@@ -76,10 +77,10 @@ pub fn driven_parallelogram(motions: [Function; 2]) -> Description {
     d
 }
 
-/// Three vertical cranks of 1 m under a coupler whose frame is at the tip of the third. Both bodies
-/// have an error ε at that tip, so all points coincide, but the crank is not parallel to the
-/// others. In frames with the axes of the ground, ε replaces a zero, so that the constraint matrix
-/// contains it for any size.
+/// Returns three vertical cranks of 1 m under a coupler whose frame is at the tip of the third.
+/// Both bodies have an error ε at that tip, so all points coincide, but the crank is not parallel
+/// to the others. In frames with the axes of the ground, ε replaces a zero, so that the constraint
+/// matrix contains it for any value.
 pub fn misaligned(error: f64) -> Description {
     let body = |name: String, position: [f64; 2]| Body {
         name,

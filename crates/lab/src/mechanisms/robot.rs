@@ -17,7 +17,7 @@ const BODIES: [(&str, f64, f64, [f64; 2]); 7] = [
     ("trolley", 8.0, 0.5, [-0.75, 0.0]),
 ];
 
-/// Name, bodies and place of the revolute joints.
+/// Name, bodies and reference point of the revolute joints.
 const REVOLUTES: [(&str, usize, usize, [f64; 2]); 7] = [
     ("A", 0, 6, [-0.4, 0.0]),
     ("B", 0, 1, [0.3, 0.0]),
@@ -42,7 +42,7 @@ pub fn steering() -> Function {
     steering_of_size(1.0)
 }
 
-/// The same for a robot whose lengths are multiplied by `size`.
+/// Returns the same motion for a robot whose lengths are multiplied by `size`.
 pub fn steering_of_size(size: f64) -> Function {
     let steps = [
         [1.0, 2.0, 0.02 * size],
@@ -53,12 +53,12 @@ pub fn steering_of_size(size: f64) -> Function {
     Function::steps(0.0, &steps).expect("the steps are ordered")
 }
 
-/// The robot with its trolley, steered by `motion`.
+/// Returns the robot with its trolley, steered by `motion`.
 pub fn robot(motion: Function) -> Description {
     robot_of_size(1.0, motion)
 }
 
-/// The same with all lengths multiplied by `size`, speeds included.
+/// Returns the robot with all lengths multiplied by `size`, speeds included.
 pub fn robot_of_size(size: f64, motion: Function) -> Description {
     let by = |p: [f64; 2]| p.map(|x| x * size);
     let bodies: Vec<Body> = BODIES

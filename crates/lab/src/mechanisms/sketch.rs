@@ -1,7 +1,7 @@
-//! Mechanisms drawn at one configuration: joints are given by global points and directions there,
-//! so that the same drawing gives a mechanism of the `model`, its constraint matrix in exact
-//! arithmetic by an independent method, and the same mechanism in other units, at another place,
-//! turned, or in another order.
+//! Mechanisms drawn at one configuration: joints are given by global points and directions there.
+//! The same drawing gives a mechanism of the `model` and its constraint matrix in exact arithmetic
+//! by an independent method. It also gives the same mechanism in other units, translated, rotated,
+//! or in another order.
 
 mod change;
 mod rows;
@@ -29,11 +29,11 @@ pub struct Sketch {
 /// A joint or drive.
 #[derive(Clone, Debug)]
 pub struct Link {
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
     /// One body for each slot.
     pub bodies: Vec<BodyRef>,
-    /// Its kind and position.
+    /// Kind and position of the joint or drive.
     pub tie: Tie,
 }
 
@@ -55,9 +55,9 @@ pub enum Tie {
         /// The line.
         axis: Vector,
     },
-    /// A weld.
+    /// A rigid connection.
     Fixed {
-        /// The place.
+        /// The reference point.
         at: Vector,
     },
     /// A pin of the second body in a slot of the first.
@@ -71,9 +71,9 @@ pub enum Tie {
     },
     /// A massless rod.
     Distance {
-        /// Its end on the first body.
+        /// The end on the first body.
         from: Vector,
-        /// Its end on the second body.
+        /// The end on the second body.
         at: Vector,
     },
     /// Equal rotations.
@@ -92,20 +92,20 @@ pub enum Tie {
         /// Radius of the pinion.
         radius: f64,
     },
-    /// No velocity along the normal.
+    /// The velocity along the normal is zero.
     KnifeEdge {
         /// The point of contact.
         at: Vector,
         /// The normal.
         normal: Vector,
     },
-    /// Rolling of the second body, carried by the first.
+    /// Rolling of the second body, which the first body carries.
     Rolling {
         /// The centre, on the carrier.
         at: Vector,
         /// Direction of rolling, a unit vector.
         direction: Vector,
-        /// Radius.
+        /// Radius of the wheel.
         radius: f64,
     },
     /// A drive of the relative angle.
@@ -144,10 +144,11 @@ impl Sketch {
         });
     }
 
-    /// The mechanism for the `model`. Drives come after the joints, each group in its order.
+    /// Returns the mechanism for the `model`. Drives come after the joints, each group in its
+    /// order.
     ///
     /// # Panics
-    /// If a direction is zero or not finite.
+    /// Panics if a direction is zero or not finite.
     #[must_use]
     pub fn description(&self) -> Description {
         let joints = self.links.iter().filter(|l| !l.tie.is_drive());
@@ -244,13 +245,13 @@ impl Sketch {
 }
 
 impl Tie {
-    /// Whether it prescribes a motion.
+    /// Whether the element prescribes a motion.
     #[must_use]
     pub fn is_drive(self) -> bool {
         matches!(self, Self::AngleDrive | Self::DisplacementDrive { .. })
     }
 
-    /// Whether it restricts velocities only.
+    /// Whether the element restricts only velocities.
     #[must_use]
     pub fn is_nonholonomic(self) -> bool {
         matches!(self, Self::KnifeEdge { .. } | Self::Rolling { .. })

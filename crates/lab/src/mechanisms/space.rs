@@ -1,5 +1,5 @@
-//! Mechanisms of space whose motion is known: a spinning top, a rolling disk, and linkages that
-//! move although Grübler counts no freedom.
+//! Mechanisms in space whose motion is known: a spinning top, a rolling disk, and linkages that
+//! move although Grübler's formula gives no freedom.
 
 use joints::space3::{Axes, Direction, GroundPlane, Revolute, Spherical, Wheel, cross};
 use model::{BodyRef, SpatialBody, SpatialDescription};
@@ -9,13 +9,14 @@ use crate::fuzz::space::text::Precision;
 use crate::fuzz::space::{catalogue, description};
 use suite::numbers::Numbers;
 
-/// A tensor with these moments along the axes of the body.
+/// Returns a tensor with these moments along the axes of the body.
 #[must_use]
 pub fn diagonal(moments: [f64; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| if i == j { moments[i] } else { 0.0 }))
 }
 
-/// The heavy top: 15 kg, its mass centre 1 m from the fixed point, with 150 rad/s about its axis.
+/// Returns the heavy top: 15 kg, with its mass centre 1 m from the fixed point and 150 rad/s about
+/// its axis.
 ///
 /// Source: F. Romano, benchmark of the heavy top; M. Géradin, A. Cardona, Flexible Multibody
 /// Dynamics, 2001.
@@ -39,14 +40,14 @@ pub fn top() -> SpatialDescription {
     d
 }
 
-/// Bricard's linkage of the IFToMM benchmark A04: five rods of 1 kg on six hinges, at rest. The
-/// height of the third pivot is `sin θ/(1 − sin θ)` with the angle θ of rod 1.
+/// Returns Bricard's linkage of the IFToMM benchmark A04: five rods of 1 kg on six hinges, at rest.
+/// The height of the third pivot is `sin θ/(1 − sin θ)` with the angle θ of rod 1.
 #[must_use]
 pub fn bricard() -> SpatialDescription {
     bricard_of_size(1.0)
 }
 
-/// The same with rods of this length (m).
+/// Returns the same linkage with rods of this length (m).
 #[must_use]
 pub fn bricard_of_size(size: f64) -> SpatialDescription {
     let p: [[f64; 3]; 6] = [
@@ -84,7 +85,7 @@ pub fn bricard_of_size(size: f64) -> SpatialDescription {
             rods.get(k).copied().unwrap_or(BodyRef::Ground),
         ];
         let [s_i, s_j] = pair.map(|body| d.local(body, at));
-        // A coordinate axis has axes.
+        // The constructor cannot fail for a coordinate axis.
         let axis = Axes::new(hinge, None).unwrap_or(Axes::FRAME);
         let hinge = Revolute {
             s_i,
@@ -97,11 +98,11 @@ pub fn bricard_of_size(size: f64) -> SpatialDescription {
     d
 }
 
-/// Bennett's linkage under gravity, its links with turned frames and mass centres anywhere;
-/// everything is turned and moved.
+/// Returns Bennett's linkage under gravity; its links have rotated frames and arbitrary mass
+/// centres, and the whole linkage is rotated and translated.
 ///
 /// # Errors
-/// None: the drawing is a mechanism.
+/// This function never returns an error, because the drawing is a mechanism.
 pub fn bennett() -> Result<SpatialDescription, String> {
     let drawing = posed(
         &catalogue::bennett(),
@@ -115,7 +116,7 @@ pub fn bennett() -> Result<SpatialDescription, String> {
     })
 }
 
-/// Chooses the frames of [`bennett`].
+/// Seed that selects the frames of [`bennett`].
 const BENNETT: u64 = 11;
 
 /// A disk that rolls steadily without slip: its centre moves on a circle.
@@ -128,16 +129,16 @@ pub struct RollingDisk {
 }
 
 impl RollingDisk {
-    /// Its mass (kg).
+    /// Mass of the disk (kg).
     pub const MASS: f64 = 15.0;
-    /// Its radius (m).
+    /// Radius of the disk (m).
     pub const RADIUS: f64 = 1.0;
-    /// Its moment of inertia across its axis, A, and along it, C (kg·m²).
+    /// Moments of inertia across the axis, A, and along it, C (kg·m²).
     pub const MOMENTS: [f64; 2] = [3.75, 7.5];
     /// Acceleration of free fall (m/s²).
     pub const GRAVITY: f64 = 9.81;
 
-    /// Its angular velocity along its axis (rad/s):
+    /// Returns the angular velocity along the axis (rad/s):
     /// `(C + m·r²)·ω₃ = A·Ω·cos θ − m·g·r·cos θ/(Ω·sin θ)`
     #[must_use]
     pub fn spin(&self) -> f64 {
@@ -148,11 +149,12 @@ impl RollingDisk {
         moment / (c + Self::MASS * Self::RADIUS * Self::RADIUS)
     }
 
-    /// The disk on the plane z = 0. Its axis is z of its body.
+    /// Returns the disk on the plane z = 0. Its axis is the z-axis of its body.
     #[must_use]
     pub fn description(&self) -> SpatialDescription {
         let (sin, cos) = self.tilt.sin_cos();
-        // Rotated about y: the axis is (sin θ, 0, cos θ), the steepest radius (−cos θ, 0, sin θ).
+        // The rotation is about y: the axis is (sin θ, 0, cos θ), and the steepest radius is (−cos
+        // θ, 0, sin θ).
         let (half_sin, half_cos) = (0.5 * self.tilt).sin_cos();
         let (axis, steepest) = ([sin, 0.0, cos], [-cos, 0.0, sin]);
         let omega: [f64; 3] =

@@ -19,25 +19,25 @@ pub enum Expected {
         /// Names and words.
         parts: Vec<String>,
     },
-    /// An answer or a refusal, because of a documented limit of the program.
+    /// An answer or an error, because of a documented limit of the program.
     AnswerOrRefusal {
         /// The largest accepted error.
         bound: f64,
         /// The source of the correct answer and of the bound.
         source: &'static str,
-        /// Names and words that the refusal must contain.
+        /// Names and words that the error text must contain.
         parts: Vec<String>,
     },
 }
 
 impl Expected {
-    /// An answer with an error of at most `bound`.
+    /// Creates the expectation of an answer with an error of at most `bound`.
     #[must_use]
     pub fn answer(bound: f64, source: &'static str) -> Self {
         Self::Answer { bound, source }
     }
 
-    /// A refusal that contains all these parts.
+    /// Creates the expectation of an error that contains all these parts.
     #[must_use]
     pub fn refusal(parts: &[&str]) -> Self {
         Self::Refusal {
@@ -45,7 +45,7 @@ impl Expected {
         }
     }
 
-    /// The largest accepted error; NaN if only a refusal is correct.
+    /// Returns the largest accepted error; NaN if only an error message is correct.
     #[must_use]
     pub fn bound(&self) -> f64 {
         match self {
@@ -54,7 +54,7 @@ impl Expected {
         }
     }
 
-    /// The expectation in words.
+    /// Describes the expectation as text.
     #[must_use]
     pub fn words(&self) -> String {
         let named = |parts: &[String]| match parts {
@@ -78,9 +78,9 @@ impl Expected {
 pub enum Outcome {
     /// An answer.
     Answer {
-        /// Its error.
+        /// Error of the answer.
         error: f64,
-        /// A description.
+        /// Description of the answer.
         detail: String,
     },
     /// An error, with its text.
@@ -91,7 +91,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// An answer with this error.
+    /// Creates an answer with this error.
     #[must_use]
     pub fn answer(error: f64, detail: impl Into<String>) -> Self {
         Self::Answer {
@@ -100,7 +100,7 @@ impl Outcome {
         }
     }
 
-    /// An error.
+    /// Creates an outcome from an error.
     #[must_use]
     pub fn refused(error: impl Display) -> Self {
         Self::Refused {
@@ -108,7 +108,7 @@ impl Outcome {
         }
     }
 
-    /// An answer that is correct or not: its error is 0 or infinite.
+    /// Creates an answer that is correct or not: its error is 0 or infinite.
     #[must_use]
     pub fn fact(right: bool, detail: impl Into<String>) -> Self {
         Self::answer(if right { 0.0 } else { f64::INFINITY }, detail)
@@ -120,11 +120,11 @@ pub type Run = Box<dyn Fn() -> Outcome + Send + Sync>;
 
 /// One case by one method.
 pub struct Case {
-    /// Its name in its family.
+    /// Name of the case in its family.
     pub name: String,
-    /// The integrator, or the question if nothing is integrated.
+    /// The integrator, or the question if there is no integration.
     pub method: String,
-    /// Treatment of redundancy; `-` if there is none.
+    /// Treatment of redundancy; `-` if there is no such treatment.
     pub formulation: String,
     /// The correct outcome.
     pub expected: Expected,
@@ -141,7 +141,7 @@ impl Case {
     /// Default time limit.
     pub const LIMIT: Duration = Duration::from_secs(60);
 
-    /// A case with the usual time limit.
+    /// Creates a case with the usual time limit.
     pub fn new(
         name: impl Into<String>,
         method: impl Into<String>,
@@ -160,7 +160,7 @@ impl Case {
         }
     }
 
-    /// The same case as a point of a figure: `what` is the name of the axis.
+    /// Uses the case as a point of a figure: `what` is the name of the axis.
     #[must_use]
     pub fn at(self, what: &'static str, value: f64) -> Self {
         Self {
@@ -169,7 +169,7 @@ impl Case {
         }
     }
 
-    /// The same with another time limit.
+    /// Sets another time limit.
     #[must_use]
     pub fn within(self, limit: Duration) -> Self {
         Self { limit, ..self }
@@ -179,9 +179,9 @@ impl Case {
 /// Cases of one kind: one section of the report.
 #[derive(Clone, Copy)]
 pub struct Family {
-    /// Its name on the command line.
+    /// Name of the family on the command line.
     pub name: &'static str,
-    /// Its question, in one sentence.
+    /// Question of the family, in one sentence.
     pub about: &'static str,
     /// Creates the cases.
     pub cases: fn() -> Vec<Case>,

@@ -1,6 +1,6 @@
 //! Stiff and extreme cases: expected and actual outcomes, as a document.
 //!
-//! The cases and the judge are not part of this module.
+//! The cases and their judgement are not part of this module.
 
 #[cfg(test)]
 mod tests;
@@ -14,18 +14,18 @@ use serde::Serialize;
 pub enum Judgement {
     /// An answer within its bound.
     Right,
-    /// A correct refusal that names the error.
+    /// A correct error message that names the fault.
     Refused,
-    /// A refusal although an answer exists: a limit of the program.
+    /// An error message although an answer exists: a limit of the program.
     Limit,
-    /// A correct refusal that does not name the error.
+    /// A correct error message that does not name the fault.
     Misnamed,
     /// A wrong answer, a panic, or no result within the time limit.
     SilentlyWrong,
 }
 
 impl Judgement {
-    /// The judgement in words.
+    /// Returns the judgement as text.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -54,17 +54,17 @@ pub struct StressRow {
     /// The quantity that was varied, and its value in this case; `None` if the cases differ in
     /// kind.
     pub varied: Option<(&'static str, f64)>,
-    /// Integrator, or the question if nothing is integrated.
+    /// Integrator, or the question if there is no integration.
     pub method: String,
     /// Treatment of redundancy.
     pub formulation: String,
     /// The correct outcome, in words.
     pub expected: String,
-    /// The largest accepted error; NaN if only a refusal is correct.
+    /// The largest accepted error; NaN if only an error message is correct.
     pub bound: f64,
-    /// The error of the answer; NaN if there is none.
+    /// The error of the answer; NaN if there is no answer.
     pub error: f64,
-    /// The outcome in words; the whole text of a refusal.
+    /// The outcome as text; the whole text of an error message.
     pub outcome: String,
     /// The judgement.
     pub judgement: Judgement,
@@ -75,20 +75,20 @@ pub struct StressRow {
 /// Cases of one kind.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StressFamily {
-    /// Its name.
+    /// Name of the family.
     pub name: &'static str,
-    /// Its question.
+    /// Question of the family.
     pub about: &'static str,
-    /// Its outcomes.
+    /// Outcomes of the family.
     pub tally: Tally,
-    /// Its cases, in their order.
+    /// Cases of the family, in their order.
     pub rows: Vec<StressRow>,
 }
 
 /// All results of `lab stress`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StressDocument {
-    /// How the results were made.
+    /// Provenance of the results.
     pub provenance: Provenance,
     /// Whether cases are missing because a stop was requested.
     pub partial: bool,
@@ -103,7 +103,7 @@ pub struct StressDocument {
 pub struct Tally {
     /// Answers within their bounds.
     pub right: usize,
-    /// Refusals of all kinds.
+    /// Error messages of all kinds.
     pub refused: usize,
     /// Outcomes that are wrong without an error message.
     pub silently_wrong: usize,
@@ -135,7 +135,7 @@ impl Tally {
         tally
     }
 
-    /// The last line of a summary.
+    /// Returns the last line of a summary.
     #[must_use]
     pub fn last_line(&self) -> String {
         format!(

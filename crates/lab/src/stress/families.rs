@@ -23,7 +23,7 @@ mod trivial;
 
 use crate::stress::case::Family;
 
-/// All families, in the order of the report.
+/// Returns all families, in the order of the report.
 #[must_use]
 pub fn families() -> Vec<Family> {
     vec![
@@ -50,7 +50,7 @@ pub fn families() -> Vec<Family> {
     ]
 }
 
-/// The family with this name.
+/// Finds the family with this name.
 #[must_use]
 pub fn find(name: &str) -> Option<Family> {
     families().into_iter().find(|family| family.name == name)
@@ -62,7 +62,7 @@ fn assert_passes(family: Family) {
     assert_passes_where(family, |_| true);
 }
 
-/// The same for some of its cases, if all would take too long.
+/// Asserts this for some of its cases, if all would take too long.
 #[cfg(test)]
 fn assert_passes_where(family: Family, wanted: impl Fn(&crate::stress::Case) -> bool) {
     let mut failures = String::new();

@@ -1,18 +1,19 @@
-//! Errors versus the extreme quantity: one panel for each family and each varied number.
+//! Plots errors versus the extreme quantity: one panel for each family and each varied number.
 
 use report::figures::{self, Extremes};
 
 use super::document::{StressFamily, StressRow};
 
-/// The figure of all families that vary a number; an empty text if there are none. A dashed line is
-/// the bound of all cases of a panel, if they have a common one. Refusals have no point.
+/// Returns the figure of all families that vary a number; the text is empty if no family does. A
+/// dashed line is the bound of all cases of a panel, if they have a common bound. Error messages
+/// have no point.
 #[must_use]
 pub fn extremes(families: &[StressFamily]) -> String {
     let panels: Vec<Extremes<'_>> = families.iter().flat_map(panels).collect();
     figures::extremes(&panels)
 }
 
-/// The panels of a family, in the order in which its numbers appear.
+/// Returns the panels of a family, in the order in which its numbers appear.
 fn panels(family: &StressFamily) -> Vec<Extremes<'_>> {
     let varied = family.rows.iter().filter_map(|row| row.varied);
     let panel = |varied: &'static str| {
@@ -32,7 +33,7 @@ fn panels(family: &StressFamily) -> Vec<Extremes<'_>> {
         .collect()
 }
 
-/// One curve for each formulation, or for each method if there is one formulation.
+/// Returns one curve for each formulation, or for each method if there is one formulation.
 fn series<'r>(rows: &[&'r StressRow]) -> Vec<(&'r str, Vec<[f64; 2]>)> {
     let alike = rows
         .windows(2)
@@ -55,7 +56,7 @@ fn series<'r>(rows: &[&'r StressRow]) -> Vec<(&'r str, Vec<[f64; 2]>)> {
         .collect()
 }
 
-/// Names in the order of their first occurrence.
+/// Returns names in the order of their first occurrence.
 fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
     let mut first: Vec<&str> = Vec::new();
     for name in names {

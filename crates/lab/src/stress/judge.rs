@@ -4,7 +4,7 @@ use crate::stress::Judgement;
 
 use crate::stress::case::{Expected, Outcome};
 
-/// Judges an outcome. An error that is NaN is within no bound.
+/// Compares an outcome with the expectation. An error that is NaN is not within any bound.
 ///
 /// ```
 /// use lab::stress::Judgement;

@@ -24,7 +24,7 @@ pub struct Row {
     pub v: Vec<f64>,
 }
 
-/// The options `base` with every method.
+/// Returns the options `base` with every method.
 #[must_use]
 pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
     let of = |&method: &Method| MotionOptions {
@@ -35,9 +35,9 @@ pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
     all.filter(|options| options.check().is_ok()).collect()
 }
 
-/// Number of steps that a method of its order needs for a motion by this phase (rad) at a relative
-/// tolerance, up to a factor: the local error of a step h is proportional to h to the power of the
-/// order plus one. It is used to bound the sum of the errors of all steps.
+/// Returns the number of steps that a method of its order needs for a motion by this phase (rad) at
+/// a relative tolerance, up to a factor. The local error of a step h is proportional to h to the
+/// power of the order plus one. The number is used to bound the sum of the errors of all steps.
 #[must_use]
 pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
     let order = match method {
@@ -47,7 +47,7 @@ pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
     phase.max(1.0) * rtol.powf(-1.0 / (order + 1.0))
 }
 
-/// A case of a motion with these options.
+/// Creates a case of a motion with these options.
 pub fn moving(
     name: impl Into<String>,
     options: MotionOptions,
@@ -59,7 +59,7 @@ pub fn moving(
     Case::new(name, method, FORMULATION, expected, made)
 }
 
-/// A case with a question for which nothing is integrated.
+/// Creates a case with a question without integration.
 pub fn asking(
     name: impl Into<String>,
     question: &str,
@@ -73,7 +73,7 @@ pub fn asking(
 /// Reads and prepares a text as the commands do, up to its start.
 ///
 /// # Errors
-/// The refusal, with all its problems.
+/// Returns the error, with all its problems.
 pub fn study(text: &str) -> Result<Study, Outcome> {
     Study::read("scene", text, &Registry::standard(), &RunOptions::default())
         .map_err(|e| refused(&e))
@@ -82,7 +82,7 @@ pub fn study(text: &str) -> Result<Study, Outcome> {
 /// Builds a described mechanism.
 ///
 /// # Errors
-/// All faults of the description.
+/// Returns all errors of the description.
 pub fn built<S: BodySpace>(description: &MechanismDescription<S>) -> Result<Mechanism, Outcome> {
     Mechanism::build(description).map_err(|errors| {
         let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
@@ -90,12 +90,12 @@ pub fn built<S: BodySpace>(description: &MechanismDescription<S>) -> Result<Mech
     })
 }
 
-/// Builds a described mechanism with its start, without a scene. The velocity of one body is given;
-/// those of the others follow from the constraints, and the correction may reduce the given one
-/// according to the masses: cases about starts are therefore texts.
+/// Builds a described mechanism with its start, without a scene. The velocity of one body is given,
+/// and the velocities of the others follow from the constraints. The correction may reduce the
+/// given one according to the masses; cases about starts are therefore texts.
 ///
 /// # Errors
-/// The faults of the description, or the reason why it cannot move.
+/// Returns the errors of the description, or the reason why it cannot move.
 pub fn prepared<S: BodySpace>(
     description: &MechanismDescription<S>,
 ) -> Result<PreparedMechanism, Outcome> {
@@ -106,20 +106,20 @@ pub fn prepared<S: BodySpace>(
     prepare(built(description)?, &start, &RowChoice::Automatic).map_err(Outcome::refused)
 }
 
-/// The verdicts of a described mechanism at its described configuration.
+/// Returns the verdicts of a described mechanism at its described configuration.
 ///
 /// # Errors
-/// The faults of the description, or the reason why it cannot be judged.
+/// Returns the errors of the description, or the reason why it cannot be analysed.
 pub fn analysed(description: &Description) -> Result<Analysis, Outcome> {
     let mechanism = built(description)?;
     let (q, _) = mechanism.described_state();
     analyse(&mechanism, 0.0, &q).map_err(Outcome::refused)
 }
 
-/// Accelerations at the start, as a run with these options computes them.
+/// Returns accelerations at the start, as a run with these options computes them.
 ///
 /// # Errors
-/// The reason why there are none.
+/// Returns the reason why there are no accelerations.
 pub fn acceleration(
     prepared: &PreparedMechanism,
     options: &MotionOptions,
@@ -135,10 +135,10 @@ pub fn acceleration(
     }
 }
 
-/// The last row of a motion, with the statistics of the run.
+/// Returns the last row of a motion, with the statistics of the run.
 ///
 /// # Errors
-/// The reason why it stopped.
+/// Returns the reason why it stopped.
 pub fn last_row(
     prepared: &PreparedMechanism,
     options: &MotionOptions,
@@ -158,7 +158,7 @@ pub fn last_row(
     }
 }
 
-/// A case of a moving scene: `error` computes the error of the last row.
+/// Creates a case of a moving scene: `error` computes the error of the last row.
 pub fn case(
     name: impl Into<String>,
     text: impl Into<String>,
@@ -172,7 +172,7 @@ pub fn case(
     })
 }
 
-/// The outcome for a moving scene.
+/// Returns the outcome for a moving scene.
 pub fn outcome(
     text: &str,
     options: &MotionOptions,
@@ -184,7 +184,7 @@ pub fn outcome(
     }
 }
 
-/// The same for a prepared mechanism.
+/// Returns the outcome for a prepared mechanism.
 pub fn outcome_of(
     prepared: &dynamics::PreparedMechanism,
     options: &MotionOptions,
@@ -199,7 +199,7 @@ pub fn outcome_of(
     }
 }
 
-/// A refusal with all its problems, not only the first.
+/// Returns an error with all its problems, not only the first.
 #[must_use]
 pub fn refused(error: &StudyError) -> Outcome {
     match error {
@@ -211,7 +211,7 @@ pub fn refused(error: &StudyError) -> Outcome {
     }
 }
 
-/// The largest number; NaN if one is NaN.
+/// Returns the largest number; NaN if one is NaN.
 #[must_use]
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };

@@ -10,7 +10,7 @@ error where an answer exists, or one that does not say what is wrong, does not p
 answer beyond its bound, an answer where none exists, a panic, or nothing at all within the time allowed. Cells are errors, in the units of the bound beside \
 them; hold the pointer over a cell for what came out.</p>\n";
 
-/// The page; `figure` is the SVG of [`super::extremes`].
+/// Builds the page; `figure` is the SVG of [`super::extremes`].
 #[must_use]
 pub fn stress_page(document: &StressDocument, figure: &str) -> String {
     let mut page = open("Stiff and extreme cases");
@@ -30,7 +30,7 @@ pub fn stress_page(document: &StressDocument, figure: &str) -> String {
     page
 }
 
-/// One line for each family.
+/// Writes one line for each family.
 fn overview(page: &mut String, document: &StressDocument) {
     page.push_str(
         "<div class=\"wide\"><table>\n<tr><th class=\"name\">family</th><th>right</th><th>refused</th><th>silently wrong</th>\
@@ -54,7 +54,7 @@ fn overview(page: &mut String, document: &StressDocument) {
     page.push_str("</table></div>\n");
 }
 
-/// The cases that do not pass, the worst first.
+/// Writes the cases that do not pass, the worst first.
 fn failing(page: &mut String, document: &StressDocument) {
     let all = document.families.iter().flat_map(|f| &f.rows);
     let mut rows: Vec<&StressRow> = all.filter(|row| !row.judgement.passes()).collect();
@@ -90,7 +90,7 @@ fn failing(page: &mut String, document: &StressDocument) {
     page.push_str("</table></div>\n");
 }
 
-/// A table with a line for each case and a column for each method with each formulation.
+/// Writes a table with a line for each case and a column for each method with each formulation.
 fn section(page: &mut String, family: &StressFamily) {
     let head = format_args!(
         "<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"grey\">{2}, {3} of computing</p>\n",
@@ -158,7 +158,7 @@ fn cell(page: &mut String, row: &StressRow) {
     add(page, format_args!("<span title=\"{title}\">{text}</span> "));
 }
 
-/// The texts of refusals, without duplicates.
+/// Writes the texts of error messages, without duplicates.
 fn refusals(page: &mut String, family: &StressFamily) {
     let mut texts: Vec<&str> = Vec::new();
     for row in family

@@ -1,6 +1,6 @@
-//! Runs cases on some threads. Each case runs on its own thread, so that a panic or a hang is an
-//! outcome of that case only; for the same reason the cases do not share a thread pool with this
-//! module.
+//! Runs cases on some threads. Each case runs on its own thread, so that a panic or an endless loop
+//! is an outcome of that case only. For the same reason the cases do not share a thread pool with
+//! this module.
 //!
 //! The judgement of outcomes and the files are not part of this module.
 
@@ -49,7 +49,7 @@ pub fn run(
                     let Some((family, case)) = cases.get(k) else {
                         return;
                     };
-                    // Each case is taken only once, so that a lock is neither contended nor
+                    // Each case is processed only once, so that a lock is neither contended nor
                     // poisoned.
                     let case = case.lock().ok().and_then(|mut place| place.take());
                     let Some(case) = case else { return };
@@ -71,8 +71,8 @@ pub fn run(
     rows.into_iter().flatten().collect()
 }
 
-/// Runs one case; `None` if a stop was requested. A case that hangs keeps its thread until the
-/// program ends.
+/// Runs one case; `None` if a stop was requested. A case that does not end keeps its thread until
+/// the program ends.
 fn make(
     family: &'static str,
     case: Case,
@@ -108,7 +108,7 @@ fn make(
     Some(row(family, &case, made, begin.elapsed()))
 }
 
-/// The row of a case; a missing outcome counts as silently wrong.
+/// Returns the row of a case; a missing outcome counts as silently wrong.
 fn row(
     family: &'static str,
     case: &Case,
@@ -138,7 +138,7 @@ fn row(
     }
 }
 
-/// The message of a panic.
+/// Returns the message of a panic.
 fn words(payload: Option<&(dyn Any + Send)>) -> String {
     let payload = payload.unwrap_or(&());
     match (

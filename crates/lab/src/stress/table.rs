@@ -1,11 +1,11 @@
-//! `stress.csv`, written row by row as the cases end.
+//! Writes `stress.csv` row by row as the cases end.
 
 use std::io::Write;
 
 use super::document::StressRow;
 use report::tables::{Table, TableError};
 
-/// Columns; more may follow.
+/// Columns of the table; more may follow.
 const HEADER: [&str; 12] = [
     "family",
     "case",
@@ -21,8 +21,8 @@ const HEADER: [&str; 12] = [
     "seconds",
 ];
 
-/// One line per case. Each line is passed to the writer at once, so that an interruption loses
-/// none.
+/// Writer of one line per case. Each line is passed to the writer immediately, so that an
+/// interruption loses no line.
 pub struct StressTable<W: Write> {
     table: Table<W>,
 }
@@ -38,7 +38,7 @@ impl<W: Write> StressTable<W> {
         Ok(Self { table })
     }
 
-    /// Writes a case. Missing numbers are `NaN`, other missing values are empty.
+    /// Writes a case. Missing numbers are `NaN`, and other missing values are empty.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.

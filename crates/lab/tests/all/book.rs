@@ -1,6 +1,6 @@
 //! The book shows the actual behaviour of the laboratory: its commands in `console` blocks of
-//! `docs/book` are run and compared line by line. What other commands show is compared by the tests
-//! of `pfaff-cli`.
+//! `docs/book` are run and compared line by line. The tests of `pfaff-cli` compare the output of
+//! other commands.
 
 use std::fs;
 use std::process::Command;
@@ -12,7 +12,7 @@ const BOOK: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book");
 /// The words before those of the laboratory.
 const COMMAND: &str = "$ cargo run -q --release -p lab -- ";
 
-/// Commands of the laboratory with the lines shown below each.
+/// Returns commands of the laboratory with the lines shown below each.
 fn examples(text: &str) -> Vec<(&str, Vec<&str>)> {
     let mut found = Vec::new();
     let mut lines = text.lines().peekable();
@@ -24,7 +24,7 @@ fn examples(text: &str) -> Vec<(&str, Vec<&str>)> {
         while let Some(line) = lines.next_if(|l| !l.starts_with("$ ") && !l.starts_with("```")) {
             shown.push(line);
         }
-        // The tests of `pfaff-cli` give it to `pfaff`.
+        // The tests of `pfaff-cli` pass it to `pfaff`.
         if !command.contains('|') {
             found.push((command, shown));
         }

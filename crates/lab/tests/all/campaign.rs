@@ -31,7 +31,7 @@ fn a_short_campaign_finds_nothing() {
     assert!(tally.faults.is_empty(), "{:#?}", tally.faults);
     let count: u64 = tally.reached.values().sum();
     assert_eq!(count, campaign.inputs);
-    // The test would be useless if all texts were refused immediately.
+    // The test would be useless if all texts were rejected immediately.
     for reach in Reach::ALL {
         assert!(tally.reached.contains_key(&reach), "no text is {reach}");
     }
@@ -39,7 +39,7 @@ fn a_short_campaign_finds_nothing() {
 
 #[test]
 fn a_fault_is_seen() {
-    // The program writes no answer and ends, as a process that died.
+    // The program writes no answer and ends, like a crashed process.
     let limits = Limits {
         program: PathBuf::from("true"),
         ..limits()
@@ -56,7 +56,7 @@ fn a_fault_is_seen() {
     assert!(one(&limits, "").expect("there is such a program").is_err());
 }
 
-/// Results beyond the checker's limits that are known, see `FUZZ.md`.
+/// Known results beyond the limits of the checker, see `FUZZ.md`.
 const OPEN: [&str; 1] = ["drive-of-a-locked-pair-far.toml"];
 
 #[test]

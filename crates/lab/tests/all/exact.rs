@@ -1,4 +1,4 @@
-//! Degenerate scenes: the answers of the program are those of exact arithmetic.
+//! Degenerate scenes: the results of the program equal those of exact arithmetic.
 //! `cargo run --release -p lab -- fuzz exact` tests 20 000 of them.
 
 use lab::fuzz::exact::answer::answer;
@@ -21,7 +21,7 @@ use suite::numbers::Numbers;
 
 const SEED: u64 = 1;
 
-/// A dozen scenes of each family in each way of writing.
+/// A dozen scenes of each family in each writing.
 const SCENES: u64 = 384;
 
 #[test]
@@ -31,7 +31,7 @@ fn no_answer_contradicts_exact_arithmetic() {
     assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
 }
 
-/// A program that calls everything redundant, or nothing, is wrong in every family.
+/// A program that calls everything redundant, or nothing redundant, is wrong in every family.
 #[test]
 fn every_family_has_members_of_full_rank_and_others() {
     for (place, family) in Family::ALL.into_iter().enumerate() {
@@ -49,7 +49,7 @@ fn at(x: i128, y: i128) -> Vector {
     [x, y].map(|x| Ratio::new(x, 10))
 }
 
-/// The reference compared with closed forms: trains of gears, planets and parallel cranks.
+/// Compares the reference with closed forms: trains of gears, planets and parallel cranks.
 #[test]
 fn exact_arithmetic_finds_what_theory_tells() {
     let mut answer = 0;
@@ -63,8 +63,8 @@ fn exact_arithmetic_finds_what_theory_tells() {
     assert!(answer > 80, "{answer}");
 }
 
-/// For all ways of writing: the result of exact arithmetic is the one found by hand, and the
-/// program gives the same.
+/// For all writings, the result of exact arithmetic is the one found by hand, and the program
+/// returns the same.
 fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
     for seed in 0..8 * Writing::ALL.len() as u64 {
         let writing = Writing::ALL[seed as usize % Writing::ALL.len()];
@@ -86,7 +86,7 @@ fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
 }
 
 /// Three distances between three points on a line, and an oblique bar: the line has one redundant
-/// constraint, the reaction of the oblique bar is unique.
+/// constraint, and the reaction of the oblique bar is unique.
 #[test]
 fn three_bars_on_a_line_and_an_oblique_one() {
     let mut drawing = Drawing::new();
@@ -101,7 +101,7 @@ fn three_bars_on_a_line_and_an_oblique_one() {
     assert_answer(&drawing, 3, &["j0", "j1", "j2"]);
 }
 
-/// The normals meet in the body's origin: it can rotate about it.
+/// The normals meet in the origin of the body: the body can rotate about it.
 #[test]
 fn three_edges_whose_normals_meet() {
     for centre in [at(0, 0), at(10, 0), at(3, -11)] {
@@ -119,8 +119,8 @@ fn three_edges_whose_normals_meet() {
     }
 }
 
-/// Wheels at 120° with radial normals, each with a rotating wheel: the rows of the wheels add
-/// nothing to those of the three normals, rank 2.
+/// Wheels at 120° with radial normals have a rotating wheel each: the rows of the wheels add no
+/// rank to that of the three normals, rank 2.
 #[test]
 fn three_wheels_at_120_degrees() {
     for centre in [at(0, 0), at(10, 0)] {
@@ -139,8 +139,8 @@ fn three_wheels_at_120_degrees() {
     }
 }
 
-/// A wheel in a bearing at its centre, whose position has an error of one unit in the last place:
-/// it rotates freely whatever else is held.
+/// A wheel is in a bearing at its centre, whose position has an error of one unit in the last
+/// place. The wheel rotates freely for any other constraints.
 #[test]
 fn a_wheel_pinned_at_its_centre() {
     let mut drawing = Drawing::new();
@@ -156,7 +156,7 @@ fn a_wheel_pinned_at_its_centre() {
     }
 }
 
-/// Ratios of 1/3 and 3: both meshes give the same condition.
+/// With ratios of 1/3 and 3, both meshes give the same condition.
 #[test]
 fn two_meshes_of_the_same_wheels() {
     for (closing, rank) in [(Ratio::whole(3), 1), (Ratio::new(301, 100), 2)] {
@@ -174,7 +174,7 @@ fn two_meshes_of_the_same_wheels() {
 /// The comparison finds errors in a correct document that was changed.
 #[test]
 fn a_changed_document_is_found_out() {
-    // Two bars along one line between the same bodies, and a third one whose reaction is unique.
+    // Two bars are along one line between the same bodies, and a third one has a unique reaction.
     let mut drawing = Drawing::new();
     let (a, b) = (drawing.body(), drawing.body());
     let (from, end) = (at(2, 3), at(14, 8));
@@ -261,7 +261,7 @@ fn a_changed_document_is_found_out() {
         ("/dependencies/0/text", "j0.Fx + j1.Fx", "j0.Fx - j1.Fx"),
         ("/mixing/0/text", "`j1`", "`j2`"),
         ("/reactions/0/explanation", "`j1`", "`j2`"),
-        ("/reactions/0/explanation", "0.9231·Fy only", "0.5·Fy only"),
+        ("/reactions/0/explanation", "0.9231·Fy is", "0.5·Fy is"),
     ];
     for (pointer, words, other) in sentences {
         let mut changed = document.clone();
@@ -279,14 +279,14 @@ fn a_changed_document_is_found_out() {
 /// Number of drawings for each of the sets with a tolerance.
 const DRAWINGS: u64 = 40;
 
-/// The results for all scenes of some drawings.
+/// Returns the results for all scenes of some drawings.
 fn of_drawings(suite: Suite, from: u64, drawings: u64) -> Tally {
     let ways = suite.ways() as u64;
     Tally::of(suite, SEED, ways * from, ways * drawings, || ())
 }
 
-/// Degenerate drawings with 3 … 16 digits: no answer contradicts exact arithmetic, and with the
-/// largest number of digits and without a tolerance, nothing is undecided.
+/// For degenerate drawings with 3 … 16 digits no result contradicts exact arithmetic; with the
+/// largest number of digits and without a tolerance, all are decided.
 #[test]
 fn with_few_digits_no_answer_is_wrong() {
     let tally = of_drawings(Suite::RoundedInPlane, 0, DRAWINGS);
@@ -300,9 +300,9 @@ fn with_few_digits_no_answer_is_wrong() {
     );
 }
 
-/// Drawings for which a scene once got a wrong answer: contradicting rows that share their
-/// residual, starts and refined poses that left the intended configuration, singular vectors of
-/// rounding errors, coefficients of a tenth that were taken as zero.
+/// Drawings for which a scene once had a wrong result. The causes were contradicting rows that
+/// share their residual, starts and refined poses that left the intended configuration, singular
+/// vectors of rounding errors, and coefficients of a tenth that counted as zero.
 #[test]
 fn answers_that_were_wrong_once_are_right() {
     for drawn in [7, 62, 71, 127, 182, 231, 237, 278, 317] {
@@ -311,14 +311,15 @@ fn answers_that_were_wrong_once_are_right() {
     }
 }
 
-/// Drawings of full rank keep it with tolerances below a third of their distance from a lower rank.
+/// Drawings of full rank keep their rank with tolerances below a third of their distance from a
+/// lower rank.
 #[test]
 fn no_tolerance_below_a_third_makes_a_row_redundant() {
     let tally = of_drawings(Suite::FullRank, 0, DRAWINGS);
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// The reference for τ* compared with a closed form: a pin with an error δ is shared by eight
+/// The reference for τ* is compared with a closed form: a pin with an error δ is shared by eight
 /// points, each of which must move by an eighth.
 #[test]
 fn a_third_crank_is_redundant_from_an_eighth_of_its_misfit_on() {
@@ -348,13 +349,14 @@ fn a_third_crank_is_redundant_from_an_eighth_of_its_misfit_on() {
             found.low <= 1.02 * right && found.high >= 0.98 * right,
             "{found:?}, {right}"
         );
-        // The gap between the bounds: the second-order terms, and the end of the iteration.
+        // The gap between the bounds comes from the second-order terms, and from the end of the
+        // iteration.
         assert!(found.high < 1.25 * found.low, "{found:?}");
     }
 }
 
 /// The comparison within a tolerance also finds errors in a changed document: a row too many or too
-/// few, a reaction that is zero.
+/// few, or a reaction that is zero.
 #[test]
 fn a_changed_document_is_found_out_within_a_tolerance() {
     let mut drawing = Drawing::new();

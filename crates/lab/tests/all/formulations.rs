@@ -1,4 +1,4 @@
-//! Differences between formulations other than the motion: reactions, drift, refusals.
+//! Differences between formulations other than the motion: reactions, drift, errors.
 
 use lab::comparators::{Comparator, Drift, Formulation, Method, run};
 use lab::mechanisms::cranks::cranks;

@@ -1,5 +1,5 @@
-//! `lab generate`: scenes that the other commands can read, complete files or none, and clear
-//! refusals.
+//! Tests of `lab generate`: scenes that the other commands can read, complete files or no file, and
+//! clear errors.
 
 use std::fs;
 
@@ -9,14 +9,14 @@ use super::{Folder, lab, pfaff, stderr, stdout};
 
 const KINDS: [&str; 5] = ["n-four-bar", "parallelograms", "lattice", "fleet", "random"];
 
-/// A directory for one test, created empty.
+/// Creates an empty directory for one test.
 fn place(name: &str) -> Folder {
     let folder = Folder::new(name);
     fs::create_dir_all(&folder.0).expect("writable");
     folder
 }
 
-/// The names of a directory's files.
+/// Returns the names of the files of a directory.
 fn names(folder: &Folder) -> Vec<String> {
     let entries = fs::read_dir(&folder.0).expect("readable").flatten();
     let mut names: Vec<_> = entries
@@ -126,7 +126,7 @@ fn impossible_orders_are_refused_before_anything_is_written() {
         }
     }
     assert!(names(&folder).is_empty());
-    // The scene has exclusive use of standard output.
+    // Standard output must contain only the scene.
     let both = lab(&["generate", "lattice", "--n", "1", "--json"]);
     assert_eq!(both.status.code(), Some(2));
     let both: Value = serde_json::from_slice(&both.stdout).expect("one JSON document");
@@ -209,7 +209,7 @@ mod on_linux {
         let file = folder.0.join("scene.toml");
         fs::write(&file, "older").expect("writable");
         let path = file.to_str().expect("UTF-8");
-        // No file takes a byte.
+        // No file accepts a byte.
         let script = "trap '' XFSZ; ulimit -f 0; exec \"$0\" \"$@\"";
         let mut limited = Command::new("sh");
         limited.args(["-c", script, env!("CARGO_BIN_EXE_lab")]);

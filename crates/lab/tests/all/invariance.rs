@@ -1,6 +1,6 @@
-//! Verdicts in space do not depend on how a mechanism is described: place, orientation, units,
+//! Verdicts in space do not depend on the description of a mechanism: position, orientation, units,
 //! order, which body is the first one, frames and mass centres of the bodies. Two descriptions of
-//! one mechanism are compared with each other: no oracle takes part.
+//! one mechanism are compared with each other, without an oracle.
 
 use std::collections::BTreeMap;
 
@@ -15,24 +15,24 @@ use pfaff::solvability::{Verdict, analyse};
 use proptest::prelude::*;
 use suite::numbers::Numbers;
 
-/// Seed of the drawings; proptest chooses their numbers.
+/// Seed of the drawings; proptest selects their numbers.
 const SEED: u64 = 1_111;
 
-/// Number of drawings as drawn that proptest chooses from: ten of each family.
+/// Number of drawings from which proptest selects: ten of each family.
 const DRAWINGS: u64 = 240;
 
-/// Longest shift of a scene that is near: within three times its coordinates, which are below 10 m.
+/// Longest translation of a near scene: within three times its coordinates, which are below 10 m.
 const NEAR: i64 = 30;
 
-/// Longest shift of a scene that is far away (m).
+/// Longest translation of a far scene (m).
 const FAR: i64 = 1_000_000;
 
-/// What is said of a mechanism and does not depend on axes: of each reaction, by name, its verdict
-/// and that of its multipliers, and the dimensions of the wrenches that are unique and that are not
-/// always zero.
+/// Results for a mechanism that do not depend on axes. For each reaction, by name, these are its
+/// verdict and that of its multipliers, and the dimensions of the wrenches that are unique and that
+/// are not always zero.
 #[derive(Debug, PartialEq)]
 struct Said {
-    /// Rank, redundancy, rank of the holonomic and of the nonholonomic rows; none if undecided.
+    /// Rank, redundancy, rank of the holonomic and of the nonholonomic rows; `None` if undecided.
     ranks: Option<[usize; 4]>,
     reactions: BTreeMap<String, (Verdict, Verdict, [Option<usize>; 2])>,
 }
@@ -60,7 +60,7 @@ fn is_open(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Undecided { .. })
 }
 
-/// Whether both can be true: a verdict that is open contradicts none.
+/// Whether both results can be true: an open verdict contradicts no other.
 fn agree(a: &Said, b: &Said) -> bool {
     let same = |a: &Verdict, b: &Verdict| a == b || is_open(a) || is_open(b);
     let names = a.reactions.keys().eq(b.reactions.keys());
@@ -78,14 +78,14 @@ fn agree(a: &Said, b: &Said) -> bool {
             })
 }
 
-/// Quaternions of whole numbers up to 1000: their rotations have entries with all digits.
+/// Quaternions of integers up to 1000: their rotations have entries with all digits.
 fn turns() -> impl Strategy<Value = Rotation> {
     let parts = prop::array::uniform4(-1000_i64..=1000);
     let parts = parts.prop_filter("a rotation", |q| *q != [0; 4]);
     parts.prop_map(Rotation::whole)
 }
 
-/// Metres, millimetres, kilometres, inches and feet as the unit of length.
+/// Units of length: metres, millimetres, kilometres, inches and feet.
 fn units() -> impl Strategy<Value = Ratio> {
     let units = [(1, 1), (1000, 1), (1, 1000), (10_000, 254), (3048, 10_000)];
     prop::sample::select(units.to_vec()).prop_map(|(a, b)| Ratio::new(a, b))
@@ -96,7 +96,7 @@ fn shifts(most: i64) -> impl Strategy<Value = Vector> {
     parts.prop_map(move |p| Vector(p.map(|x| Ratio::new((x * most) as i32, 1000))))
 }
 
-/// A drawing as drawn.
+/// Returns a drawing in its original writing.
 fn drawn(number: u64) -> Drawing {
     let ways = Writing::ALL.len() as u64;
     scene(SEED, ways * number).drawing
@@ -105,7 +105,8 @@ fn drawn(number: u64) -> Drawing {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Moved, turned, in other units: the same verdicts, all of them decided.
+    /// Translated, rotated, or in other units, a mechanism has the same verdicts, and all of them
+    /// are decided.
     #[test]
     fn a_place_an_orientation_and_units_change_nothing(
         number in 0..DRAWINGS, turn in turns(), shift in shifts(NEAR), scale in units()
@@ -117,8 +118,8 @@ proptest! {
         prop_assert_eq!(here, there);
     }
 
-    /// Another order of bodies, joints and drives, first and second bodies exchanged, other frames,
-    /// mass centres, masses and tensors.
+    /// The variants have another order of bodies, joints and drives, exchanged first and second
+    /// bodies, other frames, mass centres, masses and tensors.
     #[test]
     fn the_description_of_bodies_and_joints_changes_nothing(
         number in 0..DRAWINGS, turn in turns(), other in any::<u64>()
@@ -134,7 +135,7 @@ proptest! {
         prop_assert!(is_decided(&here) && is_decided(&there), "{here:#?}\n{there:#?}");
     }
 
-    /// Far away numbers have fewer digits left: what is said there is open or the same.
+    /// Far from the origin numbers have fewer digits: each result there is open or the same.
     #[test]
     fn far_away_nothing_is_contradicted(
         number in 0..DRAWINGS, turn in turns(), shift in shifts(FAR)

@@ -1,4 +1,4 @@
-//! Every comparator compared with known motions, and with pfaff if the mechanism is redundant.
+//! Compares every comparator with known motions, and with pfaff if the mechanism is redundant.
 
 use dynamics::{MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use lab::comparators::{Comparator, Drift, Formulation, Method, run};
@@ -13,7 +13,7 @@ pub(crate) fn started(d: &Description) -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
 }
 
-/// A case of the suite, at its start.
+/// Returns a case of the suite, at its start.
 fn case(name: &str) -> (PreparedMechanism, Vec<Instant>) {
     let case = suite::find(name).expect("a case");
     let registry = model::Registry::standard();
@@ -28,7 +28,7 @@ fn case(name: &str) -> (PreparedMechanism, Vec<Instant>) {
     (study.expect("starts").prepared, later)
 }
 
-/// The largest difference from the known coordinates and velocities.
+/// Returns the largest difference from the known coordinates and velocities.
 fn off(p: &PreparedMechanism, row: &lab::comparators::Row, instant: &Instant) -> f64 {
     assert_eq!(row.t, instant.t);
     let mechanism = &p.mechanism;
@@ -55,9 +55,9 @@ fn off(p: &PreparedMechanism, row: &lab::comparators::Row, instant: &Instant) ->
     worst
 }
 
-/// Every formulation with projection, by every method; then every treatment of drift by one method.
-/// Proximal iterations without any treatment are omitted: a redundant row with a residual δ causes
-/// an acceleration of k·δ²/μ, so that drift increases itself.
+/// Returns every formulation with projection, by every method, then every treatment of drift by one
+/// method. Proximal iterations without any treatment are omitted: a redundant row with a residual δ
+/// causes an acceleration of k·δ²/μ, so that the drift amplifies itself.
 fn ways() -> Vec<Comparator> {
     let mut ways = Vec::new();
     for formulation in Formulation::ALL {
@@ -84,8 +84,8 @@ fn ways() -> Vec<Comparator> {
     ways
 }
 
-/// Error bound of a run with a tolerance: a multiple of it for the accurate methods, its power 2/3
-/// for order 2.
+/// Returns the error bound of a run with a tolerance: a multiple of it for the accurate methods,
+/// its power 2/3 for order 2.
 fn bound(way: Comparator, tolerance: f64, factor: f64) -> f64 {
     match way.method {
         Method::GeneralizedAlpha => factor * tolerance.powf(2.0 / 3.0),
@@ -93,7 +93,7 @@ fn bound(way: Comparator, tolerance: f64, factor: f64) -> f64 {
     }
 }
 
-/// Order 2 would need a million steps.
+/// A method of order 2 would need a million steps.
 fn tolerance(way: Comparator) -> f64 {
     match way.method {
         Method::GeneralizedAlpha => 1e-6,
@@ -112,7 +112,7 @@ fn check(name: &str, factor: f64) {
         let error = errors.fold(0.0, f64::max);
         let bound = bound(way, tolerance(way), factor);
         assert!(error < bound, "{name} by {way:?}: {error:.1e}, {bound:.1e}");
-        assert!(error > 0.0, "{name} by {way:?} knows the answer");
+        assert!(error > 0.0, "{name} by {way:?} has the answer");
     }
 }
 
@@ -131,7 +131,7 @@ fn the_robot_moves_as_two_derivations_say() {
     check("robot-trolley", 3000.0);
 }
 
-/// The last state of the motion computed by pfaff.
+/// Returns the last state of the motion computed by pfaff.
 pub(crate) fn product(p: &PreparedMechanism, t_end: f64, tolerance: f64) -> (Vec<f64>, Vec<f64>) {
     let options = MotionOptions {
         rtol: tolerance,
@@ -153,8 +153,8 @@ pub(crate) fn gap(a: &[f64], b: &[f64]) -> f64 {
     gaps.fold(0.0, f64::max)
 }
 
-/// Three cranks under gravity and the robot with its drive and break times, both redundant; unique
-/// reactions are those of pfaff.
+/// The mechanisms are three cranks under gravity and the robot with its drive and break times, both
+/// redundant; unique reactions equal those of pfaff.
 #[test]
 fn redundant_mechanisms_move_as_the_product_moves_them() {
     let mut swinging = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);

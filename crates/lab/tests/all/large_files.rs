@@ -1,5 +1,5 @@
-//! Large files, and files that are malicious because of their size: read in time proportional to
-//! their size, or refused with an error that names the limit.
+//! Large files, and files that are malicious because of their size, are read in time proportional
+//! to their size, or rejected with an error that names the limit.
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ use model::{Mechanism, Registry, StartOptions, System, Work};
 use pfaff::scene::{Diagnostic, Scene, Severity};
 use suite::generate::{Kind, Order};
 
-/// Cells of a chain with a hundred thousand revolutes.
+/// Number of cells of a chain with a hundred thousand revolutes.
 const CELLS: usize = 18_750;
 
 /// Time limit for any of these files, on a slow machine, without optimisation. An algorithm of
@@ -24,7 +24,7 @@ fn read(text: &str) -> Result<Scene, Vec<Diagnostic>> {
     pfaff::scene::read("x.toml", text, &Registry::standard())
 }
 
-/// A chain of parallelograms.
+/// Returns a chain of parallelograms.
 fn chain(cells: usize) -> String {
     let mut out = Vec::new();
     let generator = Order::of(Kind::Parallelograms, cells).generate();
@@ -33,7 +33,7 @@ fn chain(cells: usize) -> String {
     String::from_utf8(out).expect("UTF-8")
 }
 
-/// The problems of a text, found within the time limit.
+/// Returns the problems of a text, found within the time limit.
 fn problems(text: &str) -> Vec<Diagnostic> {
     let begin = Instant::now();
     let problems = read(text).expect_err("something is wrong");
@@ -41,7 +41,7 @@ fn problems(text: &str) -> Vec<Diagnostic> {
     problems
 }
 
-/// The line, from 1, of the last occurrence of a text.
+/// Returns the line, from 1, of the last occurrence of a text.
 fn last_line(text: &str, what: &str) -> usize {
     let at = text.rfind(what).expect("it occurs");
     text[..at].matches('\n').count() + 1
@@ -54,7 +54,7 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     let scene = read(&text).unwrap_or_else(|problems| panic!("{}", problems[0]));
     let d = scene.description.plane().expect("a planar scene");
     assert_eq!((d.bodies.len(), d.joints.len()), (68_750, 100_000));
-    // Every place is known: the last joint is the last table but one.
+    // Every position is known: the last joint is the last table but one.
     let source = scene.source.as_ref().expect("places");
     let last = source.joints.last().expect("a joint");
     assert!(text[last.name_span()].starts_with("\"top-18749-"));
@@ -68,8 +68,8 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("it rests");
     assert!(found.v.iter().all(|v| *v == 0.0));
-    // One body has a given velocity, the others follow; in a chain of parallelograms its neighbours
-    // have the same.
+    // One body has a given velocity, and the others follow; in a chain of parallelograms its
+    // neighbours have the same velocity.
     given[0] = Some(1.0);
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("the chain moves so");
@@ -122,7 +122,7 @@ fn one_fault_in_a_hundred_thousand_joints_is_named() {
     );
 }
 
-/// The same mistake in every joint: the first ones are listed, the others counted.
+/// The same mistake is in every joint: the first ones are listed, and the others counted.
 #[test]
 fn a_fault_in_every_joint_is_listed_some_thousand_times() {
     let text = chain(4000);
@@ -217,7 +217,8 @@ fn names_that_are_all_alike_and_bodies_with_themselves() {
     );
 }
 
-/// Sliders on one another, each driven, held by `keep`, in a group, and in an expression.
+/// The scene contains sliders on one another; each is driven, listed in `keep`, in a group, and in
+/// an expression.
 #[test]
 fn a_thing_of_every_kind_for_each_body() {
     const N: usize = 20_000;
@@ -253,7 +254,7 @@ fn a_thing_of_every_kind_for_each_body() {
         "[simulate]\nt_end = 1.0\ndrop = [{}]\n",
         list(Box::new(|k| format!("{}", k + 1)))
     ));
-    // One sum of all components, in several lines, which a text may have.
+    // One sum of all components has several lines, which a text may have.
     let sum: String = (0..N).map(|k| format!(" + j{k}.Fx\n")).collect();
     add(format_args!(
         "[[group]]\nname = \"all\"\ncombine = \"\"\"{sum}\"\"\"\n"
@@ -267,7 +268,7 @@ fn a_thing_of_every_kind_for_each_body() {
     assert_eq!(Work::of(&mechanism).without_turning.len(), N);
 }
 
-/// Levels of a malicious nesting: with recursion, one byte each would overflow any stack.
+/// Levels of a malicious nesting: with recursion, one byte for each level would overflow any stack.
 const DEEP: usize = 1_000_000;
 
 #[test]
@@ -373,7 +374,7 @@ fn a_long_line_within_the_limit_is_read() {
     let scene = read(&text).unwrap_or_else(|problems| panic!("{}", problems[0]));
     assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
     assert_eq!(scene.description.n_forces(), 1);
-    // A line that contains only invalid numbers: it is searched only for those that are listed.
+    // A line contains only invalid numbers: it is searched only for those that are listed.
     let wrong = text.replace("0.", "nan+0.");
     assert!(problems(&wrong).len() <= LISTED + 1);
 }

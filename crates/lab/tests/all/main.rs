@@ -1,5 +1,5 @@
-//! The laboratory: comparators compared with known motions and with pfaff, scenes of any size, and
-//! the command `lab`.
+//! Tests of the laboratory: comparators compared with known motions and with pfaff, scenes of any
+//! size, and the command `lab`.
 
 mod book;
 mod campaign;
@@ -33,7 +33,7 @@ fn lab(arguments: &[&str]) -> Output {
         .expect("the command starts")
 }
 
-/// The output of pfaff for these arguments.
+/// Returns the output of pfaff for these arguments.
 fn pfaff(arguments: &[&str]) -> String {
     let (mut out, mut err) = (Vec::new(), Vec::new());
     let arguments = std::iter::once(&"pfaff").chain(arguments);

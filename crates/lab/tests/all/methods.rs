@@ -1,4 +1,4 @@
-//! The steppers of the laboratory: orders, stiff springs, break times.
+//! Tests of the integration methods of the laboratory: orders, stiff springs, break times.
 
 use dynamics::PreparedMechanism;
 use joints::SpringDamper;
@@ -45,7 +45,7 @@ fn work_grows_with_the_order() {
     }
 }
 
-/// A spring of k = 10¹⁰ N/m holds the cranks against gravity; it oscillates a hundred thousand
+/// A spring of k = 10¹⁰ N/m supports the cranks against gravity; it oscillates a hundred thousand
 /// times faster than the steps of generalized-α. With wrong derivatives of its force Newton's
 /// method would diverge; Dormand–Prince would need a million steps.
 #[test]
@@ -65,7 +65,7 @@ fn generalized_alpha_steps_over_the_oscillations_of_a_stiff_spring() {
     let p = started(&held);
     for (tolerance, steps) in [(1e-3, 50), (1e-5, 500)] {
         let found = moved(&p, Method::GeneralizedAlpha, tolerance, 2.0);
-        // The weight divided by the stiffness.
+        // The extension is the weight divided by the stiffness.
         let sag = gap(&found.rows[0].q, &p.q);
         assert!((1e-9..1e-8).contains(&sag), "{tolerance:e}: {sag:.2e}");
         let speed = gap(&found.rows[0].v, &p.v);

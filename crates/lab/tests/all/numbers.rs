@@ -1,5 +1,5 @@
-//! The campaign of numbers: its oracle compared with closed forms, planted faults that it has to
-//! find, and a short campaign. `cargo run --release -p lab -- fuzz numbers` examines 20 000
+//! Tests the campaign of numbers: its oracle is compared with closed forms, planted errors must be
+//! found, and a short campaign runs. `cargo run --release -p lab -- fuzz numbers` examines 20 000
 //! mechanisms.
 
 use lab::fuzz::numbers::examine::{examine, examine_by};
@@ -16,7 +16,7 @@ use pfaff::model::{ConstraintId, Mechanism, Registry, System};
 use pfaff::solvability::{AnalysisError, Compliance, analyse};
 use suite::numbers::Numbers;
 
-/// A leaf of 20 kg on two hinges, 1.5 m apart; the mass centre is 0.4 m away from their line.
+/// A leaf of 20 kg has two hinges, 1.5 m apart; the mass centre is 0.4 m away from their line.
 const DOOR: &str = r#"
 scene = { name = "door", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "leaf", mass = 20.0, inertia = 8.0, position = [0.4, 1.0] }]
@@ -26,8 +26,8 @@ joint = [
 ]
 "#;
 
-/// Three upright cranks, one pivot of which is two points on lines: its sideways force is
-/// determined at the start, and at no other time.
+/// Three upright cranks; the pivot of one consists of two points on lines. Its sideways force is
+/// determined only at the start.
 const UPRIGHT: &str = r#"
 scene = { name = "upright", space = "plane", gravity = [0.0, -10.0] }
 body = [
@@ -48,7 +48,7 @@ joint = [
 simulate = { t_end = 0.4, output_step = 0.1 }
 "#;
 
-/// Something on a base that turns: `body` and `joint` are further lines.
+/// Returns a mechanism on a rotating base: `body` and `joint` are further lines.
 fn on_a_base(bodies: &str, joints: &str) -> String {
     format!(
         r#"
@@ -84,8 +84,8 @@ fn find<'f>(forms: &'f [Form], group: usize, name: &str) -> &'f Form {
         .expect("a component")
 }
 
-/// Moments about the upper hinge: 1.5·Fx = 0.4·200 N·m. The weight is shared as one chooses:
-/// without one of the rows the other takes all, and equal hinges take halves.
+/// Moments about the upper hinge give 1.5·Fx = 0.4·200 N·m. The share of the weight depends on the
+/// choice: without one of the rows the other hinge takes all, and equal hinges take halves.
 #[test]
 fn the_oracle_knows_a_door() {
     let (instant, forms, study) = oracle(DOOR);
@@ -104,7 +104,7 @@ fn the_oracle_knows_a_door() {
         (a.abs() - 80.0 / 1.5).abs() < 1e-12 && (a + b).abs() < 1e-12,
         "{a} {b}"
     );
-    // Row 1 (from 0) is the upward row of the lower hinge.
+    // Row 1 (from 0) is the vertical row of the lower hinge.
     let upper = without(&instant, least, &[1]).expect("admissible");
     let [a, b] = fy.map(|f| value(f, &upper));
     assert!(
@@ -135,7 +135,7 @@ fn the_oracle_knows_a_door() {
     assert!((instant.load - 200.0).abs() < 1e-12, "{}", instant.load);
 }
 
-/// Two bars in line between two pins move to first order, and not at all.
+/// Two collinear bars between two pins move at first order, but they have no finite motion.
 #[test]
 fn an_own_step_does_not_move_what_second_order_blocks() {
     let bars = |y: f64| {
@@ -192,7 +192,8 @@ fn kinds(findings: &Findings) -> Vec<Kind> {
     kinds
 }
 
-/// The product with other verdicts: `change` gets the verdict at the start and that on the run.
+/// The product with changed verdicts: `change` receives the verdict at the start and the verdict on
+/// the run.
 struct Changed<F>(F);
 
 impl<F: Fn(bool, &mut OnRun) + Sync> Judge for Changed<F> {
@@ -216,7 +217,7 @@ fn all_stretches(own: &mut OnRun, word: Word) {
     own.stretches.iter_mut().for_each(|s| s.word = word);
 }
 
-/// A judge that takes the verdict of the start for that of the run, as the product once did.
+/// This judge uses the verdict of the start for the run, as the product did in the past.
 #[test]
 fn a_verdict_of_the_start_is_found_out() {
     let of_start = Changed(|is_unique: bool, own: &mut OnRun| {
@@ -233,7 +234,7 @@ fn a_verdict_of_the_start_is_found_out() {
     assert_eq!(kinds(&found), [], "{:?}", found.all);
 }
 
-/// Judges that call nothing determined, everything determined, and nothing fragile.
+/// These judges call no number determined, every number determined, or no number ill-determined.
 #[test]
 fn planted_faults_are_found() {
     let doubled = on_a_base(
@@ -242,7 +243,7 @@ fn planted_faults_are_found() {
     { name = "upper", type = "revolute", bodies = ["base", "leaf"], at = [0.4, 0.2] },
     { name = "lower", type = "revolute", bodies = ["base", "leaf"], at = [0.4, 0.2] },"#,
     );
-    // A pin and a bar that passes it at 1 mm.
+    // A pin and a bar that passes it at a distance of 1 mm.
     let lever = on_a_base(
         r#"    { name = "lever", mass = 2.0, inertia = 0.1, position = [0.9, 0.0] },"#,
         r#"
@@ -270,14 +271,14 @@ fn planted_faults_are_found() {
     }
 }
 
-/// Every piece on every carrier is among the first of a campaign.
+/// Every piece on every carrier is among the first ones of a campaign.
 #[test]
 fn a_short_campaign_finds_nothing() {
     let tally = Tally::of(1, 0, 30, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// Mechanisms that a campaign has found, with what was wrong with them.
+/// Mechanisms that a campaign has found, with the error in each.
 #[test]
 fn mechanisms_that_were_wrong_once_are_right() {
     let found = [

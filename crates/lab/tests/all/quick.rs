@@ -1,4 +1,4 @@
-//! The families that take little time, run in the same way as by the command.
+//! Runs the families that take little time, in the same way as the command.
 
 use std::num::NonZeroUsize;
 

@@ -1,4 +1,4 @@
-//! The solvers of the saddle equations with all rows: compared with independent rows, constructed
+//! Compares the solvers of the saddle equations with all rows with independent rows, constructed
 //! combinations, and results found by hand.
 
 use lab::comparators::{Fault, MinimumNorm, NullSpace, Proximal, Saddle, Solver, Tuning};
@@ -32,7 +32,7 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 proptest! {
-    // The same cases every time, because the bounds only depend roughly on masses and condition
+    // The cases are always the same, because the bounds depend only roughly on masses and condition
     // numbers.
     #![proptest_config(ProptestConfig {
         rng_seed: RngSeed::Fixed(20130909),
@@ -40,8 +40,8 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// r random rows and p combinations of them: all solvers give the accelerations of the r rows,
-    /// forces of the constraints agree, and the λ of minimum norm is perpendicular to the
+    /// With r random rows and p combinations of them, all solvers return the accelerations of the r
+    /// rows, and the constraint forces agree. The λ of minimum norm is perpendicular to the
     /// constructed combinations.
     #[test]
     fn all_rows_agree_with_independent_ones(
@@ -91,13 +91,15 @@ proptest! {
     }
 }
 
-/// Three rows on a unit mass, one of them redundant: x = 0, the same multiplied by two, and z = 0.
+/// Three rows act on a unit mass, and one of them is redundant: x = 0, the same multiplied by two,
+/// and z = 0.
 fn twice(delta: f64) -> Matrix {
     Matrix::from_rows(&[[1.0, 0.0, 0.0], [2.0, delta, 0.0], [0.0, 0.0, 1.0]])
 }
 
-/// Off the constraints by δ a redundant row is independent by δ. If it is treated as independent,
-/// its direction gets an acceleration of order one; with the fixed rank all errors are of order δ.
+/// With a violation δ of the constraints a redundant row is independent by δ. If it is treated as
+/// independent, its direction has an acceleration of order one; with the fixed rank all errors are
+/// of order δ.
 #[test]
 fn noise_off_the_constraints_stays_noise() {
     let gamma = [1.0, 2.0 + 1e-6, 0.5];
@@ -119,7 +121,7 @@ fn noise_off_the_constraints_stays_noise() {
 
 #[test]
 fn massless_bodies_and_motions() {
-    // Masses (1, 0, 0) at positions x, y, z, all rigidly connected.
+    // Masses (1, 0, 0) at positions x, y, z are rigidly connected.
     let mass = [1.0, 0.0, 0.0];
     let tied = Matrix::from_rows(&[[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [1.0, 0.0, -1.0]]);
     let mut least = MinimumNorm::new(2);
@@ -133,7 +135,7 @@ fn massless_bodies_and_motions() {
     }
     let refused = solve(&mut MinimumNorm::new(3), &tied, &mass, &[0.0; 3], &[0.0; 3]);
     assert_eq!(refused, Err(Fault::RankLost { rank: 3 }));
-    // With only x = 0, the motion in y moves no mass.
+    // With the row x = 0 alone, the motion in y moves no mass.
     let loose = Matrix::from_rows(&[[1.0, 0.0]]);
     let refused = solve(
         &mut MinimumNorm::new(1),
@@ -145,7 +147,8 @@ fn massless_bodies_and_motions() {
     assert_eq!(refused, Err(Fault::Massless));
 }
 
-/// One coordinate of mass 1 and one row of length σ: the iterate is `(1 − (μ/(μ + σ²))^k)·γ/σ`.
+/// With one coordinate of mass 1 and one row of length σ, the iterate is
+/// `(1 − (μ/(μ + σ²))^k)·γ/σ`.
 #[test]
 fn the_response_of_one_direction() {
     let (sigma, mu) = (0.3, 0.05);
@@ -162,8 +165,8 @@ fn the_response_of_one_direction() {
     }
 }
 
-/// A weak direction, σ_r² = 4e-3, and a redundant row with a residual δ, as at a stage of an
-/// integrator. The chosen μ gives an error of order δ; a small μ with few iterations, which is
+/// There is a weak direction, σ_r² = 4e-3, and a redundant row with a residual δ, as at a stage of
+/// an integrator. The chosen μ gives an error of order δ; a small μ with few iterations, which is
 /// equally exact on the constraints, gives accelerations of order one.
 #[test]
 fn off_the_constraints_the_rule_beats_a_small_mu() {

@@ -1,6 +1,6 @@
-//! Mechanisms in space: the answers of the program are those of exact arithmetic, and lifted scenes
-//! of the plane have the answers of the plane. `cargo run --release -p lab -- fuzz exact --suite
-//! space` tests 20 000 of them.
+//! Mechanisms in space: the results of the program equal those of exact arithmetic, and planar
+//! scenes in space have the results of the plane.
+//! `cargo run --release -p lab -- fuzz exact --suite space` tests 20 000 of them.
 
 use std::fs;
 
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 
 const SEED: u64 = 3;
 
-/// Two drawings of each family in each way of writing.
+/// Two drawings of each family in each writing.
 const SCENES: u64 = 96;
 
 #[test]
@@ -37,7 +37,7 @@ fn the_catalogue_has_its_answers() {
     }
 }
 
-/// The same mechanism a thousand times smaller or larger: verdicts do not depend on units.
+/// The same mechanism is a thousand times smaller or larger: verdicts do not depend on units.
 #[test]
 fn verdicts_do_not_depend_on_size() {
     for number in (1..SCENES).step_by(8) {
@@ -57,7 +57,7 @@ fn verdicts_do_not_depend_on_size() {
     }
 }
 
-/// The results for all scenes of some drawings with few digits.
+/// Returns the results for all scenes of some drawings with few digits.
 fn of_drawings(seed: u64, from: u64, drawings: u64) -> Tally {
     let suite = Suite::RoundedInSpace;
     let ways = suite.ways() as u64;
@@ -70,8 +70,8 @@ fn with_few_digits_no_answer_is_wrong() {
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// Drawings with a couple along an axis of the ground that rounding turned a little out of it: its
-/// other components were not unique.
+/// Drawings with a couple along an axis of the ground, which rounding rotated slightly: the other
+/// components of the couple were wrongly not unique.
 #[test]
 fn couples_have_directions_within_a_tolerance() {
     for drawn in [29, 35, 38, 100] {
@@ -80,8 +80,9 @@ fn couples_have_directions_within_a_tolerance() {
     }
 }
 
-/// Bricard's linkages whose data, known to few digits, do not tell where the linkage is on its
-/// walk: with four digits the rank was called full, and the walk went on along another branch.
+/// Bricard's linkages whose data have few digits, which do not determine the configuration of the
+/// linkage on its path. With four digits the rank was reported as full, and the path continued
+/// along another branch.
 #[test]
 fn bricard_with_few_digits_is_right_or_undecided() {
     for (seed, drawn, digits) in [(2, 209, 6), (3, 11, 7)] {
@@ -101,9 +102,9 @@ fn bricard_with_few_digits_is_right_or_undecided() {
     }
 }
 
-/// A row that is redundant within the tolerance had to agree with the others at other poses as if
-/// it did at the given data: with 6 to 10 digits couplings, flat linkages, doors and vehicles were
-/// called redundant at this pose only.
+/// A row that is redundant within the tolerance had to agree with the others at other
+/// configurations as exactly as at the given data. So with 6 to 10 digits couplings, planar
+/// linkages, doors and vehicles were reported as redundant only at this configuration.
 #[test]
 fn with_few_digits_a_redundancy_that_lasts_is_the_same_elsewhere() {
     for (seed, drawn) in [(1, 6), (2, 46), (2, 13), (3, 14)] {
@@ -112,8 +113,8 @@ fn with_few_digits_a_redundancy_that_lasts_is_the_same_elsewhere() {
     }
 }
 
-/// Two links hinged about z, the second with a knife edge along x at its end: the edge resists
-/// nothing while the links are in line, but does elsewhere.
+/// Two links are hinged about z, and the second has a knife edge along x at its end. The edge
+/// constrains no motion while the links are in line, but it does elsewhere.
 fn links_in_line() -> Drawing {
     let mut drawing = Drawing::default();
     let [first, second] = [drawing.body(), drawing.body()];
@@ -134,7 +135,8 @@ fn links_in_line() -> Drawing {
     drawing
 }
 
-/// The comparison finds a wrong claim about other poses, with all digits and within a tolerance.
+/// The comparison finds a wrong claim about other configurations, with all digits and within a
+/// tolerance.
 #[test]
 fn a_changed_claim_about_other_poses_is_found_out() {
     let drawings = catalogue::all();
@@ -186,7 +188,7 @@ fn lifted_scenes_have_the_answers_of_the_plane() {
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// Scenes of the suite and of the examples, as far as they can be lifted.
+/// Scenes of the suite and of the examples that can be converted to space.
 #[test]
 fn known_scenes_have_the_answers_of_the_plane() {
     let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
@@ -219,7 +221,8 @@ fn known_scenes_have_the_answers_of_the_plane() {
 /// The comparison finds errors in a correct document that was changed.
 #[test]
 fn a_changed_document_is_found_out() {
-    // Bennett: nothing is unique; a spherical joint in a four-bar: much is.
+    // In Bennett's linkage no reaction is unique; in a four-bar with a spherical joint many
+    // reactions are.
     let drawings = catalogue::all();
     let named = |name: &str| {
         let found = drawings.iter().find(|(own, _)| *own == name);
@@ -268,7 +271,8 @@ fn a_changed_document_is_found_out() {
     }
 }
 
-/// The law of the lift is found broken where it is: one verdict across the plane, one in it.
+/// The test finds a violation of the conversion rule for each changed verdict: one verdict across
+/// the plane, one in it.
 #[test]
 fn a_changed_lift_is_found_out() {
     let text = suite::find("four-bar").map_or_else(

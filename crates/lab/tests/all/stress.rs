@@ -1,4 +1,4 @@
-//! `stress`: its list, its files, its last line, its refusals.
+//! Tests of `stress`: its list, its files, its last line, its errors.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! One table with pfaff and the comparators.
+//! Tests of one table with pfaff and the comparators.
 
 use std::time::Duration;
 
@@ -74,7 +74,7 @@ fn a_case_of_the_suite_is_compared_with_its_reference() {
     let rows: Vec<Vec<&str>> = rows.map(|line| line.split(',').collect()).collect();
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert!(
-        stdout(&output).contains("reference known to 3e-16"),
+        stdout(&output).contains("reference accurate to 3e-16"),
         "{}",
         stdout(&output)
     );
@@ -89,7 +89,7 @@ fn a_case_of_the_suite_is_compared_with_its_reference() {
         let error: f64 = dop853[6].parse().expect("a number");
         assert!(error > 1e-16 && error < bound, "{tolerance}: {error:e}");
     }
-    // A comparator, in the same table.
+    // This row belongs to a comparator, in the same table.
     let gbs = row("gbs", "1e-10");
     let error: f64 = gbs[6].parse().expect("a number");
     assert!(error > 1e-16 && error < 1e-8, "{error:e}");

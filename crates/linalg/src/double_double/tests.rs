@@ -1,4 +1,4 @@
-//! The oracle is integer arithmetic: with integers below 2¹⁰⁶ all results are known exactly.
+//! The reference is integer arithmetic: with integers below 2¹⁰⁶ all results are known exactly.
 
 use proptest::prelude::*;
 
@@ -49,7 +49,7 @@ proptest! {
 
     #[test]
     fn quotients_by_long_division(a in 1i64 << 40..1i64 << 53, b in 1i64 << 20..1i64 << 30) {
-        // floor(a·2⁶⁰ / b) in integers; the quotient lies between 2⁷⁰ and 2⁹³.
+        // The expected value is floor(a·2⁶⁰ / b) in integers; the quotient is between 2⁷⁰ and 2⁹³.
         let exact = (i128::from(a) << 60) / i128::from(b);
         let q = Dd::from(a as f64) / Dd::from(b as f64) * Dd::from(2f64.powi(60));
         let off = (q - dd(exact)).to_f64();
@@ -75,7 +75,7 @@ proptest! {
     }
 }
 
-/// √2 = 1.41421356237309504880168872420969807856967187537694807317668…; the digits are compared by
+/// √2 = 1.41421356237309504880168872420969807856967187537694807317668…. The digits are compared by
 /// squaring the truncated integer root, so the test does not rely on a constant in this file:
 /// 2·10³⁰ lies between the squares of two neighbouring integers.
 #[test]
@@ -84,7 +84,7 @@ fn root_of_two_to_thirty_digits() {
     assert!(root * root < 2 * 10i128.pow(30) && (root + 1).pow(2) > 2 * 10i128.pow(30));
     let dd_root = Dd::from(2.0).sqrt();
     assert_eq!(dd_root.hi(), std::f64::consts::SQRT_2);
-    // The low word as given in print, e.g. in the table of QD's constants.
+    // The low word as published, for example in the table of constants of QD.
     assert!((dd_root.lo() + 9.667_293_313_452_913e-17).abs() < Dd::EPSILON);
     let back = dd_root * dd_root - Dd::from(2.0);
     assert!(back.to_f64().abs() < 8.0 * Dd::EPSILON);

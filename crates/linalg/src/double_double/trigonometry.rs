@@ -1,4 +1,4 @@
-//! Sine and cosine in double-double, for poses at which a rank is certified.
+//! Sine and cosine in double-double, for configurations at which a rank is certified.
 //!
 //! The argument is reduced by multiples of π/2 stored with 159 bits and halved three times; the
 //! remainder is below 0.1, so that its Taylor series converges fast. Doubling the angle uses
@@ -19,13 +19,14 @@ const HALVINGS: i32 = 3;
 /// Terms of each series: 0.1³⁸ / 38! is far below the rounding of the format.
 const TERMS: u32 = 11;
 
-/// Above this argument the multiple of π/2 is not exact in the reduction, and the result is that of
-/// `f64`.
+/// Above this argument the multiple of π/2 is not exact in the reduction, and the result has the
+/// accuracy of `f64`.
 const LARGEST: f64 = 1e15;
 
 impl Dd {
-    /// Sine and cosine. The absolute error is below 10⁻³¹·(1 + |x|), the rounding of the argument;
-    /// above 10¹⁵ it is that of `f64`. NaN if the argument is not finite.
+    /// Returns sine and cosine. The absolute error is below 10⁻³¹·(1 + |x|), the rounding of the
+    /// argument. Above 10¹⁵ it is the error of `f64`. The result is NaN if the argument is not
+    /// finite.
     ///
     /// ```
     /// use pfaff_linalg::Dd;
@@ -62,7 +63,7 @@ impl Dd {
     }
 }
 
-/// `sin x` and `1 − cos x` for |x| ≤ 0.1, by Horner's rule.
+/// Returns `sin x` and `1 − cos x` for |x| ≤ 0.1, by Horner's rule.
 fn series(x: Dd) -> (Dd, Dd) {
     let square = x * x;
     let (mut sine, mut rest) = (Dd::ONE, Dd::ONE);
@@ -99,7 +100,7 @@ mod tests {
         close(c, Dd::from(0.5).sqrt());
     }
 
-    /// Addition theorem across quadrants, for arguments up to thousands of revolutions.
+    /// Tests the addition theorem across quadrants, for arguments up to thousands of revolutions.
     #[test]
     fn addition_theorem() {
         for k in -40..40 {
@@ -119,7 +120,8 @@ mod tests {
     #[test]
     fn one_radian() {
         let (s, c) = Dd::ONE.sin_cos();
-        // 0.8414709848078965066525023216302989996 and 0.5403023058681397174009366074429766037
+        // The digits are 0.8414709848078965066525023216302989996 and
+        // 0.5403023058681397174009366074429766037.
         let tail = |hi: f64, digits: &str| {
             let scaled: Vec<f64> = digits.bytes().map(|d| f64::from(d - b'0')).collect();
             let value = scaled

@@ -1,21 +1,23 @@
-//! The real Schur form `A = Z·T·Zᵀ`, in which T is upper triangular but for 2 × 2 blocks of complex
-//! pairs: reflections to Hessenberg form, then steps of the QR algorithm with two shifts at once
-//! (J. G. F. Francis, The QR transformation, Computer Journal 4 (1961/62) 265–271 and 332–345;
-//! G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. 2013, sections 7.4 and 7.5).
+//! Computes the real Schur form `A = Z·T·Zᵀ`, in which T is upper triangular except for 2 × 2
+//! blocks of complex pairs. Reflections transform the matrix to Hessenberg form, followed by steps
+//! of the QR algorithm with double shifts (J. G. F. Francis, The QR transformation, Computer
+//! Journal 4 (1961/62) 265–271 and 332–345; G. H. Golub, C. F. Van Loan, Matrix Computations, 4th
+//! ed. 2013, sections 7.4 and 7.5).
 
 use crate::Matrix;
 use crate::limits::{EXCEPTIONAL_EVERY, FRANCIS_STEPS};
 
 /// The factors of a real Schur form.
 pub(super) struct RealSchur {
-    /// T; entries below its blocks are exactly zero.
+    /// The matrix T; entries below its blocks are exactly zero.
     pub(super) t: Matrix,
-    /// Z, orthogonal.
+    /// The orthogonal matrix Z.
     pub(super) z: Matrix,
 }
 
 impl RealSchur {
-    /// The form of a square matrix with entries of about one. `None` if the steps do not converge.
+    /// Computes the form of a square matrix with entries of about one. Returns `None` if the steps
+    /// do not converge.
     pub(super) fn of(a: Matrix) -> Option<Self> {
         let n = a.nrows();
         let mut form = Self {
@@ -57,8 +59,8 @@ impl RealSchur {
         }
     }
 
-    /// The first row of the block before `end` whose subdiagonal entries are not zero; the entry
-    /// before it is set to zero if rounding explains it.
+    /// Returns the first row of the block before `end` whose subdiagonal entries are not zero; the
+    /// entry before it is set to zero if rounding explains it.
     fn active(&mut self, end: usize) -> usize {
         let t = &mut self.t;
         for k in (1..end).rev() {
@@ -72,9 +74,9 @@ impl RealSchur {
         0
     }
 
-    /// Sum and product of the two shifts: the eigenvalues of the last 2 × 2 block. Matrices with
-    /// eigenvalues of one size, such as permutations, may come back to themselves: every few steps
-    /// other shifts lead away from there.
+    /// Returns sum and product of the two shifts, which are the eigenvalues of the last 2 × 2
+    /// block. A matrix with eigenvalues of equal size, such as a permutation, may reproduce itself
+    /// in the iteration. Therefore other shifts are used every few steps.
     fn shifts(&self, begin: usize, end: usize, steps: usize) -> [f64; 2] {
         let t = &self.t;
         if !steps.is_multiple_of(EXCEPTIONAL_EVERY) {
@@ -82,7 +84,7 @@ impl RealSchur {
             let (b, c) = (t[(end - 2, end - 1)], t[(end - 1, end - 2)]);
             return [a + d, a * d - b * c];
         }
-        // Around the first or the last entry, as LAPACK's `dlahqr` does it in turn.
+        // The shifts use the first and the last entry alternately, like `dlahqr` of LAPACK.
         let (size, centre) = if (steps / EXCEPTIONAL_EVERY).is_multiple_of(2) {
             let size = t[(end - 1, end - 2)].abs() + t[(end - 2, end - 3)].abs();
             (size, t[(end - 1, end - 1)])
@@ -94,8 +96,8 @@ impl RealSchur {
         [2.0 * half, half * half + 0.4375 * size * size]
     }
 
-    /// One step with two shifts on the rows `begin..end`: the first reflection mixes the shifts in,
-    /// the others restore the Hessenberg form.
+    /// Performs one step with two shifts on the rows `begin..end`. The first reflection introduces
+    /// the shifts, and the others restore the Hessenberg form.
     fn step(&mut self, begin: usize, end: usize, [sum, product]: [f64; 2]) {
         let n = self.t.nrows();
         let t = &self.t;
@@ -148,13 +150,14 @@ impl RealSchur {
         self.t[(k + 1, k)] = 0.0;
     }
 
-    /// Replaces T by `H·T·H` and Z by `Z·H` for a reflection of the rows from `first` on.
+    /// Replaces T by `H·T·H` and Z by `Z·H` for a reflection of the rows from `first` onwards.
     fn reflect(&mut self, reflection: &Reflection, first: usize, columns_from: usize, rows: usize) {
         let n = self.t.nrows();
         self.reflect_within(reflection, first, columns_from..n, rows);
     }
 
-    /// The same where T is zero left of `columns` and below the first `rows` rows.
+    /// Works like [`Self::reflect`], if T is zero left of `columns` and below the first `rows`
+    /// rows.
     fn reflect_within(
         &mut self,
         reflection: &Reflection,
@@ -193,8 +196,8 @@ struct Reflection {
 }
 
 impl Reflection {
-    /// The reflection of x onto the first axis, and the first entry of `H·x`. `None` if x is there
-    /// already.
+    /// Returns the reflection of x onto the first axis, and the first entry of `H·x`. Returns
+    /// `None` if x already has this direction.
     fn of(x: &[f64]) -> Option<(Self, f64)> {
         let largest = x.iter().skip(1).fold(0.0_f64, |a, x| a.max(x.abs()));
         if largest == 0.0 {
@@ -205,7 +208,7 @@ impl Reflection {
         let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let first = -length.copysign(v[0]);
         v[0] -= first;
-        // vᵀ·v = 2·length·(length + |x₀|)
+        // The product is vᵀ·v = 2·length·(length + |x₀|).
         let factor = (length * v[0].abs()).recip();
         Some((Self { v, factor }, first * size))
     }

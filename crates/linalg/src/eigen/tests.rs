@@ -1,8 +1,9 @@
-//! Eigenvalues in closed form, and residuals of many matrices.
+//! Compares eigenvalues with closed forms, and checks the residuals of many matrices.
 
 use super::*;
 
-/// Jordan blocks beside other eigenvalues, in general axes and with entries changed by 1e-15.
+/// Jordan blocks together with other eigenvalues, in general axes and with entries changed by
+/// 1e-15.
 #[test]
 fn zeros_are_counted_though_rounding_spreads_them() {
     let sizes = [3, 2, 1];
@@ -15,7 +16,7 @@ fn zeros_are_counted_though_rounding_spreads_them() {
         }
         first += size;
     }
-    // 1e-3 beside 4 ± 3i
+    // The eigenvalues 1e-3 and 4 ± 3i.
     jordan[(6, 6)] = 1e-3;
     (jordan[(7, 7)], jordan[(8, 8)]) = (4.0, 4.0);
     (jordan[(7, 8)], jordan[(8, 7)]) = (3.0, -3.0);
@@ -62,7 +63,7 @@ fn units_do_not_matter() {
         for (x, y) in pair.value.iter().zip(value) {
             assert!((x - y).abs() < 1e-14, "{:?}", pair.value);
         }
-        // A·w = λ·w
+        // The residual of A·w = λ·w.
         let [re, im] = [0, 1].map(|part| {
             let part: Vec<f64> = pair.vector.iter().map(|z| z[part]).collect();
             a.times(&part)
@@ -103,7 +104,7 @@ impl Numbers {
 fn of_kind(kind: usize, numbers: &mut Numbers) -> Matrix {
     let n = 3 + (9.0 + 9.0 * numbers.next()) as usize;
     match kind {
-        // A permutation: all eigenvalues have one size, and a plain step changes nothing.
+        // A permutation: all eigenvalues have equal size, and a plain step changes nothing.
         0 => Matrix::from_fn(n, n, |i, k| f64::from(u8::from(k == (i + 1) % n))),
         // Undamped oscillators of one frequency.
         1 => {
@@ -133,13 +134,13 @@ fn of_kind(kind: usize, numbers: &mut Numbers) -> Matrix {
             let a = numbers.matrix(n);
             Matrix::from_fn(n, n, |i, k| a[(i, k)] * units[i] / units[k])
         }
-        // Grcar: far from normal.
+        // Grcar's matrix, which is far from normal.
         4 => Matrix::from_fn(n, n, |i, k| match k as i64 - i as i64 {
             -1 => -1.0,
             0..=3 => 1.0,
             _ => 0.0,
         }),
-        // Frank: small eigenvalues that are known badly.
+        // Frank's matrix, whose small eigenvalues are ill-conditioned.
         5 => Matrix::from_fn(n, n, |i, k| {
             if k + 1 < i {
                 0.0
@@ -172,7 +173,8 @@ fn of_kind(kind: usize, numbers: &mut Numbers) -> Matrix {
     }
 }
 
-/// Each pair satisfies its equation to rounding, and the values have the sum that the diagonal has.
+/// Each pair satisfies its equation to rounding, and the sum of the eigenvalues equals the sum of
+/// the diagonal.
 #[test]
 fn matrices_of_every_kind_have_small_residuals() {
     let mut numbers = Numbers(1);

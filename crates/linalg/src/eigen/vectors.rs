@@ -1,4 +1,5 @@
-//! Eigenvalues and eigenvectors of a real Schur form, by substitution from the last row up.
+//! Computes eigenvalues and eigenvectors of a real Schur form, by substitution upwards from the
+//! last row.
 
 use super::francis::RealSchur;
 use crate::Matrix;
@@ -27,8 +28,8 @@ fn quotient(x: Complex, by: Complex) -> Complex {
 }
 
 impl RealSchur {
-    /// All eigenvalues with their eigenvectors (not normalised); conjugate pairs are exactly
-    /// conjugate.
+    /// Returns all eigenvalues with their eigenvectors (not normalised); conjugate pairs are
+    /// exactly conjugate.
     pub(super) fn pairs(&self) -> Vec<(Complex, Vec<Complex>)> {
         let n = self.t.nrows();
         let mut pairs = Vec::with_capacity(n);
@@ -51,12 +52,12 @@ impl RealSchur {
         pairs
     }
 
-    /// Whether rows k and k + 1 belong to a complex pair.
+    /// Returns whether rows k and k + 1 belong to a complex pair.
     fn is_block(&self, k: usize) -> bool {
         k + 1 < self.t.nrows() && self.t[(k + 1, k)] != 0.0
     }
 
-    /// The eigenvalue with positive imaginary part of the block at row k.
+    /// Returns the eigenvalue with positive imaginary part of the block at row k.
     fn of_block(&self, k: usize) -> (Complex, Vec<Complex>) {
         let t = &self.t;
         let (a, d) = (t[(k, k)], t[(k + 1, k + 1)]);
@@ -77,7 +78,8 @@ impl RealSchur {
         (value, self.vector(value, x, k))
     }
 
-    /// The eigenvector whose entries from row `known` on are those of x, in the axes of A.
+    /// Returns the eigenvector whose entries from row `known` onwards are those of x, in the axes
+    /// of A.
     fn vector(&self, value: Complex, mut x: Vec<Complex>, known: usize) -> Vec<Complex> {
         let (t, n) = (&self.t, self.t.nrows());
         let least = (f64::EPSILON * t.max_abs()).max(f64::MIN_POSITIVE);
@@ -85,7 +87,7 @@ impl RealSchur {
             let terms = t.row(i)[from..].iter().zip(&x[from..]);
             terms.fold([0.0; 2], |[re, im], (t, [a, b])| [re - t * a, im - t * b])
         };
-        // What is zero but for rounding is replaced by rounding.
+        // A number that is zero except for rounding is replaced by rounding.
         let divisor = |z: Complex| if size(z) < least { [least, 0.0] } else { z };
         let mut k = known;
         while k > 0 {
@@ -124,8 +126,7 @@ impl RealSchur {
     }
 }
 
-/// The solution of two complex equations, rows `[a, b, right side]`, by elimination with the larger
-/// pivot.
+/// Solves two complex equations, rows `[a, b, right side]`, by elimination with the larger pivot.
 fn of_two([one, other]: [[Complex; 3]; 2], divisor: impl Fn(Complex) -> Complex) -> [Complex; 2] {
     let (pivot, below) = if size(one[0]) >= size(other[0]) {
         (one, other)

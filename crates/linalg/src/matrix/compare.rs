@@ -1,5 +1,5 @@
-//! Comparison of matrices up to rounding with `approx`: shapes must be equal, entries nearly equal.
-//! For tests.
+//! Comparison of matrices up to rounding with `approx`, for tests: shapes must be equal, and
+//! entries nearly equal.
 
 use approx::{AbsDiffEq, RelativeEq};
 

@@ -1,5 +1,5 @@
 //! Conversions from and to `nalgebra::DMatrix` at the public boundary, behind the feature
-//! `nalgebra`. They copy: nalgebra stores columns, we store rows.
+//! `nalgebra`. They copy the values, because nalgebra stores columns and this crate stores rows.
 
 use nalgebra::DMatrix;
 

@@ -5,10 +5,10 @@ use super::{PivotedQr, factor};
 use crate::{Matrix, kernels};
 
 impl PivotedQr {
-    /// `x ← Q·x`.
+    /// Computes `x ← Q·x`.
     ///
     /// # Panics
-    /// If the length of `x` is not [`PivotedQr::dimension`].
+    /// Panics if the length of `x` is not [`PivotedQr::dimension`].
     pub fn q_mul(&self, x: &mut [f64]) {
         self.assert_dimension(x);
         for k in (0..self.steps()).rev() {
@@ -16,10 +16,10 @@ impl PivotedQr {
         }
     }
 
-    /// `x ← Qᵀ·x`.
+    /// Computes `x ← Qᵀ·x`.
     ///
     /// # Panics
-    /// If the length of `x` is not [`PivotedQr::dimension`].
+    /// Panics if the length of `x` is not [`PivotedQr::dimension`].
     pub fn q_transpose_mul(&self, x: &mut [f64]) {
         self.assert_dimension(x);
         for k in 0..self.steps() {
@@ -27,15 +27,16 @@ impl PivotedQr {
         }
     }
 
-    /// Q as an n×n matrix.
+    /// Returns Q as an n×n matrix.
     pub fn q(&self) -> Matrix {
         self.q_columns(0..self.dimension())
     }
 
-    /// Columns `range` of Q: the first r span range(A), the last n − r its complement.
+    /// Returns the columns `range` of Q: the first r span range(A), and the last n − r span its
+    /// complement.
     ///
     /// # Panics
-    /// If the range ends beyond [`PivotedQr::dimension`].
+    /// Panics if the range ends beyond [`PivotedQr::dimension`].
     pub fn q_columns(&self, range: std::ops::Range<usize>) -> Matrix {
         let n = self.dimension();
         assert!(range.end <= n, "columns {range:?} of a Q of order {n}");
@@ -47,10 +48,11 @@ impl PivotedQr {
         columns.transpose()
     }
 
-    /// `x ← R₁₁⁻¹·x` with the leading block of R of order `x.len()`. Zero pivots give infinities.
+    /// Computes `x ← R₁₁⁻¹·x` with the leading block of R of order `x.len()`. Zero pivots give
+    /// infinities.
     ///
     /// # Panics
-    /// If `x` is longer than [`PivotedQr::steps`].
+    /// Panics if `x` is longer than [`PivotedQr::steps`].
     pub fn solve_r(&self, x: &mut [f64]) {
         self.assert_leading(x);
         for k in (0..x.len()).rev() {
@@ -63,16 +65,17 @@ impl PivotedQr {
         }
     }
 
-    /// `x ← R₁₁⁻ᵀ·x` with the leading block of R of order `x.len()`. Zero pivots give infinities.
+    /// Computes `x ← R₁₁⁻ᵀ·x` with the leading block of R of order `x.len()`. Zero pivots give
+    /// infinities.
     ///
     /// # Panics
-    /// If `x` is longer than [`PivotedQr::steps`].
+    /// Panics if `x` is longer than [`PivotedQr::steps`].
     pub fn solve_r_transpose(&self, x: &mut [f64]) {
         self.assert_leading(x);
         self.solve_r_transpose_from(0, x);
     }
 
-    /// The same for x whose entries before `first` are zero.
+    /// Works like [`Self::solve_r_transpose`], for x whose entries before `first` are zero.
     fn solve_r_transpose_from(&self, first: usize, x: &mut [f64]) {
         for k in first..x.len() {
             let column = self.factors.row(k);
@@ -93,7 +96,7 @@ impl PivotedQr {
         );
     }
 
-    /// `(C⁺)ᵀ` (r×n) of independent rows C (r×n, r ≤ n) factored by [`PivotedQr::of_rows`]:
+    /// Returns `(C⁺)ᵀ` (r×n) of independent rows C (r×n, r ≤ n) factored by [`PivotedQr::of_rows`]:
     /// `C⁺ = Q·R⁻ᵀ·Pᵀ`, so that `C⁺·b` is the smallest solution of `C·x = b`. Row i is `C⁺·e_i`.
     ///
     /// ```

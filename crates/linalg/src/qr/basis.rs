@@ -1,11 +1,11 @@
-//! Independent rows of a matrix, factored once, and its other rows in terms of them.
+//! Independent rows of a matrix, factored once, and the other rows of the matrix in terms of them.
 
 use super::PivotedQr;
 use super::factor::factor_leading;
 use crate::Matrix;
 
-/// r independent rows K of an m×n matrix C, factored, and the other rows D in the same Q:
-/// `C_D = T·C_K + S` with the rows of S orthogonal to those of `C_K`.
+/// A factorisation of r independent rows K of an m×n matrix C, and the other rows D with the same
+/// Q: `C_D = T·C_K + S`, where the rows of S are orthogonal to those of `C_K`.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, RowBasis};
@@ -20,9 +20,9 @@ use crate::Matrix;
 pub struct RowBasis {
     kept: Vec<usize>,
     dropped: Vec<usize>,
-    /// Of `C_K`, rows ascending.
+    /// Factors of `C_K`, rows ascending.
     factored: PivotedQr,
-    /// `C_D·Q`, p×n.
+    /// The product `C_D·Q`, p×n.
     rotated: Matrix,
 }
 
@@ -30,7 +30,7 @@ impl RowBasis {
     /// Keeps the r rows that a pivoted factorisation of C takes first.
     ///
     /// # Panics
-    /// If r exceeds the number of rows or of columns.
+    /// Panics if r exceeds the number of rows or of columns.
     #[must_use]
     pub fn most_independent(c: Matrix, r: usize) -> Self {
         let (m, n) = (c.nrows(), c.ncols());
@@ -64,7 +64,7 @@ impl RowBasis {
     /// Keeps these rows of C, which are independent.
     ///
     /// # Panics
-    /// If there are more of them than columns.
+    /// Panics if there are more rows than columns.
     #[must_use]
     pub fn of_rows(c: &Matrix, mut kept: Vec<usize>) -> Self {
         assert!(
@@ -87,35 +87,35 @@ impl RowBasis {
         }
     }
 
-    /// The rows K, ascending.
+    /// Returns the rows K, ascending.
     #[must_use]
     pub fn kept(&self) -> &[usize] {
         &self.kept
     }
 
-    /// The rows D, ascending.
+    /// Returns the rows D, ascending.
     #[must_use]
     pub fn dropped(&self) -> &[usize] {
         &self.dropped
     }
 
-    /// `C_K`, rows ascending, factored.
+    /// Returns the factors of `C_K`, rows ascending.
     #[must_use]
     pub fn factored(&self) -> &PivotedQr {
         &self.factored
     }
 
-    /// The factors of `C_K` alone.
+    /// Returns only the factors of `C_K`.
     #[must_use]
     pub fn into_factored(self) -> PivotedQr {
         self.factored
     }
 
-    /// Row j of T, r values in the order of [`RowBasis::kept`]: row `dropped[j]` in terms of these
-    /// rows.
+    /// Writes row j of T, r values in the order of [`RowBasis::kept`]: row `dropped[j]` in terms of
+    /// these rows.
     ///
     /// # Panics
-    /// If j or the length of `t` is wrong.
+    /// Panics if j or the length of `t` is wrong.
     pub fn coefficients(&self, j: usize, t: &mut [f64]) {
         let r = self.kept.len();
         assert_eq!(t.len(), r, "one coefficient for each kept row");
@@ -126,10 +126,10 @@ impl RowBasis {
         }
     }
 
-    /// Row j of S, n − r values in the basis of the last columns of Q.
+    /// Returns row j of S, n − r values in the basis of the last columns of Q.
     ///
     /// # Panics
-    /// If j is not below the number of dropped rows.
+    /// Panics if j is not below the number of dropped rows.
     #[must_use]
     pub fn outside(&self, j: usize) -> &[f64] {
         &self.rotated.row(j)[self.kept.len()..]

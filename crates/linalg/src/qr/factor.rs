@@ -1,4 +1,4 @@
-//! The factorisation: choose the longest remaining column, reflect, downdate the norms.
+//! The factorisation: select the longest remaining column, reflect, and update the norms.
 
 use super::PivotedQr;
 use crate::limits::DOWNDATE_LIMIT;
@@ -7,14 +7,14 @@ use crate::{Matrix, kernels};
 /// Remaining length of one column.
 #[derive(Debug, Clone, Copy)]
 struct Length {
-    /// Downdated value.
+    /// Updated value.
     now: f64,
     /// Value when it was last computed from the entries.
     exact: f64,
 }
 
 impl Length {
-    /// Of these entries, and of one of size `beside`.
+    /// Returns the length of these entries and of one entry of size `beside`.
     fn of(entries: &[f64], beside: f64) -> Self {
         let own = kernels::norm(entries);
         let exact = if beside == 0.0 {
@@ -32,15 +32,17 @@ pub(super) fn factor(a: Matrix) -> PivotedQr {
     factor_leading(a, steps)
 }
 
-/// Factors as many columns as there are steps; Qᵀ times the others is left in the other rows.
+/// Factors as many columns as there are steps. The other rows then contain Qᵀ times the other
+/// columns.
 pub(super) fn factor_leading(a: Matrix, steps: usize) -> PivotedQr {
     let n = a.ncols();
     factor_with(a, steps, 0.0, |_, _| n)
 }
 
-/// Factors columns with δ·I below them, for which there are zeros at their ends. The entry δ of a
-/// column stands in a row of its own, which no other column meets before it is the pivot: it is
-/// written only then, in the first row that is still free. So reflections end there.
+/// Factors columns with δ·I below them; the columns have zeros at their ends for these entries. The
+/// entry δ of a column is in a separate row, which no other column affects before this column is
+/// the pivot. It is therefore written only at that time, into the first free row, and reflections
+/// end there.
 pub(super) fn factor_damped(a: Matrix, damping: f64) -> PivotedQr {
     let (m, n) = (a.nrows(), a.ncols() - a.nrows());
     factor_with(a, m, damping, |k, column| {
@@ -49,8 +51,8 @@ pub(super) fn factor_damped(a: Matrix, damping: f64) -> PivotedQr {
     })
 }
 
-/// The factorisation. `begin` completes the column that becomes number k and returns where it
-/// ends; before that it has an entry of size `beside` that is not in the matrix.
+/// Performs the factorisation. `begin` completes the column that becomes number k and returns its
+/// end. Before that, the column has an entry of size `beside` that is not in the matrix.
 fn factor_with(
     mut a: Matrix,
     steps: usize,
@@ -81,7 +83,8 @@ fn factor_with(
     }
 }
 
-/// First index from `k` on with the largest length, so that equal lengths are not reordered.
+/// Returns the first index from `k` onwards with the largest length, so that equal lengths are not
+/// reordered.
 fn longest(lengths: &[Length], k: usize) -> usize {
     let mut best = k;
     for j in k + 1..lengths.len() {
@@ -93,7 +96,7 @@ fn longest(lengths: &[Length], k: usize) -> usize {
 }
 
 /// Overwrites `x` by `[β, v_1, v_2, …]` with `H·x = β·e_0`, `H = I − τ·v·vᵀ`, `v_0 = 1`; returns τ.
-/// A column that is already `[β, 0, …]` gets τ = 0, that is H = I.
+/// For a column that is already `[β, 0, …]`, τ = 0 and H = I.
 pub(crate) fn reflect(x: &mut [f64]) -> f64 {
     let alpha = x[0];
     if kernels::max_abs(&x[1..]) == 0.0 {
@@ -108,7 +111,7 @@ pub(crate) fn reflect(x: &mut [f64]) -> f64 {
     v_0 / -beta
 }
 
-/// `y ← (I − τ·v·vᵀ)·y` with `v_0 = 1` (the stored entry 0 of `v` is R's).
+/// Computes `y ← (I − τ·v·vᵀ)·y` with `v_0 = 1` (the stored entry 0 of `v` belongs to R).
 pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
     if tau == 0.0 {
         return;
@@ -122,8 +125,8 @@ pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
     kernels::axpy(s, &v[1..], &mut y[1..]);
 }
 
-/// Length of `column[1..]` from that of `column[0..]`, `ℓ² ← ℓ² − R_kj²`; recomputed when the
-/// difference has lost half of its digits since the last exact value.
+/// Computes the length of `column[1..]` from that of `column[0..]`, `ℓ² ← ℓ² − R_kj²`. The length
+/// is recomputed if the difference has lost half of its digits since the last exact value.
 fn downdate(length: &mut Length, column: &[f64], beside: f64) {
     if length.now == 0.0 || column[0] == 0.0 {
         return;

@@ -1,4 +1,4 @@
-//! Factors compared with products of known matrices; pivots compared with norms.
+//! Compares factors with products of known matrices, and pivots with norms.
 use proptest::prelude::*;
 
 use super::*;
@@ -42,7 +42,7 @@ proptest! {
         approx::assert_abs_diff_eq!(back, permuted, epsilon = BACKWARD);
     }
 
-    /// `C_D = T·C_K + S`, whether the rows are chosen by the factorisation or given.
+    /// The relation `C_D = T·C_K + S`, for rows that are given or chosen by the factorisation.
     #[test]
     fn other_rows_are_combinations_of_a_basis(c in any_matrix(), share in 0.0..1.0_f64) {
         let r = (share * (c.nrows().min(c.ncols()) + 1) as f64) as usize;
@@ -112,8 +112,8 @@ fn zero_and_empty_matrices() {
     }
 }
 
-/// Known defect of pivoted QR, and the reason why ranks are decided by singular values: on Kahan's
-/// matrix the last pivot is far above the smallest singular value.
+/// Known defect of pivoted QR, and the reason why ranks are decided by singular values: for Kahan's
+/// matrix, the last pivot is far above the smallest singular value.
 #[test]
 fn last_pivot_of_kahan_hides_the_smallest_singular_value() {
     let k = kahan(90, 1.2);

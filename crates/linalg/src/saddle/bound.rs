@@ -1,18 +1,19 @@
-//! A bound on the entries of the factors, whatever coordinates the rows are solved for.
+//! A bound on the number of entries of the factors, for any choice of pivot coordinates.
 //!
-//! When a row is eliminated, each coordinate in which it can have entries can get those of the
-//! others in all later rows. Source: A. George, E. Ng, Symbolic factorization for sparse Gaussian
+//! When a row is eliminated, the later rows can receive an entry in every coordinate in which this
+//! row can have entries. Source: A. George, E. Ng, Symbolic factorization for sparse Gaussian
 //! elimination with partial pivoting, SIAM J. Sci. Stat. Comput. 8 (1987) 877–898.
 
 use std::collections::BTreeSet;
 
 use crate::DisjointSets;
 
-/// Numbers of entries of U and of L below their diagonals, at most, for n coordinates and rows with
-/// these columns.
+/// Returns the maximum numbers of entries of U and of L below their diagonals, for n coordinates
+/// and rows with these columns.
 pub(super) fn bound(n: usize, columns: &[&[usize]]) -> [usize; 2] {
     let mut sets = DisjointSets::new(n);
-    // Of each set, at its representative: coordinates that are not solved for, and later rows.
+    // Stored at the representative of each set: the number of coordinates that are not pivots, and
+    // later rows.
     let mut size = vec![1_usize; n];
     let mut rows: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); n];
     for (k, columns) in columns.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Reasons why saddle equations are not solved, and the checks of their arguments.
+//! Reasons why saddle equations are not solved, and checks of their arguments.
 
 use crate::kernels::all_finite;
 
@@ -19,7 +19,7 @@ pub enum SaddleError {
     Length {
         /// Name of the argument.
         argument: &'static str,
-        /// Its length.
+        /// Length of the argument.
         found: usize,
         /// The length it must have.
         expected: usize,
@@ -34,7 +34,7 @@ pub enum SaddleError {
         /// Number of coordinates.
         n: usize,
     },
-    /// These coordinates cannot be solved for.
+    /// The given coordinates cannot be used as pivots.
     #[error("coordinate {coordinate} cannot be solved for: need different coordinates below {n}")]
     Partition {
         /// The coordinate.
@@ -42,22 +42,22 @@ pub enum SaddleError {
         /// Number of coordinates.
         n: usize,
     },
-    /// A NaN or infinite entry.
+    /// An entry is NaN or infinite.
     #[error("{argument} contains the value {value} at {index}, need finite numbers")]
     NonFinite {
         /// Name of the argument.
         argument: &'static str,
         /// Index of the entry; for the rows of C in row-major order.
         index: usize,
-        /// Its value.
+        /// Value of the entry.
         value: f64,
     },
-    /// A negative mass.
+    /// A mass is negative.
     #[error("mass {index} is {value:.3e}, need a number that is not negative")]
     NegativeMass {
         /// Index of the coordinate.
         index: usize,
-        /// Its mass.
+        /// The negative mass.
         value: f64,
     },
     /// A coordinate has no mass, but the solver needs one for every coordinate.
@@ -67,10 +67,10 @@ pub enum SaddleError {
     ZeroMass {
         /// Index of the coordinate.
         index: usize,
-        /// Its mass.
+        /// Mass of the coordinate.
         value: f64,
     },
-    /// Only the solver in the null space supports this.
+    /// Only the null-space solver supports this operation.
     #[error(
         "{rows} rows with many free motions are solved through the Schur complement, without independent coordinates: take an explicit method on kept rows, with projection"
     )]
@@ -78,13 +78,13 @@ pub enum SaddleError {
         /// Number of rows.
         rows: usize,
     },
-    /// More motions are free than the caller wants to be treated one by one.
-    #[error("{free} motions are free, more than are treated one by one")]
+    /// The number of free motions exceeds the limit for a solver that treats them separately.
+    #[error("{free} free motions are more than the dense solver supports")]
     ManyFree {
         /// Number of free motions.
         free: usize,
     },
-    /// A kept row depends on the rows before it.
+    /// A kept row depends on the previous rows.
     #[error(
         "kept row {row} depends on the rows before it: pivot {pivot:.3e} in a row of size \
          {scale:.3e}; the configuration is singular or the kept rows were chosen elsewhere"
@@ -92,15 +92,15 @@ pub enum SaddleError {
     RankLost {
         /// Number of the kept row.
         row: usize,
-        /// Its largest remaining entry.
+        /// Largest remaining entry of the row.
         pivot: f64,
-        /// Its largest entry before elimination.
+        /// Largest entry of the row before elimination.
         scale: f64,
     },
     /// The constraints allow a motion without mass.
     #[error(
         "the mass is not positive definite on the allowed motions: reduced mass {reduced:.3e} of \
-         {size:.3e}; give mass or inertia to what moves along the massless motion {motion:?}"
+         {size:.3e}; give mass or inertia to the bodies that move along the massless motion {motion:?}"
     )]
     MasslessMotion {
         /// The remaining reduced mass.
@@ -121,7 +121,7 @@ pub enum SaddleError {
         /// Largest change in the last round, relative to the size of the changed quantity.
         change: f64,
     },
-    /// `solve` without a successful `factor`.
+    /// The caller used `solve` without a successful `factor`.
     #[error("nothing is factored: call `factor` and handle its error before `solve`")]
     NotFactored,
 }

@@ -14,16 +14,17 @@ impl KeptRowSaddle {
     /// | `row` | r calls | `row(k)`: values of the k-th kept row of C in its columns |
     /// | `mass` | n | diagonal of M, entries ≥ 0 |
     ///
-    /// Costs about n·r² + k·r²/2 + k²·r/2 multiplications for rows without zeros; does not allocate
-    /// unless it is the first one, by whose values the order of elimination is chosen, or it fails,
-    /// or finds more entries of large factors than before. After an error the
-    /// solver has no factorisation.
+    /// For rows without zeros, the function costs about n·r² + k·r²/2 + k²·r/2 multiplications. It
+    /// allocates memory in three cases: in the first factorisation, whose values determine the
+    /// order of elimination, if it fails, and if large factors have more entries than before. After
+    /// an error the solver has no factorisation.
     ///
     /// # Errors
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
     ///   input.
-    /// - [`SaddleError::RankLost`]: a row depends on the ones before it to working precision.
-    /// - [`SaddleError::MasslessMotion`]: M is not positive definite on ker C; carries the motion.
+    /// - [`SaddleError::RankLost`]: a row depends on the previous rows to working precision.
+    /// - [`SaddleError::MasslessMotion`]: M is not positive definite on ker C. The error contains
+    ///   the motion.
     pub fn factor<'c>(
         &mut self,
         row: impl Fn(usize) -> &'c [f64],
@@ -47,9 +48,9 @@ impl KeptRowSaddle {
         self.finish(row, mass)
     }
 
-    /// Like [`KeptRowSaddle::factor`], but skips rows whose pivot is at most `floor` of their
-    /// largest entry: if rows are dependent for an instant, the others determine the solution. The
-    /// multiplier of a skipped row is zero, and its equation does not hold.
+    /// Works like [`KeptRowSaddle::factor`], but skips rows whose pivot is at most `floor` of their
+    /// largest entry: if rows are dependent for an instant, the other rows determine the solution.
+    /// The multiplier of a skipped row is zero, and its equation is not satisfied.
     ///
     /// ```
     /// use pfaff_linalg::KeptRowSaddle;
@@ -63,7 +64,7 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// As [`KeptRowSaddle::factor`], without [`SaddleError::RankLost`].
+    /// Same errors as [`KeptRowSaddle::factor`], without [`SaddleError::RankLost`].
     pub fn factor_above<'c>(
         &mut self,
         floor: f64,
@@ -73,11 +74,11 @@ impl KeptRowSaddle {
         self.factor_up_to(usize::MAX, floor, row, mass)
     }
 
-    /// Like [`KeptRowSaddle::factor_above`], but stops before the null space is computed if more
-    /// than so many motions are free, for which another solver is less work.
+    /// Works like [`KeptRowSaddle::factor_above`], but stops before the null space is computed if
+    /// the number of free motions exceeds a limit, above which another solver needs less work.
     ///
     /// # Errors
-    /// As [`KeptRowSaddle::factor_above`], and [`SaddleError::ManyFree`].
+    /// Same errors as [`KeptRowSaddle::factor_above`], and [`SaddleError::ManyFree`].
     pub fn factor_up_to<'c>(
         &mut self,
         most_free: usize,

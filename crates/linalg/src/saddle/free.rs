@@ -1,10 +1,11 @@
 //! The motions that the rows leave free: a basis N of their null space and the reduced mass
 //! `Nᵀ·M·N`, with a Cholesky factorisation without square roots.
 //!
-//! A null vector is one in its free coordinate, zero in the others, and has entries where rows tie
-//! coordinates to it. Where these are few, such as where rows of a long mechanism are skipped for
-//! an instant, most entries of the reduced mass are zero: vectors with few entries come first, and
-//! each row of the factor begins with its first entry.
+//! A null vector is one in its free coordinate and zero in the other free coordinates. Its other
+//! entries belong to coordinates that rows couple to the free one. If there are few such entries,
+//! for example if rows of a long mechanism are skipped for an instant, most entries of the reduced
+//! mass are zero. Therefore vectors with few entries come first, and each row of the factor begins
+//! with its first entry.
 
 use super::error::SaddleError;
 use super::lists::Entry;
@@ -17,32 +18,34 @@ use crate::limits::RESERVED;
 pub(super) struct FreeMotions {
     pub(super) basis: Basis,
     pub(super) k: usize,
-    /// diag(M).
+    /// Diagonal of M.
     pub(super) mass: Vec<f64>,
     /// Squared norms of the null vectors without their free coordinates.
     squared: Vec<f64>,
-    /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major; row i is zero before
-    /// `begin[i]`.
+    /// Factors L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. The array is k×k and row-major;
+    /// row i is zero before `begin[i]`.
     reduced_mass: Vec<f64>,
     begin: Vec<usize>,
-    /// Scratch: Nᵀ·g and the free motions that belong to it.
+    /// Buffer for Nᵀ·g and the corresponding free motions.
     z: Vec<f64>,
-    /// Smallest fraction of a diagonal entry of NᵀMN that remained after elimination, infinite for
+    /// Smallest fraction of a diagonal entry of NᵀMN that remained after elimination; infinite for
     /// k = 0.
     pub(super) mass_ratio: f64,
 }
 
-/// The n×k matrix N by its rows, with the entries only that can be other than zero.
+/// The n×k matrix N by its rows, with only the entries that can be nonzero.
 #[derive(Debug, Clone)]
 pub(super) struct Basis {
-    /// Rows of the free coordinates, and behind them those of the others, last row of C first. If
-    /// one motion is free, as in most mechanisms: an entry for each coordinate, in their order.
+    /// Rows of the free coordinates, followed by those of the other coordinates, last row of C
+    /// first. If only one motion is free, as in most mechanisms, there is one entry for each
+    /// coordinate, in their order.
     entries: Vec<Entry>,
-    /// Beginning and end of the row of each coordinate.
+    /// Start and end of the row of each coordinate.
     rows: Vec<[u32; 2]>,
-    /// Scratch: a row, k values.
+    /// Buffer for a row, k values.
     row: Vec<f64>,
-    /// Scratch: numbers of entries of the null vectors, and their places in the order of these.
+    /// Buffer for the numbers of entries of the null vectors, and for their positions in the order
+    /// of these numbers.
     count: Vec<usize>,
     place: Vec<u32>,
 }
@@ -54,8 +57,8 @@ impl Basis {
         &self.entries[begin as usize..end as usize]
     }
 
-    /// Finds the places of the entries, and sorts the free coordinates by the number of entries of
-    /// their null vectors.
+    /// Finds the positions of the entries, and sorts the free coordinates by the number of entries
+    /// of their null vectors.
     fn follow(&mut self, lu: &mut TallLu) {
         let k = lu.free.len();
         let Self {
@@ -140,8 +143,8 @@ impl Basis {
 }
 
 impl FreeMotions {
-    /// Allocates storage for n coordinates and k free motions. More of them, where rows are
-    /// skipped, allocate once.
+    /// Allocates storage for n coordinates and k free motions. If there are more free motions
+    /// because rows are skipped, more storage is allocated once.
     pub(super) fn new(n: usize, k: usize) -> Self {
         Self {
             basis: Basis {
@@ -161,7 +164,7 @@ impl FreeMotions {
         }
     }
 
-    /// Adapts to other coordinates that are solved for, and sorts the free ones.
+    /// Adapts the storage to other pivot coordinates, and sorts the free coordinates.
     pub(super) fn follow(&mut self, lu: &mut TallLu) {
         self.basis.follow(lu);
         self.k = lu.free.len();
@@ -182,8 +185,8 @@ impl FreeMotions {
         }
     }
 
-    /// Basis and factors for these rows and masses; `entry(row, coordinate)` is an entry of C
-    /// relative to the largest one of its row.
+    /// Computes basis and factors for these rows and masses. `entry(row, coordinate)` is an entry
+    /// of C relative to the largest one of its row.
     pub(super) fn factor(
         &mut self,
         lu: &TallLu,
@@ -196,7 +199,7 @@ impl FreeMotions {
         self.factor_reduced_mass(lu, entry)
     }
 
-    /// Lower triangle of NᵀMN, and squares of the null vectors.
+    /// Computes the lower triangle of NᵀMN, and the squares of the null vectors.
     fn reduce_mass(&mut self, lu: &TallLu) {
         let k = self.k;
         self.squared.fill(0.0);
@@ -226,7 +229,7 @@ impl FreeMotions {
         }
     }
 
-    /// Cholesky factorisation of `NᵀMN` without roots, L·D·Lᵀ.
+    /// Computes the Cholesky factorisation of `NᵀMN` without roots, L·D·Lᵀ.
     fn factor_reduced_mass(
         &mut self,
         lu: &TallLu,
@@ -247,7 +250,8 @@ impl FreeMotions {
             let l_i = &mut rest[..k];
             let size = l_i[i];
             let begin = self.begin[i];
-            // First v_j = l_ij·d_j, then l_ij: L has a unit diagonal, and d is stored in its place.
+            // The loop first computes v_j = l_ij·d_j, then l_ij: L has a unit diagonal, and d is
+            // stored in its place.
             for j in begin..i {
                 let from = begin.max(self.begin[j]);
                 let of_j = &above[j * k..j * k + j];
@@ -285,7 +289,7 @@ impl FreeMotions {
         Ok(())
     }
 
-    /// The motion `N·z` with `z = [−L₁₁⁻ᵀ·l_i; 1; 0]` that belongs to the failed pivot i.
+    /// Returns the motion `N·z` with `z = [−L₁₁⁻ᵀ·l_i; 1; 0]` that belongs to the failed pivot i.
     fn massless_motion(&self, n: usize, i: usize) -> Vec<f64> {
         let k = self.k;
         let mut z = vec![0.0; k];
@@ -310,7 +314,7 @@ impl FreeMotions {
         motion
     }
 
-    /// y ← y + N·z with `(NᵀMN)·z = Nᵀ·g`.
+    /// Computes y ← y + N·z with `(NᵀMN)·z = Nᵀ·g`.
     pub(super) fn add(&mut self, g: &[f64], y: &mut [f64]) {
         let Self {
             basis,

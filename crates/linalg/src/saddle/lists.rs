@@ -1,6 +1,6 @@
-//! Lists of indices and of values, one behind the other.
+//! Lists of indices and of values, stored one after the other.
 
-/// Indices, those of list k at `start[k]..start[k + 1]`.
+/// Indices; list k is at `start[k]..start[k + 1]`.
 #[derive(Debug, Clone)]
 pub(super) struct Lists {
     start: Vec<usize>,
@@ -36,11 +36,11 @@ impl Lists {
     }
 }
 
-/// An entry of a matrix: its place in a row or column, and its value.
+/// An entry of a matrix: its position in a row or column, and its value.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry {
     pub(super) index: u32,
-    /// Of an entry of U, the coordinate that the row is solved for of which `index` is the place.
+    /// For an entry of U, the pivot coordinate of the row with position `index`.
     at: u32,
     pub(super) value: f64,
 }
@@ -54,7 +54,7 @@ impl Entry {
         }
     }
 
-    /// An entry of U: the place of the row that is eliminated with, and its coordinate.
+    /// Creates an entry of U from the position of the eliminating row, and its coordinate.
     pub(super) fn of_row(index: usize, at: usize, value: f64) -> Self {
         Self {
             at: at as u32,
@@ -62,7 +62,7 @@ impl Entry {
         }
     }
 
-    /// The coordinate of an entry of U.
+    /// Returns the coordinate of an entry of U.
     #[inline(always)]
     pub(super) fn at(&self) -> usize {
         self.at as usize
@@ -74,7 +74,7 @@ impl Entry {
     }
 }
 
-/// Entries, those of list k at `start[k]..start[k + 1]`.
+/// Entries; list k is at `start[k]..start[k + 1]`.
 #[derive(Debug, Clone)]
 pub(super) struct Entries {
     start: Vec<usize>,
@@ -101,7 +101,7 @@ impl Entries {
         self.start.push(self.entries.len());
     }
 
-    /// Keeps the first lists only.
+    /// Keeps only the first lists.
     pub(super) fn truncate(&mut self, lists: usize) {
         self.start.truncate(lists + 1);
         self.entries.truncate(self.start[self.start.len() - 1]);

@@ -1,14 +1,14 @@
-//! LU of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower
-//! trapezoidal, with the entries only that can be other than zero.
+//! LU of the tall Cᵀ, one row of C after the other: `P·Cᵀ = L·U`, with `L = [L₁; L₂]` unit lower
+//! trapezoidal. Only entries that can be nonzero are stored.
 //!
-//! A row is solved for one of its large remaining entries, in a coordinate in which few later rows
-//! have entries: only these are eliminated with it. Which entries can be other than zero depends on
-//! these choices, so the first factorisation finds both ([`TallLu::search`]). Later ones repeat
-//! them ([`TallLu::repeat`]) up to the first row in which the entry that was chosen has fallen
-//! below a share of the present largest, and search from there on. Sources: J. R.
-//! Gilbert, T. Peierls, Sparse partial pivoting in time proportional to arithmetic operations,
-//! SIAM J. Sci. Stat. Comput. 9 (1988) 862–874; T. A. Davis, E. Palamadai Natarajan, Algorithm
-//! 907: KLU, ACM Trans. Math. Softw. 37 (2010) 36, for the repetition.
+//! The pivot of a row is one of its large remaining entries, in a coordinate in which few later
+//! rows have entries: only these rows are eliminated with it. The positions of nonzero entries
+//! depend on these choices, so the first factorisation finds both ([`TallLu::search`]). Later
+//! factorisations repeat them ([`TallLu::repeat`]) up to the first row in which the chosen entry is
+//! below a share of the present largest entry, and search from this row onwards. Sources: J. R.
+//! Gilbert, T. Peierls, Sparse partial pivoting in time proportional to arithmetic operations, SIAM
+//! J. Sci. Stat. Comput. 9 (1988) 862–874; T. A. Davis, E. Palamadai Natarajan, Algorithm 907: KLU,
+//! ACM Trans. Math. Softw. 37 (2010) 36, for the repetition.
 
 use super::error::{SaddleError, check_length};
 use super::lists::{Entries, Entry, Lists};
@@ -27,35 +27,35 @@ pub(super) struct TallLu {
     pub(super) r: usize,
     solved: PivotRows,
     factors: LuFactors,
-    /// Coordinates that no row is solved for.
+    /// Coordinates that are not pivots.
     pub(super) free: Vec<usize>,
     is_changed: bool,
-    /// Smallest `largest entry left / largest entry` of a row, rows left out included.
+    /// Smallest `largest remaining entry / largest entry` of a row, including skipped rows.
     pub(super) pivot_ratio: f64,
     work: EliminationRow,
 }
 
-/// Rows in use and what they are solved for. Of the last factorisation while the next one repeats
-/// it.
+/// Rows in use and their pivot coordinates. They are those of the last factorisation while the next
+/// one repeats it.
 #[derive(Debug, Clone)]
 struct PivotRows {
-    /// The row of C for each row in use, and the coordinate that it is solved for.
+    /// The row of C for each row in use, and its pivot coordinate.
     used: Vec<usize>,
     pivot: Vec<usize>,
     /// Whether each row of C is in use.
     is_used: Vec<bool>,
-    /// The row in use that is solved for each coordinate, `u32::MAX` for none.
+    /// The row in use whose pivot is at each coordinate, or `u32::MAX`.
     row_of: Vec<u32>,
 }
 
 /// Entries of L and U.
 #[derive(Debug, Clone)]
 struct LuFactors {
-    /// Row j: `U_kj` of the rows k < j that it is eliminated with, ascending.
+    /// Row j: `U_kj` of the rows k < j with which it is eliminated, ascending.
     upper: Entries,
     /// Row j: column j of L below its unit diagonal, by coordinates.
     lower: Entries,
-    /// U_jj of each row in use, and 1/U_jj: a product is cheaper than a quotient.
+    /// U_jj of each row in use, and 1/U_jj, because a product is cheaper than a quotient.
     diagonal: Vec<f64>,
     inverse: Vec<f64>,
 }
@@ -63,35 +63,37 @@ struct LuFactors {
 /// The row that is being eliminated.
 #[derive(Debug, Clone)]
 struct EliminationRow {
-    /// Its entries by coordinates; zero between rows.
+    /// Entries of the row by coordinates; zero between rows.
     x: Vec<f64>,
-    /// Coordinates in which it can have entries, in any order, and whether each is among them.
+    /// Coordinates in which it can have entries, in any order, and whether each coordinate is in
+    /// this list.
     touched: Vec<usize>,
     is_touched: Vec<bool>,
-    /// Set of rows that are still to be eliminated with.
+    /// Set of rows with which it must still be eliminated.
     rows: Vec<u64>,
-    /// Its entries of U.
+    /// Entries of U in this row.
     upper: Vec<Entry>,
 }
 
 /// Result of the elimination of a row.
 pub(super) enum Elimination {
     Used,
-    /// It depends on the rows before: its largest remaining entry, and its largest entry at first.
+    /// The row depends on the previous rows: its largest remaining entry, and its largest initial
+    /// entry.
     Dependent {
         pivot: f64,
         scale: f64,
     },
 }
 
-/// Sum of entries times the values at their places.
+/// Returns the sum of entries times the values at their positions.
 #[inline(always)]
 fn product(entries: &[Entry], x: &[f64]) -> f64 {
     entries.iter().map(|l| l.value * x[l.index()]).sum()
 }
 
 impl TallLu {
-    /// For n coordinates and rows with entries in these columns, all below n.
+    /// Creates the factors for n coordinates and rows with entries in these columns, all below n.
     pub(super) fn new(n: usize, columns: &[Vec<usize>]) -> Self {
         let rows = columns.len();
         let entries = columns.iter().map(Vec::len).sum();
@@ -140,18 +142,18 @@ impl TallLu {
         [&self.factors.upper, &self.factors.lower].map(Entries::n_entries)
     }
 
-    /// From now on rows are solved for these coordinates only; for any if `None`.
+    /// From the next factorisation, only these coordinates can be pivots; all if `None`.
     pub(super) fn solve_for(&mut self, solvable: Option<Vec<bool>>) {
         self.plan.solve_for(solvable);
         self.keep(0);
     }
 
-    /// The order of the rows.
+    /// Returns the order of the rows.
     pub(super) fn order(&self) -> &Order {
         &self.plan.order
     }
 
-    /// Removes all rows. Their order is chosen, by these values, if that has not been done.
+    /// Removes all rows. Chooses their order by these values, if it has not been chosen.
     pub(super) fn begin<'c>(&mut self, row: impl Fn(usize) -> &'c [f64]) {
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
@@ -160,24 +162,24 @@ impl TallLu {
         }
     }
 
-    /// The rows of C in use.
+    /// Returns the rows of C in use.
     pub(super) fn used(&self) -> &[usize] {
         &self.solved.used[..self.r]
     }
 
-    /// Whether row k of C is in use.
+    /// Returns whether row k of C is in use.
     pub(super) fn uses(&self, k: usize) -> bool {
         self.solved.is_used[k]
     }
 
-    /// The coordinate that each row in use is solved for.
+    /// Returns the pivot coordinate of each row in use.
     pub(super) fn pivots(&self) -> &[usize] {
         &self.solved.pivot[..self.r]
     }
 
     /// Computes the next column of U and of L from the values of a row of C in its columns:
-    /// scatter, eliminate with the rows before, pivot. `graded` contains the masses if they affect
-    /// which coordinate is solved for.
+    /// scatter, eliminate with the previous rows, pivot. `graded` contains the masses if they
+    /// affect the choice of the pivot coordinate.
     pub(super) fn eliminate(
         &mut self,
         (row, c_j): (usize, &[f64]),
@@ -243,9 +245,9 @@ impl TallLu {
         }
     }
 
-    /// Eliminates the row in the scratch with the rows and entries of the last factorisation.
-    /// Returns its pivot, the inverse of it, and the size of the largest entry, or nothing if
-    /// another coordinate should be solved for; the scratch is zero in either case.
+    /// Eliminates the row in the buffer with the rows and entries of the last factorisation.
+    /// Returns its pivot, the inverse of the pivot, and the size of the largest entry. Returns
+    /// `None` if another coordinate should be the pivot. The buffer is zero in either case.
     fn repeat(&mut self, graded: Option<&[f64]>, least: f64) -> Option<[f64; 3]> {
         let j = self.r;
         let x = &mut self.work.x[..];
@@ -273,8 +275,8 @@ impl TallLu {
         Some([pivot, inverse, largest?])
     }
 
-    /// Eliminates a row with the rows before it, wherever it can have entries, and leaves the
-    /// result in the scratch. Returns the coordinate that it is best solved for.
+    /// Eliminates a row with the previous rows at all possible entries, and leaves the result in
+    /// the buffer. Returns the best pivot coordinate.
     fn search(&mut self, (row, c_j): (usize, &[f64]), graded: Option<&[f64]>) -> Option<RowPivot> {
         let j = self.r as u32;
         let EliminationRow {
@@ -299,7 +301,7 @@ impl TallLu {
             touch(i as usize, rows);
         }
         for word in 0..rows.len() {
-            // Elimination with a row adds later rows only.
+            // Elimination with a row adds only later rows.
             while rows[word] != 0 {
                 let bit = rows[word].trailing_zeros();
                 rows[word] &= rows[word] - 1;
@@ -320,7 +322,7 @@ impl TallLu {
             .best(x, left, self.plan.of_row(row))
     }
 
-    /// Clears the scratch of a row.
+    /// Clears the buffer of a row.
     fn clear(&mut self) {
         let EliminationRow {
             x,
@@ -336,7 +338,7 @@ impl TallLu {
         upper.clear();
     }
 
-    /// Forgets what the last factorisation did with all but its first rows.
+    /// Removes the results of the last factorisation except for its first rows.
     fn keep(&mut self, rows: usize) {
         if rows >= self.solved.used.len() {
             return;
@@ -363,7 +365,7 @@ impl TallLu {
         }
     }
 
-    /// Ends a factorisation; returns whether other coordinates are solved for than before.
+    /// Ends a factorisation; returns whether the pivot coordinates differ from those before.
     pub(super) fn finish(&mut self) -> bool {
         self.keep(self.r);
         let is_changed = std::mem::take(&mut self.is_changed);
@@ -381,15 +383,15 @@ impl TallLu {
         is_changed
     }
 
-    /// For each row in use, the last one first, the coordinate that it is solved for, and the
-    /// column of L below its diagonal.
+    /// Returns, for each row in use (the last one first), its pivot coordinate and the column of L
+    /// below its diagonal.
     #[inline(always)]
     pub(super) fn backward(&self) -> impl Iterator<Item = (usize, &[Entry])> {
         let pivots = self.solved.pivot[..self.r].iter().enumerate().rev();
         pivots.map(|(j, &at)| (at, self.factors.lower.of(j)))
     }
 
-    /// The entries of y that are solved for, such that `C·y = γ` with the others that are there:
+    /// Computes the pivot entries of y such that `C·y = γ` with the other given entries:
     /// `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
     pub(super) fn determine(&self, gamma: &[f64], y: &mut [f64]) {
         for (j, (&row, &at)) in self.solved.used.iter().zip(&self.solved.pivot).enumerate() {
@@ -402,8 +404,8 @@ impl TallLu {
         }
     }
 
-    /// λ of the rows in use with `L·U·λ = g`, whose rows all hold if those of L₁ do; uses up g,
-    /// which is by coordinates.
+    /// Computes λ of the rows in use with `L·U·λ = g`. All of these equations are satisfied if
+    /// those of L₁ are. Overwrites g, which is given by coordinates.
     pub(super) fn solve_for_multipliers(&self, g: &mut [f64], lambda: &mut [f64]) {
         for (j, &at) in self.solved.pivot.iter().enumerate() {
             let g_j = g[at];
@@ -420,8 +422,8 @@ impl TallLu {
         }
     }
 
-    /// Sign and logarithm of `sign(P)·Π u_jj`, where P takes the coordinates that are solved for
-    /// first, and then the free ones.
+    /// Returns sign and logarithm of `sign(P)·Π u_jj`, where P puts the pivot coordinates first,
+    /// and then the free ones.
     pub(super) fn determinant(&self) -> (f64, f64) {
         let order: Vec<usize> = self
             .solved

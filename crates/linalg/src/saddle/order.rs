@@ -1,10 +1,11 @@
-//! The order in which rows are eliminated, and a coordinate for each that it is best solved for: of
-//! all rows and coordinates with a large entry, the pair first that is least work for the rows
-//! left.
+//! The order in which rows are eliminated, and the best pivot coordinate of each row. From all rows
+//! and coordinates with a large entry, the pair with the least work for the remaining rows comes
+//! first.
 //!
-//! Solving a row of e entries for a coordinate in which d other rows have entries takes d·(e − 1)
-//! products, and gives the d rows its other entries. Source: H. M. Markowitz, The elimination form
-//! of the inverse and its application to linear programming, Management Science 3 (1957) 255–269.
+//! If a row has e entries, and d other rows have entries in its pivot coordinate, the elimination
+//! takes d·(e − 1) products and adds its other entries to the d rows. Source: H. M. Markowitz, The
+//! elimination form of the inverse and its application to linear programming, Management Science 3
+//! (1957) 255–269.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -12,8 +13,8 @@ use std::collections::BinaryHeap;
 use super::lists::Entry;
 use crate::limits::{PIVOT_PLANNED, REVISED};
 
-/// Rows in the order of their elimination, each with the coordinate that it should be solved for if
-/// its entry there is large enough.
+/// Rows in the order of their elimination, each with its planned pivot coordinate, which is used if
+/// its entry is large enough.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Order {
     pub(super) rows: Vec<usize>,
@@ -21,8 +22,8 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// For n coordinates and rows with these entries, those included that are zero here and not
-    /// elsewhere. Rows are solved for some coordinates only, or for any.
+    /// Determines the order for n coordinates and rows with these entries, including entries that
+    /// are zero now but not at other configurations. Only some coordinates can be pivots, or all.
     pub(super) fn new(n: usize, rows: Vec<Vec<Entry>>, solvable: Option<&[bool]>) -> Self {
         if rows.iter().all(|row| row.len() == n) {
             // Dense rows fill their triangles in every order.
@@ -40,7 +41,8 @@ impl Order {
         order
     }
 
-    /// Whether some rows should be solved for certain coordinates, so that others are spared.
+    /// Returns whether some rows have a planned pivot coordinate that reduces the work for other
+    /// rows.
     pub(super) fn is_planned(&self) -> bool {
         self.wish.iter().any(Option::is_some)
     }
@@ -57,7 +59,7 @@ struct RemainingRows<'s> {
     /// Rows that have entries in each coordinate.
     rows: Vec<Vec<usize>>,
     is_eliminated: Vec<bool>,
-    /// Each row with its work, the latest or one that was more.
+    /// Each row with its latest work, or with a larger earlier value.
     queue: BinaryHeap<Reverse<RowWork>>,
 }
 
@@ -79,7 +81,7 @@ impl<'s> RemainingRows<'s> {
         left
     }
 
-    /// The work of eliminating a row, and the entry of the coordinate for which it is least.
+    /// Returns the work of eliminating a row, and the entry of the coordinate with the least work.
     fn least(&self, row: usize) -> (RowWork, Option<Entry>) {
         let entries = self.entries[row].iter();
         let entries = entries.filter(|e| self.solvable.is_none_or(|solvable| solvable[e.index()]));
@@ -96,7 +98,7 @@ impl<'s> RemainingRows<'s> {
         });
         let others = rarest.map_or(0, |e| self.rows[e.index()].len() - 1);
         let work = others * self.entries[row].len().saturating_sub(1);
-        // Rows without any come last.
+        // Rows without such entries come last.
         let work = if rarest.is_none() { usize::MAX } else { work };
         ((work, self.entries[row].len(), row), rarest)
     }
@@ -136,7 +138,7 @@ impl<'s> RemainingRows<'s> {
                 self.revise(other);
             }
         }
-        // Fewer rows have entries in its coordinates now.
+        // Fewer rows now have entries in its coordinates.
         for e in own {
             let rows = &self.rows[e.index()];
             if rows.len() <= REVISED {
@@ -182,7 +184,8 @@ mod tests {
         Order::new(n, rows.iter().map(entries).collect(), None)
     }
 
-    /// Three links on a hub: the rows of the links come first, solved for what no other has.
+    /// Three links on a hub. The rows of the links come first, with pivots in coordinates that no
+    /// other row contains.
     #[test]
     fn the_hub_comes_last() {
         let hub: &[_] = &[(0, 1.0), (1, 0.7)];
@@ -190,7 +193,7 @@ mod tests {
         let found = order(5, &[hub, &links[0], &links[1], &links[2]]);
         assert_eq!(found.wish[..3], [1, 2, 3].map(Some));
         assert_eq!(found.rows[..3], [0, 1, 2]);
-        // An entry that is too small is not planned for, nor one that is zero.
+        // An entry that is too small, or zero, is not planned as a pivot.
         let small = [(0, 1.0), (2, 0.49)];
         let found = order(5, &[hub, &small, &[(0, 1.0), (3, 0.0)], &links[2]]);
         assert_eq!(
@@ -234,8 +237,8 @@ mod tests {
         }
     }
 
-    /// The first row is planned to be solved for a coordinate in which it has no entry later. Then
-    /// its largest entry is where both others have theirs, and another one is its own.
+    /// The planned pivot coordinate of the first row has no entry later. Its largest entry is then
+    /// in the coordinate of both other rows, and another entry is in a coordinate of its own.
     #[test]
     fn a_row_is_solved_for_what_few_later_rows_have_entries_in() {
         let columns = [vec![0, 1, 4], vec![0, 2, 5, 6], vec![0, 3, 7, 8]];

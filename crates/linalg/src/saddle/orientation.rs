@@ -1,5 +1,5 @@
-//! Distinguishes the two sides of a singular configuration: the determinant of C bordered by a
-//! fixed basis of its null space changes its sign if the rows lose their rank by one, even if no
+//! Distinguishes the two sides of a singular configuration. The determinant of C, bordered by a
+//! fixed basis of its null space, changes its sign if the rows lose their rank by one, even if no
 //! step ends there.
 
 use super::KeptRowSaddle;
@@ -10,7 +10,7 @@ impl KeptRowSaddle {
     /// other.
     ///
     /// # Panics
-    /// If the length of `frame` is not k·n.
+    /// Panics if the length of `frame` is not k·n.
     pub fn null_frame(&self, frame: &mut [f64]) {
         let (n, k) = (self.lu.n, self.lu.n - self.lu.r);
         assert_eq!(frame.len(), k * n, "a frame of {k} vectors of {n}");
@@ -22,7 +22,7 @@ impl KeptRowSaddle {
         }
     }
 
-    /// The determinant of `[Cᵀ B]` for k vectors B, stored one after the other.
+    /// Returns the determinant of `[Cᵀ B]` for k vectors B, stored one after the other.
     ///
     /// With `P·Cᵀ = L·U` and the null space basis N it is `sign(P)·Π u_jj·det(Nᵀ·B)`.
     ///
@@ -41,7 +41,7 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Panics
-    /// If the length of `frame` is not k·n.
+    /// Panics if the length of `frame` is not k·n.
     pub fn bordered(&mut self, frame: &[f64]) -> Determinant {
         let (n, r) = (self.lu.n, self.lu.r);
         let k = n - r;
@@ -69,11 +69,11 @@ impl KeptRowSaddle {
         }
     }
 
-    /// The sign of [`KeptRowSaddle::bordered`]: +1, −1, or 0 if the determinant vanishes. Compare
-    /// only values for the same B and neighbouring C.
+    /// Returns the sign of [`KeptRowSaddle::bordered`]: +1, −1, or 0 if the determinant vanishes.
+    /// Only values for the same B and neighbouring C are comparable.
     ///
     /// # Panics
-    /// If the length of `frame` is not k·n.
+    /// Panics if the length of `frame` is not k·n.
     pub fn orientation(&mut self, frame: &[f64]) -> f64 {
         self.bordered(frame).sign
     }

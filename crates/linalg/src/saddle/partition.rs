@@ -1,20 +1,20 @@
-//! A partition of the coordinates into dependent and free ones that stays the same from
-//! factorisation to factorisation. Without it every factorisation chooses its own partition, which
-//! is safer and gives the same solutions. With it the free coordinates are coordinates of a
-//! manifold, and the rows determine the others.
+//! A partition of the coordinates into dependent and free ones that does not change between
+//! factorisations. Without it, every factorisation chooses its own partition, which is safer and
+//! gives the same solutions. With it, the free coordinates are coordinates of a manifold, and the
+//! rows determine the others.
 
 use super::KeptRowSaddle;
 use super::error::{SaddleError, check_finite, check_length};
 
 impl KeptRowSaddle {
-    /// From the next factorisation on, solves for these coordinates: one for each row, in any
-    /// order. Choose them well, for instance as the first columns of a
+    /// From the next factorisation onwards, uses these coordinates as pivots: one for each row, in
+    /// any order. A good choice is, for example, the first columns of a
     /// [`PivotedQr`](crate::PivotedQr) of the rows; [`KeptRowSaddle::pivot_ratio`] shows when they
     /// are no longer a good choice.
     ///
     /// # Errors
     /// [`SaddleError::Length`], [`SaddleError::Partition`]: the argument does not contain r
-    /// different coordinates; nothing is changed.
+    /// different coordinates. In this case nothing changes.
     pub fn partition(&mut self, dependent: &[usize]) -> Result<(), SaddleError> {
         check_length("dependent", dependent, self.lu.n_rows())?;
         let mut is_dependent = vec![false; self.lu.n];
@@ -33,20 +33,19 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// The coordinates for which the last factorisation solved, one for each row in use; with
-    /// graded masses the light ones.
+    /// Returns the pivot coordinates of the last factorisation, one for each row in use. With
+    /// graded masses, these are light coordinates.
     pub fn solved_for(&self) -> &[usize] {
         self.lu.pivots()
     }
 
-    /// From the next factorisation on, rows are solved for any coordinates in which they have large
-    /// entries.
+    /// From the next factorisation onwards, any coordinates with large entries can be pivots.
     pub fn forget_partition(&mut self) {
         self.lu.solve_for(None);
     }
 
     /// Overwrites the dependent entries of `x` so that `C·x = γ`, and does not change the free
-    /// ones. Needs no masses; does not allocate.
+    /// ones. The function needs no masses and does not allocate memory.
     ///
     /// ```
     /// use pfaff_linalg::KeptRowSaddle;
@@ -62,7 +61,7 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// As [`KeptRowSaddle::solve`].
+    /// Same errors as [`KeptRowSaddle::solve`].
     pub fn complete(&mut self, gamma: &[f64], x: &mut [f64]) -> Result<(), SaddleError> {
         if !self.is_factored {
             return Err(SaddleError::NotFactored);
@@ -138,7 +137,8 @@ mod tests {
         assert_eq!(solved_for(ROWS[0]), 1);
     }
 
-    /// The same where it spares others: coordinate 0 is theirs, too.
+    /// The corresponding test for a pivot that reduces the work for other rows: coordinate 0 also
+    /// has entries of the others.
     #[test]
     fn a_row_is_solved_for_the_same_entry_while_that_is_large() {
         let columns = [vec![0, 1], vec![0, 2], vec![0, 3]];

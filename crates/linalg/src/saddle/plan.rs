@@ -1,26 +1,26 @@
-//! Which row is eliminated when, and which coordinate it is solved for.
+//! Decides the order of elimination of the rows, and the pivot coordinate of each row.
 
 use super::lists::{Entry, Lists};
 use super::order::Order;
 use crate::limits::{CANDIDATE, LARGEST_REPEATED, PIVOT_CHOSEN, PIVOT_REPEATED};
 
-/// What decides which coordinates rows are solved for.
+/// Data that determine the pivot coordinates of rows.
 #[derive(Debug, Clone)]
 pub(super) struct Plan {
-    /// Coordinates that may be solved for; all if `None`.
+    /// Coordinates that may be pivots; all if `None`.
     solvable: Option<Vec<bool>>,
-    /// Whether rows are solved for smaller entries to spare others. Not where nothing is gained by
-    /// that, nor where pivots have to tell how good given coordinates are.
+    /// Whether smaller entries may be pivots to reduce the work for other rows. This is not allowed
+    /// if it has no advantage, or if pivots must show how suitable the given coordinates are.
     spares: bool,
     pub(super) order: Order,
-    /// The place of each row in the order, none before it is chosen, and for each coordinate the
-    /// places of the rows that can have entries there, ascending.
+    /// The position of each row in the order (no entries before the order is chosen), and for each
+    /// coordinate the positions of the rows that can have entries there, ascending.
     place: Vec<u32>,
     touching: Lists,
 }
 
 impl Plan {
-    /// No order yet of so many rows for n coordinates.
+    /// Creates a plan without an order for this number of rows and n coordinates.
     pub(super) fn new(n: usize, rows: usize, entries: usize) -> Self {
         Self {
             solvable: None,
@@ -31,14 +31,14 @@ impl Plan {
         }
     }
 
-    /// From now on rows are solved for these coordinates only; for any if `None`. Their order is to
-    /// be chosen anew.
+    /// From the next factorisation, only these coordinates can be pivots; all if `None`. The order
+    /// must be chosen again.
     pub(super) fn solve_for(&mut self, solvable: Option<Vec<bool>>) {
         self.solvable = solvable;
         self.place.clear();
     }
 
-    /// Whether the order is still to be chosen.
+    /// Returns whether the order must still be chosen.
     pub(super) fn is_due(&self, columns: &Lists) -> bool {
         self.place.len() < columns.len()
     }
@@ -71,7 +71,7 @@ impl Plan {
             .for_each(|list| self.touching.push(list));
     }
 
-    /// How the entry is chosen that a row is solved for; by masses if they are graded.
+    /// Returns the criterion for the pivot entry of a row; it uses masses if they are graded.
     #[inline]
     pub(super) fn choice<'a>(&'a self, graded: Option<&'a [f64]>) -> Choice<'a> {
         Choice {
@@ -81,8 +81,8 @@ impl Plan {
         }
     }
 
-    /// The coordinate in which a row leaves the others alone most, if the order has one for it, and
-    /// the number of later rows that can have entries in a coordinate.
+    /// Returns the coordinate in which a row affects the other rows least, if the order contains
+    /// one for it, and the number of later rows that can have entries in a coordinate.
     pub(super) fn of_row(&self, row: usize) -> (Option<usize>, impl Fn(usize) -> usize) {
         let place = self.place[row];
         let later = move |i: usize| {
@@ -93,7 +93,7 @@ impl Plan {
     }
 }
 
-/// What decides which entry a row is solved for: its size, and masses if they are graded, or else
+/// Criterion for the pivot entry of a row: its size, and masses if they are graded, or otherwise
 /// the number of later rows in its coordinate.
 #[derive(Clone, Copy)]
 pub(super) struct Choice<'a> {
@@ -102,13 +102,14 @@ pub(super) struct Choice<'a> {
     spares: bool,
 }
 
-/// The coordinate that a row is solved for, and the size by which it is compared with others: the
-/// largest entry, or its own where masses are graded.
+/// The pivot coordinate of a row, and the size with which it is compared: the largest entry, or its
+/// own entry for graded masses.
 pub(super) type RowPivot = (usize, f64);
 
 impl Choice<'_> {
-    /// The coordinate to be solved for, `None` if no entry can be: the wished one if its entry is
-    /// large enough, or else the one in which the fewest later rows can have entries.
+    /// Returns the pivot coordinate, or `None` if no entry can be a pivot. It is the planned
+    /// coordinate if its entry is large enough, or otherwise the coordinate in which the fewest
+    /// later rows can have entries.
     pub(super) fn best(
         self,
         x: &[f64],
@@ -143,7 +144,7 @@ impl Choice<'_> {
         Some((rarest.map_or(largest, |(at, _)| at), size))
     }
 
-    /// The coordinate with the largest c²/m among the large entries of graded masses.
+    /// Returns the coordinate with the largest c²/m among the large entries of graded masses.
     fn lightest(
         self,
         x: &[f64],
@@ -152,7 +153,7 @@ impl Choice<'_> {
     ) -> Option<usize> {
         let mass = self.graded?;
         let candidates = among.filter(|&i| x[i].abs() >= CANDIDATE * largest);
-        // Compares c²/m without quotients: masses may be zero.
+        // The comparison of c²/m uses no quotients, because masses may be zero.
         let lighter = |a: usize, b: usize| {
             let [of_a, of_b] = [x[a] * x[a] * mass[b], x[b] * x[b] * mass[a]];
             if of_b > of_a || of_b == of_a && b < a {
@@ -164,8 +165,8 @@ impl Choice<'_> {
         candidates.reduce(lighter)
     }
 
-    /// Size of the largest entry that can be solved for, if the one of this coordinate is still as
-    /// good as the best one, except for the share [`PIVOT_REPEATED`].
+    /// Returns the size of the largest possible pivot entry, if the entry of this coordinate is
+    /// still as good as the best one, up to the share [`PIVOT_REPEATED`].
     pub(super) fn largest(
         self,
         x: &[f64],
@@ -179,7 +180,7 @@ impl Choice<'_> {
                 None => others.fold(pivot, larger),
                 Some(solvable) => others.filter(|&i| solvable[i]).fold(pivot, larger),
             };
-            // False for NaN, too.
+            // The comparison is also false for NaN.
             let share = if self.spares {
                 PIVOT_REPEATED
             } else {
@@ -193,7 +194,7 @@ impl Choice<'_> {
         let best = self.lightest(x, all, largest)?;
         let share = LARGEST_REPEATED * x[best];
         let is_light = x[at] * x[at] * mass[best] >= share * share * mass[at];
-        // Compared with others, a row solved for a light coordinate has its own pivot.
+        // In comparisons, the pivot of a row with a light coordinate is its own entry.
         (pivot >= CANDIDATE * largest && is_light).then_some(pivot)
     }
 }

@@ -1,12 +1,12 @@
-//! Iterative refinement: the residual of the equations after a factorisation in double precision is
-//! computed in double-double and solved for again, until the solution, which is also double-double,
-//! has all digits of an `f64`.
+//! Iterative refinement. After a factorisation in double precision, the residual of the equations
+//! is computed in double-double, and the equations are solved for the residual. This is repeated
+//! until the solution, which is also double-double, has all digits of an `f64`.
 //!
-//! One round multiplies the error by about that of the factorisation, so one or two are enough. The
-//! solution is that of C, M, f and γ as they are given; rounding errors in these remain. Source: N.
-//! J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, chapter 12; the extended
-//! iterate after J. Demmel et al., Error bounds from extra-precise iterative refinement, ACM TOMS
-//! 32 (2006) 325–351.
+//! One round multiplies the error by about the error of the factorisation, so one or two rounds are
+//! enough. The solution is that of the given C, M, f and γ; rounding errors in these remain.
+//! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, chapter 12;
+//! the extended iterate after J. Demmel et al., Error bounds from extra-precise iterative
+//! refinement, ACM TOMS 32 (2006) 325–351.
 
 use super::KeptRowSaddle;
 use super::error::{SaddleError, check_length};
@@ -32,9 +32,9 @@ struct Unknowns {
     x: Vec<Dd>,
     /// Change in a round.
     change: Vec<f64>,
-    /// Size of the change in the round before.
+    /// Size of the change in the previous round.
     before: Vec<f64>,
-    /// Sizes relative to which changes are measured: the largest value of each unknown.
+    /// Reference sizes for changes: the largest value of each unknown.
     size: Vec<f64>,
     /// Changes of this size are rounding.
     noise: f64,
@@ -51,7 +51,7 @@ impl Unknowns {
         }
     }
 
-    /// The first solution is in `change`.
+    /// Starts with the first solution, which is in `change`.
     fn begin(&mut self) {
         self.x.fill(Dd::ZERO);
         self.before.fill(0.0);
@@ -60,7 +60,7 @@ impl Unknowns {
         self.add();
     }
 
-    /// Adds the change; returns the largest change relative to the size of the unknown, or NaN. An
+    /// Adds the change. Returns the largest change relative to the size of the unknown, or NaN. An
     /// unknown that is zero except for rounding has the size of its rounding.
     fn add(&mut self) -> f64 {
         let mut largest = 0.0;
@@ -98,9 +98,9 @@ impl Refinement {
 }
 
 impl KeptRowSaddle {
-    /// Like [`KeptRowSaddle::solve`], with all digits that the given equations determine; does not
-    /// allocate. Two to three times the work of a factorisation, most of it in double-double: see
-    /// [`KeptRowSaddle::wants_refinement`].
+    /// Works like [`KeptRowSaddle::solve`], with all digits that the given equations determine. The
+    /// function does not allocate memory. It takes two to three times the work of a factorisation,
+    /// most of it in double-double; see [`KeptRowSaddle::wants_refinement`].
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -121,8 +121,8 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// As [`KeptRowSaddle::solve`]; also
-    /// - [`SaddleError::Length`]: storage for equations of another size.
+    /// Same errors as [`KeptRowSaddle::solve`], and:
+    /// - [`SaddleError::Length`]: the storage belongs to equations of another size.
     /// - [`SaddleError::Unrefined`]: the rounds do not converge.
     pub fn solve_refined<'c>(
         &mut self,
@@ -157,11 +157,11 @@ impl KeptRowSaddle {
                 ..
             } = refinement;
             self.solve(f, gamma, &mut to_a.change, &mut to_lambda.change)?;
-            // A sum, which preserves NaN.
+            // The sum preserves NaN.
             let change = to_a.add() + to_lambda.add();
             rounds += 1;
-            // The next round would change the result by the change of this round times the ratio of
-            // the two.
+            // The expected change of the next round is the change of this round times the ratio of
+            // the two changes.
             if change * change <= SETTLED * before {
                 to_a.round_to(a);
                 to_lambda.round_to(lambda);
@@ -174,7 +174,7 @@ impl KeptRowSaddle {
         }
     }
 
-    /// f − M·a − Cᵀ·λ and, of the rows in use, γ − C·a.
+    /// Computes f − M·a − Cᵀ·λ and, for the rows in use, γ − C·a.
     fn find_residual<'c>(
         &self,
         refinement: &mut Refinement,
@@ -213,7 +213,7 @@ mod tests {
     use super::*;
     use crate::Matrix;
 
-    /// A solver with factors for these rows and masses.
+    /// Returns a solver with factors for these rows and masses.
     fn factored(c: &Matrix, mass: &[f64]) -> KeptRowSaddle {
         let mut saddle = KeptRowSaddle::new(c.ncols(), c.nrows()).unwrap();
         saddle.factor(|k| c.row(k), mass).unwrap();
@@ -273,9 +273,9 @@ mod tests {
         }
     }
 
-    /// Five carts tied to each other and pushed at the end: a = F/Σm, and each tie transmits the
-    /// force for the carts behind it. Plain solutions are accurate to rounding wherever the heavy
-    /// carts are.
+    /// Five carts are tied to each other, and a force acts at the end: a = F/Σm, and each tie
+    /// transmits the force for the carts behind it. Plain solutions are accurate to rounding for
+    /// any position of the heavy carts.
     #[test]
     fn light_coordinates_are_solved_for() {
         const N: usize = 5;
@@ -316,8 +316,8 @@ mod tests {
     /// refined one, which must not prevent convergence.
     #[test]
     fn unknowns_that_are_zero_do_not_keep_others_waiting() {
-        // The first two rows hold x and y; the third and fourth connect z and w to them by numbers
-        // without an exact binary representation.
+        // The first two rows fix x and y. The third and fourth rows connect z and w to them by
+        // numbers without an exact binary representation.
         let c = Matrix::from_rows(&[
             [1.0, 0.0, 0.0, 0.0, 0.0],
             [0.1, 0.3, 0.0, 0.0, 0.0],

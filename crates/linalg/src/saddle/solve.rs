@@ -1,10 +1,11 @@
-//! Solution for one right-hand side; any number of them per factorisation.
+//! Solution for one right-hand side. One factorisation serves any number of right-hand sides.
 
 use super::KeptRowSaddle;
 use super::error::{SaddleError, check_finite, check_length};
 
 impl KeptRowSaddle {
-    /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the last factorisation; does not allocate.
+    /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the last factorisation. The function does not
+    /// allocate memory.
     ///
     /// This is [`KeptRowSaddle::motion`] and [`KeptRowSaddle::multipliers`].
     ///
@@ -30,10 +31,10 @@ impl KeptRowSaddle {
         self.multipliers(f, a, lambda)
     }
 
-    /// Like [`Self::solve`], without λ: two thirds of the work.
+    /// Works like [`Self::solve`], without λ. This takes two thirds of the work.
     ///
     /// # Errors
-    /// As [`KeptRowSaddle::solve`].
+    /// Same errors as [`KeptRowSaddle::solve`].
     pub fn motion(&mut self, f: &[f64], gamma: &[f64], a: &mut [f64]) -> Result<(), SaddleError> {
         let n = self.lu.n;
         if !self.is_factored {
@@ -53,17 +54,17 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// λ from `Cᵀ·λ = f − M·a` with the last factorisation, for an a that solves the equations;
-    /// does not allocate.
+    /// Computes λ from `Cᵀ·λ = f − M·a` with the last factorisation, for an a that solves the
+    /// equations. The function does not allocate memory.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
     /// | `f` | n | the forces |
-    /// | `a` | n | their accelerations; 0 for a force without acceleration, such as a row of C that the kept ones imply |
+    /// | `a` | n | their accelerations; 0 for a force without acceleration, such as a row of C that the kept rows imply |
     /// | `lambda` | r | overwritten: multipliers of the kept rows, zero for skipped rows |
     ///
     /// # Errors
-    /// As [`KeptRowSaddle::solve`].
+    /// Same errors as [`KeptRowSaddle::solve`].
     pub fn multipliers(
         &mut self,
         f: &[f64],

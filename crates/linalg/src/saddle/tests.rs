@@ -1,4 +1,5 @@
-//! Oracle: LU of the full saddle matrix in nalgebra; results by hand for massless bodies.
+//! The reference is LU of the full saddle matrix in nalgebra. Results for massless bodies are
+//! calculated manually.
 
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
@@ -85,7 +86,7 @@ fn masses_over_24_decades_on_one_rod() {
 
 #[test]
 fn massless_motion_is_named() {
-    // Masses (1, 0, 0) on the plane x + y + z = 0: (0, 1, −1) moves no mass.
+    // For masses (1, 0, 0) on the plane x + y + z = 0, the motion (0, 1, −1) moves no mass.
     let c = [1.0, 1.0, 1.0];
     let mut saddle = KeptRowSaddle::new(3, 1).unwrap();
     let error = saddle.factor(|_| &c, &[1.0, 0.0, 0.0]).unwrap_err();
@@ -103,8 +104,8 @@ fn massless_motion_is_named() {
     assert_eq!(refused, Err(SaddleError::NotFactored));
 }
 
-/// The null vector is (0, t, −s) exactly; rounding puts about 1e-17 into its first entry, the only
-/// one with a mass. That does not count as a mass.
+/// The null vector is exactly (0, t, −s). Rounding puts about 1e-17 into its first entry, the only
+/// one with a mass, and this does not count as a mass.
 #[test]
 fn rounding_of_the_null_vector_gives_no_mass() {
     let (s, t) = (0.3, 0.7);
@@ -127,7 +128,7 @@ fn all_massless_and_all_constrained() {
     assert!(
         matches!(error, SaddleError::MasslessMotion { ref motion, .. } if motion == &[1.0, 0.0])
     );
-    // There is no freedom left, so masses have no effect.
+    // There is no free motion, so masses have no effect.
     let rows = Matrix2::ROWS;
     let mut saddle = KeptRowSaddle::new(2, 2).unwrap();
     saddle.factor(|k| &rows[k], &[0.0, 0.0]).unwrap();
@@ -215,7 +216,7 @@ fn masses_are_graded_from_their_spread_on() {
     }
 }
 
-/// The light coordinate is solved for if its entry is more than a tenth of the largest.
+/// The light coordinate is the pivot if its entry is more than a tenth of the largest.
 #[test]
 fn graded_masses_choose_among_the_large_entries() {
     for (entry, solved_for) in [(0.09, 0), (0.11, 1)] {
@@ -238,7 +239,7 @@ fn a_pivot_of_a_few_roundings_is_no_pivot() {
     }
 }
 
-/// Two rows that depend on each other at an instant leave one motion more: from a limit on, the
+/// Two rows that depend on each other at an instant leave one more free motion. Above a limit, the
 /// null space is not computed.
 #[test]
 fn many_free_motions_stop_a_factorisation() {
@@ -248,7 +249,7 @@ fn many_free_motions_stop_a_factorisation() {
     assert_eq!(refused, Err(SaddleError::ManyFree { free: 2 }));
     let solved = saddle.motion(&[0.0; 3], &[0.0; 2], &mut [0.0; 3]);
     assert_eq!(solved, Err(SaddleError::NotFactored));
-    // The next one is as if there had been none.
+    // The next factorisation is independent of the previous one.
     let rows = [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
     saddle
         .factor_up_to(1, 1e-6, |k| &rows[k], &[1.0; 3])

@@ -1,4 +1,4 @@
-//! Factorisation: front by front, children before their parents.
+//! Factorisation front by front, children before their parents.
 
 use super::front::{add_element, add_update, eliminate};
 use super::tiles::{SIDE, by_width, diagonal, of_columns, squares, triangle};
@@ -12,9 +12,9 @@ impl SchurSaddle {
     /// # Errors
     /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
     ///   input.
-    /// - [`SaddleError::ZeroMass`]: a coordinate without mass.
-    /// - [`SaddleError::RankLost`]: a row depends on others to the accuracy of S: less than 1e-7 of
-    ///   it remains.
+    /// - [`SaddleError::ZeroMass`]: a coordinate has no mass.
+    /// - [`SaddleError::RankLost`]: a row depends on others to the accuracy of S, because less than
+    ///   1e-7 of it is independent.
     pub fn factor(&mut self, c: &SparseMatrix, mass: &[f64]) -> Result<(), SaddleError> {
         self.factor_above(0.0, c, mass)?;
         let Some(row) = (0..self.structure.n_rows()).find(|&k| !self.uses(k)) else {
@@ -29,12 +29,12 @@ impl SchurSaddle {
         })
     }
 
-    /// Like [`Self::factor`], but skips rows of which at most the fraction `floor` remains: if rows
-    /// are dependent for an instant, the others determine the solution. The multiplier of a skipped
-    /// row is zero, and its equation does not hold.
+    /// Works like [`Self::factor`], but skips rows whose independent fraction is at most `floor`:
+    /// if rows are dependent for an instant, the other rows determine the solution. The multiplier
+    /// of a skipped row is zero, and its equation is not satisfied.
     ///
     /// # Errors
-    /// As [`SchurSaddle::factor`], without [`SaddleError::RankLost`].
+    /// Same errors as [`SchurSaddle::factor`], without [`SaddleError::RankLost`].
     pub fn factor_above(
         &mut self,
         floor: f64,
@@ -153,7 +153,7 @@ impl SchurSaddle {
         }
     }
 
-    /// Writes the values of C to the elements.
+    /// Copies the values of C to the elements.
     pub(super) fn take_values(&mut self, c: &SparseMatrix) {
         let values = self.assembly.values.as_flattened_mut();
         for (&index, &value) in self.structure.elements.index.iter().zip(c.values()) {
@@ -193,10 +193,10 @@ impl SchurSaddle {
         }
     }
 
-    /// Compares each row from now on with what is left of it now: the order of elimination does not
-    /// change, so its pivot changes smoothly, and what is left of a row far from a singular
-    /// configuration may be much more than of another row there. A factorisation of the same rows
-    /// has the same [`SchurSaddle::pivot_ratio`] as before.
+    /// From now on, compares the independent share of each row with its present share. The order of
+    /// elimination does not change, so the pivot of a row changes smoothly. Far from a singular
+    /// configuration, the independent share of one row may be much larger than that of another row.
+    /// A factorisation of the same rows has the same [`SchurSaddle::pivot_ratio`] as before.
     pub fn keep_shares(&mut self) {
         let smallest = self.factors.pivot_ratio.powi(2);
         let LdlFactors {
@@ -219,8 +219,8 @@ impl SchurSaddle {
 }
 
 impl SchurStructure {
-    /// Finds the entry that is not finite, in a row or, if sums have overflowed, the row itself,
-    /// which is that at this place.
+    /// Finds the entry that is not finite. If sums have overflowed, it finds the row at this
+    /// position.
     fn not_finite(&self, c: &SparseMatrix, place: usize) -> SaddleError {
         let row = self.rows.place.iter().position(|&p| p == place);
         let of_row = (row.unwrap_or_default(), 0, f64::INFINITY);

@@ -1,14 +1,15 @@
 //! One dense front: its assembly, and the elimination of its pivots.
 //!
 //! A front is the lower triangle of a matrix of [tiles](super::tiles), stored by columns of tiles.
-//! What its diagonal tiles have above the diagonal is finite and means nothing.
+//! The values of its diagonal tiles above the diagonal are finite but meaningless.
 
 use super::structure::{InParent, RowsOfLane};
 use super::tiles::{
     Lane, SIDE, Tile, add_product, by_width, diagonal, of_columns, scaled, subtract_product, sum,
 };
 
-/// Adds what a child has left over, a triangle of so many lanes, in these rows and columns.
+/// Adds the remainder of a child, a triangle with this number of row groups, to these rows and
+/// columns.
 pub(super) fn add_update(
     front: &mut [Tile],
     (update, of_child): (&[Tile], usize),
@@ -43,7 +44,7 @@ pub(super) fn add_element(
     });
 }
 
-/// As [`add_element`], for blocks of this width.
+/// Works like [`add_element`], for blocks of this width.
 fn add_products<const N: usize>(
     (front, lanes): (&mut [Tile], usize),
     rows: &[RowsOfLane],
@@ -62,8 +63,9 @@ fn add_products<const N: usize>(
 }
 
 /// Eliminates the first `p` pivots of a front and writes their columns of L:
-/// `F = L·D·Lᵀ + [0, 0; 0, update]`. Skips pivots that are at most `floor` of their size: their
-/// column of L and their inverse are zero. Returns the smallest ratio `D_k/size_k` of the others.
+/// `F = L·D·Lᵀ + [0, 0; 0, update]`. Pivots that are at most `floor` of their size are skipped:
+/// their column of L and their inverse are zero. Returns the smallest ratio `D_k/size_k` of the
+/// other pivots.
 pub(super) fn eliminate(
     (front, lanes): (&mut [Tile], usize),
     (inverse, p): (&mut [Lane], usize),
@@ -103,7 +105,7 @@ pub(super) fn eliminate(
     Ok(found)
 }
 
-/// Eliminates the pivots of the first tile, which is that on the diagonal, from the columns of a
+/// Eliminates the pivots of the first tile, which is the diagonal tile, from the columns of a
 /// panel.
 fn eliminate_panel(
     panel: &mut [Tile],
@@ -111,7 +113,7 @@ fn eliminate_panel(
     floor: f64,
     found: &mut FrontElimination,
 ) -> Result<(), usize> {
-    // Column j loses factor[k][j] times column k.
+    // Subtracts factor[k][j] times column k from column j.
     let mut factors = [[0.0; SIDE]; SIDE];
     let (first, below) = panel.split_at_mut(1);
     let first = &mut first[0];
@@ -152,7 +154,7 @@ fn eliminate_within(tile: &mut Tile, factors: &[[f64; SIDE]; SIDE]) {
 
 /// Result of an elimination.
 pub(super) struct FrontElimination {
-    /// Smallest ratio of a pivot that was used.
+    /// Smallest ratio of a pivot in use.
     pub(super) smallest: f64,
     pub(super) n_left_out: usize,
 }

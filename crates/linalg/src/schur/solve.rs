@@ -1,4 +1,4 @@
-//! Solution with the factors, and correction of its rounding.
+//! Solution with the factors, and correction of its rounding errors.
 
 use super::tiles::{
     Lane, SIDE, Tile, add_times, add_transposed_times, by_width, dot, of_columns, subtract_times,
@@ -11,8 +11,8 @@ use crate::{SaddleError, SparseMatrix};
 
 impl SchurSaddle {
     /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the rows of the last factorisation. Rows that are
-    /// not satisfied to rounding are corrected with the same factors until they are, or until
-    /// nothing is gained; skipped rows are ignored.
+    /// not satisfied to rounding are corrected with the same factors until they are, or until a
+    /// correction brings no improvement. Skipped rows are ignored.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -21,7 +21,8 @@ impl SchurSaddle {
     /// | `a`, `lambda` | n, r | overwritten |
     ///
     /// # Errors
-    /// - [`SaddleError::NotFactored`], [`SaddleError::Length`], [`SaddleError::NonFinite`].
+    /// - [`SaddleError::NotFactored`], [`SaddleError::Length`], [`SaddleError::NonFinite`]: bad
+    ///   input.
     /// - [`SaddleError::Unrefined`]: the residual of a row stays above 1e-9 of its terms in spite
     ///   of corrections.
     pub fn solve(
@@ -57,10 +58,11 @@ impl SchurSaddle {
             if of_motion <= SCHUR_ENOUGH {
                 return Ok(());
             }
-            // The first round computes the solution, for which there is no earlier residual.
+            // The first round computes the solution, so there is no earlier residual.
             if round > 1 {
                 let of_all = self.misfit_of_all(c, gamma);
-                // Where large multipliers balance each other, a correction leaves their rounding.
+                // If large multipliers balance each other, their rounding remains after a
+                // correction.
                 if of_all <= SCHUR_ROUNDING {
                     return Ok(());
                 }
@@ -85,11 +87,11 @@ impl SchurSaddle {
         Ok(())
     }
 
-    /// The λ that minimises `‖Cᵀ·λ − (f − M·a)‖` in the metric of the inverse masses, for a known
-    /// motion a; not corrected.
+    /// Computes the λ that minimises `‖Cᵀ·λ − (f − M·a)‖` in the metric of the inverse masses, for
+    /// a known motion a. The result is not corrected.
     ///
     /// # Errors
-    /// As [`SchurSaddle::solve`].
+    /// Same errors as [`SchurSaddle::solve`].
     pub fn multipliers(
         &mut self,
         c: &SparseMatrix,
@@ -160,8 +162,8 @@ impl SchurSaddle {
         clear_unused(x, &self.factors);
     }
 
-    /// Also returns the largest residual relative to its terms, with the larger of the
-    /// accelerations and those of free bodies.
+    /// Works like [`Self::take_residual`], but also returns the largest residual relative to its
+    /// terms. The terms use the larger of the accelerations and those of free bodies.
     fn take_misfit(&mut self, gamma: &[f64], a: &[f64]) -> f64 {
         let s = &self.structure;
         let SolutionScratch {
@@ -201,7 +203,7 @@ impl SchurSaddle {
         largest_share(x, size)
     }
 
-    /// The largest residual in x relative to all terms that were added: if multipliers balance each
+    /// Returns the largest residual in x relative to all summed terms. If multipliers balance each
     /// other, accelerations are only their rounding.
     fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64]) -> f64 {
         let s = &self.structure;
@@ -217,7 +219,7 @@ impl SchurSaddle {
         for value in values.as_flattened_mut() {
             *value = value.abs();
         }
-        // What is subtracted leaves sizes with a minus sign.
+        // The subtraction gives sizes with a minus sign.
         for (terms, free) in terms.iter_mut().zip(&*free) {
             *terms = -free.abs();
         }
@@ -235,7 +237,8 @@ impl SchurSaddle {
         share
     }
 
-    /// Adds the multipliers in x and their effect on the motion, and their sizes to what was added.
+    /// Adds the multipliers in x and their effect on the motion. Also adds their sizes to the total
+    /// contributions.
     fn add_solution(&mut self, a: &mut [f64], lambda: &mut [f64]) {
         let s = &self.structure;
         let SolutionScratch {
@@ -252,7 +255,7 @@ impl SchurSaddle {
         subtract_transposed(s, values, weights, (x, local), a);
     }
 
-    /// `x ← S⁻¹·x` in the order of elimination.
+    /// Computes `x ← S⁻¹·x` in the order of elimination.
     fn substitute(&mut self) {
         let s = &self.structure;
         let LdlFactors { l, inverse, .. } = &self.factors;
@@ -329,7 +332,7 @@ impl SchurSaddle {
 }
 
 /// Eliminates the pivots of a diagonal tile, which has zeros on and above its diagonal, from their
-/// own lane.
+/// own group of values.
 fn solve_within(own: &mut Lane, tile: &Tile) {
     let mut x = *own;
     for n in 0..SIDE {
@@ -338,7 +341,7 @@ fn solve_within(own: &mut Lane, tile: &Tile) {
     *own = x;
 }
 
-/// `out ← out + E·v` for all elements with these values, in the order of elimination.
+/// Computes `out ← out + E·v` for all elements with these values, in the order of elimination.
 fn add_all_times(
     s: &SchurStructure,
     values: &[Lane],
@@ -364,7 +367,7 @@ fn add_all_times(
     }
 }
 
-/// `out ← out − diag(weights)·Eᵀ·x` for all elements with these values.
+/// Computes `out ← out − diag(weights)·Eᵀ·x` for all elements with these values.
 fn subtract_transposed(
     s: &SchurStructure,
     values: &[Lane],
@@ -392,7 +395,7 @@ fn subtract_transposed(
     }
 }
 
-/// Skipped rows have no residual.
+/// Sets the residuals of skipped rows to zero.
 fn clear_unused(x: &mut [Lane], factors: &LdlFactors) {
     if factors.n_left_out == 0 {
         return;
@@ -403,7 +406,7 @@ fn clear_unused(x: &mut [Lane], factors: &LdlFactors) {
     }
 }
 
-/// The largest `|x|/size`, where x is not zero; NaN if one is not finite.
+/// Returns the largest `|x|/size` of nonzero x, or NaN if a value is not finite.
 fn largest_share(x: &[Lane], size: &[Lane]) -> f64 {
     let (mut largest, mut none) = ([0.0_f64; SIDE], [0.0; SIDE]);
     for (x, size) in x.iter().zip(size) {

@@ -1,13 +1,13 @@
-//! Everything that depends on the pattern only: an order of elimination, fronts, and the places of
-//! all numbers.
+//! Data that depend only on the pattern: an order of elimination, fronts, and the positions of all
+//! numbers.
 //!
 //! Rows that touch the same blocks (bodies) are eliminated together. They are the nodes of a graph
 //! in which each block joins the rows that touch it, ordered by minimum degree. A front is a dense
 //! triangle over the rows that are eliminated in it, its pivots, and the later rows with which they
 //! have non-zero entries. `C_b·M_b⁻¹·C_bᵀ` of a block b is added to the front in which the first of
-//! its rows is a pivot; the remainder of a front after elimination is added to the front of the
-//! first of its other rows, its parent. A front becomes one with its parent where L has no more
-//! [tiles](super::tiles) then.
+//! its rows is a pivot. After elimination, the remainder of a front is added to the front of the
+//! first of its other rows, its parent. A front is merged with its parent if this does not increase
+//! the number of [tiles](super::tiles) of L.
 
 use std::ops::Range;
 
@@ -28,26 +28,26 @@ use crate::{EliminationTree, SparseMatrix};
 #[derive(Clone, Debug)]
 pub struct SchurStructure {
     pub(super) rows: Rows,
-    /// In the order of elimination; children come before their parents, the last child directly
-    /// before.
+    /// Fronts in the order of elimination. Children come before their parents, the last child
+    /// directly before.
     pub(super) fronts: Vec<Front>,
-    /// Later rows of all fronts, as places in the order.
+    /// Later rows of all fronts, as positions in the order.
     pub(super) later: Vec<u32>,
-    /// For each later row its place in the parent.
+    /// The position of each later row in the parent.
     pub(super) in_parent: Vec<InParent>,
     pub(super) elements: Elements,
     pub(super) size: Size,
 }
 
-/// The rows of C and the order of their elimination. Places of the pivots of a front begin with a
-/// lane; those that fill up its last one belong to no row.
+/// The rows of C and the order of their elimination. The positions of the pivots of a front begin
+/// with a new group of four; positions that complete its last group belong to no row.
 #[derive(Clone, Debug)]
 pub(super) struct Rows {
     /// Number of columns of C.
     n: usize,
-    /// The place of each row in the order of elimination.
+    /// The position of each row in the order of elimination.
     pub(super) place: Vec<usize>,
-    /// Lanes of all places.
+    /// Number of groups of four for all positions.
     pub(super) lanes: usize,
 }
 
@@ -58,29 +58,29 @@ pub(super) struct Elements {
     /// Columns of all elements.
     pub(super) columns: Vec<u32>,
     pub(super) rows: Vec<RowsOfLane>,
-    /// For each value of C its index among the values of all elements.
+    /// For each value of C, its index among the values of all elements.
     pub(super) index: Vec<u32>,
-    /// Number of lanes of values of all elements.
+    /// Number of groups of four values of all elements.
     pub(super) n_lanes: usize,
 }
 
-/// Rows of an element that lie in the same lane of its front.
+/// Rows of an element that are in the same group of four of its front.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RowsOfLane {
-    /// The lane in the front.
+    /// The group in the front.
     pub(super) lane: u32,
-    /// The place of each row in the order; behind all places for no row.
+    /// The position of each row in the order; padding has a position after all others.
     pub(super) places: [u32; SIDE],
 }
 
 impl RowsOfLane {
-    /// The values of its rows, the last one of x for no row.
+    /// Returns the values of its rows; padding takes the last value of x.
     #[inline(always)]
     pub(super) fn take_from(&self, x: &[f64]) -> Lane {
         self.places.map(|place| x[place as usize])
     }
 
-    /// Adds values of its rows, and nothing where there is no row.
+    /// Adds values of its rows; padding is ignored.
     #[inline(always)]
     pub(super) fn add_to(&self, x: &mut [f64], values: &Lane) {
         for (&place, value) in self.places.iter().zip(values) {
@@ -98,18 +98,18 @@ pub(super) struct Size {
     pub(super) tiles: usize,
     /// Largest number of tiles that are stored for their parents.
     pub(super) waiting: usize,
-    /// Largest number of lanes of a front.
+    /// Largest number of row groups of a front.
     pub(super) front: usize,
     multiplications: f64,
 }
 
-/// Where a row and its column are in a front, as offsets into its numbers that are added: tiles of
-/// the same columns follow each other.
+/// Position of a row and its column in a front, as offsets into its numbers that are added: tiles
+/// of the same columns follow each other.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct InParent {
-    /// Where its column would begin, if there were tiles above the diagonal.
+    /// Start of its column, if there were tiles above the diagonal.
     pub(super) column: u32,
-    /// How far its row is from there.
+    /// Offset of its row from this start.
     pub(super) row: u32,
 }
 
@@ -123,29 +123,29 @@ impl InParent {
     }
 }
 
-/// A dense triangle. Its pivots are filled up to whole lanes, and so are its other rows.
+/// A dense triangle. Its pivots are padded to complete groups of four, and so are its other rows.
 #[derive(Clone, Debug)]
 pub(super) struct Front {
-    /// Number of its pivots, and the lanes of their places.
+    /// Number of its pivots, and the groups of their positions.
     pub(super) n_pivots: usize,
     pub(super) pivots: Range<usize>,
-    /// Its other rows in `later` and `in_parent`.
+    /// Range of its other rows in `later` and `in_parent`.
     pub(super) rest: Range<usize>,
-    /// Blocks that are added to it, in `elements`.
+    /// Range of the blocks that are added to it, in `elements`.
     pub(super) elements: Range<usize>,
-    /// Fronts whose parent it is, the last one first.
+    /// Fronts that have this front as parent, the last one first.
     pub(super) children: Vec<usize>,
-    /// Index of its first tile of L.
+    /// Index of the first tile of L of this front.
     pub(super) l: usize,
 }
 
 impl Front {
-    /// Lanes of its pivots, and of its other rows.
+    /// Returns the number of groups of its pivots, and of its other rows.
     pub(super) fn lanes(&self) -> [usize; 2] {
         [self.pivots.len(), lanes(self.rest.len())]
     }
 
-    /// Number of tiles that its pivots leave for its parent.
+    /// Returns the number of tiles that remain for its parent after elimination of its pivots.
     pub(super) fn n_update(&self) -> usize {
         triangle(lanes(self.rest.len()))
     }
@@ -154,18 +154,19 @@ impl Front {
 /// A block of columns, with the rows that touch it.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
-    /// In the columns of all elements.
+    /// Range in the columns of all elements.
     pub(super) columns: Range<usize>,
-    /// In the rows of all elements.
+    /// Range in the rows of all elements.
     pub(super) rows: Range<usize>,
-    /// Its lanes of values: one for each column, for all columns of its first lane of rows, then
-    /// for those of the next one.
+    /// Groups of values of the element: one for each column. First come all columns for the first
+    /// group of rows, then all columns for the next group.
     pub(super) values: Range<usize>,
 }
 
 impl SchurStructure {
-    /// The structure for rows with this pattern, whose values are not used, and blocks of columns.
-    /// A column in no block is a block of its own, and a column in several belongs to the first.
+    /// Creates the structure for rows with this pattern, whose values are not used, and blocks of
+    /// columns. A column outside all blocks is a separate block, and a column in several blocks
+    /// belongs to the first.
     #[must_use]
     pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Self {
         let blocks = Blocks::new(c, blocks);
@@ -174,31 +175,31 @@ impl SchurStructure {
         tree.into_structure(c, &blocks, &nodes)
     }
 
-    /// Number of coordinates n.
+    /// Returns the number of coordinates n.
     #[must_use]
     pub fn n_coordinates(&self) -> usize {
         self.rows.n
     }
 
-    /// Number of rows r.
+    /// Returns the number of rows r.
     #[must_use]
     pub fn n_rows(&self) -> usize {
         self.rows.place.len()
     }
 
-    /// Number of stored entries of L, below its diagonal.
+    /// Returns the number of stored entries of L, below its diagonal.
     #[must_use]
     pub fn n_entries(&self) -> usize {
         self.size.entries
     }
 
-    /// Approximate number of multiplications of a factorisation.
+    /// Returns the approximate number of multiplications of a factorisation.
     #[must_use]
     pub fn multiplications(&self) -> f64 {
         self.size.multiplications
     }
 
-    /// Memory of a [`SchurSaddle`](crate::SchurSaddle) with this structure, in bytes.
+    /// Returns the memory of a [`SchurSaddle`](crate::SchurSaddle) with this structure, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
         let Size {
@@ -275,7 +276,7 @@ impl Nodes {
         };
         let mut last = None;
         for (key, row) in keyed {
-            // Rows without entries do not belong together.
+            // Rows without entries are not grouped.
             let is_same = !key.is_empty() && last.as_ref() == Some(&key);
             if !is_same {
                 for &block in &key {
@@ -292,7 +293,8 @@ impl Nodes {
     }
 }
 
-/// Number of tiles of L in the columns of so many pivots, with so many other rows.
+/// Returns the number of tiles of L in the columns of this number of pivots, with this number of
+/// other rows.
 fn tiles(pivots: usize, rest: usize) -> usize {
     let rest = lanes(rest);
     triangle(lanes(pivots) + rest) - triangle(rest)
@@ -302,8 +304,8 @@ fn tiles(pivots: usize, rest: usize) -> usize {
 struct Tree {
     /// Nodes in this order.
     order: Vec<usize>,
-    /// For each place: its later neighbours, ascending, and the number of places before it that are
-    /// merged with it.
+    /// For each position: its later neighbours, ascending, and the number of previous positions
+    /// that are merged with it.
     meets: Vec<Vec<usize>>,
     merged: Vec<usize>,
 }
@@ -320,7 +322,7 @@ impl Tree {
         for k in 1..n {
             loop {
                 let last = k - merged[k];
-                // The front directly before, if this one is its parent.
+                // The directly preceding front, if this front is its parent.
                 let is_child =
                     |c: &usize| meets[*c].first().is_some_and(|j| (last..=k).contains(j));
                 let Some(child) = last.checked_sub(1).filter(is_child) else {
@@ -344,7 +346,7 @@ impl Tree {
 
     fn into_structure(self, c: &SparseMatrix, blocks: &Blocks, nodes: &Nodes) -> SchurStructure {
         let n = self.order.len();
-        // A node is the last one of a front unless a later one has been merged with it.
+        // A node is the last one of a front, unless a later node has been merged with it.
         let mut end = n;
         let mut ends = Vec::new();
         while end > 0 {
@@ -352,7 +354,7 @@ impl Tree {
             end -= 1 + self.merged[end - 1];
         }
         ends.reverse();
-        // First place of each node, behind all places at last.
+        // First position of each node, and the end of all positions as last entry.
         let mut first = vec![0; n + 1];
         let mut place = vec![0; c.nrows()];
         let (mut from, mut next) = (0, 0);
@@ -389,7 +391,7 @@ impl Tree {
             .iter()
             .enumerate()
             .for_each(|(k, &node)| place_of_node[node] = k);
-        // The place at which the first node of a block is eliminated.
+        // The position at which the first node of a block is eliminated.
         let mut blocks_at: Vec<Vec<usize>> = vec![Vec::new(); n];
         for (block, touching) in nodes.touching.iter().enumerate() {
             if let Some(k) = touching.iter().map(|&node| place_of_node[node]).min() {
@@ -462,7 +464,7 @@ impl SchurStructure {
             .flat_map(|&node| nodes.rows[node].iter().copied())
             .collect();
         of_block.sort_unstable_by_key(|&row| self.rows.place[row]);
-        // Columns of bodies stay together, in space and in the plane.
+        // Columns of bodies remain grouped, in space and in the plane.
         let width = if matches!(own.len(), 3 | 6) {
             own.len()
         } else {
@@ -541,8 +543,8 @@ impl SchurStructure {
     }
 }
 
-/// Places and their later neighbours, renumbered so that children come directly before their
-/// parents, the one with the widest front last.
+/// Returns positions and their later neighbours, renumbered so that children come directly before
+/// their parents. The child with the widest front comes last.
 fn postordered(tree: EliminationTree) -> (Vec<usize>, Vec<Vec<usize>>) {
     let EliminationTree {
         order,
@@ -550,7 +552,7 @@ fn postordered(tree: EliminationTree) -> (Vec<usize>, Vec<Vec<usize>>) {
         mut children,
         ..
     } = tree;
-    // Depth first from the roots, without recursion.
+    // The search is depth-first from the roots, without recursion.
     let n = order.len();
     let mut renumbered = Vec::with_capacity(n);
     for root in (0..n).filter(|&k| beyond[k].is_empty()) {

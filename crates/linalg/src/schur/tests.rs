@@ -1,8 +1,8 @@
-//! Compared with the dense solver, which eliminates without forming S, and with closed forms.
+//! Compares with the dense solver, which eliminates without forming S, and with closed forms.
 
 use crate::{KeptRowSaddle, Matrix, SaddleError, SchurSaddle, SchurStructure, SparseMatrix};
 
-/// Numbers in [−1, 1), the same at every run.
+/// Numbers in [−1, 1) that are the same in every run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -102,7 +102,7 @@ fn a_hanging_chain_of_point_masses_pulls_with_its_weight() {
     let c = SparseMatrix::from_rows(n, (0..n).map(row)).expect("columns below n");
     let blocks: Vec<_> = (0..n).map(|j| j..j + 1).collect();
     let structure = SchurStructure::new(&c, &blocks);
-    // S is tridiagonal: no fill, whatever the order.
+    // S is tridiagonal, so there is no fill in any order.
     assert!(structure.n_entries() < 5 * n, "{}", structure.n_entries());
     let mut saddle = SchurSaddle::new(structure);
     saddle.factor(&c, &vec![2.0; n]).expect("independent rows");
@@ -140,8 +140,8 @@ fn a_dependent_row_is_left_out_or_refused() {
     assert!(saddle.uses(0) != saddle.uses(1));
 }
 
-/// Two rows that are always nearly parallel hide two others that become so: compared with itself, a
-/// row shows it.
+/// Two rows that are always nearly parallel hide two others that become nearly parallel. The
+/// comparison of a row with its own earlier share detects this.
 #[test]
 fn what_is_left_of_a_row_is_compared_with_itself() {
     let rows = |apart: f64| {
@@ -159,7 +159,7 @@ fn what_is_left_of_a_row_is_compared_with_itself() {
     let first = saddle.pivot_ratio();
     assert!((first - 1e-3).abs() < 1e-8, "{first}");
     saddle.keep_shares();
-    // What is left of the last row, 0.707 at first, is compared with 0.4.
+    // The independent share of the last row, initially 0.707, is compared with 0.4.
     for (apart, expected) in [(1.0, 1e-3), (0.1, 0.25e-3), (0.01, 0.25e-4)] {
         saddle.factor(&rows(apart), &mass).expect("independent");
         let found = saddle.pivot_ratio();
@@ -217,7 +217,7 @@ fn bad_numbers_are_refused() {
             ..
         })
     ));
-    // Nothing of them is left.
+    // The independent share of the rows is zero.
     let mut a = [0.0; 2];
     saddle
         .solve(&c, &[3.0, 1.0], &[0.0], &mut a, &mut [0.0])
@@ -239,13 +239,13 @@ fn a_row_of_which_little_is_left_is_lost() {
     }
 }
 
-/// A row that is `share` times the one that was factored, and rows miss by `miss` of their terms at
-/// first: each correction leaves 1 − share² of what the one before has left.
+/// A row that is `share` times the factored row, and rows with an initial residual of `miss` of
+/// their terms. Each correction leaves 1 − share² of the previous residual.
 fn solved_by_factors_of_another_row(share: f64, miss: f64) -> Result<(), SaddleError> {
     let row = |x: f64| SparseMatrix::from_rows(2, [[(0, x), (1, -x)]]).expect("two columns");
     let mut saddle = SchurSaddle::new(SchurStructure::new(&row(1.0), &whole(2)));
     saddle.factor(&row(1.0), &[1.0; 2])?;
-    // Both masses are pushed alike, and one of them by a little more.
+    // Both masses have the same load, and one of them a small additional load.
     let f = [1.0 + 2.0 * miss, 1.0];
     saddle.solve(&row(share), &f, &[0.0], &mut [0.0; 2], &mut [0.0])
 }
@@ -263,14 +263,14 @@ fn corrections_go_on_while_they_halve_what_is_left() {
 
 #[test]
 fn what_corrections_leave_is_refused_from_a_billionth_on() {
-    // Two corrections that leave 0.6 each.
+    // Two corrections, each of which leaves 0.6 of the residual.
     for (left, is_poor) in [(0.7e-9, false), (1.4e-9, true)] {
         let found = solved_by_factors_of_another_row(0.4_f64.sqrt(), left / 0.36);
         assert_eq!(found.is_err(), is_poor, "{left}: {found:?}");
     }
 }
 
-/// Each correction leaves a thousandth of what the one before has left: 1e-11, 1e-14 of the terms.
+/// Each correction leaves a thousandth of the previous residual: 1e-11, then 1e-14 of the terms.
 #[test]
 fn a_correction_leaves_rounding_of_all_terms() {
     let row = |x: f64| SparseMatrix::from_rows(2, [[(0, x), (1, -x)]]).expect("two columns");

@@ -1,8 +1,8 @@
-//! Tiles: matrices of 4 × 4 numbers, of which fronts and factors consist, and the same lanes of
-//! four rows for the columns of elements. Rows are filled up with zeros to whole tiles, so that no
-//! loop has a remainder, and everything of a tile stays in registers.
+//! Tiles: matrices of 4 × 4 numbers, of which fronts and factors consist, and groups of four rows
+//! (lanes) for the columns of elements. Rows are padded with zeros to whole tiles, so that no loop
+//! has a remainder, and the data of a tile stay in registers.
 
-/// Rows of a tile, and columns.
+/// Number of rows and columns of a tile.
 pub(super) const SIDE: usize = 4;
 
 /// A number for each of four rows.
@@ -11,23 +11,24 @@ pub(super) type Lane = [f64; SIDE];
 /// Four columns of four rows.
 pub(super) type Tile = [Lane; SIDE];
 
-/// Lanes of n rows.
+/// Returns the number of groups of four for n rows.
 pub(super) const fn lanes(n: usize) -> usize {
     n.div_ceil(SIDE)
 }
 
-/// Tiles of the lower triangle of a matrix with so many lanes of rows.
+/// Returns the number of tiles of the lower triangle of a matrix with this number of row groups.
 pub(super) const fn triangle(lanes: usize) -> usize {
     lanes * (lanes + 1) / 2
 }
 
-/// Index of the diagonal tile of a column of tiles, in a lower triangle stored by columns.
+/// Returns the index of the diagonal tile of a column of tiles, in a lower triangle stored by
+/// columns.
 pub(super) const fn diagonal(lanes: usize, column: usize) -> usize {
     triangle(lanes) - triangle(lanes - column)
 }
 
-/// Calls `work` for a block of columns of this width: six are those of bodies in space, three those
-/// in the plane; all others are blocks of their own.
+/// Calls `work` for a block of columns of this width: six for bodies in space, three for bodies in
+/// the plane, and one for all other columns.
 macro_rules! by_width {
     ($width:expr, $n:ident => $work:expr) => {
         match $width {
@@ -49,10 +50,10 @@ macro_rules! by_width {
 
 pub(super) use by_width;
 
-// Functions of one tile or lane are never inlined: a loop over tiles would be vectorised across
-// them, with more shuffles than products, and not within each of them.
+// Functions of one tile or group are never inlined. Otherwise the compiler would vectorise a loop
+// over tiles across them, with more shuffles than products, and not within each tile.
 
-/// `T ← T + X·Yᵀ`.
+/// Computes `T ← T + X·Yᵀ`.
 #[inline(never)]
 pub(super) fn add_product<const N: usize>(t: &mut Tile, x: &[Lane; N], y: &[Lane; N]) {
     for j in 0..SIDE {
@@ -66,7 +67,7 @@ pub(super) fn add_product<const N: usize>(t: &mut Tile, x: &[Lane; N], y: &[Lane
     }
 }
 
-/// `T ← T − X·Yᵀ`.
+/// Computes `T ← T − X·Yᵀ`.
 #[inline(never)]
 pub(super) fn subtract_product(t: &mut Tile, x: &Tile, y: &Tile) {
     for j in 0..SIDE {
@@ -80,7 +81,7 @@ pub(super) fn subtract_product(t: &mut Tile, x: &Tile, y: &Tile) {
     }
 }
 
-/// `X·diag(s)`.
+/// Computes `X·diag(s)`.
 #[inline(never)]
 pub(super) fn scaled<const N: usize>(y: &mut [Lane; N], x: &[Lane; N], s: &[f64; N]) {
     for n in 0..N {
@@ -90,19 +91,19 @@ pub(super) fn scaled<const N: usize>(y: &mut [Lane; N], x: &[Lane; N], s: &[f64;
     }
 }
 
-/// `y ← y + X·s`.
+/// Computes `y ← y + X·s`.
 #[inline(never)]
 pub(super) fn add_times<const N: usize>(y: &mut Lane, x: &[Lane; N], s: &[f64; N]) {
     *y = sum(*y, x, s);
 }
 
-/// `y ← y − X·s`.
+/// Computes `y ← y − X·s`.
 #[inline(never)]
 pub(super) fn subtract_times(y: &mut Lane, x: &Tile, s: &Lane) {
     *y = sum(*y, x, &[-s[0], -s[1], -s[2], -s[3]]);
 }
 
-/// `y ← y + Xᵀ·z`.
+/// Computes `y ← y + Xᵀ·z`.
 #[inline(never)]
 pub(super) fn add_transposed_times<const N: usize>(y: &mut [f64; N], x: &[Lane; N], z: &Lane) {
     for k in 0..N {
@@ -110,7 +111,7 @@ pub(super) fn add_transposed_times<const N: usize>(y: &mut [f64; N], x: &[Lane; 
     }
 }
 
-/// `X·s`, and `|X|·t`.
+/// Computes `X·s` and `|X|·t`.
 #[inline(never)]
 pub(super) fn times_and_size<const N: usize>(
     [y, z]: &mut [Lane; 2],
@@ -127,7 +128,7 @@ pub(super) fn times_and_size<const N: usize>(
     }
 }
 
-/// `Σ s_k·x_k²`, number by number.
+/// Computes `Σ s_k·x_k²`, number by number.
 #[inline(never)]
 pub(super) fn squares<const N: usize>(y: &mut Lane, x: &[Lane; N], s: &[f64; N]) {
     *y = [0.0; SIDE];
@@ -138,7 +139,7 @@ pub(super) fn squares<const N: usize>(y: &mut Lane, x: &[Lane; N], s: &[f64; N])
     }
 }
 
-/// `y + Σ s_k·x_k`, the terms one after the other.
+/// Computes `y + Σ s_k·x_k`, adding the terms one after the other.
 #[inline(always)]
 pub(super) fn sum<const N: usize>(mut y: Lane, x: &[Lane; N], s: &[f64; N]) -> Lane {
     for k in 0..N {
@@ -149,13 +150,13 @@ pub(super) fn sum<const N: usize>(mut y: Lane, x: &[Lane; N], s: &[f64; N]) -> L
     y
 }
 
-/// `xᵀ·y`.
+/// Computes `xᵀ·y`.
 #[inline(always)]
 pub(super) fn dot(x: &Lane, y: &Lane) -> f64 {
     (x[0] * y[0] + x[2] * y[2]) + (x[1] * y[1] + x[3] * y[3])
 }
 
-/// The values of a block of columns.
+/// Returns the values of a block of columns.
 #[inline(always)]
 pub(super) fn of_columns<const N: usize>(columns: &[u32], v: &[f64]) -> [f64; N] {
     let mut of_block = [0.0; N];

@@ -1,9 +1,9 @@
 //! Makes a bidiagonal matrix diagonal by rotations from both sides; only its singular values are
 //! computed.
 //!
-//! Each step is one of the implicit QR algorithm for BᵀB, without forming it: a rotation of two
+//! Each step is a step of the implicit QR algorithm for BᵀB, which is not formed. A rotation of two
 //! columns with Wilkinson's shift creates an entry below the diagonal, which further rotations
-//! remove. A block with a zero on its diagonal is divided there first.
+//! remove. A block with a zero on its diagonal is first divided at this zero.
 
 use crate::limits::QR_STEPS_EACH;
 
@@ -16,7 +16,7 @@ pub(super) fn iterate(d: &mut [f64], f: &mut [f64]) -> bool {
     let stands = |x: f64| x.abs() > zero;
     let mut end = d.len();
     for _ in 0..QR_STEPS_EACH * d.len() {
-        // The last block that is not diagonal yet: begin..end.
+        // The range begin..end is the last block that is not diagonal yet.
         while end > 1 && !stands(f[end - 2]) {
             end -= 1;
         }
@@ -36,11 +36,12 @@ pub(super) fn iterate(d: &mut [f64], f: &mut [f64]) -> bool {
     d.len() <= 1
 }
 
-/// One step with a shift.
+/// Performs one step with a shift.
 fn step(d: &mut [f64], f: &mut [f64]) {
     let n = d.len();
     let shift = {
-        // Of the trailing 2×2 of BᵀB, the eigenvalue closer to its last entry.
+        // The shift is the eigenvalue of the trailing 2×2 block of BᵀB that is closer to its last
+        // entry.
         let before = if n > 2 { f[n - 3] } else { 0.0 };
         let (a, b, c) = (
             d[n - 2] * d[n - 2] + before * before,
@@ -52,14 +53,15 @@ fn step(d: &mut [f64], f: &mut [f64]) {
     };
     let (mut y, mut z) = (d[0] * d[0] - shift, d[0] * f[0]);
     for k in 0..n - 1 {
-        // Columns k, k + 1: removes the entry above the diagonal and creates an entry (k + 1, k).
+        // The rotation of columns k, k + 1 removes the entry above the diagonal and creates an
+        // entry (k + 1, k).
         let (c, s, r) = rotation(y, z);
         if k > 0 {
             f[k - 1] = r;
         }
         (y, f[k]) = (c * d[k] + s * f[k], c * f[k] - s * d[k]);
         (z, d[k + 1]) = (s * d[k + 1], c * d[k + 1]);
-        // Rows k, k + 1: removes it and creates an entry at (k, k + 2).
+        // The rotation of rows k, k + 1 removes this entry and creates an entry at (k, k + 2).
         let (c, s, r) = rotation(y, z);
         d[k] = r;
         (y, d[k + 1]) = (c * f[k] + s * d[k + 1], c * d[k + 1] - s * f[k]);
@@ -70,7 +72,7 @@ fn step(d: &mut [f64], f: &mut [f64]) {
     }
 }
 
-/// If the first diagonal entry of the block is zero: rotations with the rows below make its row
+/// If the first diagonal entry of the block is zero, rotations with the rows below make its row
 /// zero.
 fn cut_row(d: &mut [f64], f: &mut [f64]) {
     let mut bulge = f[0];
@@ -85,7 +87,7 @@ fn cut_row(d: &mut [f64], f: &mut [f64]) {
     }
 }
 
-/// If the last diagonal entry of the block is zero: rotations with the columns before make its
+/// If the last diagonal entry of the block is zero, rotations with the previous columns make its
 /// column zero.
 fn cut_column(d: &mut [f64], f: &mut [f64]) {
     let n = d.len();
@@ -101,16 +103,16 @@ fn cut_column(d: &mut [f64], f: &mut [f64]) {
     }
 }
 
-/// Cosine, sine and length with `[c s; −s c]·[a; b] = [r; 0]`.
+/// Returns cosine, sine and length with `[c s; −s c]·[a; b] = [r; 0]`.
 fn rotation(a: f64, b: f64) -> (f64, f64, f64) {
     if b == 0.0 {
         return (1.0, 0.0, a);
     }
-    // Entries are at most of order one, and one whose square underflows is negligible relative to
+    // Entries are at most of order one. An entry whose square underflows is negligible relative to
     // the largest.
     let r = (a * a + b * b).sqrt();
     match 1.0 / r {
-        // Most of the time of a step is spent waiting for this quotient, so it is computed once.
+        // Most of the time of a step is the latency of this quotient, so it is computed once.
         inverse if inverse.is_finite() => (a * inverse, b * inverse, r),
         _ => (1.0, 0.0, 0.0),
     }

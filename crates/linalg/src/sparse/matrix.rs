@@ -1,4 +1,4 @@
-//! `SparseMatrix`: rows of a few entries each, one after the other.
+//! `SparseMatrix`: a matrix whose rows have few entries each, stored one after the other.
 
 use crate::{Matrix, kernels};
 
@@ -25,7 +25,7 @@ pub struct SparseMatrix {
     value: Vec<f64>,
 }
 
-/// Entries that do not form a matrix.
+/// The entries do not form a matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SparseError {
@@ -42,8 +42,8 @@ pub enum SparseError {
 }
 
 impl SparseMatrix {
-    /// From the entries (column, value) of each row, in any order; values of the same column are
-    /// added. Explicit zeros are kept.
+    /// Creates a matrix from the entries (column, value) of each row, in any order. Values of the
+    /// same column are added. Explicit zeros are kept.
     ///
     /// # Errors
     /// [`SparseError::Column`]: a column is not below `ncols`.
@@ -63,7 +63,7 @@ impl SparseMatrix {
                     ncols,
                 });
             }
-            // A stable sort: equal columns are added in the given order.
+            // The sort is stable, so equal columns are added in the given order.
             entries.sort_by_key(|(column, _)| *column);
             matrix.push(&entries);
         }
@@ -86,7 +86,7 @@ impl SparseMatrix {
         self.nrows += 1;
     }
 
-    /// Takes the non-zero entries of a dense matrix.
+    /// Creates a matrix from the non-zero entries of a dense matrix.
     pub fn from_dense(dense: &Matrix) -> Self {
         let mut matrix = Self::empty(dense.ncols());
         for i in 0..dense.nrows() {
@@ -97,59 +97,59 @@ impl SparseMatrix {
         matrix
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     pub fn nrows(&self) -> usize {
         self.nrows
     }
 
-    /// Number of columns.
+    /// Returns the number of columns.
     pub fn ncols(&self) -> usize {
         self.ncols
     }
 
-    /// Number of stored entries.
+    /// Returns the number of stored entries.
     pub fn nnz(&self) -> usize {
         self.value.len()
     }
 
-    /// Columns, ascending, and values of row `i`.
+    /// Returns the columns, ascending, and values of row `i`.
     ///
     /// # Panics
-    /// If `i` is not below `nrows`.
+    /// Panics if `i` is not below `nrows`.
     pub fn row(&self, i: usize) -> (&[usize], &[f64]) {
         assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
         let entries = self.start[i]..self.start[i + 1];
         (&self.column[entries.clone()], &self.value[entries])
     }
 
-    /// Values of all rows, one after the other.
+    /// Returns the values of all rows, one after the other.
     pub fn values(&self) -> &[f64] {
         &self.value
     }
 
-    /// Values of all rows, writable, with the same pattern.
+    /// Returns the values of all rows as a mutable slice, with the same pattern.
     pub fn values_mut(&mut self) -> &mut [f64] {
         &mut self.value
     }
 
-    /// Index of the first value of row `i`.
+    /// Returns the index of the first value of row `i`.
     ///
     /// # Panics
-    /// If `i` is above `nrows`.
+    /// Panics if `i` is above `nrows`.
     pub fn start(&self, i: usize) -> usize {
         self.start[i]
     }
 
-    /// Entries (column, value) of row `i`.
+    /// Returns the entries (column, value) of row `i`.
     pub fn entries(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let (columns, values) = self.row(i);
         columns.iter().copied().zip(values.iter().copied())
     }
 
-    /// The rows listed in `rows`, in that order.
+    /// Returns the rows listed in `rows`, in that order.
     ///
     /// # Panics
-    /// If an index is not below `nrows`.
+    /// Panics if an index is not below `nrows`.
     pub fn select_rows(&self, rows: &[usize]) -> Self {
         let mut selected = Self::empty(self.ncols);
         for &i in rows {
@@ -162,7 +162,7 @@ impl SparseMatrix {
         selected
     }
 
-    /// The matrix with all its zeros.
+    /// Returns the dense matrix, including all zeros.
     pub fn dense(&self) -> Matrix {
         let mut dense = Matrix::zeros(self.nrows, self.ncols);
         for i in 0..self.nrows {
@@ -173,14 +173,14 @@ impl SparseMatrix {
         dense
     }
 
-    /// Position and value of the first entry that is NaN or infinite.
+    /// Returns the position and value of the first entry that is NaN or infinite.
     pub fn first_non_finite(&self) -> Option<(usize, usize, f64)> {
         let at = self.value.iter().position(|a| !a.is_finite())?;
         let row = self.start.partition_point(|&start| start <= at) - 1;
         Some((row, self.column[at], self.value[at]))
     }
 
-    /// Aᵀ.
+    /// Returns the transpose Aᵀ.
     pub fn transpose(&self) -> Self {
         let mut start = vec![0; self.ncols + 1];
         for &j in &self.column {
@@ -208,10 +208,10 @@ impl SparseMatrix {
         }
     }
 
-    /// `out ← A·x`, with `x` of length `ncols` and `out` of length `nrows`.
+    /// Computes `out ← A·x`, with `x` of length `ncols` and `out` of length `nrows`.
     ///
     /// # Panics
-    /// If a length differs.
+    /// Panics if a length differs.
     pub fn times(&self, x: &[f64], out: &mut [f64]) {
         let shape = (self.ncols, self.nrows);
         assert_eq!((x.len(), out.len()), shape, "A·x: columns and rows");
@@ -220,10 +220,10 @@ impl SparseMatrix {
         }
     }
 
-    /// `out ← Aᵀ·y`, with `y` of length `nrows` and `out` of length `ncols`.
+    /// Computes `out ← Aᵀ·y`, with `y` of length `nrows` and `out` of length `ncols`.
     ///
     /// # Panics
-    /// If a length differs.
+    /// Panics if a length differs.
     pub fn transposed_times(&self, y: &[f64], out: &mut [f64]) {
         let shape = (self.nrows, self.ncols);
         assert_eq!((y.len(), out.len()), shape, "Aᵀ·y: rows and columns");
@@ -241,7 +241,7 @@ impl SparseMatrix {
         kernels::norm(&self.value)
     }
 
-    /// Each entry a at (i, j) becomes `f(i, j, a)`.
+    /// Returns a matrix in which each entry a at (i, j) is replaced by `f(i, j, a)`.
     #[must_use]
     pub fn map(&self, f: impl Fn(usize, usize, f64) -> f64) -> Self {
         let mut mapped = self.clone();

@@ -1,11 +1,11 @@
 //! The order in which bodies are eliminated: approximate minimum degree on the graph in which the
 //! bodies of a joint are connected.
 //!
-//! Eliminating a node joins all its neighbours to each other, so the graph is kept as a cover by
-//! cliques and never edge by edge: the joints are the first cliques, an eliminated node unites its
-//! cliques into one (element absorption), and storage never grows. A degree is bounded by
-//! `|L_p ∖ i| + Σ_e |L_e ∖ L_p|` over the cliques e of i, where `L_p` is the new clique. Nodes in
-//! the same cliques stay together and are treated as one.
+//! The elimination of a node joins all its neighbours to each other. The graph is therefore stored
+//! as a cover by cliques, not edge by edge. The joints are the first cliques, an eliminated node
+//! unites its cliques into one (element absorption), and storage never grows. A degree is bounded
+//! by `|L_p ∖ i| + Σ_e |L_e ∖ L_p|` over the cliques e of i, where `L_p` is the new clique. Nodes
+//! in the same cliques are treated as one node.
 //!
 //! Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering
 //! algorithm, SIAM J. Matrix Anal. Appl. 17 (1996) 886–905.
@@ -16,8 +16,8 @@ mod tests;
 
 use buckets::Buckets;
 
-/// An elimination order of the nodes `0..n` with little fill: approximately the node of least
-/// degree first.
+/// Returns an elimination order of the nodes `0..n` with little fill. The next node is
+/// approximately the one of least degree.
 ///
 /// `cliques` are sets of nodes that are all connected to each other; nodes not below `n` are
 /// ignored. The same input gives the same order.
@@ -39,7 +39,7 @@ pub fn minimum_degree(n: usize, cliques: &[Vec<usize>]) -> Vec<usize> {
 
 /// A graph as a cover by cliques, with nodes of the same cliques merged.
 struct Cover {
-    /// Nodes of each clique; empty once the clique lies within another.
+    /// Nodes of each clique; empty if the clique is contained in another one.
     nodes: Vec<Vec<usize>>,
     /// Number of nodes of each clique, including merged ones.
     size: Vec<usize>,
@@ -47,13 +47,13 @@ struct Cover {
     cliques: Vec<Vec<usize>>,
     /// Nodes that were merged into each node.
     twins: Vec<Vec<usize>>,
-    /// One plus the number of twins; 0 once eliminated or merged.
+    /// One plus the number of twins; 0 after elimination or merging.
     weight: Vec<usize>,
     /// Number of nodes not yet eliminated, including merged ones.
     remaining: usize,
-    /// The last elimination that has marked each node.
+    /// The last elimination that marked each node.
     mark: Vec<usize>,
-    /// `|L_e ∖ L_p|` of the clique e, and the elimination it was counted in.
+    /// `|L_e ∖ L_p|` of the clique e, and the elimination in which it was counted.
     outside: Vec<(usize, usize)>,
     buckets: Buckets,
 }
@@ -104,7 +104,7 @@ impl Cover {
         }
     }
 
-    /// Eliminates a node with its twins, and with the neighbours that have no other neighbours.
+    /// Eliminates a node with its twins, and with neighbours that have no other neighbours.
     fn eliminate(&mut self, pivot: usize, order: &mut Vec<usize>) {
         let stamp = order.len() + 1;
         let mut united = self.unite(pivot, stamp);
@@ -115,7 +115,7 @@ impl Cover {
         for &i in &united {
             let mut beyond = 0;
             let outside = &self.outside;
-            // Removes cliques within the new one.
+            // Removes cliques that are contained in the new one.
             self.cliques[i].retain(|&e| {
                 beyond += outside[e].0;
                 outside[e].0 > 0
@@ -147,7 +147,7 @@ impl Cover {
         self.nodes.push(united);
     }
 
-    /// The neighbours of a node: the union of its cliques, which are removed.
+    /// Returns the neighbours of a node: the union of its cliques, which are removed.
     fn unite(&mut self, pivot: usize, stamp: usize) -> Vec<usize> {
         self.mark[pivot] = stamp;
         let mut united = Vec::new();
@@ -176,7 +176,7 @@ impl Cover {
         }
     }
 
-    /// Merges nodes that lie in the same cliques.
+    /// Merges nodes that are in the same cliques.
     fn merge_twins(&mut self, neighbours: &mut [Neighbour]) {
         neighbours.sort_unstable_by_key(|neighbour| (neighbour.key, neighbour.node));
         for same in neighbours.chunk_by(|a, b| a.key == b.key) {

@@ -1,10 +1,10 @@
-//! The elimination tree: the nodes connected to a node when it is eliminated, from the pattern
-//! alone.
+//! The elimination tree. It shows the nodes connected to a node when it is eliminated, and depends
+//! only on the pattern.
 
 use super::minimum_degree;
 
 /// Nodes in an order of elimination with little fill, see [`minimum_degree`], and the connections
-/// created by their elimination. Nodes are referred to by their *place* in this order.
+/// created by their elimination. Nodes are identified by their *position* in this order.
 ///
 /// ```
 /// use pfaff_linalg::EliminationTree;
@@ -15,18 +15,19 @@ use super::minimum_degree;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EliminationTree {
-    /// The node at each place.
+    /// The node at each position.
     pub order: Vec<usize>,
-    /// Cliques whose first node is at this place.
+    /// Cliques whose first node is at this position.
     pub led: Vec<Vec<usize>>,
-    /// Places that are connected to it when it is eliminated, ascending; the first is its parent.
+    /// Positions that are connected to this one when it is eliminated, ascending; the first is its
+    /// parent.
     pub beyond: Vec<Vec<usize>>,
-    /// Places whose parent it is, ascending.
+    /// Positions that have this one as parent, ascending.
     pub children: Vec<Vec<usize>>,
 }
 
 impl EliminationTree {
-    /// The tree of `n` nodes; the nodes in each set are connected to each other.
+    /// Returns the tree of `n` nodes; the nodes in each set are connected to each other.
     #[must_use]
     pub fn new(n: usize, cliques: &[Vec<usize>]) -> Self {
         let tree =
@@ -34,11 +35,11 @@ impl EliminationTree {
         tree.unwrap_or_else(|never| match never {})
     }
 
-    /// Like [`Self::new`], as long as `admit` returns no error; it is called with each place, the
-    /// order, and the later places connected to it.
+    /// Works like [`Self::new`], as long as `admit` returns no error. The function `admit` is
+    /// called with each position, the order, and the later positions connected to it.
     ///
     /// # Errors
-    /// The first one of `admit`.
+    /// Returns the first error of `admit`.
     pub fn while_admitted<E>(
         n: usize,
         cliques: &[Vec<usize>],

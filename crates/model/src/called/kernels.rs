@@ -7,13 +7,13 @@ use super::{BodyState, CalledWrench, Wrench};
 use crate::element::ForceKernels;
 use crate::law::UndefinedValue;
 
-/// A space in which bodies have called wrenches.
+/// A space in which called wrenches can act on bodies.
 trait WrenchSpace: Space {
     const SPEC: ForceSpec;
 
     fn state(time: f64, x: &Self::Pose<f64>, v: &Self::Twist<f64>) -> BodyState;
 
-    /// The components of a wrench along the freedoms of the body.
+    /// Returns the components of a wrench along the freedoms of the body.
     fn components(of: &Wrench, x: &Self::Pose<f64>) -> [f64; 6];
 }
 
@@ -80,7 +80,7 @@ impl WrenchSpace for Space3 {
         }
     }
 
-    /// Torques are those in the frame of the body.
+    /// Torques are given in the frame of the body.
     fn components(of: &Wrench, x: &space3::Pose) -> [f64; 6] {
         let [a, b, c] = of.torque;
         let own = |k: usize| x.rot[0][k] * a + x.rot[1][k] * b + x.rot[2][k] * c;
@@ -128,11 +128,12 @@ impl<S: WrenchSpace> ForceElement<f64, S> for CalledWrench {
     }
 }
 
-/// A downstream crate might make kernels of its own space, so this cannot be said of all spaces.
+/// The macro is needed because a downstream crate might define kernels of its own space, which
+/// prevents an implementation for all spaces.
 macro_rules! force_kernels {
     ($space:ident) => {
         impl ForceKernels<$space> for CalledWrench {
-            /// A function that is called cannot be recorded: generators of code refuse it.
+            /// A called function cannot be recorded, so code generators reject it.
             fn recorded_q(
                 &self,
                 _: &[<$space as Space>::Pose<RecordedNumber>],

@@ -1,42 +1,42 @@
-//! The entries of the page, read when somebody asks for one.
+//! The entries of the page, parsed on request.
 
 use std::sync::OnceLock;
 
 use super::{Code, PAGE};
 
-/// What a code means.
+/// Meaning of a code.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// The code.
     pub code: Code,
-    /// What is wrong, in one line.
+    /// Description of the problem in one line.
     pub title: &'static str,
-    /// What to do.
+    /// Advice on how to solve the problem.
     pub advice: &'static str,
-    /// Something that has this code.
+    /// An example that produces this code.
     pub example: Example,
 }
 
-/// Something that has a code.
+/// An example of a code.
 #[derive(Clone, Copy, Debug)]
 pub enum Example {
     /// A scene on standard input of the command `pfaff` with these arguments.
     Scene(&'static str, &'static str),
     /// The command `pfaff` with these arguments.
     Command(&'static str),
-    /// Why no example can be given in a few lines.
+    /// Reason why no example can be given in a few lines.
     None(&'static str),
 }
 
-/// All entries, by ascending codes.
+/// Returns all entries, by ascending codes.
 #[must_use]
 pub fn entries() -> &'static [Entry] {
     static ENTRIES: OnceLock<Vec<Entry>> = OnceLock::new();
     ENTRIES.get_or_init(|| PAGE.split("\n## P").skip(1).filter_map(entry).collect())
 }
 
-/// The entry of a section, which begins behind the `P` of its heading: the title, the advice, and
-/// an example or why there is none, in paragraphs.
+/// Returns the entry of a section, which begins after the `P` of its heading. Its paragraphs are
+/// the title, the advice, and an example or the reason why there is no example.
 fn entry(section: &'static str) -> Option<Entry> {
     let (number, rest) = section.split_once("\n\n")?;
     let (title, rest) = rest.split_once(".\n\n")?;
@@ -63,7 +63,7 @@ fn entry(section: &'static str) -> Option<Entry> {
     })
 }
 
-/// The arguments of `` `pfaff ARGUMENTS` ``.
+/// Returns the arguments of `` `pfaff ARGUMENTS` ``.
 fn arguments(command: &'static str) -> Option<&'static str> {
     let command = command.trim_end_matches('.').trim_matches('`');
     command.strip_prefix("pfaff ")

@@ -1,4 +1,4 @@
-//! The kernels of a coupling, from those of the drives of its measures.
+//! The kernels of a coupling, composed of the kernels of the drives of its joint coordinates.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use super::Coupling;
 use super::side::At;
 use crate::element::{DriveScalar, Kinematics, PoseOf, TwistOf};
 
-/// Both measures at a pose, with h and its derivatives.
+/// Both joint coordinates at a pose, with h and its derivatives.
 struct MeasurePair<T> {
     x: At<T>,
     y: At<T>,
@@ -104,7 +104,7 @@ impl<T: DriveScalar, S: Kinematics> Element<T, S> for Coupling<S> {
     }
 }
 
-/// That of the drive of y.
+/// The reaction is that of the drive of y.
 impl<S: Kinematics> Reaction<f64, S> for Coupling<S> {
     fn wrench(&self, x: &[PoseOf<S>], f: &[[f64; 3]], out: &mut [f64]) {
         let (side, at) = (&self.sides[1], self.both(x, f).y);
@@ -118,7 +118,8 @@ impl<S: Kinematics> Reaction<f64, S> for Coupling<S> {
 }
 
 impl<S: Kinematics> ConstraintKernels<S> for Coupling<S> {
-    /// Those of this coupling: couplings are as different as their measures.
+    /// Returns the operation lists of this coupling: couplings differ because their joint
+    /// coordinates differ.
     fn programs(&self) -> &Programs {
         let numbers = self.sides[1].stored.end + self.law.degree();
         self.programs

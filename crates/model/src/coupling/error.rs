@@ -1,10 +1,10 @@
-//! What can be wrong with a coupling.
+//! Errors of couplings.
 
-/// Error in the measures or numbers of a coupling.
+/// Error in the joint coordinates or numbers of a coupling.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CouplingError {
-    /// A measure whose drive has other rows than one of its own between two bodies.
+    /// The drive of a joint coordinate does not have exactly one row between two bodies.
     #[error(
         "`{definition}` has {rows} rows and {slots} bodies: a coupling takes measures that have one \
          row of their own between two bodies, such as the angle of a revolute joint or the \
@@ -13,12 +13,12 @@ pub enum CouplingError {
     Measure {
         /// The definition of the drive.
         definition: &'static str,
-        /// Number of its rows.
+        /// Number of rows of the drive.
         rows: usize,
-        /// Number of its bodies.
+        /// Number of bodies of the drive.
         slots: usize,
     },
-    /// No coefficient, or one that is not finite.
+    /// There is no coefficient, or a coefficient is not finite.
     #[error("the ratio of a coupling and its coefficients are finite numbers, not all zero")]
     Coefficients,
 }

@@ -1,5 +1,5 @@
-//! The facts of couplings. Those of a definition are constants; those of a coupling depend on its
-//! two measures, and are made once for each pair and kept.
+//! Specifications of couplings. The specifications of a definition are constants. The specification
+//! of a coupling depends on its two joint coordinates; it is created once for each pair and stored.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -11,17 +11,18 @@ use joints::spec::{
 /// Type of couplings in scene files.
 pub(crate) const TYPE: &str = "coupling";
 
-/// The facts of a coupling with the patterns of its kernels.
+/// The specification of a coupling with the patterns of its kernels.
 pub(super) struct CouplingFacts {
     pub(super) spec: ConstraintSpec,
-    /// Velocities of a body.
+    /// Number of velocities of a body.
     n_dof: usize,
     /// The entry of the row for each column.
     entry_of: Vec<Option<usize>>,
 }
 
 impl CouplingFacts {
-    /// The entry of the row for a freedom of a slot; it exists for entries of the measures.
+    /// Returns the entry of the row for a freedom of a slot; it exists for entries of the joint
+    /// coordinates.
     pub(super) fn entry(&self, slot: usize, dof: usize) -> usize {
         self.entry_of[self.column(slot, dof)].unwrap_or_default()
     }
@@ -30,7 +31,7 @@ impl CouplingFacts {
         self.n_dof * slot + dof
     }
 
-    /// Column of the block for a column of the block of a measure.
+    /// Returns the column of the block for a column of the block of a joint coordinate.
     pub(super) fn of_side(&self, slots: [usize; 2], column: usize) -> usize {
         self.column(slots[column / self.n_dof], column % self.n_dof)
     }
@@ -39,23 +40,24 @@ impl CouplingFacts {
 /// Names of the slots of a coupling.
 const SLOTS: [&str; 4] = ["i", "j", "k", "l"];
 
-/// All facts that were made: at most one set for each pair of measures, each way in which they
-/// share bodies and each degree.
+/// All created specifications: at most one for each pair of joint coordinates, each way in which
+/// they share bodies, and each degree.
 static KEPT: Mutex<Option<HashMap<Key, &'static CouplingFacts>>> = Mutex::new(None);
 
-/// Places of the specs of both measures, their slots, and the degree.
+/// Addresses of the specifications of both joint coordinates, their slots, and the degree.
 type Key = ([usize; 2], [[usize; 2]; 2], usize);
 
-/// The facts of the coupling of two measures by a polynomial of this degree. Their bodies are in
-/// these slots, of which there are so many, with so many velocities each.
+/// Returns the specification of the coupling of two joint coordinates by a polynomial of this
+/// degree. The arguments give the slots of their bodies, the total number of slots, and the number
+/// of velocities of a body.
 pub(super) fn facts(
     measures: [&'static ConstraintSpec; 2],
     slots: [[usize; 2]; 2],
     [n_slots, n_dof]: [usize; 2],
     degree: usize,
 ) -> &'static CouplingFacts {
-    // Specs are constants: one place, one content. Names are not enough: the plane, space and
-    // crates of users may have the same.
+    // Specifications are constants, so an address identifies the content. Names are not sufficient:
+    // the plane, space and crates of users may have equal names.
     let place = |spec: &'static ConstraintSpec| std::ptr::from_ref(spec).addr();
     let key = (measures.map(place), slots, degree);
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -89,7 +91,7 @@ fn made(
         facts.entry_of[column] = Some(entry);
     }
     let c = row.iter().map(|k| Entry::varying(0, k / n_dof, k % n_dof));
-    // The gradient of x times itself comes with the curvature of the polynomial.
+    // The gradient of x times itself appears with the curvature of the polynomial.
     let own = &measures[0].c;
     let of_x = |e: &Entry| facts.column(slots[0][e.slot], e.dof);
     let outer = own
@@ -134,7 +136,7 @@ fn made(
     facts
 }
 
-/// What all couplings have in common.
+/// Properties that all couplings have in common.
 const PLAIN: ConstraintSpec = ConstraintSpec {
     common: Spec {
         name: "Coupling",
@@ -206,7 +208,7 @@ fn common(measures: [&'static ConstraintSpec; 2], slots: [[usize; 2]; 2], n_slot
     }
 }
 
-/// The numbers of both drives, then ratio and coefficients.
+/// Computes the numbers of both drives, then ratio and coefficients.
 fn data(
     measures: [&'static ConstraintSpec; 2],
     slots: [[usize; 2]; 2],

@@ -1,15 +1,16 @@
-//! The polynomial by which one measure follows another.
+//! The polynomial by which one joint coordinate follows another.
 
 use joints::Scalar;
 
-/// h(x) = c₁·x + c₂·x² + …, without a constant.
+/// h(x) = c₁·x + c₂·x² + …, without a constant term.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Polynomial {
     coefficients: Vec<f64>,
 }
 
 impl Polynomial {
-    /// From c₁, c₂, …; `None` if one is not finite or all are zero.
+    /// Creates the polynomial from c₁, c₂, …; `None` if a coefficient is not finite or all are
+    /// zero.
     pub(super) fn new(coefficients: &[f64]) -> Option<Self> {
         let are_finite = coefficients.iter().all(|c| c.is_finite());
         let moves = coefficients.iter().any(|c| *c != 0.0);
@@ -18,23 +19,23 @@ impl Polynomial {
         })
     }
 
-    /// Its degree.
+    /// Returns the degree.
     pub(super) fn degree(&self) -> usize {
         self.coefficients.len()
     }
 
-    /// c₁, c₂, …
+    /// Returns the coefficients c₁, c₂, …
     pub(super) fn coefficients(&self) -> &[f64] {
         &self.coefficients
     }
 
-    /// The same to be changed.
+    /// Returns the coefficients as a mutable slice.
     pub(super) fn coefficients_mut(&mut self) -> &mut [f64] {
         &mut self.coefficients
     }
 
-    /// h and its first three derivatives at x, by Horner's scheme; what reads the coefficients as
-    /// stored numbers finds them from this place on.
+    /// Returns h and its first three derivatives at x, by Horner's scheme. Programs that read the
+    /// coefficients as stored numbers find them from index `first` onwards.
     pub(super) fn at<T: Scalar>(&self, x: T, first: usize) -> [T; 4] {
         let zero = T::from(0.0);
         let mut h = [zero; 4];

@@ -1,5 +1,5 @@
-//! One measure of a coupling: the kernels of its drive, and where they are in those of the
-//! coupling.
+//! One joint coordinate of a coupling: the kernels of its drive, and their position in the kernels
+//! of the coupling.
 
 use joints::Ring;
 
@@ -8,21 +8,21 @@ use crate::element::{
     BodySpace, ConstraintKernels, DriveScalar, Kinematics, PoseOf, RowsAt, TwistOf, stored,
 };
 
-/// Velocities of two bodies.
+/// Number of velocities of two bodies.
 pub(super) const MOST: usize = 12;
 
-/// One measure.
+/// One joint coordinate.
 pub(super) struct Side<S: BodySpace> {
     pub(super) drive: Box<dyn ConstraintKernels<S>>,
-    /// Slots of the coupling of its two bodies.
+    /// Slots of its two bodies in the coupling.
     pub(super) slots: [usize; 2],
-    /// Its data among those of the coupling.
+    /// Range of its data in the data of the coupling.
     pub(super) data: std::ops::Range<usize>,
-    /// Index in `f` of what is given of its angle, if it counts turns.
+    /// Index in `f` of the data of its unwrapped angle, if it has one.
     turn: Option<usize>,
-    /// For each entry of its row, the entry of the coupling's.
+    /// The entry of the row of the coupling for each entry of its own row.
     pub(super) entries: Vec<usize>,
-    /// Places of the numbers that its programs take, among those of the coupling.
+    /// Range of the numbers for its operation lists in those of the coupling.
     pub(super) stored: std::ops::Range<usize>,
 }
 
@@ -39,20 +39,20 @@ impl<S: BodySpace> Clone for Side<S> {
     }
 }
 
-/// What a side is at a pose.
+/// A side evaluated at a pose.
 pub(super) struct At<T> {
-    /// The measure since the start.
+    /// The joint coordinate since the start.
     pub(super) measure: T,
-    /// The row of its drive: the measure, or what remains of it without what is known.
+    /// The row of its drive: the joint coordinate, or its remainder without the known part.
     left: T,
-    /// Its gradient: the entries of the row of its drive.
+    /// Gradient of the joint coordinate: the entries of the row of its drive.
     pub(super) gradient: [T; MOST],
-    /// What its drive is given in place of a motion.
+    /// Values that its drive receives in place of a motion.
     pub(super) f: [[T; 3]; 2],
 }
 
 impl<S: Kinematics> Side<S> {
-    /// `turn` angles come before in what is given of angles that count turns.
+    /// Creates a side. In the data of unwrapped angles, `turn` angles precede those of this side.
     pub(super) fn new(
         drive: Box<dyn ConstraintKernels<S>>,
         slots: [usize; 2],
@@ -73,12 +73,12 @@ impl<S: Kinematics> Side<S> {
         }
     }
 
-    /// Its two among the values of all slots.
+    /// Returns its two values from the values of all slots.
     pub(super) fn own<P: Copy>(&self, all: &[P]) -> [P; 2] {
         self.slots.map(|slot| all[slot])
     }
 
-    /// The measure and its gradient at poses of its bodies.
+    /// Returns the joint coordinate and its gradient at poses of its bodies.
     pub(super) fn at<T: DriveScalar>(&self, x: &[PoseOf<S, T>; 2], f: &[[T; 3]]) -> At<T> {
         let zero = T::from(0.0);
         let mut known = zero;
@@ -117,7 +117,7 @@ impl<S: Kinematics> Side<S> {
         })
     }
 
-    /// The gradient times velocities or accelerations of its bodies.
+    /// Returns the gradient times velocities or accelerations of its bodies.
     pub(super) fn times<T: Ring>(&self, gradient: &[T], v: &[TwistOf<S, T>; 2]) -> T {
         let spec = self.drive.spec();
         let entries = spec.c.iter().zip(gradient);
@@ -127,8 +127,9 @@ impl<S: Kinematics> Side<S> {
         })
     }
 
-    /// Γ of the measure. A row of an angle that counts its turns is sin ε, ε what is left of the
-    /// angle without what is known of it; its Γ has ε·rate², which that of the angle has not.
+    /// Computes Γ of the joint coordinate. The row of an unwrapped angle is sin ε, where ε is the
+    /// remaining angle without its known part. The Γ of this row contains ε·rate², which the Γ of
+    /// the angle does not contain.
     pub(super) fn gamma<T: DriveScalar>(
         &self,
         at: &At<T>,

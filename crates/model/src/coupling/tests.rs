@@ -1,5 +1,5 @@
-//! The kernels of couplings against differences, at poses where axes are parallel: what is known of
-//! an angle follows the poses, as it does in a mechanism.
+//! Compares the kernels of couplings with difference quotients, at poses where axes are parallel.
+//! The known part of an angle follows the poses, as in a mechanism.
 
 use joints::space3::{
     Axes, CylindricalAngleDrive, CylindricalDisplacementDrive, DistanceLengthDrive, Pose,
@@ -76,7 +76,7 @@ fn noise(seed: usize) -> f64 {
     (seed as f64 * 12.9898 + 4.1).sin()
 }
 
-/// Poses and twists of some slots, and how poses move.
+/// Poses and twists of some slots, and the motion of the poses.
 struct State {
     q: Vec<f64>,
     v: Vec<f64>,
@@ -101,7 +101,7 @@ impl State {
         q.chunks(7).map(pose).collect()
     }
 
-    /// Body j turns as body i does, and about their common axis at this rate.
+    /// Makes body j rotate like body i, and in addition about their common axis at this rate.
     fn keep_parallel(&mut self, [i, j]: [usize; 2], rate: f64) {
         let poses = self.poses(&self.still());
         let arguments = arguments();
@@ -127,7 +127,7 @@ fn twists(v: &[f64]) -> Vec<Twist> {
     v.chunks(6).map(twist).collect()
 }
 
-/// What is given of the counted angles at some poses.
+/// Values of the unwrapped angles at some poses.
 fn given(kernels: &Kernels, x: &[Pose]) -> Vec<[f64; 3]> {
     let still = vec![Twist::zero(); x.len()];
     let of = |k: usize| {
@@ -152,7 +152,7 @@ fn of_axes(axes: Axes) -> Quaternion {
     [scalar, part(v[2], w[1]), part(w[0], u[2]), part(u[1], v[0])]
 }
 
-/// Turns the body of slot j such that its axis is along that of slot i, at some angle.
+/// Rotates the body of slot j such that its axis is along that of slot i, at some angle.
 fn aligned(q: &mut [f64], [i, j]: [usize; 2], angle: f64) {
     let at = |slot: usize| 7 * slot + 3..7 * slot + 7;
     let arguments = arguments();
@@ -215,7 +215,7 @@ impl Case {
         d
     }
 
-    /// A slope along each column of the block.
+    /// Returns a derivative along each column of the block.
     fn slopes(&self, f: impl Fn(&[Pose]) -> f64) -> Vec<f64> {
         let along = |k| {
             let at = |h| f(&self.state.poses(&self.unit(k, h)));
@@ -371,8 +371,8 @@ fn derivatives_by_data_agree_with_differences() {
     }
 }
 
-/// The second body of the joint of y has the load along y alone, −C, in all cases. Its opposite
-/// acts on the first body of that joint, also where the joint of x loads that body, too.
+/// In all cases, only the load along y, −C, acts on the second body of the joint of y. Its opposite
+/// acts on the first body of that joint, even if the joint of x also loads that body.
 #[test]
 fn the_wrench_is_the_load_along_the_measure_that_follows() {
     for case in cases() {

@@ -1,13 +1,13 @@
-//! Mechanisms with other data: what a point, a direction or a number becomes when it is displaced,
-//! and a mechanism that stores other numbers.
+//! Mechanisms with other data: the displaced values of a point, a direction or a number, and a
+//! mechanism that stores other numbers.
 
 use super::{Across, Data, DataBlock};
 use crate::mechanism::Mechanism;
 use crate::space::norm;
 
 impl DataBlock {
-    /// In how many independent directions it may be displaced: a point of the plane in two, a
-    /// direction of space in two, a number in one.
+    /// Returns the number of independent directions in which the datum may be displaced: two for a
+    /// point of the plane, two for a direction of space, one for a number.
     ///
     /// ```
     /// use joints::Revolute;
@@ -31,9 +31,9 @@ impl DataBlock {
         }
     }
 
-    /// Its numbers after a displacement (in its unit), of which the first [`Self::directions`]
-    /// components count. A direction turns by the angle of that size and keeps its length; a
-    /// rotation vector is added.
+    /// Returns its numbers after a displacement (in its unit), of which the first
+    /// [`Self::directions`] components count. A direction rotates by the angle of that size and
+    /// keeps its length. For axes, the displacement is a rotation vector.
     #[must_use]
     pub fn displaced(&self, own: &[f64], by: [f64; 3]) -> Vec<f64> {
         match (self.across, own) {
@@ -58,8 +58,8 @@ impl DataBlock {
 }
 
 impl DataBlock {
-    /// The unit vector along which [`Self::displaced`] changes a value with this gradient with
-    /// respect to all numbers most; zero if nothing does.
+    /// Returns the unit vector along which [`Self::displaced`] changes a value with this gradient
+    /// (with respect to all numbers) most. It is zero if no displacement changes the value.
     #[must_use]
     pub fn steepest(&self, gradient: &[f64]) -> [f64; 3] {
         let part = self.part(gradient);
@@ -75,7 +75,7 @@ impl DataBlock {
     }
 }
 
-/// Two unit vectors perpendicular to a unit vector and to each other.
+/// Returns two unit vectors perpendicular to a unit vector and to each other.
 fn perpendicular(n: [f64; 3]) -> [[f64; 3]; 2] {
     let least = (0..3).fold(0, |a, k| if n[k].abs() < n[a].abs() { k } else { a });
     let mut first: [f64; 3] = std::array::from_fn(|k| -n[least] * n[k]);
@@ -86,7 +86,8 @@ fn perpendicular(n: [f64; 3]) -> [[f64; 3]; 2] {
 }
 
 impl Data<'_> {
-    /// All numbers that the constraints store, in the order of [`DataBlock::numbers`]; allocates.
+    /// Returns all numbers that the constraints store, in the order of [`DataBlock::numbers`]. The
+    /// function allocates memory.
     #[must_use]
     pub fn numbers(self) -> Vec<f64> {
         let mut all = vec![0.0; self.count()];
@@ -98,12 +99,12 @@ impl Data<'_> {
 }
 
 impl Mechanism {
-    /// The mechanism whose constraints store other numbers, in the order of [`Data::numbers`]: also
-    /// in place of those that they have taken from the start. Rows, names, tolerances and forces
-    /// stay as they are, and no configuration is looked for.
+    /// Returns a mechanism whose constraints store other numbers, in the order of
+    /// [`Data::numbers`]. These also replace the numbers that the constraints have taken from the
+    /// start. Rows, names, tolerances and forces do not change, and no configuration is computed.
     ///
     /// # Panics
-    /// If there are not as many numbers as constraints store.
+    /// Panics if the number of values differs from [`Data::count`].
     #[must_use]
     pub fn with_numbers(&self, numbers: &[f64]) -> Self {
         let count = self.data().count();
@@ -229,8 +230,7 @@ mod tests {
         let changed = door.with_numbers(&numbers);
         changed.pose(0.0, &q, &mut s);
         changed.phi(&mut s);
-        // The axes of the two bodies are now a milliradian apart, and the points are where they
-        // were.
+        // The axes of the two bodies now differ by a milliradian, and the points have not moved.
         let largest = s.phi.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         assert!((largest - 1e-3).abs() < 1e-9, "{:?}", s.phi);
     }

@@ -1,9 +1,9 @@
 //! Many gradients with respect to the numbers of the constraints at one instant, with a single
 //! evaluation of the kernels.
 //!
-//! `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q. So its gradient
-//! with respect to the numbers of one constraint is a small matrix times the few entries that
-//! belong to that constraint.
+//! `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q. Therefore its
+//! gradient with respect to the numbers of one constraint is a small matrix times the few entries
+//! that belong to that constraint.
 
 use std::ops::Range;
 
@@ -26,14 +26,14 @@ pub struct DataGradients {
 #[derive(Clone, Debug)]
 struct OfConstraint {
     numbers: Range<usize>,
-    /// Columns of C of its bodies.
+    /// Columns of C of the bodies of the constraint.
     bodies: Vec<Range<usize>>,
     rows: RowRanges,
 }
 
 impl Data<'_> {
-    /// The gradients at the pose and the twist of the scratch, for multipliers (m + h),
-    /// accelerations a and velocities v (n_v); allocates.
+    /// Returns the gradients at the configuration and the velocities of the scratch, for
+    /// multipliers (m + h), accelerations a and velocities v (n_v). The function allocates memory.
     #[must_use]
     pub fn gradients(self, s: &Scratch, lambda: &[f64], a: &[f64], v: &[f64]) -> DataGradients {
         let space = self.0.space();
@@ -95,10 +95,11 @@ impl Data<'_> {
 }
 
 impl DataGradients {
-    /// Computes one gradient and overwrites `out`; y has n_v values, the others m + h.
+    /// Computes one gradient and overwrites `out`; y has n_v values; y_λ, w_v and w_q have m + h
+    /// values.
     ///
     /// # Panics
-    /// If a slice is too short.
+    /// Panics if a slice is too short.
     pub fn gradient(&self, y: &[f64], [y_lambda, w_v, w_q]: [&[f64]; 3], out: &mut [f64]) {
         out.fill(0.0);
         let mut rest = &self.values[..];

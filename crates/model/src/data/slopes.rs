@@ -9,8 +9,8 @@ use crate::element::PlacedConstraint;
 use crate::rows::RowRanges;
 use crate::system::Scratch;
 
-/// The derivatives of Φ and C with respect to the numbers of the constraints at the poses of a
-/// scratch. Those of a constraint are computed when they are first needed, and kept.
+/// The derivatives of Φ and C with respect to the numbers of the constraints at the configuration
+/// of a scratch. The derivatives of a constraint are computed on the first request and stored.
 pub struct DataSlopes<'a> {
     data: Data<'a>,
     s: &'a Scratch,
@@ -19,7 +19,7 @@ pub struct DataSlopes<'a> {
 }
 
 impl<'m> Data<'m> {
-    /// The derivatives of the rows with respect to all numbers of the constraints.
+    /// Returns the derivatives of the rows with respect to all numbers of the constraints.
     #[must_use]
     pub fn slopes<'a>(self, s: &'a Scratch) -> DataSlopes<'a>
     where

@@ -6,10 +6,10 @@ use joints::{Ring, space3};
 use crate::body::{Body, BodyRecord, DescribedBody, SpatialBody};
 use crate::space::{self, Number, PlanarSpace, Space, SpaceKind, in_plane, normalised, quaternion};
 
-/// Largest change by rounding of an angle that is held constant.
+/// Largest change by rounding of an angle that the constraints keep constant.
 const HELD: f64 = 4.0 * f64::EPSILON;
 
-/// One value for each body or slot, in the space of the mechanism; the list of the other space is
+/// One value for each body or slot, in the space of the mechanism. The list of the other space is
 /// empty.
 #[derive(Clone, Debug)]
 pub(crate) struct InEach<P, S> {
@@ -46,16 +46,16 @@ impl<P, S> Default for InEach<P, S> {
 
 /// The poses of all bodies of a mechanism: positions of their centres of mass, and orientations.
 ///
-/// Methods panic if there is no such body.
+/// Methods panic if the body does not exist.
 #[derive(Clone, Debug)]
 pub struct Bodies<T: Ring = f64> {
     pub(super) poses: Poses<T>,
-    /// Angles for which sine and cosine were computed; NaN at the beginning.
+    /// Angles for which sine and cosine were computed; initially NaN.
     turned_to: Vec<f64>,
 }
 
 impl<T: Number> Bodies<T> {
-    /// The poses at coordinates q; allocates.
+    /// Returns the poses at coordinates q. The function allocates memory.
     #[must_use]
     pub fn at(space: SpaceKind, q: &[T]) -> Self {
         let poses: Poses<T> = in_plane!(space, S => InEach {
@@ -81,8 +81,8 @@ impl Bodies {
         }
     }
 
-    /// Takes the coordinates q. Sines and cosines of angles that have not changed are kept;
-    /// `turns` is called for each that is computed.
+    /// Sets the coordinates q. Sines and cosines of unchanged angles are kept; `turns` is called
+    /// for each recomputed angle.
     #[inline]
     pub(crate) fn take(
         &mut self,
@@ -108,19 +108,19 @@ impl Bodies {
         });
     }
 
-    /// Number of bodies.
+    /// Returns the number of bodies.
     #[must_use]
     pub fn len(&self) -> usize {
         self.poses.plane.len() + self.poses.space3.len()
     }
 
-    /// Whether there is no body.
+    /// Returns whether there is no body.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The pose of a body in the plane or in space.
+    /// Returns the pose of a body in the plane or in space.
     fn of(&self, body: usize) -> Either<&Pose, &space3::Pose> {
         match self.poses.plane.get(body) {
             Some(pose) => Either::Plane(pose),
@@ -128,7 +128,7 @@ impl Bodies {
         }
     }
 
-    /// The centre of mass of a body (m), ground axes.
+    /// Returns the centre of mass of a body (m), ground axes.
     #[must_use]
     pub fn origin(&self, body: usize) -> [f64; 3] {
         match self.of(body) {
@@ -137,12 +137,13 @@ impl Bodies {
         }
     }
 
-    /// The centres of mass of all bodies.
+    /// Returns the centres of mass of all bodies.
     pub fn origins(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
         (0..self.len()).map(|body| self.origin(body))
     }
 
-    /// The axes of a body as unit vectors in ground axes: the columns of its rotation matrix.
+    /// Returns the axes of a body as unit vectors in ground axes: the columns of its rotation
+    /// matrix.
     #[must_use]
     pub fn axes(&self, body: usize) -> [[f64; 3]; 3] {
         match self.of(body) {
@@ -153,7 +154,7 @@ impl Bodies {
         }
     }
 
-    /// A vector in the axes of a body, in ground axes.
+    /// Returns a vector of a body, transformed from body axes to ground axes.
     #[must_use]
     pub fn turned(&self, body: usize, v: [f64; 3]) -> [f64; 3] {
         match self.of(body) {
@@ -162,7 +163,8 @@ impl Bodies {
         }
     }
 
-    /// A point relative to the centre of mass of a body, in its axes, as a point of the ground.
+    /// Returns a point of a body, transformed from coordinates relative to its centre of mass to
+    /// ground coordinates.
     #[must_use]
     pub fn to_global(&self, body: usize, point: [f64; 3]) -> [f64; 3] {
         match self.of(body) {
@@ -174,7 +176,8 @@ impl Bodies {
         }
     }
 
-    /// A point of the ground relative to the centre of mass of a body, in its axes.
+    /// Returns a point of the ground, transformed to coordinates relative to the centre of mass of
+    /// a body, in its axes.
     #[must_use]
     pub fn to_local(&self, body: usize, point: [f64; 3]) -> [f64; 3] {
         match self.of(body) {
@@ -186,8 +189,8 @@ impl Bodies {
         }
     }
 
-    /// The angle by which a body is turned against the ground (rad): in the plane not reduced to
-    /// one revolution, in space 0, because a rotation has no such angle.
+    /// Returns the angle of a body relative to the ground (rad). In the plane it is not reduced to
+    /// one revolution. In space it is 0, because a rotation has no such angle.
     #[must_use]
     pub fn angle(&self, body: usize) -> f64 {
         match self.of(body) {
@@ -196,7 +199,7 @@ impl Bodies {
         }
     }
 
-    /// Position of a body along a freedom: a coordinate (m) or an angle (rad).
+    /// Returns the position of a body along a freedom: a coordinate (m) or an angle (rad).
     pub(crate) fn position(&self, body: usize, dof: usize) -> f64 {
         match self.of(body) {
             Either::Plane(pose) => match dof {
@@ -208,7 +211,8 @@ impl Bodies {
         }
     }
 
-    /// How far a body is from where it was (m), and by what angle it has turned (rad).
+    /// Returns the distance (m) and the angle of rotation (rad) of a body relative to its previous
+    /// pose.
     #[must_use]
     pub fn moved(&self, from: &Self, body: usize) -> [f64; 2] {
         match (from.of(body), self.of(body)) {
@@ -219,7 +223,7 @@ impl Bodies {
             _ => {
                 let way = space::difference(self.origin(body), from.origin(body));
                 let (old, new) = (from.axes(body), self.axes(body));
-                // Three axes that turn by α: the squares of their changes add up to 4·(1 − cos α).
+                // If three axes rotate by α, the squares of their changes add up to 4·(1 − cos α).
                 let changes = old.iter().zip(new).map(|(&a, b)| {
                     let change = space::norm(&space::difference(b, a));
                     change * change
@@ -239,7 +243,7 @@ enum Either<P, S> {
 }
 
 impl Body {
-    /// Its pose at the start: that of the centre of mass, with the axes of its frame.
+    /// Returns the pose at the start: position of the centre of mass, with the axes of its frame.
     #[must_use]
     pub fn pose(&self) -> Pose {
         let [x, y] = self.position;
@@ -253,7 +257,7 @@ impl Body {
 }
 
 impl SpatialBody {
-    /// Its pose at the start: that of the centre of mass, with the axes of its frame.
+    /// Returns the pose at the start: position of the centre of mass, with the axes of its frame.
     #[must_use]
     pub fn pose(&self) -> space3::Pose {
         let origin = space3::Pose::new(self.position, self.orientation);
@@ -265,7 +269,7 @@ impl SpatialBody {
 }
 
 impl BodyRecord {
-    /// Its coordinates at the start.
+    /// Returns the coordinates of the body at the start.
     pub(crate) fn coordinates(&self, space: SpaceKind, q: &mut [f64]) {
         match &self.described {
             DescribedBody::Plane(body) => {
@@ -289,7 +293,7 @@ impl BodyRecord {
             DescribedBody::Space3(body) => {
                 q[..3].copy_from_slice(&body.pose().r);
                 let [w, ..] = body.orientation;
-                // Of a quaternion and its negative, the one with w ≥ 0.
+                // A quaternion and its negative are equivalent; the one with w ≥ 0 is used.
                 let sign = if w < 0.0 { -1.0 } else { 1.0 };
                 let frame = normalised(body.orientation.map(|e| sign * e));
                 let own = self
@@ -302,12 +306,14 @@ impl BodyRecord {
     }
 }
 
-/// The angle of a body in the plane, from its own coordinates (rad), not reduced; 0 in space.
+/// Returns the angle of a body in the plane, from its own coordinates (rad), not reduced; 0 in
+/// space.
 pub(crate) fn angle_at(space: SpaceKind, q: &[f64]) -> f64 {
     in_plane!(space, S => <S as PlanarSpace>::angle(q), 0.0)
 }
 
-/// A vector in the axes of a body, from its own coordinates, in ground axes.
+/// Returns a vector in the axes of a body, transformed to ground axes with the coordinates of the
+/// body.
 pub(crate) fn turned_at(space: SpaceKind, q: &[f64], v: [f64; 3]) -> [f64; 3] {
     in_plane!(space, S => {
         let (sin, cos) = <S as PlanarSpace>::sin_cos(q);
@@ -315,7 +321,7 @@ pub(crate) fn turned_at(space: SpaceKind, q: &[f64], v: [f64; 3]) -> [f64; 3] {
     }, spatial_pose(q).direction_to_global(v))
 }
 
-/// The axes of a body, from its own coordinates, in ground components.
+/// Returns the axes of a body, from its own coordinates, in ground components.
 pub(crate) fn axes_at(space: SpaceKind, q: &[f64]) -> [[f64; 3]; 3] {
     let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     units.map(|axis| turned_at(space, q, axis))
@@ -325,8 +331,8 @@ fn turned_by(sin: f64, cos: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
     [cos * x - sin * y, sin * x + cos * y, z]
 }
 
-/// The pose of a spatial body from its coordinates: the rotation divided by the square of the
-/// quaternion's length, so that this does not matter.
+/// Returns the pose of a spatial body from its coordinates. The rotation is divided by the square
+/// of the length of the quaternion, so that this length has no influence.
 pub(super) fn spatial_pose<T: Number>(q: &[T]) -> space3::Pose<T> {
     let e = quaternion(q);
     let [w, x, y, z] = e;
@@ -337,8 +343,8 @@ pub(super) fn spatial_pose<T: Number>(q: &[T]) -> space3::Pose<T> {
     }
 }
 
-/// Whether a body keeps its sine and cosine when its angle changes. If rows of angles hold the
-/// angle, a change by rounding is not a rotation; otherwise every bit counts: the sine of −0 is not
+/// Returns whether a body keeps its sine and cosine when its angle changes. If rows fix the angle,
+/// a change by rounding is not a rotation. Otherwise every bit counts: the sine of −0 differs from
 /// that of 0.
 fn stays(is_held: bool, from: f64, to: f64) -> bool {
     if is_held {
@@ -348,7 +354,7 @@ fn stays(is_held: bool, from: f64, to: f64) -> bool {
     }
 }
 
-/// The pose of a body from its coordinates.
+/// Returns the pose of a body from its coordinates.
 fn pose<S: PlanarSpace, T: Number>(q: &[T]) -> Pose<T> {
     let (sin, cos) = S::sin_cos(q);
     Pose {

@@ -14,12 +14,13 @@ use crate::rows::RowRanges;
 #[derive(Clone)]
 pub(crate) struct FramedConstraint {
     element: AnyConstraint,
-    /// Axes u, v and w of its joint, fixed in the first body, in the axes of its frame.
+    /// Axes u, v and w of its joint, fixed in the first body, in the axes of the body frame.
     axes: Option<[[f64; 3]; 3]>,
 }
 
 impl FramedConstraint {
-    /// A constraint as it is described; `turn` writes it in the axes in which its bodies move.
+    /// Creates the constraint from its description; `turn` transforms it to the axes in which its
+    /// bodies move.
     pub(crate) fn new(mut element: AnyConstraint, turn: impl FnOnce(&mut AnyConstraint)) -> Self {
         let axes = with!(AnyConstraint, &element, element, _S => element.axes());
         turn(&mut element);
@@ -31,23 +32,23 @@ impl FramedConstraint {
     }
 }
 
-/// A constraint with its indices in the mechanism. Kernels need the poses of their slots and, where
+/// A constraint with its indices in the mechanism. Kernels need the poses of their slots and, if
 /// they depend on them, the velocities; `out` is overwritten.
 #[derive(Clone)]
 pub(crate) struct PlacedConstraint {
     framed: FramedConstraint,
     pub(crate) site: Site,
-    /// Its entries of C in the scratch.
+    /// Entries of C of the constraint in the scratch.
     pub(crate) entries: Range<usize>,
     /// Indices of the varying entries, relative to `entries`.
     pub(crate) varying: Vec<usize>,
     pub(crate) rows: RowRanges,
-    /// Tolerance of its data (m), if stated.
+    /// Tolerance of the data of the constraint (m), if stated.
     pub(crate) tolerance: Option<f64>,
 }
 
 impl PlacedConstraint {
-    /// A constraint whose rows are not yet numbered.
+    /// Returns a constraint whose rows are not yet numbered.
     pub(crate) fn new(
         framed: FramedConstraint,
         site: Site,
@@ -74,13 +75,14 @@ impl PlacedConstraint {
         &self.framed
     }
 
-    /// Axes u, v and w of its joint, fixed in the first body, in the axes of its frame.
+    /// Returns the axes u, v and w of its joint, fixed in the first body, in the axes of the body
+    /// frame.
     pub(crate) fn axes(&self) -> Option<[[f64; 3]; 3]> {
         self.framed.axes
     }
 
-    /// Axes of its first two bodies that its rows keep parallel, each as three unit vectors in
-    /// ground axes.
+    /// Returns the axes of its first two bodies that its rows keep parallel, as three unit vectors
+    /// each, in ground axes.
     pub(crate) fn parallel_axes(&self, s: &Slots) -> Option<[[[f64; 3]; 3]; 2]> {
         let element = &self.framed.element;
         let own = with!(AnyConstraint, element, element, _S => element.parallel_axes())?;
@@ -92,22 +94,24 @@ impl PlacedConstraint {
         self.framed.element.spec()
     }
 
-    /// Whether its block of C depends on the configuration.
+    /// Returns whether its block of C depends on the configuration.
     pub(crate) fn has_varying_entries(&self) -> bool {
         !self.varying.is_empty()
     }
 
-    /// Whether b and Φt of its rows may differ from zero.
+    /// Returns whether b and Φt of its rows may differ from zero.
     pub(crate) fn depends_on_time(&self) -> bool {
         self.spec().rheonomic
     }
 
-    /// Whether Γ of its rows may differ from zero. C of the other rows is constant, so `C·v̇ = 0`.
+    /// Returns whether Γ of its rows may differ from zero. C of the other rows is constant, so
+    /// `C·v̇ = 0`.
     pub(crate) fn has_gamma(&self) -> bool {
         self.has_varying_entries() || self.depends_on_time()
     }
 
-    /// Cosine, sine and rate of a counted angle at these poses and twists of its slots in space.
+    /// Returns the cosine, sine and rate of an unwrapped angle at these poses and twists of its
+    /// slots in space.
     pub(crate) fn counted(&self, number: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
         match &self.framed.element {
             AnyConstraint::Space3(element) => element.turned(number, x, v),
@@ -126,7 +130,7 @@ impl PlacedConstraint {
         });
     }
 
-    /// The first requirement of its definition that is not met at these poses.
+    /// Returns the first requirement of its definition that is not met at these poses.
     pub(crate) fn unmet_requirement(&self, bodies: &Bodies) -> Option<&'static str> {
         let words = self.spec().common.requirements;
         let unmet = with!(AnyConstraint, &self.framed.element, element, S => {
@@ -136,7 +140,7 @@ impl PlacedConstraint {
         Some(words[unmet])
     }
 
-    /// Φ of its holonomic rows.
+    /// Computes Φ of the holonomic rows of the constraint.
     #[inline]
     pub(crate) fn phi(&self, s: &Slots, out: &mut [f64]) {
         with!(AnyConstraint, &self.framed.element, element, S => {
@@ -180,14 +184,14 @@ impl PlacedConstraint {
         });
     }
 
-    /// The place of its reaction (m), ground axes.
+    /// Returns the reference point of its reaction (m), in ground axes.
     pub(crate) fn place(&self, s: &Slots) -> [f64; 3] {
         with!(AnyConstraint, &self.framed.element, element, S => {
             S::point(element.place(self.site.x::<S>(s)))
         })
     }
 
-    /// The origin of its first body (m), ground axes.
+    /// Returns the origin of its first body (m), ground axes.
     pub(crate) fn first_origin(&self, s: &Slots) -> [f64; 3] {
         with!(AnyConstraint, &self.framed.element, _element, S => {
             S::first_origin(self.site.x::<S>(s))
@@ -221,21 +225,21 @@ impl PlacedConstraint {
         });
     }
 
-    /// The derivatives of Φ with respect to its numbers.
+    /// Returns the derivatives of Φ with respect to its numbers.
     pub(crate) fn slopes_of_phi(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
             element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::Phi)
         })
     }
 
-    /// The derivatives of C.
+    /// Returns the derivatives of C.
     pub(crate) fn slopes_of_c(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
             element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::C)
         })
     }
 
-    /// The derivatives of Φ, C, and of Γ at the velocities of the slots.
+    /// Returns the derivatives of Φ, C, and of Γ at the velocities of the slots.
     pub(crate) fn slopes(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
             let v = self.site.v::<S>(&s.rates);

@@ -6,14 +6,14 @@ use super::bodies::Bodies;
 use super::constraint::PlacedConstraint;
 use super::kernels::{AnyConstraint, stored, with};
 
-/// Poses of all bodies, and what kernels are given besides them, in double-double.
+/// Poses of all bodies, and further arguments of kernels, in double-double.
 pub(crate) struct ExtendedSlots {
     pub(crate) bodies: Bodies<Dd>,
     pub(crate) jets: Vec<[Dd; 3]>,
 }
 
 impl ExtendedSlots {
-    /// Φ of the holonomic rows of a constraint.
+    /// Computes Φ of the holonomic rows of a constraint.
     pub(crate) fn phi(&self, constraint: &PlacedConstraint, out: &mut [Dd]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let x = constraint.site.poses::<S, Dd>(&self.bodies);
@@ -23,7 +23,7 @@ impl ExtendedSlots {
         });
     }
 
-    /// C of a constraint.
+    /// Computes C of a constraint.
     pub(crate) fn c(&self, constraint: &PlacedConstraint, out: &mut [Dd]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let x = constraint.site.poses::<S, Dd>(&self.bodies);

@@ -17,7 +17,7 @@ pub(crate) struct PlacedForce {
     pub(crate) name: String,
     element: AnyForce,
     pub(crate) site: Site,
-    /// What is turned between its kernels and the bodies.
+    /// Rotations between its kernels and the bodies.
     turned: Option<TurnedSlots>,
     /// Column of Q for each value of the kernel; `None` for the ground.
     pub(crate) columns: Vec<Option<usize>>,
@@ -58,19 +58,20 @@ impl PlacedForce {
         self.turned.as_ref()
     }
 
-    /// Pattern (row, column of the block) of `∂Q/∂x`.
+    /// Returns the pattern (row, column of the block) of `∂Q/∂x`.
     pub(crate) fn pattern_dx(&self) -> &[[usize; 2]] {
         let turned = self.turned.as_ref();
         turned.map_or(self.spec().dq_dx, TurnedSlots::pairs)
     }
 
-    /// Pattern (row, column of the block) of `∂Q/∂v`.
+    /// Returns the pattern (row, column of the block) of `∂Q/∂v`.
     pub(crate) fn pattern_dv(&self) -> &[[usize; 2]] {
         let turned = self.turned.as_ref();
         turned.map_or(self.spec().dq_dv, TurnedSlots::pairs)
     }
 
-    /// Points at which it acts, with their bodies, in the axes in which these move.
+    /// Returns the points at which it acts, with their bodies, in the axes in which these bodies
+    /// move.
     pub(crate) fn points(&self) -> Vec<(BodyRef, [f64; 3])> {
         let own = |slot: usize, point: [f64; 3]| {
             let turned = self.turned.as_ref();
@@ -82,7 +83,7 @@ impl PlacedForce {
         placed.collect()
     }
 
-    /// Its kernels in space, if something is turned between them and the bodies.
+    /// Returns the kernels in space, if there is a rotation between them and the bodies.
     fn between(&self) -> Option<(&TurnedSlots, &dyn ForceKernels<Space3>)> {
         match (&self.turned, &self.element) {
             (Some(turned), AnyForce::Space3(kernels)) => Some((turned, kernels.as_ref())),
@@ -90,7 +91,8 @@ impl PlacedForce {
         }
     }
 
-    /// Cosine, sine and rate of a counted angle at these poses and twists of its slots in space.
+    /// Returns the cosine, sine and rate of an unwrapped angle at these poses and twists of its
+    /// slots in space.
     pub(crate) fn counted(&self, number: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
         match (&self.turned, &self.element) {
             (Some(turned), AnyForce::Space3(kernels)) => {
@@ -120,7 +122,7 @@ impl PlacedForce {
         });
     }
 
-    /// The first requirement of its definition that is not met at these poses.
+    /// Returns the first requirement of its definition that these poses do not satisfy.
     pub(crate) fn unmet_requirement(&self, bodies: &Bodies) -> Option<&'static str> {
         let words = self.spec().common.requirements;
         let unmet = match self.between() {
@@ -173,7 +175,7 @@ impl PlacedForce {
         });
     }
 
-    /// The force along the measure of a drive by a law.
+    /// Returns the force along the joint coordinate of a force-law drive.
     pub(crate) fn drive(&self, s: &Slots) -> Option<DriveForce> {
         if let Some((turned, kernels)) = self.between() {
             let f = self.site.f(s);
@@ -185,7 +187,7 @@ impl PlacedForce {
         })
     }
 
-    /// Why its called function has no value.
+    /// Returns the reason why its called function has no value.
     pub(crate) fn undefined(&self, s: &Slots) -> Option<UndefinedValue> {
         if let Some((turned, kernels)) = self.between() {
             let f = self.site.f(s);

@@ -1,4 +1,4 @@
-//! Kernels of constraints and forces as trait objects, and the spaces that they are in.
+//! Kernels of constraints and forces as trait objects, and the spaces of these kernels.
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
@@ -14,44 +14,44 @@ use crate::space::SpaceKind;
 
 /// A space of kernels in which bodies are described: the plane, or space.
 pub trait BodySpace: joints::Space + Sized {
-    /// A body as described.
+    /// Description of a body.
     type Body: Clone + std::fmt::Debug + Into<DescribedBody>;
 
     /// The space of a mechanism of such bodies.
     const KIND: SpaceKind;
 
-    /// Kernels as one of those of a mechanism.
+    /// Wraps kernels for use in a mechanism.
     #[doc(hidden)]
     fn any_constraint(kernels: Box<dyn ConstraintKernels<Self>>) -> AnyConstraint;
 
-    /// The same of a force.
+    /// Wraps kernels of a force for use in a mechanism.
     #[doc(hidden)]
     fn any_force(kernels: Box<dyn ForceKernels<Self>>) -> AnyForce;
 
-    /// A point of a body with three coordinates.
+    /// Returns a point of a body with three coordinates.
     #[doc(hidden)]
     fn point(point: Self::Vector<f64>) -> [f64; 3];
 
-    /// The components of a vector in this space.
+    /// Returns the components of a vector in this space.
     #[doc(hidden)]
     fn vector(components: [f64; 3]) -> Self::Vector<f64>;
 
-    /// A global point relative to the centre of mass of a body, in its axes.
+    /// Returns a global point relative to the centre of mass of a body, in its axes.
     #[doc(hidden)]
     fn to_local(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
 
-    /// A law on the measure of a drive, in the place of its motion.
+    /// Returns a force law on the joint coordinate of a drive, in place of its motion.
     #[doc(hidden)]
     fn law<K: Constraint<Self>>(
         drive: K,
         law: Law,
     ) -> Result<Box<dyn ForceKernels<Self>>, LawError>;
 
-    /// The kernels of a called wrench.
+    /// Returns the kernels of a called wrench.
     #[doc(hidden)]
     fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels<Self>>;
 
-    /// The constraint by which the second measure follows the first.
+    /// Returns the constraint by which the second joint coordinate follows the first.
     #[doc(hidden)]
     fn couple(
         measures: [AttachedMeasure<Self>; 2],
@@ -79,7 +79,8 @@ pub enum AnyForce {
     Space3(Box<dyn ForceKernels<Space3>>),
 }
 
-/// Evaluates an expression in which `$element` are the kernels, and `$space` their space.
+/// Evaluates an expression in which `$element` is bound to the kernels, and `$space` to their
+/// space.
 macro_rules! with {
     ($any:ident, $kernels:expr, $element:ident, $space:ident => $body:expr) => {
         match $kernels {
@@ -96,16 +97,16 @@ macro_rules! with {
 }
 pub(super) use with;
 
-/// A measure that can be coupled: the bodies of its joint, and the kernels of its drive.
+/// A joint coordinate for a coupling: the bodies of its joint, and the kernels of its drive.
 pub type AttachedMeasure<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
 
 /// A constraint with its bodies.
 pub type AttachedConstraint<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
 
-/// Where the rows of a constraint are evaluated.
+/// Arguments for the evaluation of the rows of a constraint.
 pub(crate) struct RowsAt<'a, S: Space, T: Ring> {
     pub(crate) kernels: &'a dyn ConstraintKernels<S>,
-    /// The numbers that its programs take of it.
+    /// The numbers that its operation lists read.
     pub(crate) stored: &'a [T],
     pub(crate) x: &'a [S::Pose<T>],
     pub(crate) f: &'a [[T; 3]],
@@ -117,11 +118,11 @@ impl<'a, S: Space, T: Ring> RowsAt<'a, S, T> {
     }
 }
 
-/// A number type in which a law and a coupling have the rows of a drive: `f64` by its kernels,
-/// numbers that record by its programs.
+/// A number type in which a force law and a coupling evaluate the rows of a drive: `f64` uses its
+/// kernels, and recording numbers use its operation lists.
 pub(crate) trait DriveScalar: Scalar {
-    /// The numbers that the programs take, each made of its value and its place; none for kernels,
-    /// which read their own.
+    /// Returns the numbers that the operation lists read, each created from its value and its
+    /// index. The list is empty for kernels, which read their own numbers.
     fn stored_by<S: Space>(
         kernels: &dyn ConstraintKernels<S>,
         number: impl Fn(f64, usize) -> Self,
@@ -129,7 +130,7 @@ pub(crate) trait DriveScalar: Scalar {
 
     fn phi<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]);
 
-    /// All entries of C.
+    /// Computes all entries of C.
     fn c<S: Space>(at: &RowsAt<'_, S, Self>, out: &mut [Self]);
 
     fn gamma<S: Space>(at: &RowsAt<'_, S, Self>, v: &[S::Twist<Self>], out: &mut [Self]);
@@ -194,7 +195,7 @@ impl DriveScalar for RecordedNumber {
     }
 }
 
-/// The numbers that the programs of a constraint take of it, in any number type.
+/// Returns the numbers that the operation lists of a constraint read, in any number type.
 pub(crate) fn stored<S: Space, T: From<f64>>(kernels: &dyn ConstraintKernels<S>) -> Vec<T> {
     let mut numbers = Vec::new();
     kernels.stored(&mut numbers);
@@ -203,7 +204,7 @@ pub(crate) fn stored<S: Space, T: From<f64>>(kernels: &dyn ConstraintKernels<S>)
 
 /// The kernels of a force as a trait object.
 pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
-    /// Entries of Q by numbers that record their operations.
+    /// Computes the entries of Q, evaluated with numbers that record their operations.
     fn recorded_q(
         &self,
         x: &[S::Pose<RecordedNumber>],
@@ -211,17 +212,18 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
         f: &[[RecordedNumber; 3]],
         out: &mut [RecordedNumber],
     );
-    /// A copy.
+    /// Returns a copy.
     fn boxed(&self) -> Box<dyn ForceKernels<S>>;
-    /// Whether this is a drive by a law.
+    /// Returns whether this is a force-law drive.
     fn is_law(&self) -> bool {
         false
     }
-    /// Whether it calls a function of which values alone are known: then its derivatives are NaN.
+    /// Returns whether it calls a function that returns only values. If so, its derivatives are
+    /// NaN.
     fn is_called(&self) -> bool {
         false
     }
-    /// Why its called function has no value, if that is the cause.
+    /// Computes the reason why its called function has no value, if this is the cause.
     fn undefined(
         &self,
         _x: &[S::Pose<f64>],
@@ -230,12 +232,13 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
     ) -> Option<UndefinedValue> {
         None
     }
-    /// The same drive by another law, of the same measure: since the start, if the present one is.
-    /// `None` if this is no drive by a law.
+    /// Returns this drive with another force law of the same joint coordinate. The coordinate is
+    /// counted from the start if that of the present law is. Returns `None` if this is not a
+    /// force-law drive.
     fn with_law(&self, _law: &Law) -> Option<Box<dyn ForceKernels<S>>> {
         None
     }
-    /// The force along the measure of a drive by a law.
+    /// Computes the force along the joint coordinate of a force-law drive.
     fn drive(
         &self,
         _x: &[S::Pose<f64>],
@@ -282,7 +285,7 @@ impl AnyConstraint {
         with!(AnyConstraint, self, element, _S => element.data(out));
     }
 
-    /// Entries of C that depend on parameters only; the others are left as they are.
+    /// Writes the entries of C that depend only on parameters; the other entries do not change.
     pub(crate) fn c_constant(&self, out: &mut [f64]) {
         with!(AnyConstraint, self, element, _S => element.c_constant(out));
     }

@@ -19,8 +19,9 @@ pub enum Input {
     Cos(usize),
     /// The sine of the coordinate with this index in q.
     Sin(usize),
-    /// An entry of the matrix that turns vectors of a spatial body, in its principal axes, into
-    /// those of the ground: that of the quaternion among its coordinates, whatever its length.
+    /// An entry of the matrix that transforms vectors from the principal axes of a spatial body to
+    /// ground axes. It is computed from the quaternion among its coordinates, which may have any
+    /// length.
     Rotation {
         /// Index of the body.
         body: usize,
@@ -116,17 +117,17 @@ impl RecordedSlots {
         }
     }
 
-    /// Coordinates and velocities of all bodies.
+    /// Returns the coordinates and velocities of all bodies.
     pub(crate) fn state(&self) -> (&[RecordedNumber], &[RecordedNumber]) {
         (&self.q, &self.v)
     }
 
-    /// The angular velocity of each spatial body in its principal axes.
+    /// Returns the angular velocity of each spatial body in its principal axes.
     pub(crate) fn spins(&self) -> impl Iterator<Item = [RecordedNumber; 3]> + '_ {
         self.twists.space3.iter().map(|twist| twist.omega)
     }
 
-    /// Φ of the holonomic rows of a constraint.
+    /// Computes Φ of the holonomic rows of a constraint.
     pub(crate) fn phi(&self, constraint: &PlacedConstraint, out: &mut [RecordedNumber]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
@@ -134,7 +135,7 @@ impl RecordedSlots {
         });
     }
 
-    /// C of a constraint.
+    /// Computes C of a constraint.
     pub(crate) fn c(&self, constraint: &PlacedConstraint, out: &mut [RecordedNumber]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
@@ -142,7 +143,7 @@ impl RecordedSlots {
         });
     }
 
-    /// b of a constraint.
+    /// Computes b of a constraint.
     pub(crate) fn b(&self, constraint: &PlacedConstraint, out: &mut [RecordedNumber]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, _, f) = self.of::<S>(&constraint.site);
@@ -150,7 +151,7 @@ impl RecordedSlots {
         });
     }
 
-    /// Γ of a constraint.
+    /// Computes Γ of a constraint.
     pub(crate) fn gamma(&self, constraint: &PlacedConstraint, out: &mut [RecordedNumber]) {
         with!(AnyConstraint, constraint.kernels(), element, S => {
             let (x, v, f) = self.of::<S>(&constraint.site);
@@ -158,7 +159,7 @@ impl RecordedSlots {
         });
     }
 
-    /// Poses, twists and functions of time of an element.
+    /// Returns the poses, twists and functions of time of an element.
     pub(super) fn of<S: Kinematics>(&self, site: &Site) -> Arguments<'_, S> {
         let rest = || S::twist(&[RecordedNumber::from(0.0); 6]);
         let twist = |b: &BodyRef| b.moving().map_or_else(rest, |k| S::twists(&self.twists)[k]);

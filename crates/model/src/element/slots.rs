@@ -11,17 +11,18 @@ use super::turned::lent;
 use crate::body::BodyRef;
 use crate::space::SpaceKind;
 
-/// Bodies of an element up to which nothing is allocated; no joint of the library has more.
+/// Number of bodies of an element up to which no memory is allocated; no joint of the library has
+/// more.
 const FEW: usize = 4;
 
-/// What the kernels of a space take of bodies.
+/// Data of bodies that the kernels of a space use.
 pub(crate) trait Kinematics: BodySpace {
     fn ground<T: Ring>() -> Self::Pose<T>;
     fn poses<T: Ring>(all: &Poses<T>) -> &[Self::Pose<T>];
     fn poses_mut<T: Ring>(all: &mut Poses<T>) -> &mut [Self::Pose<T>];
     fn twists<T: Ring>(all: &Twists<T>) -> &[Self::Twist<T>];
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Self::Twist<T>];
-    /// Sizes of the contributions of a pose to a polynomial.
+    /// Returns the sizes of the contributions of a pose to a polynomial.
     fn magnitude(pose: &Self::Pose<f64>) -> Self::Pose<Magnitude>;
     fn first_origin(poses: &[Self::Pose<f64>]) -> [f64; 3];
 }
@@ -91,7 +92,7 @@ pub(crate) type PoseOf<S, T = f64> = <S as joints::Space>::Pose<T>;
 /// The velocity of a body in a space.
 pub(crate) type TwistOf<S, T = f64> = <S as joints::Space>::Twist<T>;
 
-/// The pose of a body, taken from those of all.
+/// Returns the pose of a body, selected from the poses of all bodies.
 pub(super) fn pose_of<S: Kinematics, T: Ring>(poses: &Poses<T>, body: BodyRef) -> S::Pose<T> {
     match body {
         BodyRef::Ground => S::ground(),
@@ -99,7 +100,7 @@ pub(super) fn pose_of<S: Kinematics, T: Ring>(poses: &Poses<T>, body: BodyRef) -
     }
 }
 
-/// The velocity of a body, taken from those of all.
+/// Returns the velocity of a body, selected from the velocities of all bodies.
 fn twist_of<S: Kinematics>(body: BodyRef, v: &[f64]) -> S::Twist<f64> {
     match body {
         BodyRef::Ground => S::twist(&[0.0; 6]),
@@ -129,7 +130,7 @@ pub(crate) struct Slots {
     space: SpaceKind,
     /// Poses of the bodies in their slots.
     pub(super) poses: Poses<f64>,
-    /// Velocities of the same slots.
+    /// Velocities of these slots.
     pub(crate) rates: Rates,
     /// Values of the functions of time.
     pub(crate) jets: Vec<[f64; 3]>,
@@ -145,7 +146,7 @@ impl Slots {
         }
     }
 
-    /// Takes the poses of the bodies.
+    /// Sets the poses of the bodies.
     #[inline]
     pub(crate) fn take<'a>(&mut self, sites: impl Iterator<Item = &'a Site>, bodies: &Bodies) {
         in_kernels!(self.space, S => {
@@ -173,7 +174,8 @@ impl Rates {
         Self { space, twists }
     }
 
-    /// Takes velocities or accelerations of the bodies (n_v); those of the ground stay zero.
+    /// Sets velocities or accelerations of the bodies (n_v values); the values of the ground stay
+    /// zero.
     #[inline]
     pub(crate) fn take<'a>(&mut self, sites: impl Iterator<Item = &'a Site>, v: &[f64]) {
         in_kernels!(self.space, S => {
@@ -200,18 +202,18 @@ pub(crate) struct Site {
 }
 
 impl Site {
-    /// Poses of its bodies.
+    /// Returns the poses of the bodies of the element.
     pub(super) fn x<'s, S: Kinematics>(&self, all: &'s Slots) -> &'s [S::Pose<f64>] {
         &S::poses(&all.poses)[self.slots.clone()]
     }
 
-    /// Twists of its bodies.
+    /// Returns the twists of the bodies of the element.
     pub(super) fn v<'s, S: Kinematics>(&self, all: &'s Rates) -> &'s [S::Twist<f64>] {
         &S::twists(&all.twists)[self.slots.clone()]
     }
 
-    /// Poses of its bodies at the coordinates q, and their twists at velocities v or at rest, in
-    /// space.
+    /// Returns the poses of its bodies in space at the coordinates q, and their twists at
+    /// velocities v or at rest.
     pub(crate) fn with_spatial<R>(
         &self,
         (q, v): (&[f64], Option<&[f64]>),
@@ -232,28 +234,30 @@ impl Site {
         use_them(x, twists)
     }
 
-    /// Poses and twists of its bodies in space.
+    /// Returns the poses and twists of the bodies of the element in space.
     pub(crate) fn in_space<'s>(&self, all: &'s Slots) -> (&'s [space3::Pose], &'s [space3::Twist]) {
         (self.x::<Space3>(all), self.v::<Space3>(&all.rates))
     }
 
-    /// Values of its functions of time.
+    /// Returns the values of the functions of time of the element.
     pub(crate) fn f<'s>(&self, all: &'s Slots) -> &'s [[f64; 3]] {
         &all.jets[self.functions.clone()]
     }
 
-    /// Poses of its bodies in any number type, from those of all bodies; allocates.
+    /// Returns the poses of its bodies in any number type, selected from the poses of all bodies.
+    /// The function allocates memory.
     pub(super) fn poses<S: Kinematics, T: Ring>(&self, all: &Bodies<T>) -> Vec<S::Pose<T>> {
         let bodies = self.bodies.iter();
         bodies.map(|&b| pose_of::<S, T>(&all.poses, b)).collect()
     }
 
-    /// Its bodies except the ground.
+    /// Returns the bodies except the ground.
     pub(crate) fn moving(&self) -> impl Iterator<Item = usize> + '_ {
         self.bodies.iter().filter_map(|b| b.moving())
     }
 
-    /// Velocities or accelerations of its slots, of those of all bodies (n_v); zero for the ground.
+    /// Computes the velocities or accelerations of its slots, selected from those of all bodies
+    /// (n_v values); zero for the ground.
     pub(crate) fn own_rates(&self, all: &[f64], out: &mut Vec<f64>) {
         out.clear();
         for body in &self.bodies {
@@ -264,7 +268,7 @@ impl Site {
         }
     }
 
-    /// Column of C for a column of its block; `None` for the ground.
+    /// Returns the column of C for a column of its block; `None` for the ground.
     pub(crate) fn column(&self, k: usize) -> Option<usize> {
         let body = self.bodies[self.space.body_of(k)].moving()?;
         Some(self.space.n_v() * body + self.space.dof_of(k))

@@ -1,6 +1,6 @@
-//! Forces on bodies with products of inertia. Bodies move in principal axes ([`crate::principal`]);
-//! a force sees them in the axes of their frames, in which its components may be given, and its
-//! torques and derivatives are turned.
+//! Forces on bodies with products of inertia. Bodies move in principal axes ([`crate::principal`]).
+//! The components of a force may be given in the axes of body frames. Therefore the force is
+//! evaluated with the frames of its bodies, and its torques and derivatives are rotated.
 
 use joints::space3::{N_DOF, Pose, Twist};
 use joints::{RecordedNumber, Ring, Space3};
@@ -8,10 +8,11 @@ use joints::{RecordedNumber, Ring, Space3};
 use super::ForceKernels;
 use crate::principal::Principal;
 
-/// Bodies of a force up to which nothing is allocated; no force of the library has more than two.
+/// Number of bodies of a force up to which no memory is allocated; no force of the library has more
+/// than two.
 const FEW: usize = 2;
 
-/// The principal axes of the bodies of a force, where they are not those of a frame.
+/// The principal axes of the bodies of a force, if they differ from the axes of the frames.
 #[derive(Clone)]
 pub(crate) struct TurnedSlots {
     principal: Vec<Option<Principal>>,
@@ -20,7 +21,7 @@ pub(crate) struct TurnedSlots {
 }
 
 impl TurnedSlots {
-    /// `None` if the frames of all bodies are along principal axes.
+    /// Creates the rotations; `None` if the frames of all bodies are along principal axes.
     pub(crate) fn new(principal: Vec<Option<Principal>>) -> Option<Self> {
         principal.iter().flatten().next()?;
         let n = N_DOF * principal.len();
@@ -29,12 +30,12 @@ impl TurnedSlots {
         Some(Self { principal, pairs })
     }
 
-    /// Columns of Q: all.
+    /// Returns the columns of Q: all columns.
     pub(super) fn columns(&self) -> std::ops::Range<usize> {
         0..self.n()
     }
 
-    /// The pattern of the derivatives of Q.
+    /// Returns the pattern of the derivatives of Q.
     pub(super) fn pairs(&self) -> &[[usize; 2]] {
         &self.pairs
     }
@@ -43,19 +44,19 @@ impl TurnedSlots {
         N_DOF * self.principal.len()
     }
 
-    /// The slots that are turned, with their first rotation in the block.
+    /// Returns the rotated slots, with their first rotation in the block.
     fn turned(&self) -> impl Iterator<Item = (usize, &Principal)> {
         let slots = self.principal.iter().enumerate();
         slots.filter_map(|(slot, of)| Some((N_DOF * slot + 3, of.as_ref()?)))
     }
 
-    /// Points of bodies in the axes in which they move, from those of their frames.
+    /// Returns the points of bodies in the axes in which they move, transformed from the frames.
     pub(super) fn own_point(&self, slot: usize, point: [f64; 3]) -> [f64; 3] {
         let principal = self.principal.get(slot).and_then(Option::as_ref);
         principal.map_or(point, |of| of.own(point))
     }
 
-    /// Poses of the frames, from those of the principal axes.
+    /// Transforms poses of the principal axes to poses of the frames.
     pub(super) fn poses<T: Ring>(&self, x: &mut [Pose<T>]) {
         for (pose, of) in x.iter_mut().zip(&self.principal) {
             if let Some(of) = of {
@@ -64,7 +65,7 @@ impl TurnedSlots {
         }
     }
 
-    /// Twists of the frames, from those of the principal axes.
+    /// Transforms twists of the principal axes to twists of the frames.
     fn twists<T: Ring>(&self, v: &mut [Twist<T>]) {
         for (twist, of) in v.iter_mut().zip(&self.principal) {
             if let Some(of) = of {
@@ -73,7 +74,7 @@ impl TurnedSlots {
         }
     }
 
-    /// Writes the values of a force, of which each belongs to a column, into all columns.
+    /// Writes the values of a force, each of which belongs to a column, into all columns.
     fn write<T: Ring>(&self, pattern: &[usize], values: &[T], out: &mut [T]) {
         out.fill(T::from(0.0));
         for (&column, value) in pattern.iter().zip(values) {
@@ -103,7 +104,7 @@ impl TurnedSlots {
         kernel(poses, twists)
     }
 
-    /// Q of a force, all columns.
+    /// Computes Q of a force, all columns.
     pub(super) fn q(
         &self,
         kernels: &dyn ForceKernels<Space3>,
@@ -118,7 +119,7 @@ impl TurnedSlots {
         self.write(pattern, values, out);
     }
 
-    /// The same on numbers that are recorded.
+    /// Computes Q of a force with recording numbers, all columns.
     pub(super) fn recorded_q(
         &self,
         kernels: &dyn ForceKernels<Space3>,
@@ -134,7 +135,8 @@ impl TurnedSlots {
         self.write(pattern, &values, out);
     }
 
-    /// A derivative of Q, all pairs of columns, from the one of the kernels with this pattern.
+    /// Computes a derivative of Q for all pairs of columns, from the derivative of the kernels with
+    /// this pattern.
     pub(super) fn derivative(
         &self,
         pattern: &[[usize; 2]],
@@ -165,7 +167,7 @@ impl TurnedSlots {
     }
 }
 
-/// `n` numbers of an array if it has as many, else of a vector.
+/// Lends `n` numbers of an array if it is large enough, otherwise of a vector.
 pub(super) fn lent<'a, T: Copy, const N: usize>(
     few: &'a mut [T; N],
     many: &'a mut Vec<T>,

@@ -9,12 +9,12 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// Whether all values are the same.
+    /// Returns whether all values are the same.
     pub(super) fn is_constant(&self) -> bool {
         self.values.windows(2).all(|pair| pair[0] == pair[1])
     }
 
-    /// A function through at least two points with different times.
+    /// Returns a function through at least two points with different times.
     pub(super) fn new(times: &[f64], values: &[f64]) -> Self {
         Self {
             times: times.to_vec(),
@@ -31,7 +31,7 @@ impl Lines {
         (&self.times, &self.values)
     }
 
-    /// Value and derivatives; at a point those of the line that begins there.
+    /// Returns the value and derivatives. At a point, they are those of the line that begins there.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let (x, y) = (&self.times, &self.values);
         let behind = x.partition_point(|&x| x <= t);

@@ -1,4 +1,4 @@
-//! The parts of a function of time, for generators of code.
+//! The parts of a function of time, for code generators.
 
 use super::spline::Spline;
 use super::{Function, TimeLaw, points};
@@ -19,7 +19,7 @@ pub enum Parts<'a> {
         /// Mean value.
         offset: f64,
     },
-    /// `start` and smooth steps `[from, to, by]`, see [`Function::steps`].
+    /// The value `start` and smooth steps `[from, to, by]`, see [`Function::steps`].
     Steps {
         /// Value before all steps.
         start: f64,
@@ -35,7 +35,8 @@ pub enum Parts<'a> {
         /// Second derivatives at these times.
         curvatures: &'a [f64],
     },
-    /// Straight lines through points; if a time occurs twice, the second value holds at this time.
+    /// Straight lines through points. If a time occurs twice, the second value applies at this
+    /// time.
     Lines {
         /// Times of the points.
         times: &'a [f64],
@@ -45,7 +46,7 @@ pub enum Parts<'a> {
 }
 
 impl Parts<'_> {
-    /// The name of the kind.
+    /// Returns the name of the kind.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -57,8 +58,8 @@ impl Parts<'_> {
         }
     }
 
-    /// All its numbers: the coefficients; amplitude, omega, phase and offset; the start, then each
-    /// step; time, value and curvature of each point; or time and value of each point.
+    /// Returns all its numbers: the coefficients; amplitude, omega, phase and offset; the start and
+    /// each step; time, value and curvature of each point; or time and value of each point.
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         match self {
@@ -90,8 +91,9 @@ impl Parts<'_> {
 }
 
 impl Function {
-    /// The function of the same kind with these numbers, in the order of [`Parts::numbers`]. `None`
-    /// if there are not as many, or a function of this kind cannot have them.
+    /// Returns the function of the same kind with these numbers, in the order of
+    /// [`Parts::numbers`]. Returns `None` if their count is wrong, or if they are invalid for a
+    /// function of this kind.
     ///
     /// ```
     /// let f = pfaff_model::Function::harmonic(2.0, 3.0, 0.1, 0.5).unwrap();
@@ -132,7 +134,7 @@ impl Function {
         }
     }
 
-    /// The kind of the function, with its numbers.
+    /// Returns the kind of the function, with its numbers.
     ///
     /// ```
     /// use pfaff_model::{Function, function::Parts};

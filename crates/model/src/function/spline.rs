@@ -9,12 +9,12 @@ pub(super) struct Spline {
 }
 
 impl Spline {
-    /// Whether all values are the same.
+    /// Returns whether all values are the same.
     pub(super) fn is_constant(&self) -> bool {
         self.values.windows(2).all(|pair| pair[0] == pair[1])
     }
 
-    /// The spline through a table of at least two points with increasing times.
+    /// Returns the spline through a table of at least two points with increasing times.
     ///
     /// Curvatures κ solve the tridiagonal system `h₋κ₋ + 2(h₋ + h₊)κ + h₊κ₊ = 6(δ₊ − δ₋)` with the
     /// steps h and the slopes δ of the chords.
@@ -41,7 +41,7 @@ impl Spline {
         }
     }
 
-    /// The spline with these values and second derivatives.
+    /// Returns the spline with these values and second derivatives.
     pub(super) fn of_points(times: Vec<f64>, values: Vec<f64>, curvatures: Vec<f64>) -> Self {
         Self {
             times,
@@ -59,7 +59,7 @@ impl Spline {
         (&self.times, &self.values, &self.curvatures)
     }
 
-    /// Value and derivatives; outside the table the tangents at the ends are continued.
+    /// Returns the value and derivatives. Outside the table, the tangents at the ends continue.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let last = self.times.len() - 1;
         if t < self.times[0] || t > self.times[last] {
@@ -75,7 +75,7 @@ impl Spline {
         self.inner(at, t)
     }
 
-    /// The cubic between points `k` and `k + 1`.
+    /// Returns the cubic between points `k` and `k + 1`.
     fn inner(&self, k: usize, t: f64) -> [f64; 3] {
         let h = self.times[k + 1] - self.times[k];
         let (a, b) = ((self.times[k + 1] - t) / h, (t - self.times[k]) / h);

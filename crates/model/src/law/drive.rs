@@ -1,11 +1,12 @@
-//! A law on a measure as an applied force: `Q = law(measure, rate, t)·∂measure/∂x`, from the
-//! kernels of the drive of that measure, so that any measure of any joint has it.
+//! A force law on a joint coordinate as an applied force: `Q = law(measure, rate, t)·∂measure/∂x`.
+//! It uses the kernels of the drive of this coordinate, so that every coordinate of every joint can
+//! have a force law.
 //!
-//! A drive states its measure by a row Φ(x, m) = 0, m the change since the start. Where the row is
-//! measure − measure₀ − m, the gradient of the measure is C. Where the row of the joint takes m, it
-//! is at most quadratic in it, Φ(x, m) = Φ(x, 0) − s₀·m − ½·s₁·m² with s = −∂Φ/∂m = s₀ + s₁·m, the
-//! component of the drive; then m = 2Φ/(s₀ + s), s = √(s₀² + 2·s₁·Φ), Φ at m = 0, and the gradient
-//! is C/s. For a distance, s = |d|/L.
+//! A drive defines its coordinate by a row Φ(x, m) = 0, where m is the change since the start. If
+//! the row is coordinate − initial coordinate − m, the gradient of the coordinate is C. If the row
+//! of the joint contains m, it is at most quadratic in m: Φ(x, m) = Φ(x, 0) − s₀·m − ½·s₁·m² with s
+//! = −∂Φ/∂m = s₀ + s₁·m, the component of the drive. Then m = 2Φ/(s₀ + s) with s = √(s₀² + 2·s₁·Φ)
+//! and Φ at m = 0, and the gradient is C/s. For a distance, s = |d|/L.
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
@@ -16,12 +17,13 @@ use super::number::Smooth;
 use super::{DriveForce, Law, LawError};
 use crate::element::{BodySpace, DriveScalar, ForceKernels, Kinematics, PoseOf, RowsAt, TwistOf};
 
-/// Largest number of bodies of a joint with a law; no joint of the library has more than three.
+/// Largest number of bodies of a joint with a force law; no joint of the library has more than
+/// three.
 const MOST_BODIES: usize = 4;
 /// Largest number of velocities of these bodies: six in space.
 const MOST: usize = MOST_BODIES * 6;
 
-/// The law of one measure of a joint.
+/// The force law of one coordinate of a joint.
 #[derive(Clone)]
 pub(crate) struct LawDrive<S: BodySpace> {
     drive: Box<dyn ConstraintKernels<S>>,
@@ -30,18 +32,20 @@ pub(crate) struct LawDrive<S: BodySpace> {
     measured: MeasureReading,
 }
 
-/// How the row of the drive tells its measure.
+/// How the row of the drive defines its joint coordinate.
 #[derive(Clone, Copy)]
 enum MeasureReading {
-    /// It is Φ itself, at no motion.
+    /// The joint coordinate is Φ itself, without motion.
     ByRow,
-    /// The row of the joint takes the change of the measure since the start, whose value this is.
+    /// The row of the joint contains the change of the joint coordinate since the start, when the
+    /// coordinate had this value.
     Kept(f64),
-    /// It is a counted angle in space, since the start, where this was the angle of the axes.
+    /// The joint coordinate is an unwrapped angle in space since the start, when the angle of the
+    /// axes had this value.
     Turn(f64),
 }
 
-/// Puts a law in the place of the motion of a drive.
+/// Replaces the motion of a drive by a force law.
 pub(crate) fn law_drive<K: Constraint<S>, S: Kinematics>(
     drive: K,
     law: Law,
@@ -72,13 +76,13 @@ where
     }))
 }
 
-/// Name of the datum with the initial value of a measure that has a row of its own.
+/// Name of the datum with the initial value of a joint coordinate that has its own row.
 const OF_ROW: &str = "measure_0";
 
 impl<S: Kinematics> Definition<S> for LawDrive<S> {
     fn initialise(&mut self, x: &[PoseOf<S>]) {
         if let MeasureReading::Turn(start) = self.measured {
-            // Since the start that was known before, which was none at first.
+            // The angle is relative to the previously known start, which was zero at first.
             let still = vec![S::twist(&[0.0; 6]); x.len()];
             let [cos, sin, _] = self.drive.turned(0, x, &still);
             self.drive.initialise(x);
@@ -96,7 +100,7 @@ impl<S: Kinematics> Definition<S> for LawDrive<S> {
                     MeasureReading::ByRow
                 }
                 Some(datum) if datum.name == OF_ROW => {
-                    // Then its row is the measure itself.
+                    // The row of the drive is then the joint coordinate itself.
                     numbers[datum.first] = 0.0;
                     self.drive.set_data(&numbers);
                     MeasureReading::ByRow
@@ -120,13 +124,13 @@ impl<S: Kinematics> Definition<S> for LawDrive<S> {
     }
 }
 
-/// The measure and its gradient at one configuration.
+/// The joint coordinate and its gradient at one configuration.
 struct Along<T> {
     measure: T,
     gradient: [T; MOST],
     /// s and s₁ if the row of the joint takes the change of the measure.
     kept: Option<[T; 2]>,
-    /// What the drive is given in place of a motion.
+    /// The value that the drive receives in place of a motion.
     motion: [[T; 3]; 2],
 }
 
@@ -142,7 +146,8 @@ impl<T: Smooth> Along<T> {
 }
 
 impl<S: Kinematics> LawDrive<S> {
-    /// The measure at these poses. `f` is the time, and for an angle in space what is given of it.
+    /// Returns the joint coordinate at these poses. `f` contains the time, and for an angle in
+    /// space also the data of this angle.
     fn along<T: Smooth + DriveScalar>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> Along<T> {
         let kernels = self.drive.as_ref();
         let stored = T::stored_by(kernels, |value, _| T::from(value));
@@ -192,7 +197,7 @@ impl<S: Kinematics> LawDrive<S> {
         along
     }
 
-    /// What the law takes and gives.
+    /// Returns the arguments and the result of the force law.
     fn drive_force(&self, x: &[PoseOf<S>], v: &[TwistOf<S>], f: &[[f64; 3]]) -> DriveForce {
         let along = self.along::<f64>(x, f);
         let (measure, rate) = (along.measure, along.rate::<S>(v));
@@ -203,7 +208,7 @@ impl<S: Kinematics> LawDrive<S> {
         }
     }
 
-    /// Entries of Q.
+    /// Computes the entries of Q.
     fn entries<T: Smooth + DriveScalar>(
         &self,
         x: &[PoseOf<S, T>],
@@ -220,13 +225,13 @@ impl<S: Kinematics> LawDrive<S> {
     }
 }
 
-/// The facts of a law on the measure of a drive.
+/// The specification of a force law on the coordinate of a drive.
 struct LawFacts<K, S>(std::marker::PhantomData<(K, S)>);
 
 impl<K: Constraint<S>, S: Kinematics> LawFacts<K, S> {
     const SPEC: ForceSpec = Self::spec();
 
-    /// All columns: which of them vanish is left to the columns of C.
+    /// The specification lists all columns; the columns of C determine which of them vanish.
     const fn spec() -> ForceSpec {
         let spec: &ConstraintSpec = &K::SPEC;
         let n = S::N_DOF * spec.common.slots.len();
@@ -290,8 +295,9 @@ impl<S: Kinematics> ForceElement<f64, S> for LawDrive<S> {
     }
 }
 
-/// The kernels of a law as those of a force of a space. A downstream crate might make kernels of
-/// its own space of a law, so this cannot be said of all spaces at once.
+/// The kernels of a force law as kernels of a force in one space. The macro is needed because a
+/// downstream crate might define kernels of its own space, which prevents an implementation for all
+/// spaces.
 macro_rules! force_kernels {
     ($space:ident) => {
         impl ForceKernels<$space> for LawDrive<$space> {
@@ -354,7 +360,7 @@ static COLUMNS: [usize; MOST] = {
     columns
 };
 
-/// All pairs of `n` columns, row by row.
+/// Returns all pairs of `n` columns, row by row.
 const fn pairs<const M: usize>(n: usize) -> [[usize; 2]; M] {
     let mut pairs = [[0; 2]; M];
     let mut k = 0;
@@ -372,7 +378,7 @@ static PAIRS_12: [[usize; 2]; 144] = pairs(12);
 static PAIRS_18: [[usize; 2]; 324] = pairs(18);
 static PAIRS_24: [[usize; 2]; 576] = pairs(24);
 
-/// The pattern of a full block of `n` columns.
+/// Returns the pattern of a full block of `n` columns.
 pub(crate) const fn full(n: usize) -> &'static [[usize; 2]] {
     match n {
         3 => &PAIRS_3,

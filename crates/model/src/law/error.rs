@@ -1,36 +1,36 @@
-//! What can be wrong with the operations of a law.
+//! Errors in the operations of a force law.
 
-/// Largest number of values on the stack of a law: expressions are not nested as deeply.
+/// Largest number of values on the stack of a law. The nesting of expressions has a lower limit.
 pub(super) const DEEPEST: usize = 64;
 
 /// Error in the operations of a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LawError {
-    /// An operation finds too few numbers, or several are left at the end.
+    /// An operation has too few operands, or several numbers remain at the end.
     #[error("the operations of a law leave {left} numbers, need 1")]
     Incomplete {
-        /// How many are left.
+        /// Number of remaining values.
         left: usize,
     },
     /// Too many numbers on the stack.
     #[error("a law is nested deeper than {DEEPEST}")]
     Deep,
-    /// A law acts on one row with few bodies.
+    /// A force law requires a drive with one row and few bodies.
     #[error(
         "`{definition}` has {rows} rows and {slots} bodies; a law needs 1 row and at most {most} bodies"
     )]
     Rows {
         /// The definition of the drive.
         definition: &'static str,
-        /// Number of its rows.
+        /// Number of rows of the drive.
         rows: usize,
-        /// Number of its bodies.
+        /// Number of bodies of the drive.
         slots: usize,
         /// Largest number of bodies.
         most: usize,
     },
-    /// The arguments of the joint do not fit.
+    /// The arguments of the joint are invalid.
     #[error(transparent)]
     Argument(#[from] joints::ArgumentError),
 }

@@ -1,4 +1,4 @@
-//! Numbers on which laws are evaluated: doubles, dual numbers, and numbers that record their
+//! Numbers for the evaluation of laws: doubles, dual numbers, and numbers that record their
 //! operations.
 
 use joints::{Real, RecordedNumber};
@@ -7,34 +7,34 @@ use crate::called::{CalledFunction, DriveState};
 
 use super::{Join, UnaryFunction, UndefinedValue};
 
-/// A number on which a law is evaluated.
+/// A number type for the evaluation of laws.
 pub(crate) trait LawNumber: Copy + From<f64> {
-    /// Its value, if it has one.
+    /// Returns the value, if it has one.
     fn number(self) -> Option<f64>;
 
-    /// A function of it.
+    /// Applies a function to the number.
     fn apply(self, f: UnaryFunction) -> Self;
 
-    /// A function of it and another number.
+    /// Applies a function to the number and another number.
     fn join(self, j: Join, b: Self) -> Self;
 }
 
-/// A number with the derivatives of the same functions.
+/// A number type with derivatives of these functions.
 pub(crate) trait Smooth: LawNumber + Real {
-    /// The derivative of a function at it.
+    /// Returns the derivative of a function at the number.
     fn slope(self, f: UnaryFunction) -> Self;
 
-    /// The derivatives of a function of it and another number by both.
+    /// Returns the derivatives of a function of two numbers with respect to both numbers.
     fn slopes(self, j: Join, b: Self) -> [Self; 2];
 
-    /// The value of a called function, which takes doubles alone.
+    /// Returns the value of a called function, which accepts only doubles.
     fn called(
         function: &CalledFunction<DriveState, f64>,
         inputs: [Self; 3],
     ) -> Result<Self, UndefinedValue>;
 }
 
-/// Functions and derivatives that a ring with roots has.
+/// Functions and derivatives that exist in a ring with roots.
 fn arithmetic<T: Real>(a: T, f: UnaryFunction) -> Option<T> {
     Some(match f {
         UnaryFunction::Negate => -a,
@@ -75,7 +75,7 @@ fn arithmetic_slopes<T: Real>(a: T, j: Join, b: T) -> Option<[T; 2]> {
     })
 }
 
-/// `aⁿ` as a product.
+/// Returns `aⁿ` as a product.
 fn whole_power<T: Real>(a: T, n: i32) -> T {
     let one = T::from(1.0);
     let power = (1..n.unsigned_abs()).fold(a, |power, _| power * a);
@@ -157,7 +157,8 @@ impl Smooth for f64 {
     }
 }
 
-/// Records arithmetic and roots; all else is NaN: generators of code refuse laws.
+/// Arithmetic and roots are recorded. All other functions give NaN, because code generators reject
+/// laws.
 impl LawNumber for RecordedNumber {
     fn number(self) -> Option<f64> {
         None
@@ -186,7 +187,7 @@ impl Smooth for RecordedNumber {
     }
 }
 
-/// A number with its derivatives by the measure and by its rate.
+/// A number with its derivatives with respect to the joint coordinate and its rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slope<T> {
     pub(crate) value: T,

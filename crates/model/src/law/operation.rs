@@ -1,13 +1,13 @@
-//! Operations of laws.
+//! Operations of force laws.
 
 /// One operation on a stack of numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
     /// Pushes a number.
     Number(f64),
-    /// Pushes the measure (m or rad).
+    /// Pushes the joint coordinate (m or rad).
     Measure,
-    /// Pushes its rate (m/s or rad/s).
+    /// Pushes the rate of the joint coordinate (m/s or rad/s).
     Rate,
     /// Pushes the time (s).
     Time,
@@ -20,49 +20,49 @@ pub enum Operation {
 /// A function of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnaryFunction {
-    /// `−a`
+    /// The negative number, `−a`.
     Negate,
-    /// `aⁿ`, a product.
+    /// An integer power `aⁿ`, computed as a product.
     Whole(i32),
-    /// `√a`
+    /// The square root `√a`.
     Root,
-    /// `|a|`
+    /// The absolute value `|a|`.
     Abs,
-    /// `sin a`
+    /// The sine `sin a`.
     Sin,
-    /// `cos a`
+    /// The cosine `cos a`.
     Cos,
-    /// `tan a`
+    /// The tangent `tan a`.
     Tan,
-    /// `arcsin a`
+    /// The inverse sine `arcsin a`.
     Asin,
-    /// `arccos a`
+    /// The inverse cosine `arccos a`.
     Acos,
-    /// `arctan a`
+    /// The inverse tangent `arctan a`.
     Atan,
-    /// `eᵃ`
+    /// The exponential `eᵃ`.
     Exp,
-    /// `ln a`
+    /// The natural logarithm `ln a`.
     Log,
 }
 
 /// A function of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Join {
-    /// `a + b`
+    /// The sum `a + b`.
     Add,
-    /// `a − b`
+    /// The difference `a − b`.
     Subtract,
-    /// `a·b`
+    /// The product `a·b`.
     Multiply,
-    /// `a/b`
+    /// The quotient `a/b`.
     Divide,
-    /// `aᵇ`
+    /// The power `aᵇ`.
     Power,
     /// The angle of the point (b, a).
     Angle,
-    /// The smaller one.
+    /// The smaller number.
     Least,
-    /// The larger one.
+    /// The larger number.
     Largest,
 }

@@ -1,16 +1,16 @@
-//! A law as operations on a stack of numbers: on doubles, on dual numbers, or on numbers that
-//! record what is done with them.
+//! A law as operations on a stack of numbers: doubles, dual numbers, or numbers that record their
+//! operations.
 
 use super::error::{DEEPEST, LawError};
 use super::number::{LawNumber, Slope, Smooth};
 use super::{Operation, UndefinedValue};
 
-/// Operations that leave one number.
+/// Operations that produce one number.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program(Box<[Operation]>);
 
 impl Program {
-    /// Checks that the operations leave one number.
+    /// Checks that the operations produce one number.
     pub(super) fn new(operations: &[Operation]) -> Result<Self, LawError> {
         let mut left: usize = 0;
         for operation in operations {
@@ -31,7 +31,7 @@ impl Program {
         }
     }
 
-    /// The value with its derivatives; one that has no finite value is 0.
+    /// Returns the value with its derivatives. A derivative without a finite value is 0.
     pub(super) fn slope<T: Smooth>(
         &self,
         [measure, rate, t]: [T; 3],
@@ -50,8 +50,8 @@ impl Program {
         Ok(with(value, by.map(finite)))
     }
 
-    /// The value of the program for measure, rate and time. Every result on the way has to be
-    /// finite.
+    /// Returns the value of the program for joint coordinate, rate and time. Every intermediate
+    /// result must be finite.
     pub(super) fn evaluate<T: LawNumber>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
         let mut stack = [inputs[0]; DEEPEST];
         let mut top = 0;
@@ -65,7 +65,7 @@ impl Program {
                 Operation::Join(_) => 2,
                 _ => 0,
             };
-            // The number of values was checked when the law was made.
+            // The number of values was checked when the law was created.
             top -= taken;
             let (a, b) = (stack[top], stack[(top + 1).min(DEEPEST - 1)]);
             let result = match operation {

@@ -1,4 +1,5 @@
-//! Values and derivatives of laws and of the forces that they make, by hand and by differences.
+//! Values and derivatives of force laws and of the resulting forces, compared with manual
+//! calculations and with difference quotients.
 
 use joints::generated::{DistanceLengthDrive, RevoluteAngleDrive, TranslationalDisplacementDrive};
 use joints::{Argument, Constraint, Pose, Twist};
@@ -16,7 +17,7 @@ fn law(operations: &[Operation]) -> Law {
 #[test]
 fn every_function_has_its_value_and_its_derivative() {
     let third = 3.0_f64.sqrt() / 2.0;
-    // f at the measure, value, derivative.
+    // Columns: f at the joint coordinate, value, derivative.
     let of_one = [
         (F::Negate, 2.0, -2.0, -1.0),
         (F::Whole(3), 2.0, 8.0, 12.0),
@@ -32,7 +33,7 @@ fn every_function_has_its_value_and_its_derivative() {
         (F::Atan, 1.0, 1.0_f64.atan(), 0.5),
         (F::Exp, 0.0, 1.0, 1.0),
         (F::Log, 2.0, 2.0_f64.ln(), 0.5),
-        // No slope: it only guides implicit methods.
+        // The derivative is zero, because it only guides implicit methods.
         (F::Root, 0.0, 0.0, 0.0),
     ];
     for (f, at, value, slope) in of_one {
@@ -42,7 +43,7 @@ fn every_function_has_its_value_and_its_derivative() {
         assert!((by_measure - slope).abs() < 1e-15, "{f:?}: {by_measure}");
         assert_eq!(by_rate, 0.0);
     }
-    // j of measure 2 and rate 4: value and both derivatives.
+    // Columns: j of joint coordinate 2 and rate 4, value and both derivatives.
     let ln = 2.0_f64.ln();
     let of_two = [
         (J::Add, 6.0, [1.0, 1.0]),
@@ -77,7 +78,7 @@ fn what_has_no_value_is_named() {
     assert_eq!(told(&[Measure, Apply(F::Log)], -1.0), "log(-1)");
     assert_eq!(told(&[Measure, Apply(F::Root)], -2.5), "sqrt(-2.5)");
     assert_eq!(told(&[Measure, Apply(F::Exp)], 1e3), "exp(1000)");
-    // Also where what follows would make it finite again.
+    // The error also occurs if a later operation would make the value finite again.
     let hidden = [&quotient[..], &[Apply(F::Atan)]].concat();
     assert_eq!(told(&hidden, 0.0), "division by zero");
 }
@@ -128,7 +129,7 @@ fn at_start() -> [Pose; 2] {
     [Pose::new(0.3, -0.2, 0.4), Pose::new(1.1, 0.7, -0.9)]
 }
 
-/// The three kinds of measure, each somewhere else than at its start.
+/// The three kinds of joint coordinates, each at a value that differs from its start.
 fn forces() -> [Box<dyn ForceKernels>; 3] {
     let pair = |x, y| Argument::Pair([x, y]);
     let (s_i, s_j, axis) = (pair(0.2, 0.1), pair(-0.3, 0.4), pair(0.6, 0.8));
@@ -142,8 +143,9 @@ fn forces() -> [Box<dyn ForceKernels>; 3] {
     ]
 }
 
-/// By hand: two points on the x axis, 2 apart at the start and 3 now, moving apart with 0.5:
-/// −81 + 0.5·(2 − 3) + 0.5 = −81, drawn together.
+/// Manual calculation: two points on the x axis have a distance of 2 at the start and 3 now. The
+/// distance grows with 0.5. The force is −81 + 0.5·(2 − 3) + 0.5 = −81, so the points attract each
+/// other.
 #[test]
 fn a_law_of_a_length_acts_along_it() {
     let origin = Argument::Pair([0.0; 2]);
@@ -167,7 +169,7 @@ fn a_law_of_a_length_acts_along_it() {
     }
     let found = force.drive(&x, &v, &TIME).expect("a law");
     assert!((found.measure - 3.0).abs() < 1e-15 && (found.rate - 0.5).abs() < 1e-15);
-    // Without a length there is no direction.
+    // Without a distance there is no direction.
     force.q(&[Pose::GROUND; 2], &v, &TIME, &mut q);
     let why = force.drive(&[Pose::GROUND; 2], &v, &TIME).expect("a law");
     assert!(q[3].is_nan() && why.force == Err(UndefinedValue::Input));
@@ -221,7 +223,7 @@ fn derivatives_of_the_force_agree_with_differences() {
     }
 }
 
-/// `−3·measure³ + rate·(2 − measure) + t`, called.
+/// The function `−3·measure³ + rate·(2 − measure) + t` as a callback.
 fn some_function() -> Law {
     Law::called(|at| {
         let DriveState {
@@ -245,7 +247,7 @@ fn a_called_function_makes_the_force_of_the_same_text() {
         called.q(&x, &v, &TIME, &mut found);
         written.q(&x, &v, &TIME, &mut expected);
         for (found, expected) in found.into_iter().zip(expected) {
-            // Products are made in another order.
+            // The products are computed in another order.
             assert!((found - expected).abs() < 1e-14 * expected.abs().max(1.0));
         }
         let mut slopes = [0.0; 36];
@@ -272,7 +274,7 @@ fn what_a_function_does_not_give_is_named() {
     assert!(law == law.clone() && law != some_function());
 }
 
-/// The measure of a law since the start stays one, whatever the new law says.
+/// A law of the change since the start remains one, even if the new law differs.
 #[test]
 fn a_law_is_replaced_on_its_measure() {
     let origin = Argument::Pair([0.0; 2]);
@@ -285,6 +287,6 @@ fn a_law_is_replaced_on_its_measure() {
     let x = [Pose::GROUND, Pose::new(3.0, 0.0, 0.0)];
     let found = called.drive(&x, &[Twist::zero(); 2], &TIME);
     let found = found.expect("a law");
-    // −3·1³ + 0.5
+    // The force is −3·1³ + 0.5.
     assert!((found.measure - 1.0).abs() < 1e-15 && found.force == Ok(-2.5));
 }

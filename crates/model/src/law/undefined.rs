@@ -1,8 +1,8 @@
-//! Why a law or a called function has no finite value.
+//! Reasons why a law or a called function has no finite value.
 
 use super::operation::{Join, UnaryFunction};
 
-/// Why a law has no finite value, or no derivatives.
+/// Reason why a law has no finite value, or no derivatives.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum UndefinedValue {
@@ -10,18 +10,19 @@ pub enum UndefinedValue {
     Apply(UnaryFunction, f64),
     /// A function of two numbers.
     Join(Join, f64, f64),
-    /// The measure has no direction, or a number is not finite.
+    /// The joint coordinate has no direction, or a number is not finite.
     Input,
     /// A called function returned this, which is not a finite number.
     Returned(String),
     /// A called function failed, with this message.
     Failed(String),
-    /// More is asked of a called function than its value.
+    /// A caller requests more than the value of a called function.
     ValueAlone,
 }
 
 impl UndefinedValue {
-    /// Whether a called function is the cause: another state does not mend it.
+    /// Returns whether a called function is the cause. If so, another state does not remove the
+    /// error.
     #[must_use]
     pub fn is_of_function(&self) -> bool {
         matches!(self, Self::Returned(_) | Self::Failed(_))

@@ -1,4 +1,4 @@
-//! From a description to a mechanism. All faults of a description are found at once.
+//! Builds a mechanism from a description. All faults of a description are found together.
 
 use std::ops::Range;
 
@@ -22,9 +22,9 @@ use crate::space::SpaceKind;
 use crate::system::{Layout, RowLabel};
 use crate::tolerance::Tolerance;
 
-/// What [`Mechanism::build`] takes: a description of the plane, of space, or of either.
+/// Descriptions that [`Mechanism::build`] accepts: in the plane, in space, or either.
 pub trait Buildable {
-    /// The mechanism, or all faults of the description.
+    /// Returns the mechanism, or all faults of the description.
     #[doc(hidden)]
     fn built(&self) -> Result<Mechanism, Vec<BuildError>>;
 }
@@ -106,17 +106,18 @@ impl Mechanism {
         d.built()
     }
 
-    /// Sets the tolerance of its numbers, unless one is stated for their joint or body.
+    /// Sets the tolerance of the data, unless a tolerance is stated for their joint or body.
     ///
     /// # Errors
-    /// [`BuildError::Tolerance`]: it is not a finite number > 0; then nothing changes.
+    /// [`BuildError::Tolerance`]: the tolerance is not a finite number > 0. In this case the
+    /// mechanism does not change.
     pub fn set_tolerance(&mut self, tolerance: Tolerance) -> Result<(), BuildError> {
         check::tolerance(tolerance)?;
         self.tolerance = tolerance;
         Ok(())
     }
 
-    /// The same mechanism with numbers that are known to their rounding.
+    /// Returns the mechanism with numbers that are accurate to their rounding.
     #[must_use]
     pub fn without_tolerances(mut self) -> Self {
         self.tolerance = Tolerance::default();
@@ -150,7 +151,7 @@ impl Builder {
         }
     }
 
-    /// Adds those joints whose definitions are of this kind.
+    /// Adds the joints whose definitions are of this kind.
     fn joints<S: BodySpace>(
         &mut self,
         d: &MechanismDescription<S>,
@@ -272,8 +273,8 @@ impl Builder {
         }
     }
 
-    /// The next slots, for these bodies and functions of time; `offset` is subtracted from the
-    /// functions, which enter by cosine and sine if `turning`.
+    /// Returns the next slots, for these bodies and functions of time. `offset` is subtracted from
+    /// the functions, which enter by cosine and sine if `turning` is true.
     fn site(
         &mut self,
         bodies: &[BodyRef],
@@ -307,7 +308,7 @@ impl Builder {
         }
     }
 
-    /// Gives an element its counted angles, after its functions of time.
+    /// Adds the unwrapped angles of an element, after its functions of time.
     fn count(&mut self, owner: Owner, turns: usize, site: &mut Site) {
         for number in 0..turns {
             let first = self.elements.given.len();
@@ -325,8 +326,8 @@ impl Builder {
         site.functions.end = self.elements.given.len();
     }
 
-    /// The mechanism of these bodies and of constraints whose rows are numbered; initial values and
-    /// arms are not yet set.
+    /// Returns the mechanism of these bodies and of constraints whose rows are numbered; initial
+    /// values and arms are not yet set.
     pub(super) fn finish(
         mut self,
         name: &str,
@@ -355,7 +356,7 @@ impl Builder {
     }
 }
 
-/// The diagonal of M of a body.
+/// Returns the diagonal of M of a body.
 fn inertia(body: &BodyRecord) -> Vec<f64> {
     let m = body.mass;
     match &body.described {

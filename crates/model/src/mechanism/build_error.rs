@@ -1,4 +1,4 @@
-//! Faults of a description, in words.
+//! Faults of a description, with messages.
 
 use joints::LARGEST;
 
@@ -32,8 +32,8 @@ pub enum BuildError {
         /// The number.
         value: f64,
     },
-    /// A velocity is that of a point other than the centre of mass, and the rotation that it needs
-    /// is not given.
+    /// A given velocity refers to a point other than the centre of mass, but the required angular
+    /// velocity is not given.
     #[error(
         "body `{body}`: `velocity` is that of the origin of its frame, which is not its centre of mass, so `angular_velocity` is needed with it"
     )]
@@ -54,7 +54,7 @@ pub enum BuildError {
     /// Gravity is NaN or infinite.
     #[error("gravity is {gravity:?}, need finite numbers up to {LARGEST:e}")]
     Gravity {
-        /// Its components.
+        /// Components of gravity (m/s²).
         gravity: Vec<f64>,
     },
     /// A quaternion of length zero.
@@ -69,7 +69,7 @@ pub enum BuildError {
         /// The body.
         body: String,
     },
-    /// No body has this tensor of inertia.
+    /// A tensor of inertia is physically impossible.
     #[error(
         "body `{body}`: no body has the principal moments {moments:?}: the largest is above the sum of the others"
     )]
@@ -82,7 +82,7 @@ pub enum BuildError {
     /// A tolerance is not a finite number > 0 up to [`LARGEST`].
     #[error("{of}: {field} is {value:?}, need a finite number > 0 up to {LARGEST:e}")]
     Tolerance {
-        /// The item for which it is stated.
+        /// The item of the tolerance.
         of: ToleranceScope,
         /// Name of the number.
         field: &'static str,
@@ -94,11 +94,11 @@ pub enum BuildError {
     BodyCount {
         /// The joint, drive or force.
         name: String,
-        /// Its definition.
+        /// Definition of the joint, drive or force.
         definition: &'static str,
         /// Number of slots.
         expected: usize,
-        /// Number of bodies given.
+        /// Number of given bodies.
         found: usize,
     },
     /// A body does not exist.
@@ -106,7 +106,7 @@ pub enum BuildError {
     UnknownBody {
         /// The joint, drive or force.
         name: String,
-        /// Its index.
+        /// Index of the body.
         body: usize,
         /// Number of bodies.
         n_bodies: usize,
@@ -130,7 +130,7 @@ pub enum BuildError {
     Point {
         /// The joint, drive or force.
         name: String,
-        /// Its components.
+        /// Components of the point.
         point: Vec<f64>,
     },
     /// A number of a marker is NaN or infinite.
@@ -140,9 +140,9 @@ pub enum BuildError {
     Marker {
         /// The marker.
         name: String,
-        /// Its place.
+        /// Position of the marker.
         point: Vec<f64>,
-        /// Its angle.
+        /// Angle of the marker.
         angle: f64,
     },
     /// A marker does not exist.
@@ -157,13 +157,13 @@ pub enum BuildError {
         /// Number of markers.
         n_markers: usize,
     },
-    /// A measure is that of a marker relative to itself.
+    /// A measure refers a marker to itself.
     #[error("measure `{name}` is between a place and itself")]
     SameMarker {
         /// The measure.
         name: String,
     },
-    /// There is no such measure in this space.
+    /// The measure does not exist in this space.
     #[error("measure `{name}`: there is no `{}` {}", kind.name(), match kind {
         MeasureKind::Z => "in the plane",
         _ => "between bodies that turn in space; measure `angular-velocity`, or drive the joint",
@@ -171,7 +171,7 @@ pub enum BuildError {
     Measure {
         /// The measure.
         name: String,
-        /// What it should measure.
+        /// Kind of the measure.
         kind: MeasureKind,
     },
     /// A drive is in the list of joints, or a joint in the list of drives.
@@ -179,7 +179,7 @@ pub enum BuildError {
     Role {
         /// The joint or drive.
         name: String,
-        /// Its definition.
+        /// Definition of the joint or drive.
         definition: &'static str,
         /// The list that contains it.
         list: &'static str,
@@ -189,17 +189,17 @@ pub enum BuildError {
     FunctionCount {
         /// The joint or force.
         name: String,
-        /// Its definition.
+        /// Definition of the element.
         definition: &'static str,
         /// Number of functions of the definition.
         expected: usize,
-        /// Number of functions given.
+        /// Number of given functions.
         found: usize,
     },
 }
 
 impl BuildError {
-    /// Its code; see [`crate::codes`].
+    /// Returns the code; see [`crate::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {

@@ -1,4 +1,4 @@
-//! Faults of a description, all at once.
+//! Finds all faults of a description.
 
 use std::collections::HashSet;
 
@@ -13,7 +13,7 @@ use crate::observed::Observables;
 use crate::principal::Principal;
 use crate::tolerance::{Tolerance, ToleranceScope};
 
-/// All faults of a description; `records` are its bodies.
+/// Returns all faults of a description; `records` are its bodies.
 pub(super) fn faults<S: BodySpace>(
     d: &MechanismDescription<S>,
     records: &[BodyRecord],
@@ -27,7 +27,7 @@ pub(super) fn faults<S: BodySpace>(
     errors
 }
 
-/// Whether a number is not a valid tolerance.
+/// Returns whether a number is not a valid tolerance.
 fn is_wrong(value: &f64) -> bool {
     !(is_usable(*value) && *value > 0.0)
 }
@@ -150,10 +150,11 @@ fn spatial_numbers(b: &SpatialBody) -> Vec<(&'static str, f64)> {
     .concat()
 }
 
-/// Parts of the trace that principal moments may break the inequality of the triangle by.
+/// Relative limit (share of the trace) by which principal moments may violate the triangle
+/// inequality.
 const TRIANGLE: f64 = 1e-2;
 
-/// Faults of a spatial body with finite numbers.
+/// Returns the faults of a spatial body with finite numbers.
 fn check_spatial(b: &SpatialBody) -> Vec<BuildError> {
     let mut errors = Vec::new();
     let body = || b.name.clone();

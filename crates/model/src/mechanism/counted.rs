@@ -1,8 +1,8 @@
-//! Angles in space with their full turns. A rotation knows an angle up to full turns only; a screw,
-//! a gear or a spring need the angle itself. So the configuration has one coordinate for each such
-//! angle, after those of the bodies: the angle since the start. It moves with the rate of the
-//! angle, and only the number of its turns is read from it, so that it need not be exact: the angle
-//! itself is that of the poses.
+//! Unwrapped angles in space, which include full revolutions. A rotation determines an angle only
+//! up to full revolutions, but a screw, a gear or a spring needs the unwrapped angle. Therefore the
+//! configuration has one coordinate for each such angle, after the coordinates of the bodies: the
+//! angle since the start. The coordinate changes with the rate of the angle, and only its number of
+//! revolutions is used. It therefore need not be exact: the angle itself follows from the poses.
 
 use std::f64::consts::TAU;
 
@@ -12,8 +12,8 @@ use super::elements::{CountedAngle, Elements, Owner};
 use crate::element::{Site, Slots};
 use crate::group::ConstraintGroup;
 
-/// The angle with this cosine and sine that is closest to one that is nearly known (rad). Both are
-/// zero where axes are across each other; then the known one stays.
+/// Returns the angle with this cosine and sine that is closest to an approximately known angle
+/// (rad). Both are zero if the axes are perpendicular; then the known angle is returned.
 fn closest(cos: f64, sin: f64, known: f64) -> f64 {
     if cos == 0.0 && sin == 0.0 {
         return known;
@@ -28,7 +28,7 @@ fn closest(cos: f64, sin: f64, known: f64) -> f64 {
 }
 
 impl Elements {
-    /// Name of the joint, drive or force of counted angle `k`.
+    /// Returns the name of the joint, drive or force of unwrapped angle `k`.
     pub(super) fn counted_name<'a>(&'a self, k: usize, groups: &'a [ConstraintGroup]) -> &'a str {
         match self.counted[k].owner {
             Owner::Constraint(k) => &groups[k].name,
@@ -36,7 +36,7 @@ impl Elements {
         }
     }
 
-    /// The counted angles of some groups and forces, both ascending.
+    /// Returns the unwrapped angles of some groups and forces, both in ascending order.
     pub(super) fn counted_of(
         &self,
         groups: &[usize],
@@ -58,7 +58,7 @@ impl Elements {
         }
     }
 
-    /// Cosine, sine and rate of an angle.
+    /// Returns the cosine, sine and rate of an angle.
     fn turned(&self, angle: &CountedAngle, x: &[Pose], v: &[Twist]) -> [f64; 3] {
         match angle.owner {
             Owner::Constraint(k) => self.constraints[k].counted(angle.number, x, v),
@@ -66,8 +66,8 @@ impl Elements {
         }
     }
 
-    /// Gives the kernels their counted angles at the poses of the slots, with the turns
-    /// of these nearly known ones.
+    /// Sets the unwrapped angles of the kernels at the poses of the slots, with the revolutions of
+    /// these approximately known angles.
     #[inline]
     pub(super) fn count_turns(&self, known: &[f64], slots: &mut Slots) {
         for (angle, &known) in self.counted.iter().zip(known) {
@@ -81,7 +81,7 @@ impl Elements {
         }
     }
 
-    /// Rates of the counted angles at velocities v.
+    /// Rates of the unwrapped angles at velocities v.
     #[inline]
     pub(super) fn rate_of_angles(&self, q: &[f64], v: &[f64], rates: &mut [f64]) {
         for (rate, angle) in rates.iter_mut().zip(&self.counted) {
@@ -90,8 +90,8 @@ impl Elements {
         }
     }
 
-    /// Moves the counted angles, from index `first` of q, whose bodies have not yet moved, by what
-    /// they turn along d.
+    /// Changes the unwrapped angles, from index `first` of q, by their rotation along d. Their
+    /// bodies have not yet moved.
     #[inline]
     pub(super) fn displace_angles(&self, first: usize, q: &mut [f64], d: &[f64]) {
         for (k, angle) in (first..).zip(&self.counted) {
@@ -100,7 +100,8 @@ impl Elements {
         }
     }
 
-    /// Sets the counted angles, from index `first` of q, to those of its bodies, with their turns.
+    /// Sets the unwrapped angles, from index `first` of q, to those of the bodies, with their
+    /// revolutions.
     #[inline]
     pub(crate) fn settle_angles(&self, first: usize, q: &mut [f64]) {
         for (k, angle) in (first..).zip(&self.counted) {

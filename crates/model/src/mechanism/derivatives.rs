@@ -1,8 +1,8 @@
 //! Derivatives of the equations of motion, assembled from the derivative kernels of joints and
 //! forces: needed by implicit methods and sensitivities, but not by explicit methods.
 //!
-//! All are taken along velocity directions, so that every block has n_v columns: `∂/∂q` means the
-//! change with q as the mechanism moves with a velocity.
+//! All derivatives are taken along velocity directions, so that every block has n_v columns. `∂/∂q`
+//! means the change with q as the mechanism moves with a velocity.
 
 use super::{CalledForce, Mechanism};
 use crate::element::Rates;
@@ -12,17 +12,17 @@ use crate::system::Scratch;
 /// Derivatives at one instant, and the storage for them.
 #[derive(Clone, Debug)]
 pub struct Derivatives {
-    /// `∂Q/∂q`, n_v × n_v
+    /// Derivative of the forces, `∂Q/∂q`, n_v × n_v.
     pub force_dq: Sparse,
-    /// `∂Q/∂v`, n_v × n_v
+    /// Derivative of the forces, `∂Q/∂v`, n_v × n_v.
     pub force_dv: Sparse,
-    /// `∂(Cᵀ·λ)/∂q`, n_v × n_v
+    /// Derivative of the reactions, `∂(Cᵀ·λ)/∂q`, n_v × n_v.
     pub reaction_dq: Sparse,
-    /// `∂(C·a − Γ)/∂q`, (m + h) × n_v
+    /// Derivative of the acceleration residuals, `∂(C·a − Γ)/∂q`, (m + h) × n_v.
     pub residual_dq: Sparse,
-    /// `∂Γ/∂v`, (m + h) × n_v
+    /// Derivative of Γ, `∂Γ/∂v`, (m + h) × n_v.
     pub gamma_dv: Sparse,
-    /// `∂(C·v − b)/∂q`, (m + h) × n_v
+    /// Derivative of the velocity residuals, `∂(C·v − b)/∂q`, (m + h) × n_v.
     pub velocity_dq: Sparse,
     /// Accelerations of the slots.
     slots: Rates,
@@ -30,7 +30,7 @@ pub struct Derivatives {
     own_lambda: Vec<f64>,
 }
 
-/// A matrix as a sum of entries, in the order of the elements to which they belong. The pattern is
+/// A matrix as a sum of entries, ordered by the elements to which they belong. The pattern is
 /// fixed.
 #[derive(Clone, Debug, Default)]
 pub struct Sparse {
@@ -40,27 +40,28 @@ pub struct Sparse {
 }
 
 impl Sparse {
-    /// `y ← y + A·x`.
+    /// Computes `y ← y + A·x`.
     ///
     /// # Panics
-    /// If a row or column of the matrix lies outside `y` or `x`.
+    /// Panics if a row or column of the matrix is outside `y` or `x`.
     pub fn add_product(&self, x: &[f64], y: &mut [f64]) {
         for (row, column, value) in self.iter() {
             y[row] += value * x[column];
         }
     }
 
-    /// `y ← y − A·x`.
+    /// Computes `y ← y − A·x`.
     ///
     /// # Panics
-    /// As [`Sparse::add_product`].
+    /// Panics under the same conditions as [`Sparse::add_product`].
     pub fn subtract_product(&self, x: &[f64], y: &mut [f64]) {
         for (row, column, value) in self.iter() {
             y[row] -= value * x[column];
         }
     }
 
-    /// Row, column and value of each entry. A place may occur more than once; its values are added.
+    /// Returns the row, column and value of each entry. A position may occur several times; its
+    /// values are added.
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         self.entries
             .iter()
@@ -83,7 +84,7 @@ impl Sparse {
         }
     }
 
-    /// The values of blocks, one after the other.
+    /// Returns the values of blocks, one after the other.
     fn blocks<'s>(&'s mut self) -> impl FnMut(usize) -> &'s mut [f64] {
         let mut rest = self.values.as_mut_slice();
         move |n| {
@@ -98,7 +99,7 @@ impl Derivatives {
     /// Allocates the derivatives of a mechanism; the values are zero.
     ///
     /// # Errors
-    /// A force or a law calls a function, of which values alone are known.
+    /// Returns an error if a force or a law calls a function, which has no derivatives.
     pub fn of(mechanism: &Mechanism) -> Result<Self, CalledForce> {
         let [force_dq, force_dv] = force_patterns(mechanism)?;
         Ok(Self {
@@ -108,7 +109,8 @@ impl Derivatives {
         })
     }
 
-    /// Like [`Derivatives::of`], without the applied forces: `∂Q/∂q` and `∂Q/∂v` have no entries.
+    /// Works like [`Derivatives::of`], without the applied forces: `∂Q/∂q` and `∂Q/∂v` have no
+    /// entries.
     #[must_use]
     pub fn of_constraints(mechanism: &Mechanism) -> Self {
         let mut d = Self {
@@ -133,8 +135,9 @@ impl Derivatives {
         d
     }
 
-    /// Computes the derivatives at the pose and the twist of the scratch, for accelerations `a`
-    /// (n_v) and multipliers `lambda` (m + h); does not allocate.
+    /// Computes the derivatives at the configuration and the velocities of the scratch, for
+    /// accelerations `a` (n_v) and multipliers `lambda` (m + h). The function does not allocate
+    /// memory.
     ///
     /// ```
     /// use joints::Revolute;
@@ -159,16 +162,17 @@ impl Derivatives {
     /// ```
     ///
     /// # Panics
-    /// If a slice is too short, or the storage belongs to another mechanism.
+    /// Panics if a slice is too short, or the storage belongs to another mechanism.
     pub fn differentiate(&mut self, mechanism: &Mechanism, a: &[f64], lambda: &[f64], s: &Scratch) {
         self.differentiate_constraints(mechanism, a, lambda, s);
         differentiate_forces(mechanism, s, [&mut self.force_dq, &mut self.force_dv]);
     }
 
-    /// Like [`Derivatives::differentiate`], for the constraints alone; does not allocate.
+    /// Works like [`Derivatives::differentiate`], only for the constraints. The function does not
+    /// allocate memory.
     ///
     /// # Panics
-    /// As [`Derivatives::differentiate`].
+    /// Panics under the same conditions as [`Derivatives::differentiate`].
     pub fn differentiate_constraints(
         &mut self,
         mechanism: &Mechanism,
@@ -191,10 +195,11 @@ impl Derivatives {
         }
     }
 
-    /// `∂Q/∂q` and `∂Q/∂v` alone, at the pose and the twist of the scratch; allocates.
+    /// Computes only `∂Q/∂q` and `∂Q/∂v`, at the configuration and the velocities of the scratch.
+    /// The function allocates memory.
     ///
     /// # Errors
-    /// As [`Derivatives::of`].
+    /// Same errors as [`Derivatives::of`].
     pub fn of_forces(mechanism: &Mechanism, s: &Scratch) -> Result<[Sparse; 2], CalledForce> {
         let [mut by_q, mut by_v] = force_patterns(mechanism)?;
         differentiate_forces(mechanism, s, [&mut by_q, &mut by_v]);
@@ -202,7 +207,7 @@ impl Derivatives {
     }
 }
 
-/// Space for `∂Q/∂q` and `∂Q/∂v`, if all forces have them.
+/// Returns storage for `∂Q/∂q` and `∂Q/∂v`, if all forces have them.
 fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], CalledForce> {
     mechanism
         .applied_forces()
@@ -223,10 +228,10 @@ fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], CalledForce> {
     Ok(patterns)
 }
 
-/// Pattern of the derivative of `−ω × J·ω` by ω in principal axes.
+/// Pattern of the derivative of `−ω × J·ω` with respect to ω in principal axes.
 const GYROSCOPIC: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 2], [1, 0], [2, 0], [2, 1]];
 
-/// Bodies with a gyroscopic torque: those of space.
+/// Bodies with a gyroscopic torque: all bodies in space.
 fn gyroscopic(mechanism: &Mechanism) -> std::ops::Range<usize> {
     match mechanism.space() {
         SpaceKind::Space3 => 0..mechanism.bodies.len(),

@@ -1,4 +1,5 @@
-//! The elements of a mechanism: constraints and forces in lists, with what their kernels are given.
+//! The elements of a mechanism: lists of constraints and forces, with the arguments of their
+//! kernels.
 
 use super::time_function::TimeFunction;
 use crate::element::{PlacedConstraint, PlacedForce, Site};
@@ -8,9 +9,9 @@ use crate::element::{PlacedConstraint, PlacedForce, Site};
 pub(crate) struct Elements {
     pub(crate) constraints: Vec<PlacedConstraint>,
     pub(crate) forces: Vec<PlacedForce>,
-    /// What kernels are given besides poses and velocities, element by element.
+    /// Arguments of kernels in addition to poses and velocities, element by element.
     pub(crate) given: Vec<KernelInput>,
-    /// The angles that count their turns: those of constraints, then those of forces.
+    /// The unwrapped angles: those of constraints, then those of forces.
     pub(crate) counted: Vec<CountedAngle>,
     /// Constant entries of C, zero elsewhere.
     pub(crate) entries: Vec<f64>,
@@ -20,24 +21,24 @@ pub(crate) struct Elements {
 }
 
 impl Elements {
-    /// The sites of all constraints and forces.
+    /// Returns the sites of all constraints and forces.
     pub(crate) fn sites(&self) -> impl Iterator<Item = &Site> {
         let constraints = self.constraints.iter().map(|c| &c.site);
         constraints.chain(self.forces.iter().map(|f| &f.site))
     }
 
-    /// The functions of time as passed to the elements.
+    /// Returns the functions of time as passed to the elements.
     pub(crate) fn functions(&self) -> impl Iterator<Item = &TimeFunction> {
         self.given.iter().filter_map(KernelInput::function)
     }
 }
 
-/// What the kernels of an element are given besides poses and velocities.
+/// An argument of the kernels of an element in addition to poses and velocities.
 #[derive(Clone)]
 pub(crate) enum KernelInput {
     /// A function of time.
     Function(TimeFunction),
-    /// One of three values of a counted angle, which [`System::pose`] sets.
+    /// One of three values of an unwrapped angle, which [`System::pose`] sets.
     ///
     /// [`System::pose`]: crate::System::pose
     Counted,
@@ -52,17 +53,17 @@ impl KernelInput {
     }
 }
 
-/// An angle that counts its turns.
+/// An unwrapped angle.
 #[derive(Clone)]
 pub(crate) struct CountedAngle {
     pub(super) owner: Owner,
-    /// Its number among the counted angles of its element.
+    /// Number of this angle among the unwrapped angles of the element.
     pub(super) number: usize,
-    /// The first of its three values among those that are given to kernels.
+    /// The index of its first value among the arguments of kernels; it has three values.
     pub(crate) first: usize,
 }
 
-/// The element of a counted angle.
+/// The element of an unwrapped angle.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Owner {
     Constraint(usize),

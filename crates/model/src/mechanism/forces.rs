@@ -1,5 +1,5 @@
-//! The applied forces of a mechanism, without the weight: their data for pictures, and what they
-//! apply at a state.
+//! The applied forces of a mechanism without the weight: their data for drawings, and their values
+//! at a state.
 
 use joints::spec::{ForceSpec, Unit};
 
@@ -13,32 +13,32 @@ use crate::system::Scratch;
 #[derive(Clone, Copy)]
 pub struct AppliedForces<'m>(&'m [PlacedForce]);
 
-/// The data of an applied force for a picture.
+/// The data of an applied force for a drawing.
 #[derive(Clone, Debug)]
 pub struct AppliedForce<'m> {
-    /// Its name.
+    /// Name of the force.
     pub name: &'m str,
-    /// Description of its definition.
+    /// Description of the definition of the force.
     pub spec: &'static ForceSpec,
-    /// Its bodies.
+    /// Bodies of the force.
     pub bodies: &'m [BodyRef],
     /// Points at which it acts, each in the frame of its body (m).
     pub points: Vec<(BodyRef, [f64; 3])>,
 }
 
-/// A force or a law that calls a function, of which values alone are known.
+/// A force or a law that calls a function, which has no derivatives.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{kind} `{name}` calls a function, which has no derivatives", kind = self.kind())]
 #[non_exhaustive]
 pub struct CalledForce {
-    /// Its name.
+    /// Name of the force or drive.
     pub name: String,
-    /// Whether it is a drive by a law.
+    /// Whether it is a force-law drive.
     pub is_drive: bool,
 }
 
 impl CalledForce {
-    /// "drive" or "force".
+    /// Returns "drive" or "force".
     #[must_use]
     pub fn kind(&self) -> &'static str {
         if self.is_drive { "drive" } else { "force" }
@@ -52,33 +52,33 @@ pub enum UndefinedForce {
     /// A force.
     #[error("the force `{name}`")]
     Force {
-        /// Its name.
+        /// Name of the force.
         name: String,
     },
     /// A force that calls a function.
     #[error("the force `{name}` ({why})")]
     Called {
-        /// Its name.
+        /// Name of the force.
         name: String,
-        /// Why.
+        /// The reason.
         why: UndefinedValue,
     },
-    /// A drive by a law.
+    /// A force-law drive.
     #[error("the law of drive `{name}` ({why}, at measure = {measure:.6}, rate = {rate:.6})")]
     Law {
         /// The drive.
         name: String,
-        /// Its measure (m or rad).
+        /// Joint coordinate of the drive (m or rad).
         measure: f64,
-        /// The rate of it (m/s or rad/s).
+        /// Rate of the joint coordinate (m/s or rad/s).
         rate: f64,
-        /// Why.
+        /// The reason.
         why: UndefinedValue,
     },
 }
 
 impl UndefinedForce {
-    /// The name of the force or drive.
+    /// Returns the name of the force or drive.
     #[must_use]
     pub fn name(&self) -> &str {
         match self {
@@ -86,7 +86,7 @@ impl UndefinedForce {
         }
     }
 
-    /// Whether a called function is the cause.
+    /// Returns whether a called function is the cause.
     #[must_use]
     pub fn is_of_function(&self) -> bool {
         match self {
@@ -96,26 +96,26 @@ impl UndefinedForce {
     }
 }
 
-/// What the change of a function of a force adds to Q.
+/// The change of Q for a change of a function of time of a force.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Push<'m> {
     /// Name of the force.
     pub name: &'m str,
-    /// Name of the function in its definition.
+    /// Name of the function in the definition of the force.
     pub function: &'static str,
     /// Unit of the function.
     pub unit: Unit,
-    /// Change of Q for a change of the function by one, n_v.
+    /// Change of Q for a unit change of the function, n_v values.
     pub q: Vec<f64>,
 }
 
-/// Share of a function, or of one, by which it is changed; the difference of two values is exact
-/// where Q is linear in the function, or quadratic.
+/// Share of a function, or of one, by which it is changed. The difference of two values is exact if
+/// Q is linear or quadratic in the function.
 const PUSH: f64 = 1.0 / 256.0;
 
 impl Mechanism {
-    /// Its applied forces, without the weight.
+    /// Returns the applied forces, without the weight.
     #[must_use]
     pub fn applied_forces(&self) -> AppliedForces<'_> {
         AppliedForces(&self.elements.forces)
@@ -123,13 +123,13 @@ impl Mechanism {
 }
 
 impl<'m> AppliedForces<'m> {
-    /// Whether there are none: nothing but drives can add or remove energy.
+    /// Returns whether there are no applied forces. If so, only drives can add or remove energy.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.0.is_empty()
     }
 
-    /// Their data for a picture; allocates.
+    /// Returns the data of the forces for a drawing. The function allocates memory.
     pub fn iter(self) -> impl Iterator<Item = AppliedForce<'m>> {
         self.0.iter().map(|f| {
             let spec = f.spec();
@@ -142,12 +142,12 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// What a change of each function of time by one adds to Q, at the pose and the twist of the
-    /// scratch; allocates.
+    /// Returns the change of Q for a unit change of each function of time, at the configuration and
+    /// the velocities of the scratch. The function allocates memory.
     #[must_use]
     pub fn pushes(self, s: &mut Scratch) -> Vec<Push<'m>> {
         let mut all = Vec::new();
-        // Laws and called functions take the time; it is not used for them.
+        // Force laws and called functions receive the time, but this time is not varied.
         let of_time = |force: &&PlacedForce| !force.is_law() && !force.is_called();
         for force in self.0.iter().filter(of_time) {
             let functions = force.spec().common.functions();
@@ -175,7 +175,8 @@ impl<'m> AppliedForces<'m> {
         all
     }
 
-    /// Those that call a function, of which values alone are known, in the order of the forces.
+    /// Returns the forces that call a function, and therefore have no derivatives, in the order of
+    /// the forces.
     pub fn called(self) -> impl Iterator<Item = CalledForce> {
         let called = self.0.iter().filter(|force| force.is_called());
         called.map(|force| CalledForce {
@@ -184,7 +185,8 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// The first force without a finite value at the pose and the twist of the scratch.
+    /// Returns the first force without a finite value at the configuration and the velocities of
+    /// the scratch.
     #[must_use]
     pub fn undefined(self, s: &mut Scratch) -> Option<UndefinedForce> {
         self.0.iter().find_map(|force| {
@@ -213,8 +215,8 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// What each force adds to Q at the pose and the twist of the scratch, n_v each, with its name;
-    /// allocates.
+    /// Returns the contribution of each force to Q at the configuration and the velocities of the
+    /// scratch, n_v values each, with its name. The function allocates memory.
     pub fn parts(self, s: &mut Scratch) -> impl Iterator<Item = (&'m str, Vec<f64>)> {
         let n = s.force.len();
         self.0.iter().map(move |force| {
@@ -229,8 +231,8 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// Names of the drives by laws and what they apply, "force" or "torque", in the order of the
-    /// forces.
+    /// Returns the names of the force-law drives and the kind of their load, "force" or "torque",
+    /// in the order of the forces.
     pub fn law_drives(self) -> impl Iterator<Item = (&'m str, &'static str)> {
         let laws = self.0.iter().filter(|f| f.is_law());
         laws.map(|force| {
@@ -240,8 +242,9 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// Forces and torques of the drives by laws at the pose and the twist of the scratch, each on
-    /// the second body along the measure; NaN where one is not defined.
+    /// Returns the forces and torques of the force-law drives at the configuration and the
+    /// velocities of the scratch. Each acts on the second body along the joint coordinate;
+    /// undefined values are NaN.
     pub fn of_laws(self, s: &Scratch) -> impl Iterator<Item = f64> {
         let forces = self.0.iter().filter_map(|force| force.drive(&s.slots));
         forces.map(|d| d.force.unwrap_or(f64::NAN))

@@ -1,7 +1,7 @@
-//! The points at which joints and drives act on bodies, from their parameters, for pictures; and
-//! the measures and values that drives prescribe.
+//! The points at which joints and drives act on bodies, computed from their parameters for
+//! drawings, and the coordinates and values that drives prescribe.
 //!
-//! The point at which a reaction is reported is defined by [`crate::Reactions::place`].
+//! The reference point of a reaction is defined by [`crate::Reactions::place`].
 
 use super::Mechanism;
 use crate::body::BodyRef;
@@ -9,9 +9,9 @@ use crate::group::ConstraintId;
 use crate::system::Scratch;
 
 impl Mechanism {
-    /// The points at which a joint or drive acts, each relative to the centre of mass of its body,
-    /// in the axes of its coordinates (m; [`crate::Frames::vector`] turns them into those of its
-    /// frame; those of the ground are global).
+    /// Returns the points at which a joint or drive acts (m), each relative to the centre of mass
+    /// of its body, in the axes of its coordinates. [`crate::Frames::vector`] transforms them to
+    /// the axes of the body frame. Points of the ground are global.
     ///
     /// ```
     /// use joints::Revolute;
@@ -28,7 +28,7 @@ impl Mechanism {
     /// ```
     ///
     /// # Panics
-    /// If the mechanism has no such joint or drive.
+    /// Panics if the joint or drive does not exist.
     #[must_use]
     pub fn points(&self, id: ConstraintId) -> Vec<(BodyRef, [f64; 3])> {
         let c = &self.elements.constraints[id.0];
@@ -39,9 +39,9 @@ impl Mechanism {
             .collect()
     }
 
-    /// The joint whose measure a drive prescribes, and the name of the measure: a joint with the
-    /// same bodies and points whose definition has this drive. Returns `None` if there is none, or
-    /// if the argument is not a drive.
+    /// Returns the joint whose coordinate a drive prescribes, and the name of the coordinate. It is
+    /// a joint with the same bodies and points whose definition has this drive. Returns `None` if
+    /// there is no such joint, or if the argument is not a drive.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -58,7 +58,7 @@ impl Mechanism {
     /// ```
     ///
     /// # Panics
-    /// If the mechanism has no such joint or drive.
+    /// Panics if the joint or drive does not exist.
     #[must_use]
     pub fn driven(&self, drive: ConstraintId) -> Option<(ConstraintId, &'static str)> {
         let groups = &self.layout.groups;
@@ -77,11 +77,12 @@ impl Mechanism {
         })
     }
 
-    /// Value, rate and second derivative of each function of time of a joint or drive, at the time
-    /// of the scratch. For a drive they are the change of its measure since the start.
+    /// Returns value, rate and second derivative of each function of time of a joint or drive, at
+    /// the time of the scratch. For a drive they describe the change of its joint coordinate since
+    /// the start.
     ///
     /// # Panics
-    /// If the mechanism has no such joint or drive.
+    /// Panics if the joint or drive does not exist.
     #[must_use]
     pub fn prescribed<'s>(&self, id: ConstraintId, s: &'s Scratch) -> &'s [[f64; 3]] {
         self.elements.constraints[id.0].site.f(&s.slots)

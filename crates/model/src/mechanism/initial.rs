@@ -1,7 +1,8 @@
 //! Values taken from the initial configuration of a mechanism: those stored by definitions, and the
 //! arms of its bodies, which are the length scales of their positions if they are at the origin.
 //!
-//! The arms are in [`crate::arms`], the size of the whole mechanism is in [`crate::size`].
+//! The module [`crate::arms`] computes the arms, and [`crate::size`] computes the size of the whole
+//! mechanism.
 
 use super::Mechanism;
 use crate::arms::longest_arms;
@@ -23,7 +24,7 @@ pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
     mechanism.reach = longest_arms(mechanism, &s);
 }
 
-/// The first requirement of a definition that a configuration does not satisfy: name of the
+/// Returns the first requirement of a definition that a configuration does not satisfy: name of the
 /// element, and the requirement.
 pub(crate) fn unmet_requirement(
     mechanism: &Mechanism,
@@ -42,7 +43,8 @@ pub(crate) fn unmet_requirement(
     of_constraints.next().or_else(|| of_forces.next())
 }
 
-/// Rows of the constraints with a requirement that a configuration does not satisfy, ascending.
+/// Returns the rows of the constraints with a requirement that a configuration does not satisfy,
+/// ascending.
 pub(crate) fn unmet_rows(mechanism: &Mechanism, q: &[f64]) -> Vec<usize> {
     let bodies = Bodies::at(mechanism.space(), mechanism.of_bodies(q));
     let constraints = mechanism.elements.constraints.iter();

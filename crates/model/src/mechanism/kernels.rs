@@ -1,7 +1,6 @@
-//! The kernels of an assembled mechanism: they evaluate all elements, in storage of the caller.
-//! Values that do not change between calls are not computed again: functions at the same time,
-//! sines and cosines of unchanged angles, constant entries of C, and Γ of rows that are linear in
-//! q.
+//! The kernels of an assembled mechanism: they evaluate all elements in storage of the caller.
+//! Values that do not change between calls are not recomputed: functions at the same time, sines
+//! and cosines of unchanged angles, constant entries of C, and Γ of rows that are linear in q.
 
 use joints::Ring;
 
@@ -146,7 +145,7 @@ impl System for Mechanism {
     }
 }
 
-/// −ω × J·ω in principal axes: the part of Q that keeps the angular momentum of a body.
+/// Returns −ω × J·ω in principal axes: the part of Q that keeps the angular momentum of a body.
 pub(crate) fn gyroscopic<T: Ring>([jx, jy, jz]: [f64; 3], [x, y, z]: [T; 3]) -> [T; 3] {
     [
         T::from(jy - jz) * (y * z),

@@ -15,28 +15,28 @@ use crate::function::Function;
 pub struct Part {
     /// The part. Its rows have the names and numbers of the whole mechanism.
     pub mechanism: Mechanism,
-    /// Its places in the whole mechanism.
+    /// Indices of the elements of the part in the whole mechanism.
     pub places: Places,
 }
 
-/// Places of a part in the whole mechanism; all lists ascending.
+/// Indices of the elements of a part in the whole mechanism; all lists are ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Places {
-    /// Its bodies.
+    /// Indices of the bodies of the part.
     pub bodies: Vec<usize>,
-    /// Its coordinates.
+    /// Indices of the coordinates of the part.
     pub coordinates: Vec<usize>,
-    /// Its velocities.
+    /// Indices of the velocities of the part.
     pub velocities: Vec<usize>,
-    /// Its rows of C.
+    /// Indices of the rows of C of the part.
     pub rows: Vec<usize>,
-    /// Its joints and drives, as indices of the groups.
+    /// Indices of its joints and drives in the list of groups.
     pub groups: Vec<usize>,
 }
 
 impl Mechanism {
-    /// Sets of connected bodies, each ascending, ordered by their first bodies.
+    /// Returns the sets of connected bodies, each ascending, ordered by their first bodies.
     ///
     /// ```
     /// use joints::Revolute;
@@ -63,8 +63,9 @@ impl Mechanism {
         connected(self.bodies.len(), self.elements.sites())
     }
 
-    /// Sets of bodies connected by these joints and drives, in the same order; a body without such
-    /// joints is a set of its own. Forces do not count: a spring does not connect two machines.
+    /// Returns sets of bodies connected by these joints and drives, in the same order. A body
+    /// without such joints is a separate set. Forces do not count: a spring does not connect two
+    /// machines.
     ///
     /// ```
     /// use joints::{Revolute, TorsionSpringDamper};
@@ -83,20 +84,20 @@ impl Mechanism {
     /// ```
     ///
     /// # Panics
-    /// If a group does not exist.
+    /// Panics if a group does not exist.
     #[must_use]
     pub fn joined(&self, groups: &[usize]) -> Vec<Vec<usize>> {
         let constraints = groups.iter().map(|&k| &self.elements.constraints[k]);
         connected(self.bodies.len(), constraints.map(|c| &c.site))
     }
 
-    /// The mechanism of some bodies with all joints, drives and forces on them, which must not act
-    /// on other bodies: a set of [`Mechanism::components`], or several of them. Initial values are
-    /// those of the whole mechanism.
+    /// Returns the mechanism of some bodies with all joints, drives and forces on them, which must
+    /// not act on other bodies. The bodies are one or several sets of [`Mechanism::components`].
+    /// Initial values are those of the whole mechanism.
     ///
     /// # Panics
-    /// If the bodies are not ascending, do not exist, or a joint, drive or force connects them to
-    /// others.
+    /// Panics if the bodies are not ascending, do not exist, or a joint, drive or force connects
+    /// them to others.
     #[must_use]
     pub fn part(&self, bodies: &[usize]) -> Part {
         assert!(
@@ -118,12 +119,12 @@ impl Mechanism {
         )
     }
 
-    /// The mechanism of some joints and drives, ascending, with the bodies that they connect and no
-    /// forces, for the analysis of constraints. Initial values are those of the whole mechanism.
-    /// The work is proportional to the part only.
+    /// Returns the mechanism of some joints and drives (ascending) with the bodies that they
+    /// connect, for the analysis of constraints. It has no forces. Initial values are those of the
+    /// whole mechanism. The work is proportional to the size of the part.
     ///
     /// # Panics
-    /// If the groups are not ascending or do not exist.
+    /// Panics if the groups are not ascending or do not exist.
     #[must_use]
     pub fn part_of_groups(&self, groups: &[usize]) -> Part {
         assert!(
@@ -140,7 +141,7 @@ impl Mechanism {
     }
 }
 
-/// The mechanism of some bodies, groups and forces of `whole`.
+/// Returns the mechanism of some bodies, groups and forces of `whole`.
 fn assembled<'a>(
     whole: &Mechanism,
     bodies: &[usize],
@@ -218,8 +219,8 @@ fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
     whole.map(|f| f.function.clone()).collect()
 }
 
-/// Sets of bodies, each ascending, ordered by their first bodies; the bodies of each site belong
-/// together.
+/// Returns the sets of bodies, each ascending, ordered by their first bodies; the bodies of each
+/// site belong together.
 fn connected<'a>(bodies: usize, sites: impl Iterator<Item = &'a Site>) -> Vec<Vec<usize>> {
     let mut sets = DisjointSets::new(bodies);
     for site in sites {

@@ -1,14 +1,15 @@
-//! Whether two mechanisms have the same constraints.
+//! Compares the constraints of two mechanisms.
 
 use super::Mechanism;
 use crate::record::RecordedEquations;
 use crate::space::SpaceKind;
 
 impl Mechanism {
-    /// Whether joints, drives and forces of another mechanism are the same, number by number, with
-    /// the same tolerances and initial values, and so are sizes of bodies: then everything that is
-    /// decided about the constraints at a configuration is the same. Masses, moments of inertia and
-    /// weights may differ. `false` also where that is not known: for angles that count their turns.
+    /// Returns whether joints, drives and forces of another mechanism have the same numbers,
+    /// tolerances and initial values, and its bodies the same sizes. All results about the
+    /// constraints at a configuration are then equal. Masses, moments of inertia and weights may
+    /// differ. The result is also `false` if the comparison is not possible, for mechanisms with
+    /// unwrapped angles.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism};
@@ -43,8 +44,8 @@ impl Mechanism {
     }
 }
 
-/// Whether two recordings have one shape, and the same numbers in joints, drives, forces and
-/// functions of time.
+/// Returns whether two recordings have one shape, and the same numbers in joints, drives, forces
+/// and functions of time.
 fn same_numbers(a: &RecordedEquations, b: &RecordedEquations) -> bool {
     if a.shape() != b.shape() {
         return false;

@@ -1,4 +1,4 @@
-//! Functions of time as kernels take them.
+//! Functions of time in the form in which kernels use them.
 
 use joints::Ring;
 use linalg::Dd;
@@ -9,7 +9,7 @@ use crate::function::Function;
 #[derive(Clone, Debug)]
 pub struct TimeFunction {
     pub(super) function: Function,
-    /// f(0) for drives, which follow f(t) − f(0); otherwise zero.
+    /// The value f(0) for drives, which follow f(t) − f(0); otherwise zero.
     pub(super) offset: f64,
     pub(super) form: FunctionForm,
 }
@@ -19,28 +19,28 @@ pub struct TimeFunction {
 pub enum FunctionForm {
     /// The function itself.
     Value,
-    /// Its cosine; the next function is its sine.
+    /// The cosine of the function; the next function is the sine.
     Cosine,
-    /// Its sine.
+    /// The sine of the function.
     Sine,
 }
 
 impl TimeFunction {
-    /// The function, and the value that is subtracted from it: f(0) for drives.
+    /// Returns the function, and the value that is subtracted from it: f(0) for drives.
     #[must_use]
     pub fn parts(&self) -> (&Function, f64) {
         (&self.function, self.offset)
     }
 
-    /// The form in which the difference enters: drives of angles in space take its cosine and its
-    /// sine.
+    /// Returns the form in which the difference enters: drives of angles in space take its cosine
+    /// and its sine.
     #[must_use]
     pub fn form(&self) -> FunctionForm {
         self.form
     }
 
-    /// The numbers of the function ([`crate::function::Parts::numbers`]), then the value that is
-    /// subtracted from it.
+    /// Returns the numbers of the function ([`crate::function::Parts::numbers`]), then the value
+    /// that is subtracted from it.
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         let mut numbers = self.function.parts().numbers();
@@ -48,8 +48,8 @@ impl TimeFunction {
         numbers
     }
 
-    /// The same with these numbers, in the order of [`TimeFunction::numbers`]. `None` if there are
-    /// not as many, or the function cannot have them.
+    /// Returns the time function with these numbers, in the order of [`TimeFunction::numbers`].
+    /// `None` if their count is wrong, or if they are invalid for the function.
     #[must_use]
     pub fn with_numbers(&self, numbers: &[f64]) -> Option<Self> {
         let (&offset, numbers) = numbers.split_last()?;
@@ -60,21 +60,21 @@ impl TimeFunction {
         })
     }
 
-    /// Its value at t, in this form, with two derivatives.
+    /// Returns the value at t, in this form, with two derivatives.
     #[must_use]
     pub fn jet(&self, t: f64) -> [f64; 3] {
         let [f, d, dd] = self.function.jet(t);
         self.formed([f - self.offset, d, dd], f64::sin_cos)
     }
 
-    /// The same in double-double, from the value in `f64`.
+    /// Returns the value in double-double, computed from the value in `f64`.
     pub(crate) fn extended_jet(&self, t: f64) -> [Dd; 3] {
         let [f, d, dd] = self.function.jet(t);
         let jet = [f - self.offset, d, dd].map(Dd::from);
         self.formed(jet, Dd::sin_cos)
     }
 
-    /// The form of a value with two derivatives.
+    /// Returns the form of a value with two derivatives.
     fn formed<T: Ring>(&self, [f, d, dd]: [T; 3], sin_cos: impl Fn(T) -> (T, T)) -> [T; 3] {
         if self.form == FunctionForm::Value {
             return [f, d, dd];

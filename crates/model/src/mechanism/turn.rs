@@ -7,13 +7,14 @@ use crate::body::{BodyRecord, BodyRef};
 use crate::element::{AnyConstraint, ConstraintKernels, FramedConstraint};
 use crate::principal::Principal;
 
-/// The principal axes of the body in each slot of an element, where they are not those of a frame.
+/// Returns the principal axes of the body in each slot of an element, if they differ from the axes
+/// of its frame.
 pub(super) fn principal(bodies: &[BodyRecord], slots: &[BodyRef]) -> Vec<Option<Principal>> {
     let of = |body: &BodyRef| bodies.get(body.moving()?)?.principal.clone();
     slots.iter().map(of).collect()
 }
 
-/// A constraint as described, with its data in the principal axes of its bodies.
+/// Returns a constraint of the description, with its data in the principal axes of its bodies.
 pub(super) fn constraint(
     element: AnyConstraint,
     bodies: &[BodyRecord],

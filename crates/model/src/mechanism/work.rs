@@ -1,5 +1,5 @@
 //! The work of the kernels of a mechanism at each evaluation, and the work that its structure makes
-//! unnecessary. The kernels use the same tests.
+//! unnecessary. The kernels use the same criteria.
 
 use super::{Elements, Mechanism};
 use crate::element::PlacedConstraint;
@@ -8,7 +8,7 @@ use crate::system::Layout;
 /// Amount of work at each evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Bodies whose angle the constraints hold at its initial value, ascending: their sine and
+    /// Bodies whose angle the constraints keep at its initial value, ascending. Their sine and
     /// cosine do not change.
     pub without_turning: Vec<usize>,
     /// Number of entries of C without the columns of the ground.
@@ -26,7 +26,8 @@ pub struct Work {
 }
 
 impl Work {
-    /// Counts the work of the kernels of a mechanism at each evaluation; allocates.
+    /// Counts the work of the kernels of a mechanism at each evaluation. The function allocates
+    /// memory.
     ///
     /// ```
     /// use joints::{Direction, Translational};
@@ -67,9 +68,10 @@ impl Work {
     }
 }
 
-/// For each body, whether its angle keeps its initial value: a holonomic row that does not depend
-/// on time connects it with the ground, or with bodies of which this is known. Only rows of angles
-/// alone, with constant entries, are examined, so not all such bodies may be found.
+/// Returns, for each body, whether its angle keeps its initial value: a holonomic row that does not
+/// depend on time connects it with the ground, or with bodies that have this property. Only rows
+/// that contain angles alone, with constant entries, are examined, so some such bodies may not be
+/// found.
 pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -> Vec<bool> {
     let constraints = elements.constraints.iter();
     let rows: Vec<Vec<usize>> = constraints
@@ -84,7 +86,7 @@ pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -
     }
     let mut held = vec![false; bodies];
     let mut free: Vec<usize> = rows.iter().map(Vec::len).collect();
-    // Rows with one free body, whose angle they hold.
+    // Rows with one free body, whose angle they fix.
     let mut holding: Vec<usize> = (0..rows.len()).filter(|&k| free[k] == 1).collect();
     while let Some(k) = holding.pop() {
         let Some(&body) = rows[k].iter().find(|&&body| !held[body]) else {

@@ -1,4 +1,4 @@
-//! One body described in two frames: its principal axes, and turned ones with products of inertia.
+//! One body described in two frames: its principal axes, and rotated axes with products of inertia.
 
 use joints::space3::{Axes, BodyPointForce, Pose, Revolute, SpringDamper};
 
@@ -9,12 +9,12 @@ use crate::reaction::ConstraintId;
 use crate::system::System;
 
 /// A rotation by a multiple of 3-4-5 angles about two axes, from the second frame to the principal
-/// one.
+/// axes.
 const BETWEEN: [f64; 4] = [0.48, 0.36, -0.64, 0.48];
 
 const MOMENTS: [f64; 3] = [0.7, 1.1, 1.6];
 
-/// A body that turns, on a hinge and a spring; its frame is turned against its principal axes.
+/// A rotating body on a hinge and a spring, whose frame is rotated relative to its principal axes.
 fn described(between: [f64; 4]) -> Mechanism {
     let turn = Pose::new([0.0; 3], between);
     // A vector of the principal axes in the frame.
@@ -96,7 +96,7 @@ fn a_body_is_the_same_in_any_frame() {
         );
         numbers.extend(marker.place);
         numbers.extend((0..6).flat_map(|i| wrench.row(i).to_vec()));
-        // Of the moments only their order may differ.
+        // The moments may differ only in their order.
         let mut mass = m.mass().to_vec();
         mass[3..].sort_by(f64::total_cmp);
         numbers.extend(mass);
@@ -108,7 +108,7 @@ fn a_body_is_the_same_in_any_frame() {
     for (k, (a, b)) in a.iter().zip(b).enumerate() {
         assert!(close(*a, *b), "{k}: {a} {b}");
     }
-    // The frame of each is told as it was described.
+    // The frame of each body has the described pose.
     assert!(
         q.iter()
             .zip([1.0, 0.0, 0.0, 0.0])
@@ -117,7 +117,7 @@ fn a_body_is_the_same_in_any_frame() {
     assert!(p.iter().zip(BETWEEN).all(|(a, b)| close(*a, b)), "{p:?}");
 }
 
-/// The derivatives of the force are those of its differences, in either frame.
+/// The derivatives of the force agree with its difference quotients in both frames.
 #[test]
 fn derivatives_of_forces_are_their_slopes() {
     for between in [[1.0, 0.0, 0.0, 0.0], BETWEEN] {

@@ -1,4 +1,4 @@
-//! Reactions of mechanisms in space, by action and reaction.
+//! Tests reactions of mechanisms in space by action and reaction.
 
 use joints::space3::{Axes, Revolute};
 
@@ -7,7 +7,7 @@ use crate::mechanism::Mechanism;
 use crate::reaction::ConstraintId;
 use crate::system::System;
 
-/// Two bodies with turned frames; a hinge on the ground and one between them.
+/// Two bodies with rotated frames, a hinge on the ground, and a hinge between the bodies.
 fn two_hinges() -> Mechanism {
     let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     let mut d = SpatialDescription::new("two hinges");
@@ -44,7 +44,7 @@ fn the_total_on_a_body_is_the_opposite_of_the_reaction_of_its_only_other_joint()
     mechanism.c(&mut s);
     let lambda: Vec<f64> = (0..10).map(|k| f64::from(k * k) - 7.5).collect();
     let reactions = mechanism.reactions(&s);
-    // On the second body there is the second hinge alone, whose reaction is told on the first.
+    // Only the second hinge acts on the second body; its reaction is reported on the first body.
     let second = ConstraintId(1);
     let place = reactions.place(second);
     let total = reactions.body_wrench_map(1, place).expect("a body");

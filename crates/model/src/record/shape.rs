@@ -1,10 +1,11 @@
-//! What two recordings share that differ in their numbers only.
+//! Common structure of two recordings that differ only in their numbers.
 
 use joints::recorded::{Operation, RecordedNumber};
 
 use super::RecordedEquations;
 
-/// FNV-1a with 64 bits: G. Fowler, L. C. Noll, K.-P. Vo, The FNV Non-Cryptographic Hash Algorithm.
+/// The FNV-1a hash with 64 bits: G. Fowler, L. C. Noll, K.-P. Vo, The FNV Non-Cryptographic Hash
+/// Algorithm.
 struct Digest(u64);
 
 impl Digest {
@@ -23,7 +24,7 @@ impl Digest {
         }
     }
 
-    /// A list with its length, so that lists cannot run into each other.
+    /// Adds a list with its length, so that consecutive lists are distinguishable.
     fn list(&mut self, values: &[RecordedNumber]) {
         self.take(&[values.len()]);
         values.iter().for_each(|r| self.take(&[r.place()]));
@@ -31,8 +32,9 @@ impl Digest {
 }
 
 impl RecordedEquations {
-    /// A digest of everything but the numbers: operations, inputs, results, and the kinds of the
-    /// functions of time. It is the same on every machine and in every build of one version.
+    /// Returns a digest of everything except the numbers: operations, inputs, results, and the
+    /// kinds of the functions of time. It is the same on every machine and in every build of one
+    /// version.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism, RecordedEquations};

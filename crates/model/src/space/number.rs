@@ -5,23 +5,23 @@ use linalg::Dd;
 
 /// A number type with angles.
 pub trait Number: Ring + std::ops::Div<Output = Self> {
-    /// √self
+    /// Returns √self.
     #[must_use]
     fn root(self) -> Self;
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     #[must_use]
     fn nearest(self) -> f64;
 
-    /// Sine and cosine.
+    /// Returns the sine and cosine.
     #[must_use]
     fn sin_cos(self) -> (Self, Self);
 
-    /// The angle of the direction (x, y), from −π to π.
+    /// Returns the angle of the direction (x, y), from −π to π.
     #[must_use]
     fn atan2(y: Self, x: Self) -> Self;
 
-    /// The vector (x, y) scaled to length one; it must not be zero.
+    /// Returns the vector (x, y) scaled to length one; it must not be zero.
     #[must_use]
     fn normalised(x: Self, y: Self) -> (Self, Self);
 }
@@ -62,7 +62,8 @@ impl Number for Dd {
         Dd::sin_cos(self)
     }
 
-    /// The angle in `f64`, corrected by the remaining angle, whose square is below the last digit.
+    /// Returns the angle in `f64`, corrected by the remaining angle, whose square is below the last
+    /// digit.
     fn atan2(y: Self, x: Self) -> Self {
         let (x, y) = Self::normalised(x, y);
         let near = Self::from(y.to_f64().atan2(x.to_f64()));

@@ -1,11 +1,11 @@
-//! The plane, and the plane with a point of the unit circle for the angle.
+//! The plane, and the plane with a point of the unit circle in place of the angle.
 
 use joints::Ring;
 
 use super::number::Number;
 use super::traits::{MOST_COORDINATES, PlanarSpace, Space};
 
-/// Numbers that are written of a planar frame.
+/// Output numbers of a planar frame.
 const PLANE_COLUMNS: &[&str] = &["x", "y", "angle", "vx", "vy", "omega"];
 const PLANE_DIRECTIONS: &[&str] = &["x", "y", "angle"];
 const PLANE_COMPONENTS: &[&str] = &["Fx", "Fy", "T"];
@@ -67,13 +67,13 @@ impl PlanarSpace for Plane {
     }
 }
 
-/// The plane with a point of the unit circle instead of the angle: q = (x, y, cos φ, sin φ), n_q =
-/// 4. Only for tests: a space in which coordinates and velocities differ, as quaternions and
-/// angular velocities do.
+/// The plane with a point of the unit circle in place of the angle: q = (x, y, cos φ, sin φ), so
+/// that n_q = 4. This space is only for tests. Its coordinates and velocities differ, like
+/// quaternions and angular velocities.
 ///
 /// Only the direction of (c, s) counts, so a stage of an integrator may leave the circle; a
-/// displacement keeps the point on the circle. Angles are determined up to full revolutions, so
-/// rows that measure them are valid within half a revolution only.
+/// displacement keeps the point on the circle. Angles are determined only up to full revolutions,
+/// so rows that contain them are valid only within half a revolution.
 #[cfg(feature = "unit-circle")]
 #[derive(Clone, Copy, Debug)]
 pub struct UnitCircle;

@@ -35,12 +35,12 @@ impl Space for Space3 {
     const JOINT_COMPONENTS: &'static [&'static str] = &["Fu", "Fv", "Fw", "Tu", "Tv", "Tw"];
     const EDGE_COMPONENTS: &'static [&'static str] = &["Fn", "Ft", "Fb", "Tn", "Tt", "Tb"];
 
-    /// A rotation has no angle that goes on over full turns: it counts as none.
+    /// A rotation has no angle that includes full revolutions, so the value is zero.
     fn position(q: &[f64], dof: usize) -> f64 {
         if dof < 3 { q[dof] } else { 0.0 }
     }
 
-    /// ė = ½·e∘(0, ω)
+    /// Computes ė = ½·e∘(0, ω).
     fn rate<T: Ring>(q: &[T], v: &[T], qd: &mut [T]) {
         qd[..3].copy_from_slice(&v[..3]);
         let twice = quaternion_product(quaternion(q), [T::from(0.0), v[3], v[4], v[5]]);
@@ -49,7 +49,7 @@ impl Space for Space3 {
         }
     }
 
-    /// ω = 2·ē∘ė/|e|², its vector part.
+    /// Computes ω = 2·ē∘ė/|e|² (vector part).
     fn velocity_from_rate(q: &[f64], dof: usize) -> [f64; MOST_COORDINATES] {
         let [w, x, y, z] = quaternion(q);
         let twice = 2.0 / (w * w + x * x + y * y + z * z);
@@ -68,7 +68,7 @@ impl Space for Space3 {
         Some([0.0, 0.0, 0.0, w, x, y, z])
     }
 
-    /// e∘exp(½·θ), with θ the rotation vector in the axes of the body.
+    /// Computes e∘exp(½·θ), where θ is the rotation vector in the axes of the body.
     fn displace<T: Number>(q: &mut [T], d: &[T]) {
         for (q, d) in q.iter_mut().zip(&d[..3]) {
             *q = *q + *d;
@@ -83,7 +83,7 @@ impl Space for Space3 {
         }
         let [w, x, y, z] = quaternion(from);
         let [w, x, y, z] = quaternion_product([w, -x, -y, -z], quaternion(q));
-        // Of a quaternion and its negative, the one of the shorter way.
+        // Of a quaternion and its negative, the one with the shorter rotation is used.
         let sign = 1.0_f64.copysign(w);
         let length = norm(&[x, y, z]);
         let angle = 2.0 * length.atan2(w.abs());
@@ -93,7 +93,8 @@ impl Space for Space3 {
         }
     }
 
-    /// Any rotation takes the whole orientation: rotations do not add up along single axes.
+    /// Every rotational freedom copies the whole orientation, because rotations do not add up along
+    /// single axes.
     fn take(q: &mut [f64], from: &[f64], dof: usize) {
         match dof {
             0..3 => q[dof] = from[dof],
@@ -102,12 +103,12 @@ impl Space for Space3 {
     }
 }
 
-/// The quaternion (w, x, y, z) among the coordinates of a spatial body.
+/// Returns the quaternion (w, x, y, z) among the coordinates of a spatial body.
 pub(crate) fn quaternion<T: Copy>(q: &[T]) -> [T; 4] {
     [q[3], q[4], q[5], q[6]]
 }
 
-/// a∘b
+/// Returns the quaternion product a∘b.
 pub(crate) fn quaternion_product<T: Ring>(a: [T; 4], b: [T; 4]) -> [T; 4] {
     let [aw, ax, ay, az] = a;
     let [bw, bx, by, bz] = b;
@@ -119,7 +120,7 @@ pub(crate) fn quaternion_product<T: Ring>(a: [T; 4], b: [T; 4]) -> [T; 4] {
     ]
 }
 
-/// A quaternion scaled to length one; it must not be zero.
+/// Returns a quaternion scaled to length one; it must not be zero.
 pub(crate) fn normalised<T: Number>(e: [T; 4]) -> [T; 4] {
     let [w, x, y, z] = e;
     let length = (w * w + x * x + y * y + z * z).root();
@@ -130,11 +131,11 @@ pub(crate) fn normalised<T: Number>(e: [T; 4]) -> [T; 4] {
 /// the last digit of double-double there.
 const SERIES: f64 = 1e-4;
 
-/// The unit quaternion of a rotation vector: (cos ½|θ|, sin ½|θ|·θ/|θ|).
+/// Returns the unit quaternion of a rotation vector: (cos ½|θ|, sin ½|θ|·θ/|θ|).
 fn exponential<T: Number>(turn: [T; 3]) -> [T; 4] {
     let [x, y, z] = turn;
     let square = (x * x + y * y + z * z) * T::from(0.25);
-    // cos h and ½·sin(h)/h of h = ½·|θ|.
+    // Computes cos h and ½·sin(h)/h of h = ½·|θ|.
     let (cos, half_sinc) = if square.nearest() < SERIES {
         let series = |first: f64| {
             let mut sum = T::from(0.0);

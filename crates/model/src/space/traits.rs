@@ -1,4 +1,4 @@
-//! What a space says of the coordinates and velocities of one body.
+//! Properties of the coordinates and velocities of one body in a space.
 
 use joints::Ring;
 
@@ -8,8 +8,8 @@ use super::number::Number;
 pub(super) const MOST_COORDINATES: usize = 7;
 
 /// A space in which bodies move. All slices belong to one body: `q` has [`Space::N_Q`] values, `v`
-/// and `d` have [`Space::N_V`], of which the translations come first. A force on a body has a
-/// component for each translation, a torque one for each rotation.
+/// and `d` have [`Space::N_V`], and the translations come first. A force on a body has a component
+/// for each translation, a torque one for each rotation.
 pub trait Space {
     /// Number of coordinates of a body; the position comes first.
     const N_Q: usize;
@@ -17,13 +17,13 @@ pub trait Space {
     /// Number of velocities of a body.
     const N_V: usize;
 
-    /// Number of its velocities that are translations.
+    /// Number of velocities of a body that are translations.
     const N_TRANSLATIONS: usize;
 
     /// Names of the coordinates.
     const COORDINATES: &'static [&'static str];
 
-    /// Names of the numbers that are written of a frame: its place and orientation, then its
+    /// Names of the output numbers of a frame: its position and orientation, then its
     /// [`Space::N_V`] velocities.
     const COLUMNS: &'static [&'static str];
 
@@ -33,29 +33,31 @@ pub trait Space {
     /// Names of the components of a force and a torque, in the order of the velocities.
     const COMPONENTS: &'static [&'static str];
 
-    /// Their names in the axes of a body.
+    /// Names of these components in the axes of a body.
     const BODY_COMPONENTS: &'static [&'static str];
 
-    /// Their names in the axes of a joint.
+    /// Names of these components in the axes of a joint.
     const JOINT_COMPONENTS: &'static [&'static str];
 
-    /// Their names in axes of which the first is the direction of the only force of a joint.
+    /// Names of these components in axes whose first direction is that of the only force of a
+    /// joint.
     const EDGE_COMPONENTS: &'static [&'static str];
 
-    /// Position of a body in the direction of one freedom: a coordinate (m) or an angle (rad).
+    /// Returns the position of a body in the direction of one freedom: a coordinate (m) or an angle
+    /// (rad).
     #[must_use]
     fn position(q: &[f64], dof: usize) -> f64;
 
-    /// q̇ = T(q)·v.
+    /// Computes q̇ = T(q)·v.
     fn rate<T: Ring>(q: &[T], v: &[T], qd: &mut [T]);
 
-    /// The velocity of one freedom, below [`Space::N_V`], as factors of q̇ = T(q)·v; components of
-    /// q̇ that change no pose are ignored. Factors beyond the coordinates are zero.
+    /// Returns the velocity of one freedom, below [`Space::N_V`], as factors of q̇ = T(q)·v.
+    /// Components of q̇ that change no pose are ignored. Factors beyond the coordinates are zero.
     #[must_use]
     fn velocity_from_rate(q: &[f64], dof: usize) -> [f64; MOST_COORDINATES];
 
-    /// The unit direction of q̇ along which no pose changes; `None` if every q̇ belongs to a
-    /// velocity.
+    /// Returns the unit direction of q̇ along which no pose changes; `None` if every q̇ belongs to
+    /// a velocity.
     #[must_use]
     fn normal(_q: &[f64]) -> Option<[f64; MOST_COORDINATES]> {
         None
@@ -64,21 +66,21 @@ pub trait Space {
     /// Moves q by d: a translation along the axes of the ground (m), and a rotation (rad).
     fn displace<T: Number>(q: &mut [T], d: &[T]);
 
-    /// The d by which [`Space::displace`] moves `from` to `q`.
+    /// Returns the d by which [`Space::displace`] moves `from` to `q`.
     fn difference(q: &[f64], from: &[f64], d: &mut [f64]);
 
-    /// Copies one freedom of velocity from another configuration exactly; a difference would be
-    /// rounded.
+    /// Copies one freedom of velocity from another configuration exactly; a difference would have
+    /// rounding errors.
     fn take(q: &mut [f64], from: &[f64], dof: usize);
 }
 
-/// A space whose bodies have planar poses, whatever their coordinates are.
+/// A space with planar poses, for any coordinates.
 pub trait PlanarSpace: Space {
-    /// The angle of a body (rad).
+    /// Returns the angle of a body (rad).
     #[must_use]
     fn angle<T: Number>(q: &[T]) -> T;
 
-    /// Sine and cosine of this angle.
+    /// Returns the sine and cosine of this angle.
     #[must_use]
     fn sin_cos<T: Number>(q: &[T]) -> (T, T);
 }

@@ -1,29 +1,29 @@
 //! Vectors with three components, or any number of them.
 
-/// The unit vector along an axis of the ground, 0 for x to 2 for z, times a vector: `e × a`, the
-/// velocity at an arm of a body that turns at 1 rad/s about this axis.
+/// Returns the unit vector along an axis of the ground (0 for x to 2 for z) times a vector:
+/// `e × a`. It is the velocity at this arm of a body that rotates at 1 rad/s about this axis.
 #[must_use]
 pub fn unit_cross(axis: usize, a: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| match (k + 3 - axis) % 3 {
         0 => 0.0,
-        // Not `-a`: there is one zero.
+        // The subtraction avoids the negative zero of `-a`.
         1 => 0.0 - a[(k + 1) % 3],
         _ => a[(k + 2) % 3],
     })
 }
 
-/// a − b
+/// Returns a − b.
 #[must_use]
 pub fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// Length of a vector with any number of components.
+/// Returns the length of a vector with any number of components.
 #[must_use]
 pub fn norm(x: &[f64]) -> f64 {
     match x {
         [x, others @ ..] => others.iter().fold(x.abs(), |norm, x| match *x {
-            // Most vectors of planar mechanisms have zeros; roots take time.
+            // Most vectors of planar mechanisms have zeros, and square roots are expensive.
             0.0 => norm,
             x if norm == 0.0 => x.abs(),
             x => norm.hypot(x),

@@ -1,6 +1,6 @@
-//! Constraints approached from far: damped least squares of what the joints miss, in lengths, with
-//! angles times the size of the mechanism. Masses do not matter here: a light body would rather
-//! turn far than move its heavy neighbour slightly, and end on the other side of its joint.
+//! Approaches the constraints from a distant start by damped least squares of the joint violations.
+//! Violations are lengths; angles are multiplied by the size of the mechanism. Masses have no
+//! influence: otherwise a light body could rotate far and end on the opposite side of its joint.
 //!
 //! Source: Levenberg–Marquardt, as in J. Nocedal, S. Wright, Numerical Optimization, 2nd ed.,
 //! section 10.3, with corrections of minimum norm, so that rows may be redundant.
@@ -13,22 +13,22 @@ use super::parallel::Parallel;
 use crate::mechanism::{Mechanism, unmet_rows};
 use crate::system::{Scratch, System};
 
-/// Joints that miss by less than this fraction of the worst one are not named.
+/// Joints whose violation is below this fraction of the worst one are not named.
 const NAMED_MISFIT: f64 = 1e-2;
 
-/// Largest number of steps; a start that is 20 % and 20° off takes about ten.
+/// Largest number of steps. A start with an error of 20 % and 20° needs about ten.
 const ITERATIONS: usize = 200;
 
 /// Largest rotation of one step (rad), and its largest displacement as a fraction of the size.
-/// Linearised rows say little beyond it.
+/// Linearised rows are not accurate beyond it.
 const LARGEST_STEP: f64 = 0.5;
 
-/// The constraints are reached when all rows miss by less than this fraction of the size (of a
-/// radian): from there the iteration of [`super::nearest`] converges.
+/// The constraints count as reached if all rows are violated by less than this fraction of the size
+/// (of a radian). From there, the iteration of [`super::nearest`] converges.
 const REACHED: f64 = 1e-9;
 
-/// Damping at the beginning, its smallest value, and where no step helps any more; relative to rows
-/// of size one.
+/// Damping at the beginning, its smallest value, and the value at which no step helps any more,
+/// relative to rows of size one.
 const DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-12;
 const MOST_DAMPING: f64 = 1e8;
@@ -36,12 +36,12 @@ const MOST_DAMPING: f64 = 1e8;
 /// Damping changes by this factor.
 const FACTOR: f64 = 10.0;
 
-/// A step that shortens the residual by less than this fraction does not move any more.
+/// A step that reduces the residual by less than this fraction ends the iteration.
 const STILL: f64 = 1e-10;
 
 /// Residuals of rows at a configuration, and their derivatives by velocities.
 struct Linearisation {
-    /// In metres, angles times the size.
+    /// Residuals in metres; angles are multiplied by the size.
     residual: Vec<f64>,
     /// One row for each residual.
     c: Matrix,
@@ -53,8 +53,8 @@ impl Linearisation {
     }
 }
 
-/// The residuals of these rows at q, in which rotation vectors replace products of directions, so
-/// that no axis is satisfied that points the other way.
+/// Returns the residuals of these rows at q. Rotation vectors replace products of directions, so
+/// that an axis with the opposite direction does not satisfy its rows.
 fn linearised(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -99,8 +99,9 @@ fn linearised(
     Ok(Linearisation { residual, c })
 }
 
-/// Whether all axes that the joints keep parallel at q point as described, not the other way, and
-/// all requirements of definitions are met, as that a wheel is above the ground.
+/// Returns whether all axes that the joints keep parallel at q have the described direction, not
+/// the opposite one, and all requirements of definitions are satisfied (for example, a wheel is
+/// above the ground).
 pub(super) fn is_meant(mechanism: &Mechanism, s: &mut Scratch, q: &[f64]) -> bool {
     if !unmet_rows(mechanism, q).is_empty() {
         return false;
@@ -111,7 +112,8 @@ pub(super) fn is_meant(mechanism: &Mechanism, s: &mut Scratch, q: &[f64]) -> boo
     axes.all(|axes| axes.is_as_described())
 }
 
-/// Whether the rows at q miss by no more than a start may be corrected without permission.
+/// Returns whether the violation of the rows at q is within the correction of a start that is
+/// permitted by default.
 pub(super) fn is_near(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -126,11 +128,11 @@ pub(super) fn is_near(
     })
 }
 
-/// A configuration near another one that satisfies the rows to [`REACHED`]; coordinates of
+/// Returns a configuration near another one that satisfies the rows to [`REACHED`]; coordinates of
 /// weight zero do not move.
 ///
 /// # Errors
-/// [`StartError::NoAssembly`]: what the joints miss has a minimum that is not zero.
+/// [`StartError::NoAssembly`]: the joint violations have a minimum that is not zero.
 pub(super) fn approach(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -182,7 +184,8 @@ pub(super) fn approach(
     })
 }
 
-/// The joints and drives that miss at the poses of the scratch, the worst first.
+/// Returns the joints and drives that are violated at the configuration of the scratch, the worst
+/// first.
 pub(super) fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<Misfit> {
     let size = crate::size::size_of(mechanism, s);
     let groups = mechanism.layout().groups.iter();
@@ -213,7 +216,7 @@ pub(super) fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec
     });
     let excess = |m: &Misfit| {
         let excess = (m.distance / size).max(m.angle);
-        // What is not a number counts as the largest.
+        // A value that is not a number counts as the largest.
         if (m.distance + m.angle).is_nan() {
             f64::INFINITY
         } else {

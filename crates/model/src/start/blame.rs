@@ -1,5 +1,5 @@
-//! Determines which of given impossible velocities is wrong, what it contradicts, and which to
-//! leave out.
+//! Determines which given velocity is impossible, which rows it contradicts, and which velocities
+//! to omit.
 
 use rank::Circuit;
 
@@ -11,10 +11,10 @@ use super::velocity::{Hold, Miss, Start};
 use crate::space::SpaceKind;
 use crate::system::{RowLabel, System};
 
-/// Largest number of velocities to leave out that are searched for.
+/// Largest number of velocities to omit that are searched for.
 const LEFT_OUT: usize = 40;
 
-/// The names in their order, each once.
+/// Returns the names in their order, without repetition.
 fn each_once<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     let mut once: Vec<String> = Vec::new();
     for name in names {
@@ -25,22 +25,23 @@ fn each_once<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     once
 }
 
-/// A velocity that rows do not allow.
+/// A velocity that the rows do not permit.
 struct Fault {
     column: usize,
     /// The rows; those that prescribe a motion come first.
     rows: Vec<RowLabel>,
-    /// Drives among them.
+    /// The drives among these rows.
     drives: Vec<String>,
-    /// Whether other held velocities take part.
+    /// Whether other held velocities contribute.
     with_others: bool,
 }
 
 impl Start<'_> {
-    /// The reason why some rows have no acceptable velocities; `miss` is what was found first.
+    /// Returns the reason why some rows have no acceptable velocities; `miss` is the first problem
+    /// that was found.
     ///
     /// # Errors
-    /// [`StartError::NoVelocity`]: they have none, whatever velocities are given.
+    /// [`StartError::NoVelocity`]: the rows have no velocities, for any given velocities.
     pub(super) fn conflict(
         &self,
         rows: &[usize],
@@ -65,8 +66,8 @@ impl Start<'_> {
             .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
             .is_none();
         let (leave_out, hold, is_enough) = self.leave_out(rows, &columns)?;
-        // Among the candidates for leaving out, the one whose velocity then is farthest from the
-        // given one: the others are not wrong.
+        // From the candidates, the search selects the one whose velocity, if omitted, is farthest
+        // from the given one. The others are not wrong.
         let mut candidates = vec![column];
         if is_enough && self.solve(rows, &hold, self.limit, &mut v)?.is_none() {
             let by = |j: usize| self.equations.arm(j) * (v[j] - self.written[j]).abs();
@@ -103,8 +104,8 @@ impl Start<'_> {
         })
     }
 
-    /// The bodies of these velocities, if the rows, which are independent, leave them none but
-    /// zero.
+    /// Returns the bodies of these velocities, if the independent rows permit only zero velocities
+    /// for them.
     fn locked(&self, rows: &[usize], columns: &[usize]) -> Option<LockedBodies> {
         let Equations { mechanism, s, .. } = &self.equations;
         if rows.len() < columns.len() || rows.iter().any(|&i| s.b[i] != 0.0) {
@@ -121,9 +122,10 @@ impl Start<'_> {
         })
     }
 
-    /// Name of a velocity of a centre of mass or of a rotation, its given value and that in other
-    /// velocities. Scenes write rotations in space about the axes of the ground, so it is the
-    /// component about them that differs most in the closest velocities that fit.
+    /// Returns the name of a velocity of a centre of mass or of a rotation, its given value and its
+    /// value in other velocities. Scenes define rotations in space about the axes of the ground.
+    /// Therefore the function selects the component about these axes that differs most in the
+    /// closest compatible velocities.
     fn as_written(
         &self,
         column: usize,
@@ -150,15 +152,15 @@ impl Start<'_> {
         (name, [given[farthest], other[farthest]])
     }
 
-    /// Whether a column is a rotation that is kept without the others of its body.
+    /// Returns whether a column is a rotation that is kept without the others of its body.
     fn is_component(&self, column: usize) -> bool {
         let space = self.equations.mechanism.space();
         let mut rotations = space.rotations_of(space.body_of(column));
         self.hold[column] == Hold::Kept && rotations.any(|j| self.hold[j] != Hold::Kept)
     }
 
-    /// The held velocity that is farthest from the closest compatible velocities if all may move;
-    /// `None` if there are none. Writes the compatible velocities.
+    /// Returns the held velocity that is farthest from the closest compatible velocities if all may
+    /// change; `None` if there are no compatible velocities. Writes the compatible velocities.
     fn culprit(
         &self,
         rows: &[usize],
@@ -188,7 +190,8 @@ impl Start<'_> {
             .or_else(|| held().max_by(farthest)))
     }
 
-    /// The first of these velocities that rows do not allow while the other held velocities stay.
+    /// Returns the first of these velocities that the rows do not permit while the other held
+    /// velocities do not change.
     fn fault(&self, rows: &[usize], candidates: &[usize]) -> Result<Fault, StartError> {
         let of = &self.equations;
         let mut v = self.written.clone();
@@ -244,8 +247,9 @@ impl Start<'_> {
         })
     }
 
-    /// Given velocities to leave out so that the others are possible, the farthest first, none of
-    /// which could be kept; the velocities that are then held; and whether this is sufficient.
+    /// Returns the given velocities to omit so that the others are possible, the farthest first;
+    /// none of them can be kept. The function also returns the velocities that are then held, and
+    /// whether the omission is sufficient.
     fn leave_out(
         &self,
         rows: &[usize],
@@ -270,7 +274,7 @@ impl Start<'_> {
             for &(j, was) in &before {
                 tried[j] = was;
             }
-            // An entry of `keep` whose velocity is left out would hold zero.
+            // If the velocity of a `keep` entry is omitted, the entry would hold zero.
             let is_other = |&(j, was): &(usize, Hold)| {
                 was == Hold::Kept && hold[j] == Hold::No && self.is_written[j]
             };
@@ -298,8 +302,7 @@ impl Start<'_> {
         } else {
             space.translations_of(at)
         };
-        // An entry of `keep` is removed before the velocity that it holds, because it would hold
-        // zero otherwise.
+        // An entry of `keep` is removed before its velocity, because otherwise it would hold zero.
         if let Some(kept) = own.clone().find(|&j| hold[j] == Hold::Kept) {
             let to = if self.is_written[kept] {
                 Hold::Given

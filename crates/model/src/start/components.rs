@@ -1,11 +1,12 @@
-//! Bodies in space of which single components of the angular velocity are kept, in ground axes.
+//! Bodies in space with single kept components of the angular velocity, in ground axes.
 //!
 //! Columns of C belong to angular velocities in the axes in which a body moves, where its inertia J
-//! is diagonal. For such a body they are replaced by others, `ω = E·y`. The kept components are
-//! numbers of y, and the kinetic energy has no products of a kept number with one that follows, nor
-//! of two that follow. With kept directions a of the ground, in the axes of the body, one:
-//! `e₁ = J⁻¹·a/(aᵀ·J⁻¹·a)`, and e₂, e₃ across a with `e₂ᵀ·J·e₃ = 0`; two: e₃ is the third
-//! direction, and `e_k = a_k − (a_kᵀ·J·e₃/e₃ᵀ·J·e₃)·e₃`.
+//! is diagonal. For such a body, y with `ω = E·y` replaces the angular velocity. The kept
+//! components are numbers of y. The kinetic energy has no products of a kept number with a
+//! dependent number, nor of two dependent numbers. Let a be the kept directions of the ground, in
+//! the axes of the body. For one direction, `e₁ = J⁻¹·a/(aᵀ·J⁻¹·a)`, and e₂, e₃ are perpendicular
+//! to a with `e₂ᵀ·J·e₃ = 0`. For two directions, e₃ is the third direction, and
+//! `e_k = a_k − (a_kᵀ·J·e₃/e₃ᵀ·J·e₃)·e₃`.
 
 use std::ops::Range;
 
@@ -16,19 +17,19 @@ use crate::mechanism::Mechanism;
 use crate::space::SpaceKind;
 use crate::system::{Scratch, System};
 
-/// The other numbers of the angular velocity of one body.
+/// The transformed angular velocity of one body.
 pub(super) struct Components {
     columns: Range<usize>,
     /// Columns e of E, in the axes in which the body moves.
     basis: [[f64; 3]; 3],
     /// Rows of E⁻¹.
     inverse: [[f64; 3]; 3],
-    /// Inertia along each of them.
+    /// Inertia along each column.
     inertia: [f64; 3],
 }
 
 impl Components {
-    /// The bodies of which one or two components are kept; `weights` is the diagonal of M⁻¹.
+    /// Returns the bodies with one or two kept components; `weights` is the diagonal of M⁻¹.
     pub(super) fn kept(
         mechanism: &Mechanism,
         options: &StartOptions,
@@ -74,7 +75,7 @@ impl Components {
         bodies.filter_map(of_body).collect()
     }
 
-    /// Replaces entries of C, which must be in the scratch, and weights.
+    /// Transforms entries of C, which must be in the scratch, and weights.
     pub(super) fn take_over(&self, mechanism: &Mechanism, s: &mut Scratch, weights: &mut [f64]) {
         for (k, j) in self.columns.clone().enumerate() {
             weights[j] = self.inertia[k].recip();
@@ -102,12 +103,12 @@ impl Components {
         }
     }
 
-    /// y of the angular velocity in v, in its place.
+    /// Replaces the angular velocity in v by y.
     pub(super) fn replace(&self, v: &mut [f64]) {
         self.apply(v, |omega| self.inverse.map(|row| dot(row, omega)));
     }
 
-    /// The angular velocity of y in v, in its place.
+    /// Replaces y in v by the angular velocity.
     pub(super) fn restore(&self, v: &mut [f64]) {
         let basis = self.basis;
         self.apply(v, |y| {
@@ -122,18 +123,18 @@ impl Components {
     }
 }
 
-/// J·e
+/// Computes J·e.
 fn product(inertia: [f64; 3], e: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| inertia[k] * e[k])
 }
 
 type Pair = ([[f64; 3]; 3], [[f64; 3]; 3]);
 
-/// The basis in which number `at` is the component along the unit vector a.
+/// Returns the basis in which number `at` is the component along the unit vector a.
 fn one(at: usize, a: [f64; 3], inertia: [f64; 3]) -> Pair {
     let along = [0, 1, 2].map(|k| a[k] / inertia[k]);
     let first = along.map(|x| x / dot(a, along));
-    // Two directions across a, turned so that J has no product of them.
+    // Two directions perpendicular to a, rotated so that J has no product of them.
     let least = (1..3).fold(0, |k, j| if a[j].abs() < a[k].abs() { j } else { k });
     let unit = [0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 });
     let p = cross(a, unit);
@@ -157,7 +158,8 @@ fn one(at: usize, a: [f64; 3], inertia: [f64; 3]) -> Pair {
     (basis, inverse)
 }
 
-/// The basis in which all numbers but that `at` are components along directions of the ground.
+/// Returns the basis in which all numbers except number `at` are components along directions of the
+/// ground.
 fn two(at: usize, ground: [[f64; 3]; 3], inertia: [f64; 3]) -> Pair {
     let free = ground[at];
     let own = product(inertia, free);
@@ -180,8 +182,8 @@ mod tests {
     const INERTIA: [f64; 3] = [0.3, 1.7, 0.9];
     const AXES: [[f64; 3]; 3] = [[0.48, 0.64, 0.6], [-0.8, 0.6, 0.0], [-0.36, -0.48, 0.8]];
 
-    /// E⁻¹·E is one, kept numbers are components, and the energy has no products with those that
-    /// follow.
+    /// E⁻¹·E is the identity, kept numbers are components, and the energy has no products with the
+    /// dependent numbers.
     fn check((basis, inverse): Pair, kept: &[usize]) {
         for k in 0..3 {
             for l in 0..3 {

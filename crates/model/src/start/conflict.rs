@@ -1,4 +1,4 @@
-//! Given velocities that are impossible, with their description.
+//! Description of impossible given velocities.
 
 use crate::system::RowLabel;
 
@@ -7,38 +7,38 @@ use crate::system::RowLabel;
 #[error("{}; {}", self.what(), self.advice())]
 #[non_exhaustive]
 pub struct VelocityConflict {
-    /// The body of the wrong velocity: the one that is farthest from its value if it were left out
-    /// with the others of its kind.
+    /// The body of the wrong velocity: the velocity that would be farthest from its given value if
+    /// it and the other wrong velocities were omitted.
     pub body: String,
-    /// `vx`, `vy` or `omega`; in space `vx` to `wz`, ground axes.
+    /// Name of the velocity: `vx`, `vy` or `omega`; in space `vx` to `wz`, in ground axes.
     pub coordinate: &'static str,
     /// The given value.
     pub given: f64,
-    /// Whether `keep` holds it.
+    /// Whether `keep` holds the velocity.
     pub is_kept: bool,
-    /// Its value in compatible velocities: if it is left out, or else in the closest ones in the
-    /// mass metric.
+    /// Value of the coordinate in compatible velocities: if the given value is omitted, or
+    /// otherwise in the closest velocities in the mass metric.
     pub nearest: f64,
     /// Largest allowed difference (m/s, rad/s).
     pub limit: f64,
-    /// Rows that contradict it; those that prescribe a motion come first.
+    /// Rows that contradict the velocity; rows that prescribe a motion come first.
     pub rows: Vec<RowLabel>,
-    /// Whether they contradict it only together with other held velocities.
+    /// Whether the rows contradict it only together with other held velocities.
     pub with_others: bool,
     /// Drives, and joints that prescribe a velocity, among these rows.
     pub drives: Vec<String>,
-    /// Velocities to leave out so that the others are possible.
+    /// Velocities to omit so that the others are possible.
     pub leave_out: Vec<HeldVelocity>,
-    /// Whether `leave_out` is sufficient; it is not if more velocities contradict the constraints
-    /// than are searched for.
+    /// Whether omitting `leave_out` is sufficient. It is not sufficient if more velocities
+    /// contradict the constraints than the search covers.
     pub is_enough: bool,
-    /// Whether there are velocities compatible with those that `keep` holds.
+    /// Whether velocities compatible with those that `keep` holds exist.
     pub can_be_corrected: bool,
-    /// Why only zero is possible, if that is so.
+    /// The locked bodies, if only zero velocities are possible.
     pub locked: Option<LockedBodies>,
 }
 
-/// Bodies that independent rows leave no velocity, with mobility 0.
+/// Bodies whose independent rows permit no velocity, with mobility 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LockedBodies {
@@ -48,7 +48,7 @@ pub struct LockedBodies {
     pub joints: Vec<String>,
 }
 
-/// The entry of a scene that holds a velocity.
+/// The scene entry that holds a velocity.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum HeldVelocity {
@@ -81,15 +81,15 @@ impl std::fmt::Display for HeldVelocity {
     }
 }
 
-/// Largest number of rows, and of velocities to leave out, named in a message.
+/// Largest number of rows, and of velocities to omit, that a message names.
 const NAMED: usize = 6;
 
-/// A velocity takes no part in a sum of rows if its term is below this fraction: the remainder is
-/// rounding, even far from the origin.
+/// A velocity does not contribute to a sum of rows if its term is below this fraction: the
+/// remainder is rounding, even far from the origin.
 pub(super) const CANCELLED: f64 = 1e-10;
 
 impl VelocityConflict {
-    /// Merges conflicts: the worst one, with all velocities to leave out.
+    /// Merges conflicts: the worst one, with all velocities to omit.
     pub(super) fn merged(conflicts: Vec<Self>) -> Option<Self> {
         let off = |c: &Self| (c.nearest - c.given).abs() / c.limit;
         conflicts.into_iter().reduce(|mut a, mut b| {
@@ -125,7 +125,7 @@ impl VelocityConflict {
         } else {
             format!(", more than {:.1e} off", self.limit)
         };
-        // As it is written.
+        // The value has the format of the scene.
         let given_as = match (format!("{given}"), format!("{given:?}")) {
             (plain, scientific) if scientific.len() < plain.len() => scientific,
             (plain, _) => plain,
@@ -211,7 +211,7 @@ impl VelocityConflict {
     }
 }
 
-/// A velocity with five digits; zero if it is rounding relative to another one.
+/// Formats a velocity with five digits; zero if it is rounding relative to another velocity.
 fn short(x: f64, beside: f64) -> String {
     let x = if x.abs() <= CANCELLED * beside.abs() {
         0.0
@@ -225,7 +225,7 @@ fn short(x: f64, beside: f64) -> String {
     }
 }
 
-/// The first names, and the number of the others.
+/// Returns the first names, and the number of the others.
 fn named(all: &[String]) -> String {
     let first = all
         .iter()

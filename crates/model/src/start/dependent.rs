@@ -1,11 +1,12 @@
-//! Velocities that follow from others: of all that satisfy rows of C, those with the least kinetic
-//! energy, `½·vᵀ·M·v → min` under `C·v = b`.
+//! Computes dependent velocities: the velocities with the least kinetic energy that satisfy rows of
+//! C, `½·vᵀ·M·v → min` under `C·v = b`.
 //!
-//! Rows that have no such velocity in common are solved separately. Small sets are solved directly,
+//! Rows without common dependent velocities are solved separately. Small sets are solved directly,
 //! after the rank of their columns has been decided; the remaining rows are circuits, whose sums of
 //! right-hand sides show whether such velocities exist. Large sets are solved by their Schur
-//! complement. The selection of the velocities that follow, and the treatment of impossible ones,
-//! are in other modules.
+//! complement. Other modules select the dependent velocities, and handle impossible ones.
+//!
+//! The rank of the columns of these velocities is not the rank of the mechanism.
 
 use std::collections::HashMap;
 
@@ -25,16 +26,16 @@ use crate::space::norm;
 use crate::system::{Scratch, System};
 use crate::uncertainty::ConfigurationAccuracy;
 
-/// Sets with more rows than this are solved by their Schur complement: dense factors would take
+/// Larger sets of rows are solved by their Schur complement, because dense factors would take
 /// seconds.
 pub(super) const DENSE_ROWS: usize = 300;
 
-/// In large sets, rows whose remaining part is below this fraction count as dependent on others:
-/// the Schur complement has the square of their condition number.
+/// In large sets, rows whose remaining part is below this fraction count as dependent on other
+/// rows, because the Schur complement has the square of their condition number.
 const LEFT: f64 = 1e-7;
 
-/// In large sets, a row is ignored if its entries are below this many times their uncertainties:
-/// scaled to size one they would be noise.
+/// In large sets, a row is ignored if its entries are below this multiple of their uncertainties.
+/// After scaling to size one, such entries would be noise.
 const SIGNIFICANT: f64 = 1e3;
 
 /// Largest number of repetitions of a solution. Each gains all digits except for rounding, and for
@@ -52,11 +53,10 @@ pub(super) struct Equations<'m> {
     pub(super) size: f64,
     /// Diagonal of M⁻¹; velocities without mass have the weight of the smallest one with mass.
     pub(super) weights: Vec<f64>,
-    /// Bodies of which single components of the angular velocity are kept: their columns are
-    /// others.
+    /// Bodies with single kept components of the angular velocity, whose columns are transformed.
     components: Vec<Components>,
     /// A velocity that is zero to rounding moves by less than a hundred roundings of the position
-    /// in this time (1/s).
+    /// in the reciprocal of this rate (1/s).
     rest_rate: f64,
     /// Uncertainty of the entries of C, by its pattern; computed when needed.
     known: Option<Vec<f64>>,
@@ -85,32 +85,32 @@ impl<'m> Equations<'m> {
             size,
             weights,
             components,
-            // The second is the unit of time of a scene; a body that falls under its weight has a
+            // The second is the unit of time of a scene. A body that falls under its weight has a
             // shorter characteristic time.
             rest_rate: (gravity / size).sqrt().max(1.0),
             known: None,
         }
     }
 
-    /// Replaces velocities of the mechanism by those of these equations.
+    /// Replaces velocities of the mechanism by velocities of these equations.
     pub(super) fn take(&self, v: &mut [f64]) {
         self.components.iter().for_each(|body| body.replace(v));
     }
 
-    /// The velocities of the mechanism for those of these equations.
+    /// Returns the velocities of the mechanism, computed from those of these equations.
     pub(super) fn velocities(&self, v: &[f64]) -> Vec<f64> {
         let mut v = v.to_vec();
         self.components.iter().for_each(|body| body.restore(&mut v));
         v
     }
 
-    /// `C·v − b` of row `i`.
+    /// Returns the residual `C·v − b` of row `i`.
     pub(super) fn residual(&self, i: usize, v: &[f64]) -> f64 {
         self.mechanism.layout().velocity_residual(&self.s, i, v)
     }
 
-    /// Residuals of row `i` up to this value are rounding: of its terms, and of the positions of
-    /// its bodies, which rotate with the fastest of them.
+    /// Returns the largest residual of row `i` that is rounding: of its terms, and of the positions
+    /// of its bodies, which rotate with the fastest of them.
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
         let fastest = self.fastest(row.map(|(j, _)| j), v);
@@ -119,8 +119,8 @@ impl<'m> Equations<'m> {
         ROUNDINGS * f64::EPSILON * (terms + fastest * places)
     }
 
-    /// The fastest rate of some velocities (1/s): rotations, and translations divided by the
-    /// longest arm of their body.
+    /// Returns the fastest rate of some velocities (1/s): rotations, and translations divided by
+    /// the longest arm of their body.
     pub(super) fn fastest(&self, columns: impl Iterator<Item = usize>, v: &[f64]) -> f64 {
         let space = self.mechanism.space();
         let arm = |j: usize| {
@@ -133,20 +133,20 @@ impl<'m> Equations<'m> {
         columns.map(|j| v[j].abs() / arm(j)).fold(0.0, f64::max)
     }
 
-    /// Allowed residual of row `i` at velocities that are accurate to the rounding of this rate
+    /// Returns the permitted residual of row `i` at velocities with the rounding of this rate
     /// (1/s), and at rest.
     pub(super) fn slack(&self, i: usize, rate: f64) -> f64 {
         let places = self.mechanism.scales(&self.s).position(i);
         ROUNDINGS * f64::EPSILON * (ROUNDINGS * self.rest_rate + rate) * places
     }
 
-    /// Up to this value velocity `j` counts as zero.
+    /// Returns the limit below which velocity `j` counts as zero.
     pub(super) fn rest_of(&self, j: usize) -> f64 {
         self.rest_at(j, 0.0)
     }
 
-    /// The same beside bodies that move at this rate (1/s): rounding of numbers that were computed
-    /// with theirs.
+    /// Returns the limit below which velocity `j` counts as zero if other bodies move at this rate
+    /// (1/s): it includes the rounding of numbers that are computed together with theirs.
     pub(super) fn rest_at(&self, j: usize, rate: f64) -> f64 {
         let body = self.mechanism.space().body_of(j);
         let place = norm(&self.s.bodies.origin(body)).max(self.size);
@@ -154,8 +154,8 @@ impl<'m> Equations<'m> {
         rest / self.arm(j)
     }
 
-    /// Factor that converts a velocity into that of a point: the size of the mechanism for
-    /// rotations.
+    /// Returns the factor that converts a velocity into that of a point: for rotations, it is the
+    /// size of the mechanism.
     pub(super) fn arm(&self, j: usize) -> f64 {
         if self.mechanism.space().is_rotation(j) {
             self.size
@@ -164,7 +164,7 @@ impl<'m> Equations<'m> {
         }
     }
 
-    /// The velocities of some rows, ascending.
+    /// Returns the velocities of some rows, ascending.
     pub(super) fn columns(&self, rows: &[usize]) -> Vec<usize> {
         let layout = self.mechanism.layout();
         let all = rows.iter().flat_map(|&i| layout.row(&self.s, i));
@@ -174,8 +174,8 @@ impl<'m> Equations<'m> {
         columns
     }
 
-    /// Sets of rows that have velocities in common, each ascending, in the order of their first
-    /// rows. Only the velocities for which `joins` returns `true` count.
+    /// Returns the sets of rows with common velocities, each ascending, in the order of their first
+    /// rows. Only velocities for which `joins` returns `true` count.
     pub(super) fn sets(&self, rows: &[usize], joins: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let layout = self.mechanism.layout();
         let mut sets = DisjointSets::new(rows.len());
@@ -189,7 +189,7 @@ impl<'m> Equations<'m> {
         sets.sets().into_iter().map(of_rows).collect()
     }
 
-    /// These rows and columns of C; allocates.
+    /// Returns these rows and columns of C. The function allocates memory.
     pub(super) fn matrix(&self, rows: &[usize], columns: &[usize]) -> Matrix {
         let mut c = Matrix::zeros(rows.len(), columns.len());
         for (k, &i) in rows.iter().enumerate() {
@@ -227,16 +227,15 @@ impl<'m> Equations<'m> {
     }
 }
 
-/// Whether a size is above a limit, or not a number.
+/// Returns whether a size is above a limit, or not a number.
 pub(super) fn exceeds(size: f64, limit: f64) -> bool {
     size > limit || size.is_nan() || limit.is_nan()
 }
 
-/// Rows, and the velocities that follow in them.
+/// Rows, and the velocities that depend on them.
 pub(super) struct DependentVelocities {
     parts: Vec<RowBlock>,
-    /// The remaining combinations of rows of small sets: no velocity that follows changes these
-    /// sums.
+    /// The remaining combinations of rows of small sets: no dependent velocity changes these sums.
     pub(super) circuits: Vec<Circuit>,
 }
 
@@ -257,7 +256,7 @@ impl DependentVelocities {
     /// Prepares some rows and the velocities for which `follows` returns `true`.
     ///
     /// # Errors
-    /// If C is not finite.
+    /// Returns an error if C is not finite.
     pub(super) fn new(
         of: &Equations<'_>,
         rows: &[usize],
@@ -314,11 +313,10 @@ impl DependentVelocities {
         Ok(dependent)
     }
 
-    /// Adds a correction that removes the residuals of the rows to v, in the velocities that
-    /// follow.
+    /// Adds a correction to the dependent velocities in v that removes the residuals of the rows.
     ///
     /// # Errors
-    /// If a row is not finite.
+    /// Returns an error if a row is not finite.
     pub(super) fn follow(&mut self, of: &Equations<'_>, v: &mut [f64]) -> Result<(), StartError> {
         self.parts
             .iter_mut()
@@ -342,7 +340,7 @@ impl DependentVelocities {
 }
 
 impl RowBlock {
-    /// Prepares a large set; returns `None` if no row of it has significant entries in these
+    /// Prepares a large set. Returns `None` if no row of the set has significant entries in these
     /// columns.
     pub(super) fn schur(
         of: &Equations<'_>,
@@ -404,7 +402,8 @@ impl RowBlock {
             let rows = self.rows.iter().zip(&residual).enumerate();
             let ratios = rows.filter(|(k, _)| used(*k)).map(|(_, row)| ratio(row));
             let worst = ratios.fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
-            // As far as possible: the results have their own rounding.
+            // The iteration continues as long as it makes progress, because the results have their
+            // own rounding.
             if worst == 0.0 || exceeds(worst, PROGRESS * best) {
                 return Ok(());
             }
@@ -417,7 +416,7 @@ impl RowBlock {
         Ok(())
     }
 
-    /// The shortest velocities that remove these residuals.
+    /// Returns the shortest velocities that remove these residuals.
     fn step(&mut self, of: &Equations<'_>, residual: &[f64]) -> Result<Vec<f64>, StartError> {
         match &mut self.solver {
             Solver::Dense(c) => {
@@ -437,9 +436,9 @@ impl RowBlock {
     }
 }
 
-/// The shortest step in the metric of these inverse masses that removes residuals of rows. Exact if
-/// the rows are independent to working precision, however different the masses are; otherwise
-/// damped.
+/// Returns the shortest step in the metric of these inverse masses that removes residuals of rows.
+/// It is exact if the rows are independent to working precision, even for very different masses;
+/// otherwise it is damped.
 pub(super) fn shortest(
     c: &Matrix,
     residual: &[f64],

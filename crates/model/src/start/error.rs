@@ -21,7 +21,7 @@ pub enum StartError {
         list(misfits)
     )]
     NoAssembly {
-        /// The joints and drives that miss, the worst first.
+        /// The violated joints and drives, the worst first.
         misfits: Vec<Misfit>,
         /// Number of iterations.
         iterations: usize,
@@ -39,11 +39,11 @@ pub enum StartError {
         coordinate: &'static str,
         /// The correction.
         correction: f64,
-        /// The largest correction allowed.
+        /// The largest permitted correction.
         limit: f64,
         /// Unit of both: m or rad.
         unit: &'static str,
-        /// The joints and drives that miss in the described configuration, the worst first.
+        /// The joints and drives that the described configuration violates, the worst first.
         misfits: Vec<Misfit>,
     },
     /// The given velocities, or those held by `keep`, are impossible.
@@ -57,7 +57,7 @@ pub enum StartError {
         /// The requirement.
         requirement: &'static str,
     },
-    /// A coordinate that is to be kept does not exist.
+    /// A coordinate in `keep` does not exist.
     #[error(
         "`keep` names coordinate {dof} of body {body}; bodies are 0..{bodies}, coordinates 0 x, 1 y, 2 angle"
     )]
@@ -69,7 +69,7 @@ pub enum StartError {
         /// Number of bodies.
         bodies: usize,
     },
-    /// A body that is to start elsewhere does not exist, or moves in another space.
+    /// A body with a start pose does not exist, or moves in another space.
     #[error(
         "a pose of the start is that of body {body}; bodies are 0..{bodies}, with poses of their space"
     )]
@@ -79,7 +79,7 @@ pub enum StartError {
         /// Number of bodies.
         bodies: usize,
     },
-    /// A coordinate of a frame that is not at the centre of mass is to be kept without its
+    /// A coordinate of a frame with an origin outside the centre of mass is kept without its
     /// rotation.
     #[error(
         "`keep` holds the origin of the frame of body `{body}`, which is not its centre of mass; {}",
@@ -90,21 +90,20 @@ pub enum StartError {
         body: String,
         /// Position or velocity.
         level: KeepLevel,
-        /// Name of its rotation in `keep`.
+        /// Name of the rotation of the body in `keep`.
         rotation: &'static str,
     },
-    /// The rows allow no velocities, whatever velocities are given.
+    /// The rows permit no velocities, for any given velocities.
     #[error(
-        "no velocities satisfy the constraints: row {worst} still misses by {residual:.3e}; the rows depend on each other, or nearly, and ask for \
-         different velocities: correct or delete one of them"
+        "no velocities satisfy the constraints: row {worst} is violated by {residual:.3e}; dependent or nearly dependent rows require different velocities: correct or delete one of them"
     )]
     NoVelocity {
         /// The row with the largest residual.
         worst: RowLabel,
-        /// Its residual.
+        /// Residual of the row.
         residual: f64,
     },
-    /// The start has to be corrected, and the matrix for this is too large for the memory.
+    /// The start requires a correction whose matrix is too large for the memory.
     #[error(
         "the start has to be corrected, which takes a dense matrix of {rows} × {columns} numbers, more than {most:e}; \
          describe positions and velocities that satisfy the constraints"
@@ -132,7 +131,7 @@ pub enum StartError {
 }
 
 impl StartError {
-    /// Its code; see [`crate::codes`].
+    /// Returns the code; see [`crate::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -156,9 +155,9 @@ impl StartError {
 pub struct Misfit {
     /// The joint or drive.
     pub joint: String,
-    /// How far its points are from where they should be (m).
+    /// Distance of its points from their required positions (m).
     pub distance: f64,
-    /// How far its axes or angles are from where they should be (rad).
+    /// Angle of its axes from their required directions (rad).
     pub angle: f64,
 }
 
@@ -174,7 +173,7 @@ impl fmt::Display for Misfit {
     }
 }
 
-/// A number with four digits.
+/// Returns a number with four digits.
 fn short(x: f64) -> String {
     if (1e-3..1e4).contains(&x) {
         let digits = (3.0 - x.log10().floor()).max(0.0);
@@ -213,5 +212,5 @@ fn first(misfits: &[Misfit], most: usize) -> String {
 /// Largest number of joints named in a message.
 const NAMED: usize = 20;
 
-/// Largest number of joints named beside a correction.
+/// Largest number of joints named together with a correction.
 const FEW: usize = 4;

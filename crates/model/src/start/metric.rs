@@ -9,12 +9,12 @@ use crate::system::{Layout, Scratch, System};
 /// Rows that restrict a start, and the inverse weights of its coordinates.
 pub(super) type Restricting<'a> = (&'a [usize], &'a [f64]);
 
-/// Damping of the least-squares step, relative to rows of size one: small against any row that
-/// matters, large against rounding.
+/// Damping of the least-squares step, relative to rows of size one: small compared with any
+/// significant row, large compared with rounding.
 pub(super) const DAMPING: f64 = 1e-10;
 
 /// Fraction of the size of the scene (and of a radian, and of the fastest velocity) by which a
-/// start may be corrected without permission.
+/// start may be corrected by default.
 pub(super) const SMALL_CORRECTION: f64 = 1e-3;
 
 /// A row counts as satisfied below this many roundings of its terms.
@@ -23,7 +23,7 @@ pub(super) const ROUNDINGS: f64 = 10.0;
 /// Largest number of entries of the matrix of a correction: 1 GB.
 const MOST_ENTRIES: usize = 1 << 27;
 
-/// Dense matrix of these rows of C; allocates.
+/// Returns a dense matrix of these rows of C. The function allocates memory.
 pub(super) fn dense_rows(
     layout: &Layout,
     s: &Scratch,
@@ -44,7 +44,7 @@ pub(super) fn dense_rows(
     Ok(c)
 }
 
-/// The row with the largest value; NaN counts as the largest.
+/// Returns the row with the largest value; NaN counts as the largest.
 pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
     rows.fold(
         (0, 0.0),
@@ -52,20 +52,21 @@ pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) 
     )
 }
 
-/// Masses, and inertias divided by the square of the size, below this fraction of the largest one
-/// are replaced by it: lighter bodies have no effect on heavy ones, but the square of their weight
-/// would overflow.
+/// Masses, and inertias divided by the square of the size, are raised to this fraction of the
+/// largest one. Lighter bodies have no effect on heavy ones, but the square of their weight would
+/// overflow.
 const LIGHTEST: f64 = 1e-30;
 
-/// Inverse weights of the coordinates in the metric of lengths, with angles times the size.
+/// Returns the inverse weights of the coordinates in the metric of lengths, with angles times the
+/// size.
 pub(super) fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let turns = |j| mechanism.space().is_rotation(j);
     let weight = |j| if turns(j) { 1.0 / (size * size) } else { 1.0 };
     (0..mechanism.layout().n_v).map(weight).collect()
 }
 
-/// Inverse weights of the coordinates in the mass metric; coordinates without mass or inertia have
-/// the weight of the smallest one with mass or inertia.
+/// Returns the inverse weights of the coordinates in the mass metric; coordinates without mass or
+/// inertia have the weight of the smallest one with mass or inertia.
 pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let turns = |j: usize| mechanism.space().is_rotation(j);
     let unit = |j: usize| if turns(j) { size * size } else { 1.0 };

@@ -8,32 +8,32 @@ use crate::space::SpaceKind;
 /// Options of a start.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartOptions {
-    /// Coordinates and velocities that keep their described values exactly; a velocity that is not
+    /// Coordinates and velocities that keep their described values exactly. A velocity that is not
     /// given stays zero.
     pub keep: Vec<Coordinate>,
     /// Whether a correction by more than a thousandth of the size of the scene is accepted, or a
     /// correction of given velocities by more than a thousandth of the fastest ones coupled with
     /// them.
     pub correction: CorrectionLimit,
-    /// Bodies that do not start where they are described. Places, initial values and the zeros of
-    /// measures remain those of the described start.
+    /// Bodies that do not start at their described poses. Reference points, initial values and the
+    /// zeros of joint coordinates remain those of the described start.
     pub poses: Vec<StartPose>,
 }
 
-/// The pose at which a body starts if it does not start where it is described.
+/// The pose at which a body starts, if it does not start at its described pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartPose {
     /// Index of the body in the list.
     pub body: usize,
-    /// Where its frame is.
+    /// Pose of the body frame.
     pub frame: FramePose,
 }
 
 /// Limit of the corrections of a start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CorrectionLimit {
-    /// Corrections up to a thousandth of the scene's size, and a thousandth of a radian; given
-    /// velocities up to a thousandth of the fastest.
+    /// Corrections up to a thousandth of the size of the scene, and a thousandth of a radian. Given
+    /// velocities are corrected up to a thousandth of the fastest one.
     #[default]
     Small,
     /// Corrections of any size.
@@ -46,8 +46,8 @@ pub struct Coordinate {
     /// Index of the body in the list.
     pub body: usize,
     /// Index of its velocity: in the plane 0 for x, 1 for y, 2 for the angle; in space 0 to 2 for
-    /// x, y and z, then the rotations. Single components of an angular velocity are those about
-    /// the axes of the ground; rotations themselves are kept together.
+    /// x, y and z, then the rotations. Single components of an angular velocity are those about the
+    /// axes of the ground. The components of a rotation cannot be kept separately.
     pub dof: usize,
     /// Position or velocity.
     pub level: KeepLevel,
@@ -56,14 +56,14 @@ pub struct Coordinate {
 /// Position or velocity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeepLevel {
-    /// `x`, `y` or `angle`; in space `x`, `y`, `z` or `rotation`
+    /// Position: `x`, `y` or `angle`; in space `x`, `y`, `z` or `rotation`.
     Position,
-    /// `vx`, `vy` or `omega`; in space `vx`, `vy`, `vz`, `wx`, `wy`, `wz`, or `omega` for the last
-    /// three
+    /// Velocity: `vx`, `vy` or `omega`; in space `vx`, `vy`, `vz`, `wx`, `wy`, `wz`, or `omega` for
+    /// the last three.
     Velocity,
 }
 
-/// Columns that are kept at a level.
+/// Returns the columns that are kept at a level.
 pub(super) fn kept_columns(
     mechanism: &Mechanism,
     options: &StartOptions,

@@ -1,9 +1,11 @@
-//! Axes that joints in space keep parallel, while their bodies are far from it.
+//! Rotation vectors for axes that joints in space keep parallel, at configurations that violate the
+//! joints.
 //!
-//! The rows of a joint are products of directions: `u·w' = v·w' = 0` holds for w' = w and for w' =
-//! −w, and three such products hold for four orientations. While a start is assembled the rotation
-//! vector of the remaining rotation takes their place: it is zero only where the axes point as
-//! described, and near that it is equal to the products.
+//! The rows of a joint are products of directions. The equations `u·w' = v·w' = 0` are satisfied
+//! for w' = w and for w' = −w, and three such products vanish for four orientations. During the
+//! assembly of a start, the rotation vector of the remaining rotation replaces the products. It is
+//! zero only if the axes have the described direction, and near this orientation it is equal to the
+//! products.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -11,22 +13,24 @@ use std::ops::Range;
 use crate::element::PlacedConstraint;
 use crate::system::Scratch;
 
-/// Sines of angles below this count as the angle, where the next term does not matter.
+/// Below this value, the sine of an angle counts as the angle, because the next term is negligible.
 const SERIES: f64 = 1e-4;
 
 /// Rows of one joint that keep axes parallel.
 pub(super) struct Parallel {
     /// The rows: two if the bodies may rotate about the axis, otherwise three.
     pub(super) rows: Range<usize>,
-    /// What is left of the angle (rad), 0 to π.
+    /// The remaining angle (rad), 0 to π.
     pub(super) angle: f64,
-    /// The residual of each row, in which the products of directions are replaced (rad), and its
-    /// derivative by the angular velocity of the second body against the first, ground axes.
+    /// The residual of each row, with replaced products of directions (rad), and its derivative
+    /// with respect to the angular velocity of the second body relative to the first, in ground
+    /// axes.
     pub(super) each: [(f64, [f64; 3]); 3],
 }
 
 impl Parallel {
-    /// The rows of a joint at the poses of the scratch; `None` if it keeps no axes parallel.
+    /// Returns the rows of a joint at the configuration of the scratch; `None` if the joint keeps
+    /// no axes parallel.
     pub(super) fn of(joint: &PlacedConstraint, s: &Scratch) -> Option<Self> {
         let [own, other] = joint.parallel_axes(&s.slots)?;
         let names = joint.spec().rows;
@@ -45,7 +49,8 @@ impl Parallel {
         })
     }
 
-    /// Whether the axes point as described, if the rows of the joint hold.
+    /// Returns whether the axes have the described direction, if the rows of the joint are
+    /// satisfied.
     pub(super) fn is_as_described(&self) -> bool {
         self.angle < 0.5 * PI
     }
@@ -53,18 +58,18 @@ impl Parallel {
 
 type Residuals = (f64, [(f64, [f64; 3]); 3]);
 
-/// The smallest rotation of w to `other`: the components `α/sin α·(u·w', v·w')` of its rotation
-/// vector along v and −u.
+/// Returns the smallest rotation of w to `other`: the components `α/sin α·(u·w', v·w')` of its
+/// rotation vector along v and −u.
 fn swing([u, v, w]: [[f64; 3]; 3], other: [f64; 3]) -> Residuals {
     let (along_u, along_v, cos) = (dot(u, other), dot(v, other), dot(w, other));
     let sin = along_u.hypot(along_v);
     let angle = sin.atan2(cos);
     if sin < SERIES && cos < 0.0 {
-        // Half a turn, about any direction across.
+        // Half a revolution, about any perpendicular direction.
         let back = u.map(|x| -x);
         return (angle, [(angle, v), (0.0, back), (0.0, [0.0; 3])]);
     }
-    // f = α/sin α, and its derivative by cos α.
+    // The factor f = α/sin α, and its derivative with respect to cos α.
     let factor = if sin > 0.0 { angle / sin } else { 1.0 };
     let slope = if sin < SERIES {
         -1.0 / 3.0
@@ -80,8 +85,8 @@ fn swing([u, v, w]: [[f64; 3]; 3], other: [f64; 3]) -> Residuals {
     (angle, [row(along_u, u), row(along_v, v), (0.0, [0.0; 3])])
 }
 
-/// The components along v, −u and w of the vector θ of the rotation of the axes to `other`. With ω
-/// in these axes, `θ̇ = ω − ½·θ×ω + β·θ×(θ×ω)`, `β = (1 − ½θ·cot ½θ)/θ²`.
+/// Returns the components along v, −u and w of the vector θ of the rotation of the axes to `other`.
+/// With ω in these axes, `θ̇ = ω − ½·θ×ω + β·θ×(θ×ω)`, `β = (1 − ½θ·cot ½θ)/θ²`.
 fn whole_rotation(own: [[f64; 3]; 3], other: [[f64; 3]; 3]) -> Residuals {
     let [w, e @ ..] = quaternion(own.map(|a| other.map(|b| dot(a, b))));
     let half = norm(e).atan2(w);
@@ -97,7 +102,7 @@ fn whole_rotation(own: [[f64; 3]; 3], other: [[f64; 3]; 3]) -> Residuals {
     } else {
         (1.0 - half / half.tan()) / square
     };
-    // Row k of the matrix is the derivative of θ_k by ω, in ground axes.
+    // Row k of the matrix is the derivative of θ_k with respect to ω, in ground axes.
     let gradient = |k: usize| {
         let unit = [0, 1, 2].map(|l| if l == k { 1.0 } else { 0.0 });
         // (θ×)ᵀ = −θ×
@@ -111,7 +116,8 @@ fn whole_rotation(own: [[f64; 3]; 3], other: [[f64; 3]; 3]) -> Residuals {
     (angle, [v, minus(u), w])
 }
 
-/// The unit quaternion of a rotation matrix, by rows, with w ≥ 0: from its largest component.
+/// Returns the unit quaternion of a rotation matrix, by rows, with w ≥ 0: from its largest
+/// component.
 fn quaternion(r: [[f64; 3]; 3]) -> [f64; 4] {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = r;
     // Row k is 4·e_k·e.
@@ -153,7 +159,7 @@ mod tests {
         [0, 1, 2].map(|k| r.matrix().column(k).into_owned().into())
     }
 
-    /// Rotations of several sizes about several axes, and those of the first body.
+    /// Rotations of several sizes about several axes, and rotations of the first body.
     fn cases() -> impl Iterator<Item = (Rotation3<f64>, Vector3<f64>)> {
         let own = Rotation3::from_scaled_axis(Vector3::new(0.7, -1.1, 0.4));
         let directions = [[1.0, 0.2, -0.3], [-0.4, 0.9, 1.3], [0.1, -1.0, 0.2]];
@@ -190,8 +196,8 @@ mod tests {
         }
     }
 
-    /// What is left of the angle of two axes, and difference quotients; a rotation about the axis
-    /// does not count.
+    /// The remaining angle of two axes, compared with difference quotients; a rotation about the
+    /// axis does not count.
     #[test]
     fn a_swing_is_told_by_the_angle_of_the_axes() {
         for (own, turn) in cases() {
@@ -218,7 +224,7 @@ mod tests {
         }
     }
 
-    /// Neither half a turn of an axis nor of a body counts as aligned.
+    /// Neither half a revolution of an axis nor of a body counts as aligned.
     #[test]
     fn half_a_turn_is_no_zero() {
         let own = Rotation3::from_scaled_axis(Vector3::new(0.3, 0.2, 0.1));

@@ -1,12 +1,16 @@
-//! Velocities of a start. Given velocities hold, and the others follow from these and from
+//! Velocities of a start. Given velocities are used, and the others follow from these and from
 //! prescribed motions, with the least kinetic energy.
 //!
 //! Given velocities may be rounded to some digits. If they are impossible, the closest ones in the
-//! mass metric are used, and the others follow from these; if they differ by more than the allowed
-//! correction, the wrong velocities are named. Velocities held by `keep` are not changed.
+//! mass metric are used, and the others follow from these. If the closest ones differ from the
+//! given ones by more than the allowed correction, the error names the wrong velocities. Velocities
+//! held by `keep` are not changed.
 //!
 //! Residuals are compared with the rounding of their own terms, and velocities at rest with the
-//! rounding of positions, never with a solution, which may be zero.
+//! rounding of positions. They are not compared with a solution, because it may be zero.
+//!
+//! A single least-squares problem for all velocities was rejected: a crank with a given rate of 10
+//! rad/s slowed down because of the bodies attached to it.
 
 use linalg::Matrix;
 
@@ -29,28 +33,28 @@ pub struct StartVelocity {
 /// Whether a velocity is free or held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hold {
-    /// It follows from the others.
+    /// The velocity follows from the others.
     No,
-    /// It is given, to its digits.
+    /// The velocity is given, to its digits.
     Given,
-    /// It is given and exact.
+    /// The velocity is given and exact.
     Kept,
 }
 
-/// Number of corrections of given velocities; each after the first removes the rounding of the one
-/// before.
+/// Number of corrections of given velocities. Each correction after the first removes the rounding
+/// of the previous one.
 const PASSES: usize = 5;
 
-/// In large sets, the weight of velocities that follow relative to given ones: so small that it has
-/// no effect.
+/// In large sets, the weight of dependent velocities relative to given ones. It is so small that it
+/// has no effect.
 const CHEAP: f64 = 1e-6;
 
 /// Entries of a sum of rows below this fraction of its terms are rounding.
 const CANCELLED: f64 = 1e-12;
 
-/// Velocities that satisfy `C·v = b` in the kept rows at an assembled configuration: given ones
-/// hold, and the others follow with the least kinetic energy, `M·v = Cᵀ·μ` for these. Velocities
-/// without mass or inertia have the weight of the smallest one with mass or inertia.
+/// Returns velocities that satisfy `C·v = b` in the kept rows at an assembled configuration. Given
+/// velocities are used, and the others follow with the least kinetic energy, `M·v = Cᵀ·μ`.
+/// Velocities without mass or inertia have the weight of the smallest one with mass or inertia.
 ///
 /// Given velocities that are compatible to rounding do not change. Others are corrected by the
 /// least amount in the mass metric. Those that `options` keep, which need not be given, are held
@@ -119,7 +123,7 @@ pub fn consistent_velocity(
 /// Requirements on the velocities of a start.
 pub(super) struct Start<'m> {
     pub(super) equations: Equations<'m>,
-    /// Given velocities, as the equations have them; zero if not given.
+    /// Given velocities in the variables of the equations; zero if not given.
     pub(super) written: Vec<f64>,
     /// Whether each is given in the scene.
     pub(super) is_written: Vec<bool>,
@@ -132,9 +136,9 @@ pub(super) struct Start<'m> {
 /// Reason why some rows have no acceptable velocities.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Miss {
-    /// The closest ones are too far away.
+    /// The closest velocities are too far from the given ones.
     Far,
-    /// There are none; this row has the largest residual.
+    /// There are no velocities; this row has the largest residual.
     Open(usize),
 }
 
@@ -163,7 +167,7 @@ impl<'m> Start<'m> {
         })
     }
 
-    /// Whether one of these rows has a residual larger than rounding.
+    /// Returns whether one of these rows has a residual larger than rounding.
     fn misses(&self, rows: &[usize], v: &[f64]) -> bool {
         let of = &self.equations;
         rows.iter()
@@ -171,10 +175,10 @@ impl<'m> Start<'m> {
     }
 
     /// Finds the velocities of some rows, which include all rows that have a velocity in common
-    /// with them. Returns the reason if there are no acceptable ones.
+    /// with them. Returns the reason if there are no acceptable velocities.
     ///
     /// # Errors
-    /// If a number is not finite.
+    /// Returns an error if a number is not finite.
     pub(super) fn solve(
         &self,
         rows: &[usize],
@@ -242,7 +246,7 @@ impl<'m> Start<'m> {
                     .sum::<f64>()
             };
             let largest = (0..given.len()).map(terms).fold(0.0, f64::max);
-            // Rows that involve kept velocities only: no given velocity can correct them.
+            // Rows that involve only kept velocities: no given velocity can correct them.
             if sum.iter().all(|x| x.abs() <= CANCELLED * largest) {
                 continue;
             }
@@ -261,8 +265,8 @@ impl<'m> Start<'m> {
         Ok(())
     }
 
-    /// Like [`Self::correct`], for many rows: the other velocities move with the given ones at
-    /// almost no weight.
+    /// Works like [`Self::correct`], for many rows: the other velocities move with the given ones
+    /// at almost no weight.
     fn correct_many(&self, rows: &[usize], hold: &[Hold], v: &mut [f64]) -> Result<(), StartError> {
         let of = &self.equations;
         let mut columns = of.columns(rows);
@@ -280,12 +284,12 @@ impl<'m> Start<'m> {
         Ok(())
     }
 
-    /// The row with the largest residual above rounding and rest.
+    /// Returns the row with the largest residual above rounding and rest.
     fn open(&self, rows: &[usize], columns: &[usize], v: &[f64]) -> Option<Miss> {
         let of = &self.equations;
         // All velocities computed together are accurate to the rounding of the fastest.
         let rate = of.fastest(columns.iter().copied(), v);
-        // Rounding may leave slightly more than that of the terms of one row.
+        // The rounding may be slightly larger than that of the terms of one row.
         let excess = |i: usize| {
             of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.slack(i, rate))
         };
@@ -297,7 +301,7 @@ impl<'m> Start<'m> {
         exceeds(worst, 1.0).then_some(Miss::Open(row))
     }
 
-    /// Whether a given velocity was corrected by more than allowed.
+    /// Returns whether a given velocity was corrected by more than the permitted amount.
     fn far(
         &self,
         columns: &[usize],
@@ -314,9 +318,9 @@ impl<'m> Start<'m> {
             .then_some(Miss::Far)
     }
 
-    /// Largest allowed correction of a given velocity: a thousandth of the fastest of the
-    /// velocities that have rows in common with it, rotations times the size of the mechanism; and
-    /// the limit of rest beside the fastest of all.
+    /// Returns the largest permitted correction of a given velocity: a thousandth of the fastest
+    /// velocity with common rows, with rotations times the size of the mechanism, plus the limit of
+    /// rest relative to the fastest of all velocities.
     pub(super) fn allowed(&self, j: usize, columns: &[usize], hold: &[Hold], v: &[f64]) -> f64 {
         let of = &self.equations;
         if hold[j] == Hold::Kept {

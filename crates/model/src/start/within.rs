@@ -2,8 +2,8 @@
 //! no body is moved far to remove such a residual.
 //!
 //! Two sliders on one line that differ by a rounding coincide if one of them is rotated by the
-//! square root of the rounding, or far away: such a configuration satisfies all rows but is not the
-//! intended one.
+//! square root of the rounding, or is far away. Such a configuration satisfies all rows but is not
+//! the intended one.
 
 use linalg::{Matrix, small_svd};
 
@@ -16,23 +16,23 @@ use crate::size::size_of;
 use crate::system::{Scratch, System};
 
 /// If data within the tolerance move a body by more than this many tolerances, they do not
-/// determine its position, and residuals along that motion are left. Lever arms are determined by
-/// two points, so this must not exceed two by much: with ten, arms of 0.7 mm caused by polishing
-/// were reported as non-zero within 0.1 mm.
+/// determine its position, and residuals along that motion are not removed. Lever arms are
+/// determined by two points, so this must not exceed two by much: with ten, arms of 0.7 mm caused
+/// by polishing were reported as non-zero within 0.1 mm.
 const AMPLIFIED: f64 = 3.0;
 
 /// Largest number of rows for which such directions are searched for: the work grows with the cube.
 const ROWS: usize = 200;
 
-/// Largest number of iterations; except along the directions that are left, each doubles the
-/// digits.
+/// Largest number of iterations. Except along the omitted directions, each iteration doubles the
+/// number of correct digits.
 const ITERATIONS: usize = 20;
 
 /// A step below this fraction of the tolerance counts as zero.
 const STILL: f64 = 1e-6;
 
-/// The largest tolerance of lengths and of angles. It is not known which data are wrong, so the
-/// largest counts.
+/// Returns the largest tolerance of lengths and of angles. The wrong data are not known, so the
+/// largest tolerance counts.
 fn largest(blocks: &[DataBlock]) -> [f64; 2] {
     [DataUnit::Length, DataUnit::Angle].map(|unit| {
         let of_unit = blocks.iter().filter(|b| b.unit == unit);
@@ -40,7 +40,7 @@ fn largest(blocks: &[DataBlock]) -> [f64; 2] {
     })
 }
 
-/// Effect of data within the tolerance on each of these rows.
+/// Returns the effect of data within the tolerance on each of these rows.
 fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
     let blocks = mechanism.data().blocks(s);
     let [length, angle] = largest(&blocks);
@@ -61,15 +61,15 @@ fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
     rows.iter().map(of_row).collect()
 }
 
-/// Whether data within the tolerance explain the residual of each of these rows.
+/// Returns whether data within the tolerance explain the residual of each of these rows.
 pub(super) fn is_within(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> bool {
     let reach = reach(mechanism, s, rows);
     let mut each = rows.iter().zip(reach);
     each.all(|(&row, reach)| s.phi[row].abs() <= SHARED * reach)
 }
 
-/// Displacement of a body along each column of C by one tolerance: lengths, and angles that move a
-/// point at the size of the mechanism by as much.
+/// Returns the displacement of a body along each column of C by one tolerance: lengths, and angles
+/// that move a point at the size of the mechanism by as much.
 fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     let [length, angle] = largest(&mechanism.data().blocks(s));
     let length = match length {
@@ -86,15 +86,15 @@ fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     (0..mechanism.layout().n_v).map(unit).collect()
 }
 
-/// Distance of two configurations in these units.
+/// Returns the distance of two configurations in these units.
 fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
     let apart = mechanism.difference_of(a, b);
     let shares = apart.iter().zip(units).map(|(d, unit)| d.abs() / unit);
     shares.fold(0.0, f64::max)
 }
 
-/// Whether a tolerance is stated, and these coordinates are farther apart than the uncertainty of
-/// the positions.
+/// Returns whether a tolerance is stated, and these coordinates are farther apart than the
+/// uncertainty of the positions.
 pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[f64]) -> bool {
     mechanism.has_tolerances()
         && farthest(
@@ -105,9 +105,9 @@ pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[
         ) > AMPLIFIED
 }
 
-/// The intended configuration, given that `found` satisfies the rows as well as possible: `found`,
-/// unless it is farther than the uncertainty of positions from a configuration whose residuals are
-/// all explained by the data.
+/// Returns the intended configuration, given that `found` satisfies the rows as well as possible.
+/// It is `found`, unless `found` is farther than the uncertainty of positions from a configuration
+/// whose residuals the data explain completely.
 pub(super) fn within_data(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -134,10 +134,10 @@ pub(super) fn within_data(
     }
 }
 
-/// The closest configuration, in the mass metric, of those that satisfy the rows in the directions
-/// in which the data determine the positions: singular directions along which one tolerance moves a
-/// body by many tolerances are left out. Returns `None` if a row has a larger residual than the
-/// data explain.
+/// Returns the closest configuration, in the mass metric, that satisfies the rows in the directions
+/// in which the data determine the positions. Singular directions along which one tolerance moves a
+/// body by many tolerances are omitted. Returns `None` if a row has a larger residual than the data
+/// explain.
 fn truncated(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -164,7 +164,7 @@ fn truncated(
         if scaled.first_non_finite().is_some() {
             return Ok(None);
         }
-        // C·(q₀ + δ − q) + Φ = 0
+        // Solves C·(q₀ + δ − q) + Φ = 0.
         let shift = mechanism.difference_of(described, &q);
         let moved = c.times(&shift);
         let misfit: Vec<f64> = (0..rows.len())
@@ -204,10 +204,10 @@ mod tests {
     use crate::start::{CorrectionLimit, assemble};
     use crate::{Body, BodyRef, Description, Joint, Mechanism, StartOptions, Tolerance};
 
-    /// A body that slides on the x-axis with its own point and with the origin of the ground in its
-    /// own slot, which is displaced by 0.1 µm from that point: `y = 0` and
-    /// `x·sin θ + 1e-7·cos θ = 0`, which hold together only if the body is rotated or shifted by
-    /// the square root of 0.1 µm.
+    /// Returns a body with a point that slides on the x-axis. The origin of the ground slides in a
+    /// slot of the body, which is displaced by 0.1 µm from that point. The equations are `y = 0`
+    /// and `x·sin θ + 1e-7·cos θ = 0`. Both hold only if the body is rotated or shifted by the
+    /// square root of 0.1 µm.
     fn assembled(tolerance: f64) -> Vec<f64> {
         let slot = |name: &str, bodies: [BodyRef; 2], x: f64, y: f64| {
             let slot = PinInSlot {

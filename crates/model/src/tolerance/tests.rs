@@ -6,7 +6,8 @@ use super::*;
 use crate::description::Description;
 use crate::{Body, BodyRef, DataBlock, Function, Mechanism, System};
 
-/// The distance between the bodies, which contains all joints: the size of the mechanism (m).
+/// The distance between the bodies (m). All joints are inside, so this is the size of the
+/// mechanism.
 const SIZE: f64 = 4.0;
 
 fn body(name: &str, x: f64) -> Body {
@@ -49,7 +50,7 @@ fn blocks(mechanism: &Mechanism) -> Vec<DataBlock> {
     mechanism.data().blocks(&s)
 }
 
-/// Tolerances of the data of a joint or drive, in their order; for a line its point, then its
+/// Tolerances of the data of a joint or drive, in their order: for a line its point, then its
 /// direction.
 fn stated(mechanism: &Mechanism, joint: &str) -> Vec<Option<f64>> {
     let groups = &mechanism.layout().groups;
@@ -86,8 +87,8 @@ fn a_joint_goes_before_a_body_and_a_body_before_the_scene() {
     assert_eq!(stated(&whole, "edge"), [scene, scene_angle]);
     assert_eq!(stated(&whole, "motor"), [scene, scene, scene_angle]);
 
-    // Tolerances of points and directions in the frame of the body; not of numbers, and not of the
-    // line of the ground.
+    // The tolerance applies to points and directions in the frame of the body, but not to numbers
+    // or to the line of the ground.
     d.bodies[1].tolerance = Some(2e-4);
     let (body, body_angle) = (Some(2e-4), Some(2e-4 / SIZE));
     let measured = built(&d);
@@ -97,8 +98,8 @@ fn a_joint_goes_before_a_body_and_a_body_before_the_scene() {
     assert_eq!(stated(&measured, "edge"), [body, body_angle]);
     assert_eq!(stated(&measured, "motor"), [scene, body, scene_angle]);
 
-    // All data of the joint; the tolerance of a joint does not apply to a separate drive, and the
-    // reverse.
+    // The tolerance applies to all data of the joint. The tolerance of a joint does not apply to a
+    // separate drive, and vice versa.
     d.joints[0].tolerance = Some(5e-5);
     d.joints[2].tolerance = Some(8e-5);
     let fitted = built(&d);
@@ -184,7 +185,9 @@ fn what_is_stated_later_replaces_that_of_the_scene_alone() {
         length: Some(1e-2),
         angle: Some(0.0),
     };
-    let refused = mechanism.set_tolerance(wrong).expect_err("0 is none");
+    let refused = mechanism
+        .set_tolerance(wrong)
+        .expect_err("0 is not a tolerance");
     assert_eq!(
         refused.to_string(),
         "the scene: angle tolerance is 0.0, need a finite number > 0 up to 1e60"

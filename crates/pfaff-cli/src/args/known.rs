@@ -1,4 +1,4 @@
-//! What the command line says of the numbers of a scene: other values, and what they are known to.
+//! Options of the command line about the numbers of a scene: other values, and their accuracy.
 
 use std::str::FromStr;
 
@@ -9,8 +9,7 @@ use pfaff::scene::in_si;
 /// Other numbers in a scene.
 #[derive(Args, Clone, Default)]
 pub(crate) struct Settings {
-    /// Another number or expression for a parameter or key of the scene, as L=0.4,
-    /// L="400 mm" or body.crank.mass=2; may be given several times
+    /// Override a parameter or scene key, e.g. L=0.4, L="400 mm" or body.crank.mass=2; repeatable
     #[arg(long = "set", value_name = "NAME=EXPR")]
     pub(crate) list: Vec<Setting>,
 }
@@ -26,7 +25,7 @@ impl FromStr for Setting {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        // Names may have the sign in them, expressions do not.
+        // Names may contain the equals sign, expressions may not.
         let (key, expression) = text.rsplit_once('=').unwrap_or_default();
         let [key, expression] = [key, expression].map(|part| part.trim().to_owned());
         if key.is_empty() || expression.is_empty() {
@@ -41,11 +40,11 @@ impl FromStr for Setting {
 pub(crate) struct SceneOptions {
     #[command(flatten)]
     pub(crate) settings: Settings,
-    /// Tolerance of points and lengths of the scene (m, or as 0.1mm), in place of its `tolerance`
+    /// Override the tolerance of points and lengths (m, or e.g. 0.1mm)
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, value_parser = length)]
     pub(crate) tolerance: Option<f64>,
-    /// Tolerance of directions, angles and ratios (rad, or as 0.01deg), in place of
-    /// `angle_tolerance`; if neither is given: LENGTH divided by the mechanism's size
+    /// Override the tolerance of directions, angles and ratios (rad, or e.g. 0.01deg) [default:
+    /// LENGTH / size of the mechanism]
     #[arg(long, value_name = "RAD", allow_hyphen_values = true, value_parser = angle)]
     pub(crate) angle_tolerance: Option<f64>,
 }

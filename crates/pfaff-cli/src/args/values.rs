@@ -1,6 +1,6 @@
-//! Values of options.
+//! Parsers for values of options.
 
-/// A joint and a value of its coordinate.
+/// Parses a joint and a value of its coordinate.
 pub(super) fn joint_value(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.rsplit_once('=').ok_or("expected JOINT=VALUE")?;
     let number = value.trim().parse().ok().filter(|x: &f64| x.is_finite());

@@ -1,5 +1,5 @@
-//! Additional texts of `pfaff analyze`: to which configurations verdicts apply, hints for further
-//! commands, and the values of sums.
+//! Tests additional texts of `pfaff analyze`: the configurations to which verdicts apply, hints for
+//! further commands, and the values of sums.
 
 use serde_json::{Value, json};
 
@@ -17,7 +17,7 @@ fn analysis(name: &str, more: &[&str]) -> Value {
 
 fn words(name: &str, more: &[&str]) -> String {
     let file = example(name);
-    // Without line breaks.
+    // Compares without line breaks.
     let text = stdout(&pfaff(&[&["analyze", &file], more].concat()));
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -37,13 +37,13 @@ fn a_mechanism_locked_at_second_order_is_warned_of() {
     );
     contains(
         &words("chebyshev", &[]),
-        &[sentence, "this mechanism cannot move: there is no other"],
+        &[sentence, "at first order: it cannot move"],
     );
     // A mechanism that moves is not locked.
     assert_eq!(analysis("four-bar", &[])["warnings"], json!([]));
 }
 
-/// A door on two hinges has no freedom; a four-bar can move, and a crank is moved by its drive.
+/// A door on two hinges has no freedom; a four-bar can move, and a drive moves a crank.
 #[test]
 fn what_cannot_move_is_told_so() {
     for (name, cannot_move) in [
@@ -56,17 +56,17 @@ fn what_cannot_move_is_told_so() {
     ] {
         let d = analysis(name, &[]);
         assert_eq!(d["cannot_move"], cannot_move, "{name}");
-        let said = words(name, &[]).contains("this mechanism cannot move: there is no other");
+        let said = words(name, &[]).contains("it cannot move");
         assert_eq!(said, cannot_move, "{name}");
-        // No text about a search if nothing could be found.
+        // There is no text about a search if no configuration could be found.
         assert!(
-            !words(name, &[]).contains("none could be reached"),
+            !words(name, &[]).contains("no other configuration was reached"),
             "{name}"
         );
     }
 }
 
-/// A wheel on a rack, and one that meshes with it.
+/// A wheel is on a rack, and a second wheel meshes with it.
 fn rack_and_gear(bearings: &str) -> String {
     format!(
         r#"
@@ -86,8 +86,8 @@ joint = [
     )
 }
 
-/// The note appears once for all joints of a type, if the reader may look for a force in another
-/// joint, and not otherwise.
+/// The note appears once for all joints of a type, and only if the reader may look for a force in
+/// another joint.
 #[test]
 fn what_a_reaction_leaves_out_is_noted() {
     let held = rack_and_gear(
@@ -112,13 +112,13 @@ fn what_a_reaction_leaves_out_is_noted() {
         &stdout(&with_scene(&["analyze", "-"], &held)),
         &[&format!("note: {}", text(0)), &format!("note: {}", text(1))],
     );
-    // Bodies without other forces, and scenes without gears.
+    // The cases are bodies without other forces, and scenes without gears.
     assert_eq!(of(&rack_and_gear("")), json!([]));
     assert_eq!(analysis("four-bar", &[])["notes"], json!([]));
 }
 
-/// A number as `motion` is accepted, with a note that it keeps the measure constant; the syntax
-/// that the note recommends is accepted without a note.
+/// A number as `motion` is accepted, with a note that it keeps the joint coordinate constant; the
+/// syntax that the note recommends is accepted without a note.
 #[test]
 fn a_constant_motion_is_said_to_hold_the_measure() {
     let scene = |motion: &str| {
@@ -173,8 +173,8 @@ type = "angle"
     }
 }
 
-/// A truck that goes straight is compared with poses in which it is jackknifed: the constraints of
-/// its edges are not enforced between these poses.
+/// A truck that moves straight is compared with configurations in which it is jackknifed: the
+/// constraints of its edges are not enforced between these configurations.
 #[test]
 fn a_singular_configuration_says_what_it_was_compared_with() {
     let d = analysis("truck", &[]);
@@ -188,11 +188,12 @@ fn a_singular_configuration_says_what_it_was_compared_with() {
     );
     contains(
         &words("truck", &[]),
-        &["ONLY HERE", "`--along` tells whether"],
+        &["SINGULAR", "`--along` shows whether"],
     );
 }
 
-/// Two guides of one carriage: deleting single rows does not help, only that of a whole guide.
+/// Two guides belong to one carriage: deletions of single rows have no effect, only the deletion of
+/// a whole guide has.
 #[test]
 fn what_only_whole_joints_make_unique_is_said() {
     let text = words("carriage", &[]);
@@ -201,7 +202,8 @@ fn what_only_whole_joints_make_unique_is_said() {
     contains(&whole, &["delete `front`"]);
 }
 
-/// 12 N·m at the input; 0.01, 0.04 and 0.9 kg·m² at the relative speeds 1, −½ and ⅙.
+/// The input has 12 N·m; the moments of inertia 0.01, 0.04 and 0.9 kg·m² have the relative speeds
+/// 1, −½ and ⅙.
 #[test]
 fn sums_have_numbers() {
     let reduced = 0.01 + 2.0 * 0.04 / 4.0 + 0.9 / 36.0;
@@ -233,7 +235,7 @@ fn sums_have_numbers() {
     }
 }
 
-/// A number is only shown if it is the same in every solution, or for a chosen solution.
+/// A number is shown only if it is the same in every solution, or for a chosen solution.
 #[test]
 fn a_sum_that_is_not_unique_has_a_number_by_choice_only() {
     let sum = ["--combine", "out-1.T - out-2.T"];
@@ -255,7 +257,8 @@ fn a_sum_that_is_not_unique_has_a_number_by_choice_only() {
     assert!(chosen["choice"].is_string());
 }
 
-/// No load turns the carriage, so the torques of the minimum-norm reactions are zero, not rounding.
+/// No load turns the carriage, so the torques of the minimum-norm reactions are exactly zero,
+/// without rounding errors.
 #[test]
 fn what_is_zero_is_printed_as_zero() {
     let d = analysis("carriage", &["--choose", "minimum-norm"]);
@@ -271,7 +274,7 @@ fn what_is_zero_is_printed_as_zero() {
     );
 }
 
-/// An edge has no force along itself: that this component is unique (zero) is not reported. An
+/// An edge has no force along itself: the uniqueness of this zero component is not reported. An
 /// instant at which it becomes zero is not a singular configuration.
 #[test]
 fn directions_without_any_force_are_no_findings() {
@@ -290,7 +293,7 @@ fn directions_without_any_force_are_no_findings() {
     );
 }
 
-/// Both cells of an inversor are aligned at the start: exactly there, not 5 microseconds later.
+/// Both cells of an inversor are aligned exactly at the start, not 5 microseconds later.
 #[test]
 fn an_instant_at_the_start_is_the_start() {
     let d = analysis("peaucellier", &["--along"]);
@@ -299,7 +302,7 @@ fn an_instant_at_the_start_is_the_start() {
     assert_eq!(d["along"]["special"], json!([start]));
     contains(
         &words("peaucellier", &["--along"]),
-        &["at t = 0 s, for an instant, unique: Q.Fy"],
+        &["only at the instant t = 0 s: unique: Q.Fy"],
     );
 }
 
@@ -314,7 +317,7 @@ fn who_does_not_say_how_long_is_told_how() {
     );
 }
 
-/// The scene without the entries that a message recommends to omit.
+/// Returns the scene without the entries that a message recommends to omit.
 fn without(scene: &str, message: &str) -> String {
     let (_, advice) = message.split_once("leave out ").expect("an advice");
     let (advice, _) = advice.split_once(", so that ").expect("its end");
@@ -345,7 +348,7 @@ fn without(scene: &str, message: &str) -> String {
     text
 }
 
-/// The advice in messages works: without the entries that it recommends to omit, and with the
+/// The advice in messages is correct: without the entries that it recommends to omit, and with the
 /// proposed correction, each separately, every command accepts the scene.
 #[test]
 fn the_advice_on_velocities_works() {
@@ -362,7 +365,7 @@ fn the_advice_on_velocities_works() {
             "[[joint]]\nname = \"pin {k}\"\ntype = \"revolute\"\nbodies = [{bodies}]\nat = [{x:?}, {y:?}]\n"
         )
     };
-    // A four-bar with velocities of all its bars, which contradict each other.
+    // A four-bar has velocities of all its bars, which contradict each other.
     let chain = format!(
         "[scene]\nname = \"chain\"\nspace = \"plane\"\n{}{}{}{}{}{}{}",
         bar(
@@ -415,7 +418,7 @@ fn the_advice_on_velocities_works() {
     }
 }
 
-/// Words of other programs for commands and options.
+/// The words are those of other programs for commands and options.
 #[test]
 fn what_others_call_it_is_suggested() {
     for (words, expected) in [
@@ -428,7 +431,7 @@ fn what_others_call_it_is_suggested() {
         let said = stderr(&output);
         assert!(said.contains(expected), "{words:?}: {said}");
     }
-    // Where there is no such option, none is suggested.
+    // If there is no such option, no option is suggested.
     let said = stderr(&pfaff(&["analyze", "scene.toml", "-o", "run"]));
     assert!(!said.contains("--out"), "{said}");
 }

@@ -1,9 +1,10 @@
-//! One decision in `check`, `analyze` and `simulate` of whether redundant rows agree: the exit
-//! codes are the same, and where one warns the other does not go on.
+//! `check`, `analyze` and `simulate` use one decision whether redundant rows are consistent: the
+//! exit codes are the same, and if one command warns, the others do not continue.
 
 use super::{Folder, stderr, stdout, with_scene};
 
-/// A sleeve and a ring with one direction, given in ground axes, around a turned body that slides.
+/// A sleeve and a ring with one direction, given in ground axes, are around a rotated body that
+/// slides.
 const TWO_SLEEVES: &str = r#"
 [scene]
 name = "sleeve and ring"
@@ -34,7 +35,8 @@ frame = "global"
 t_end = 0.5
 "#;
 
-/// The hip of a robot: three axes through one point, one of them geared to a rotor in that point.
+/// The hip of a robot has three axes through one point, one of them geared to a rotor at that
+/// point.
 const HIP: &str = r#"
 [scene]
 name = "walker"
@@ -91,8 +93,8 @@ ratio = 1.0
 t_end = 0.05
 "#;
 
-/// A slider that two gear meshes and an edge hold, within a tolerance larger than itself, and that
-/// a drive moves.
+/// A slider is constrained by two gear meshes and an edge, within a tolerance larger than itself,
+/// and a drive moves it.
 const HELD_SLIDER: &str = r#"
 [scene]
 name = "held slider"
@@ -136,7 +138,7 @@ motion = { type = "harmonic", amplitude = 2.0, omega = 3.0, phase = 2.0 }
 t_end = 0.1
 "#;
 
-/// A door on three hinges, the third off the line of the others, which a motor opens.
+/// A door has three hinges, the third off the line of the others, and a motor opens it.
 fn door(beside: f64, tolerance: f64, motion: &str) -> String {
     let hinges: String = [("a", 0.0, 0.0), ("b", 0.0, 1.0), ("c", beside, 2.0)]
         .iter()
@@ -155,7 +157,7 @@ fn door(beside: f64, tolerance: f64, motion: &str) -> String {
     )
 }
 
-/// The exit codes of the three commands, and what they wrote.
+/// Returns the exit codes of the three commands, and their output.
 fn codes(name: &str, scene: &str) -> ([Option<i32>; 3], String) {
     let folder = Folder::new(name);
     let commands: [&[&str]; 3] = [
@@ -188,8 +190,8 @@ fn rows_that_agree_to_rounding_are_moved_by_all_commands() {
     }
 }
 
-/// The drive moves what the joints hold: also where data within the tolerance would explain what
-/// each joint misses, and also if the motor begins slowly.
+/// The drive moves a coordinate that the joints constrain. This is also an error if data within the
+/// tolerance would explain the violation of each joint, and if the motor begins slowly.
 #[test]
 fn a_drive_that_the_joints_forbid_is_refused_by_all_commands() {
     let opens = "{ type = \"constant-rate\", rate = 1.0 }";

@@ -1,4 +1,4 @@
-//! The answers of `pfaff analyze`, in words and as a document: the published mechanism, and cases
+//! Tests results of `pfaff analyze`, as text and as a document: the published mechanism, and cases
 //! that can be checked by hand.
 
 use serde_json::{Value, json};
@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// A beam of 2 m on hinges, both of which hold it along its axis; loaded by its weight and a force
-/// of 6 N along its axis.
+/// A beam of 2 m has two hinges that both constrain it along its axis; the loads are its weight and
+/// a force of 6 N along its axis.
 const BEAM: &str = r#"
 scene = { name = "beam", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "beam", mass = 1.0, inertia = 1.0 }]
@@ -18,8 +18,8 @@ joint = [
 force = [{ name = "pull", type = "point-force", body = "beam", at = [0.0, 0.0], force = [6.0, 0.0] }]
 "#;
 
-/// Parallel cranks of 0.5 m on a common coupler, the first one driven from −0.5 rad at 1 rad/s: all
-/// lie in one line at t = 0.5 s.
+/// Parallel cranks of 0.5 m have a common coupler, and the first one is driven from −0.5 rad at 1
+/// rad/s: all are in one line at t = 0.5 s.
 fn cranks() -> String {
     let (sin, cos) = (-0.5_f64).sin_cos();
     let mut scene =
@@ -42,8 +42,9 @@ fn cranks() -> String {
     scene
 }
 
-/// Three upright cranks on a coupler, one pivot of which is two points on lines. The cranks share a
-/// force along them: it has no part along x where they are upright, at the start alone.
+/// Three upright cranks carry a coupler; the pivot of one consists of two points on lines. The
+/// cranks share a force along them: it has no component along x in the upright position, which
+/// occurs only at the start.
 const UPRIGHT: &str = r#"
 scene = { name = "upright", space = "plane", gravity = [0.0, -10.0] }
 body = [
@@ -107,7 +108,7 @@ fn the_rank_comes_with_its_proof_and_what_it_was_compared_with() {
     assert_eq!(d["generic"]["redundancy"], 2);
     let points = d["generic"]["points"].as_array().expect("a list");
     assert!(!points.is_empty() && points.iter().all(|p| p["rank"] == 20));
-    // The proof is the same, whichever rows are chosen as dependent.
+    // The proof is the same for any choice of the redundant rows.
     let dropped = document(&pfaff(&["analyze", ROBOT, "--json", "--drop", "6,21"]));
     assert_eq!(dropped["evidence"]["certified"], true);
     assert_eq!(dropped["dropped_rows"], json!([6, 21]));
@@ -116,14 +117,10 @@ fn the_rank_comes_with_its_proof_and_what_it_was_compared_with() {
 #[test]
 fn nearly_redundant_rows_are_judged_although_they_cannot_move() {
     for (apart, redundancy, piece) in [
-        (1e-3, 1, "proved: there are no more columns"),
-        (1e-9, 1, "NEARLY REDUNDANT: σ_3 = 5.0e-10 is not zero"),
-        (
-            1e-14,
-            2,
-            "the 2 other rows are redundant to within the rounding of the data",
-        ),
-        (1e-18, 2, "the 2 other rows are redundant"),
+        (1e-3, 1, "proved: the rank equals the number of columns"),
+        (1e-9, 1, "reactions reach 1/σ_3 = 2e9 per unit of load"),
+        (1e-14, 2, "the 2 remaining rows are redundant to within"),
+        (1e-18, 2, "the 2 remaining rows are"),
     ] {
         let output = with_scene(&["analyze", "-"], &twin(apart));
         assert_eq!(output.status.code(), Some(0), "{output:?}");
@@ -144,16 +141,16 @@ fn nearly_redundant_rows_are_judged_although_they_cannot_move() {
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     contains(
         &stderr(&output),
-        &["the rank is undecided, and with it what may be chosen"],
+        &["the rank is undecided, so no choice can be computed"],
     );
-    // A distance as small as the rounding of the data: both interpretations are reported.
+    // A distance is as small as the rounding of the data: both interpretations are reported.
     let output = with_scene(&["analyze", "-"], &twin(4e-14));
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     contains(
         &stdout(&output),
         &[
             "UNDECIDED:",
-            "would be 2 instead of 3",
+            "change the rank from 3 to 2",
             "undecided: pivot, twin",
         ],
     );
@@ -171,14 +168,14 @@ fn the_reasons_are_in_words_and_ready_to_be_drawn() {
     let left = &d["reactions"][0];
     assert_eq!(
         left["explanation"],
-        "the reaction of `left` is not determined: it shares loads with `right`; determined is Fy"
+        "the reaction of `left` is not determined: it shares loads with `right`; only Fy is determined"
     );
     let of = |k: usize| &d["reactions"][k]["free_directions"][0];
     assert_eq!(
         (&of(0)["place"], &of(1)["place"]),
         (&json!([-1.0, 0.0]), &json!([1.0, 0.0]))
     );
-    // One newton along the beam in one hinge, minus one in the other.
+    // The load is one newton along the beam in one hinge, and minus one in the other.
     let force = |k: usize| [0, 1].map(|i| of(k)["force"][i].as_f64().expect("a number"));
     assert_eq!(force(0).map(f64::abs), [1.0, 0.0]);
     assert_eq!(force(1), force(0).map(|x| if x == 0.0 { x } else { -x }));
@@ -204,7 +201,7 @@ fn exactly_the_reactions_that_are_not_unique_are_explained() {
                 .as_array()
                 .is_some_and(|list| !list.is_empty());
             assert_eq!(drawn, open, "{time}: {r:#}");
-            // What the structure decides, the numbers confirm.
+            // The numbers confirm the verdicts that follow from the structure.
             assert!(r["settled"].is_null() || r["verdict"] == "unique", "{r:#}");
         }
     }
@@ -225,13 +222,12 @@ fn many_reasons_are_cut_in_words_but_not_in_the_document() {
         }
     }
     let text = stdout(&with_scene(&["analyze", "-"], &scene));
-    // One of two rows of each door.
+    // The list contains one of two rows of each door.
     contains(
         &text,
         &[
-            "- and 2 more (`--json` has all)",
-            "4096 sets of 12 rows",
-            "- others: `--make-unique NAME`",
+            "- and 2 more (`--json` prints all)",
+            "`--make-unique NAME` lists all",
         ],
     );
     let d = document(&with_scene(&["analyze", "-", "--json"], &scene));
@@ -262,7 +258,7 @@ fn what_makes_a_reaction_unique() {
         let ways = found["ways"].as_array().expect("a list").iter();
         ways.map(|w| w["rows"].to_string()).collect::<Vec<_>>()
     };
-    // Published: W4 and one of these rows, of four while the edges are straight.
+    // The published sets are W4 and one of these rows, of four while the edges are straight.
     assert_eq!(
         ways("0", "sensible"),
         ["[4,21]", "[6,21]", "[18,21]", "[19,21]"]
@@ -279,7 +275,10 @@ fn what_makes_a_reaction_unique() {
         "--allow",
         "whole",
     ]));
-    contains(&text, &["To make W3 unique", "delete `W1` and delete `W4`"]);
+    contains(
+        &text,
+        &["Ways to make W3 unique", "delete `W1` and delete `W4`"],
+    );
 }
 
 #[test]
@@ -327,7 +326,7 @@ fn sums_have_components_and_frames_have_axes() {
         &text,
         &["In other frames:", "Fn not unique, Ft unique, T unique"],
     );
-    // Not requested.
+    // The option was not given.
     let d = document(&pfaff(&["analyze", ROBOT, "--json"]));
     assert!(d["reactions"][0].get("frames").is_none());
 }
@@ -348,7 +347,7 @@ fn choices_are_labelled_and_facts_are_not() {
         "minimum-norm:length=0.5",
     ];
     let d = document(&with_scene(&all, BEAM));
-    // The ground carries −6 N along the beam; the parts are one half each, two to one, and all on
+    // The ground carries −6 N along the beam; the shares are one half each, two to one, and all on
     // the left.
     for (k, left, right) in [(0, 3.0, 3.0), (1, 4.0, 2.0), (2, 6.0, 0.0), (3, 3.0, 3.0)] {
         let choice = &d["choices"][k];
@@ -360,7 +359,7 @@ fn choices_are_labelled_and_facts_are_not() {
                 (&x["choice"], &x["nature"]),
                 (&choice["label"], &json!("choice"))
             );
-            // Half the weight, for every choice.
+            // The value is half the weight, for every choice.
             assert!((y["value"].as_f64().expect("a number").abs() - 5.0).abs() < 1e-12);
             assert_eq!((y.get("choice"), &y["nature"]), (None, &json!("fact")));
         }
@@ -394,7 +393,8 @@ fn a_whole_motion_has_one_verdict_and_exceptions() {
     let none: [Value; 0] = [];
     assert_eq!(along["stretches"], json!(none));
     assert_eq!(along["passages"], json!(none));
-    // Straight for a second, and at its end: across the wheels is y.
+    // The robot moves straight for a second, and at the end of this second y is the direction
+    // across the wheels.
     let found = &along["reactions"]["B"];
     assert_eq!(found["verdict"], "not_unique");
     assert_eq!(
@@ -413,7 +413,7 @@ fn a_whole_motion_has_one_verdict_and_exceptions() {
         &text,
         &[
             "- `B`: Fx not unique (unique on 0 … 1 s), Fy not unique",
-            "- at t = 1 s, for an instant, unique: B.Fx, C.Fx, W1.Fx, W2.Fx, W3.Fx, W4.Fx",
+            "- only at the instant t = 1 s: unique: B.Fx, C.Fx, W1.Fx, W2.Fx, W3.Fx, W4.Fx",
         ],
     );
     let text = stdout(&pfaff(&["analyze", ROBOT, "--along", "0.5"]));
@@ -421,12 +421,12 @@ fn a_whole_motion_has_one_verdict_and_exceptions() {
         &text,
         &[
             "Along the motion, t = 0 to 0.5 s",
-            "nothing else holds at any time",
+            "the verdicts are the same at all times",
         ],
     );
 }
 
-/// The words of a reaction and its components here, and those that hold at nearly all
+/// Returns the verdicts on a reaction and its components here, and those that hold at nearly all
 /// configurations.
 fn here_and_generic(document: &Value, reaction: &str) -> Vec<(String, Value, Value)> {
     let reactions = document["reactions"].as_array().expect("a list");
@@ -442,8 +442,8 @@ fn here_and_generic(document: &Value, reaction: &str) -> Vec<(String, Value, Val
     .collect()
 }
 
-/// Whether by other configurations or by the motion: upright the force sideways is determined, and
-/// nowhere else.
+/// The test compares with other configurations or with the motion: the sideways force is determined
+/// only in the upright position.
 #[test]
 fn a_verdict_has_the_one_that_holds_elsewhere_beside_it() {
     let at_once: &[&str] = &["analyze", "-", "--json"];
@@ -465,7 +465,8 @@ fn a_verdict_has_the_one_that_holds_elsewhere_beside_it() {
         assert_eq!(words("Fy", "tip two"), open, "{more:?}");
         assert_eq!(words("tip two", "tip two"), open, "{more:?}");
     }
-    // On the way here and elsewhere are the same. Across the line there is never a force.
+    // At times during the motion both verdicts are the same. Across the line there is never a
+    // force.
     let output = with_scene(&["analyze", "-", "--json", "--at-time", "0.2"], UPRIGHT);
     let found = here_and_generic(&document(&output), "sideways");
     let expected = ["not_unique", "not_unique", "unique"];
@@ -487,8 +488,8 @@ fn a_verdict_has_the_one_that_holds_elsewhere_beside_it() {
     assert!(!stdout(&with_scene(&["analyze", "-"], BEAM)).contains("elsewhere:"));
 }
 
-/// The verdicts along the motion are those of `summary.json` of the run, with what is special at
-/// the start.
+/// The verdicts along the motion equal those of `summary.json` of the run, with the special
+/// verdicts at the start.
 #[test]
 fn along_the_motion_and_in_its_run_verdicts_are_the_same() {
     for scene in [UPRIGHT.to_owned(), cranks()] {
@@ -552,7 +553,8 @@ fn a_motion_through_a_bifurcation_is_judged() {
     assert_eq!(passage["continuation"], "bifurcation");
 }
 
-/// The cranks come to rest in the flat pose: no velocity determines on which branch they continue.
+/// The cranks come to rest in the singular configuration: no velocity determines on which branch
+/// they continue.
 #[test]
 fn a_motion_that_stops_at_a_passage_is_judged_beyond_it() {
     let rests = cranks().replace(
@@ -601,7 +603,7 @@ fn wrong_questions_have_clear_answers() {
         (
             "--choose",
             "compliance:W3=1e-6",
-            "give a compliance to one more",
+            "give a compliance to at least one more",
         ),
         (
             "--choose",
@@ -624,7 +626,7 @@ fn wrong_questions_have_clear_answers() {
         assert!(text.contains(piece), "{option} {value}: {text}");
         assert!(output.stdout.is_empty(), "{option} {value}");
     }
-    // No duration is given.
+    // The scene states no duration.
     let output = with_scene(&["analyze", "-", "--along"], BEAM);
     assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
@@ -667,7 +669,7 @@ fn help_shows_examples() {
     );
 }
 
-/// Two edges that are parallel except for ε: independent for the given numbers, and reported as
+/// Two edges are parallel except for ε: they are independent for the given numbers, and reported as
 /// nearly dependent.
 #[test]
 fn nearly_parallel_edges_are_told() {

@@ -1,5 +1,5 @@
-//! Every wrong input gives one clear message that names the wrong entry and its numbers, and the
-//! correct exit code.
+//! Every invalid input gives one clear message that names the invalid entry and its numbers, and
+//! the correct exit code.
 
 use super::{Folder, ROBOT, pfaff, stderr, with_scene};
 
@@ -124,7 +124,7 @@ fn a_direction_without_length() {
 
 #[test]
 fn constraints_that_cannot_be_assembled() {
-    // A rigid bob cannot hang on two pivots whose distance differs from that of its points.
+    // A rigid bob cannot be connected to two pivots whose distance differs from that of its points.
     let second = "[[joint]]\nname = \"other\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\npoints = { ground = [5.0, 0.0], bob = [0.0, 0.0] }\n";
     check(
         added(second),
@@ -179,7 +179,7 @@ fn a_fault_in_every_line_is_listed_up_to_a_limit() {
     let output = with_scene(&["check", "-"], &scene);
     let text = stderr(&output);
     assert_eq!(output.status.code(), Some(2));
-    // A key that is missing, and one that is unknown.
+    // One key is missing, and one is unknown.
     let more = "the first 50 of more than 2500 problems in `<stdin>`; `--json` lists more\n";
     assert!(text.ends_with(more), "{} bytes", text.len());
     assert_eq!(text.matches("error[P").count(), 50);
@@ -222,7 +222,7 @@ motion = { type = \"constant-rate\", rate = 2.0 }
     check(added(drives), 2, &["<stdin>:23:8", "contradicts too"]);
 }
 
-/// Two drives that agree up to t = 0.5 s.
+/// Two drives are consistent up to t = 0.5 s.
 pub(super) fn contradiction_at_half_a_second() -> String {
     let drives = "
 [[drive]]
@@ -395,13 +395,13 @@ fn negative_numbers_of_the_command_line_are_values() {
     );
 }
 
-/// The pendulum with velocities that its pivot does not allow: the same rule as for positions. The
-/// given velocities are kept, the others are computed.
+/// The pendulum has velocities that its pivot does not allow: the rule is the same as for
+/// positions. The given velocities are kept, and the others are computed.
 #[test]
 fn velocities_that_contradict_the_constraints_are_refused_by_name() {
     let given = |velocities: &'static str| replaced("position = [1.0, 0.0]", velocities);
-    // The nearest velocity in the mass metric: 1 rad/s about the centre gives I/(I + m·l²) = 1/11
-    // rad/s about the pivot.
+    // In the nearest velocity in the mass metric, 1 rad/s about the centre gives I/(I + m·l²) =
+    // 1/11 rad/s about the pivot.
     check(
         given("position = [1.0, 0.0]\nvelocity = [0.0, 0.0]\nangular_velocity = 1.0"),
         2,
@@ -413,7 +413,7 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
             "not with these constraints",
         ],
     );
-    // Consistent to less than a thousandth, or given only in part.
+    // The velocities are consistent to less than a thousandth, or given only in part.
     for velocities in [
         "position = [1.0, 0.0]\nangular_velocity = 1.0",
         "position = [1.0, 0.0]\nvelocity = [0.0, 1.0]",

@@ -1,14 +1,15 @@
-//! The book shows the actual behaviour of the command: every `console` block of `docs/book` is run
-//! and compared line by line, every `toml` block is read. Blocks of Rust are doc tests of the
-//! package `tests`.
+//! The book shows the actual output of the command: every `console` block of `docs/book` is run and
+//! compared line by line, every `toml` block is read. Blocks of Rust are doc tests of the package
+//! `tests`.
 //!
-//! - A `toml` block that begins with `# NAME.toml` is a scene; `toml,wrong` marks one that
-//!   `pfaff check` refuses. A block `toml,fragment,NAME.toml` is added to that scene.
+//! - A `toml` block that begins with `# NAME.toml` is a scene; `toml,wrong` marks a scene that
+//!   `pfaff check` rejects. A block `toml,fragment,NAME.toml` is added to that scene.
 //! - A `console` block has lines `$ COMMAND` with the output below. A line `…` represents any
 //!   lines. Commands are run in sequence, each chapter in its own folder, which contains all scenes
-//!   of the book and the robot. Available are `pfaff` (also after `|`), `ls`, `head -n`, and the
-//!   scenes that the laboratory generates (`cargo run -q --release -p lab -- generate`); what else
-//!   the laboratory writes is compared by its own tests.
+//!   of the book and the robot. The available commands are `pfaff` (also after `|`), `ls`,
+//!   `head -n`, and the scenes that the laboratory generates
+//!   (`cargo run -q --release -p lab -- generate`); other output of the laboratory is compared by
+//!   its own tests.
 
 use std::fs;
 use std::path::Path;
@@ -35,7 +36,7 @@ impl Block {
         self.info.iter().any(|w| w == word)
     }
 
-    /// The name of the file that the block contains, if its first line states it.
+    /// Returns the name of the file that the block contains, if its first line states it.
     fn file(&self) -> Option<&str> {
         let name = self.text.lines().next()?.strip_prefix("# ")?;
         name.ends_with(".toml").then_some(name)
@@ -46,7 +47,7 @@ impl Block {
     }
 }
 
-/// All blocks of all chapters, by chapter.
+/// Returns all blocks of all chapters, by chapter.
 fn blocks() -> Vec<Block> {
     let entries = fs::read_dir(BOOK).expect("the book is there").flatten();
     let mut chapters: Vec<_> = entries
@@ -139,7 +140,7 @@ fn every_command_writes_what_the_book_shows() {
     assert!(wrong.is_empty(), "{wrong}");
 }
 
-/// A folder for the examples of a chapter.
+/// Creates a folder for the examples of a chapter.
 fn with_all_scenes(blocks: &[Block], chapter: &Block) -> Folder {
     let folder = Folder::new(&format!("book-{}", chapter.chapter));
     fs::create_dir_all(&folder.0).expect("a folder");
@@ -152,8 +153,8 @@ fn with_all_scenes(blocks: &[Block], chapter: &Block) -> Folder {
     folder
 }
 
-/// The output of a command of a block, errors after the rest. The output of a refused command ends
-/// with the reason. `None` for one of the laboratory.
+/// Returns the output of a command of a block, with errors at the end. The output of a rejected
+/// command ends with the reason. It is `None` for a command of the laboratory.
 fn run(command: &str, folder: &Path) -> Option<String> {
     let words = words(command);
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
@@ -176,7 +177,7 @@ fn run(command: &str, folder: &Path) -> Option<String> {
             let output = command_in(folder, arguments);
             let text = stdout(&output) + &stderr(&output);
             let refused = text.lines().any(|l| l.starts_with("error[P"));
-            // What is there is shown, and what is not is told.
+            // The available output is shown, and missing output is reported.
             let has_gaps = text.contains(" missing: ");
             let is_whole = !refused && !has_gaps;
             assert_eq!(output.status.success(), is_whole, "{command}: {output:?}");
@@ -198,7 +199,7 @@ fn run(command: &str, folder: &Path) -> Option<String> {
     })
 }
 
-/// Writes a generated scene, or gives it to a command whose output is returned.
+/// Writes a generated scene, or passes it to a command and returns the output of that command.
 fn of_laboratory(arguments: &[&str], folder: &Path) -> Option<String> {
     let ["generate", kind, "--n", n, rest @ ..] = arguments else {
         return None;
@@ -226,7 +227,7 @@ fn command_in(folder: &Path, arguments: &[&str]) -> std::process::Output {
         .expect("the command starts")
 }
 
-/// Words of a command, separated by blanks; quotes hold a word together.
+/// Returns the words of a command, separated by blanks; a quoted word may contain blanks.
 fn words(command: &str) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut quoted = false;

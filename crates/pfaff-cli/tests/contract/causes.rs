@@ -1,17 +1,17 @@
-//! Sentences that name a cause name the right one, and what they advise works.
+//! Messages must name the correct cause, and their advice must be correct.
 
 use super::{Folder, stderr, stdout, with_scene};
 
-/// In one line, because lines may be wrapped at any blank.
+/// Joins all lines, because lines may be wrapped at any blank.
 fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// A four-bar with a crank of 0.6 m, a coupler of 0.7 m, a rocker of 0.5 m and a base of 1 m. The
-/// crank turns at 1 rad/s from this angle on.
+/// crank rotates at 1 rad/s from this angle on.
 fn four_bar(angle: f64) -> String {
     let b = [0.6 * angle.cos(), 0.6 * angle.sin()];
-    // C lies on the circles about B and D, above the line from B to D.
+    // C is on the circles about B and D, above the line from B to D.
     let [dx, dy] = [1.0 - b[0], -b[1]];
     let d = dx.hypot(dy);
     let along = (0.49 - 0.25 + d * d) / (2.0 * d);
@@ -47,7 +47,7 @@ simulate = {{ t_end = 3.0 }}
     )
 }
 
-/// Coupler and rocker are in line where cos θ = (0.36 + 1 − 1.44)/1.2: at 93.8°.
+/// Coupler and rocker are in line at cos θ = (0.36 + 1 − 1.44)/1.2, which is 93.8°.
 #[test]
 fn a_drive_at_a_toggle_is_told_how_far_it_turns() {
     let farthest = (-0.08_f64 / 1.2).acos();
@@ -71,7 +71,7 @@ fn a_drive_at_a_toggle_is_told_how_far_it_turns() {
     assert!(
         (farthest.to_degrees() - 93.8).abs() < 0.05 && (farthest - 1.0 - 0.637512).abs() < 1e-6
     );
-    // The advice: a run that ends before is complete.
+    // The advice is correct: a run that ends earlier is complete.
     let arguments = [
         "simulate",
         "-",
@@ -105,12 +105,13 @@ fn a_tolerance_that_is_advised_for_a_small_miss_does() {
         said.contains("mobility 0") && refused.contains("redundancy 1 and mobility 0"),
         "{refused}"
     );
-    // A large miss is wrong, whatever the data are known to.
+    // A large violation is an error for any accuracy of the data.
     let wrong = scene.replace("-0.5002", "-0.9");
     assert!(!stderr(&with_scene(&["check", "-"], &wrong)).contains("--tolerance"));
 }
 
-/// Two bars in line between two pins: the search for rest ends there, and the parts fit.
+/// Two collinear bars between two pins: the search for an equilibrium ends there, and the lengths
+/// are consistent.
 #[test]
 fn a_search_that_ends_at_a_singular_place_does_not_blame_the_parts() {
     let scene = r#"

@@ -1,12 +1,13 @@
-//! `simulate --choose`: tables of the numbers by several choices.
+//! Tests `simulate --choose`: tables of the values for several choices.
 
 use serde_json::Value;
 
 use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// A cart of 10 kg on three wheels of one axle that drives on a circle, 1 m/s and 0.5 rad/s: the
-/// wheels push it sideways with 10·1·0.5 = 5 N in all, and share this force in any way.
+/// A cart of 10 kg has three wheels on one axle and drives on a circle at 1 m/s and 0.5 rad/s. The
+/// wheels push it sideways with 10·1·0.5 = 5 N in total, and share this force in an undetermined
+/// way.
 const CART: &str = r#"
     scene = { name = "cart", space = "plane" }
     body = [{ name = "cart", mass = 10.0, inertia = 1.0, velocity = [1.0, 0.0], angular_velocity = 0.5 }]
@@ -19,7 +20,7 @@ const CART: &str = r#"
     simulate = { t_end = 2.0, output_step = 0.25 }
 "#;
 
-/// A table: names of columns, and rows of cells.
+/// A table consists of names of columns, and rows of cells.
 type Table = (Vec<String>, Vec<Vec<String>>);
 
 fn table(folder: &Folder, name: &str) -> Table {
@@ -50,7 +51,7 @@ fn near(found: &[f64], expected: f64, bound: f64) {
 fn each_choice_has_its_table() {
     let folder = Folder::new("chosen-cart");
     let out = folder.text();
-    // Springs in parallel share a force by their stiffness: 1 : 1/2 : 1/4.
+    // Parallel springs share a force by their stiffness: 1 : 1/2 : 1/4.
     let compliant = "compliance:left=1e-6,middle=2e-6,right=4e-6";
     let mut arguments = vec!["simulate", "-", "--out", out];
     for choice in ["minimum-norm", compliant, "drop:1,3"] {
@@ -60,7 +61,9 @@ fn each_choice_has_its_table() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
     assert!(
-        text.contains("choice_2.csv has one solution of many (elastic supports: `left` 1e-6 m/N;"),
+        text.contains(
+            "choice_2.csv contains one of many solutions (elastic supports: `left` 1e-6 m/N;"
+        ),
         "{text}"
     );
     let determined = table(&folder, "reactions.csv");
@@ -75,7 +78,7 @@ fn each_choice_has_its_table() {
     for (file, shares) in files.into_iter().zip(shares) {
         let chosen = table(&folder, file);
         assert_eq!(chosen.0, determined.0, "{file}");
-        // All cells are filled, and what is determined is the same text.
+        // All cells are filled, and determined components have the same text.
         for (chosen, determined) in chosen.1.iter().zip(&determined.1) {
             assert!(chosen.iter().all(|cell| !cell.is_empty()), "{chosen:?}");
             let mut cells = chosen.iter().zip(determined);
@@ -120,11 +123,11 @@ fn each_choice_has_its_table() {
             .iter()
             .all(|file| written.contains(&Value::from(*file)))
     );
-    // The page names them at their curves.
+    // The page names the choices at their curves.
     let page = folder.read("report.html");
     assert!(page.contains("elastic supports") && !page.contains("this run: kept-rows"));
 
-    // One choice has no file of its own in the summary, and no file of the run before is left.
+    // A single choice has no separate file in the summary, and no file of the earlier run remains.
     let output = with_scene(
         &["simulate", "-", "--out", out, "--choose", "drop:2,3"],
         CART,
@@ -147,7 +150,7 @@ fn each_choice_has_its_table() {
     assert_eq!(names, expected);
 }
 
-/// The numbers of a row are those of `analyze` at its time.
+/// The numbers of a row equal those of `analyze` at its time.
 #[test]
 fn rows_of_a_choice_are_those_of_analyze() {
     let folder = Folder::new("chosen-robot");
@@ -188,7 +191,7 @@ fn rows_of_a_choice_are_those_of_analyze() {
     }
 }
 
-/// At one instant row 6 takes no part in any dependency: there is no choice without it.
+/// At one instant row 6 takes part in no dependency: no choice exists that deletes it.
 #[test]
 fn a_choice_that_does_not_exist_at_an_instant_has_empty_cells() {
     let folder = Folder::new("chosen-gap");
@@ -216,7 +219,7 @@ fn a_choice_that_does_not_exist_at_an_instant_has_empty_cells() {
     let is_filled = |row: &[String]| row.iter().all(|cell| !cell.is_empty());
     assert!(least.1.iter().all(|row| is_filled(row)));
     assert!(is_filled(&chosen.1[1]) && !is_filled(&chosen.1[2]));
-    // What is determined stands there.
+    // Determined components have their values.
     assert_eq!(chosen.1[2], determined.1[2]);
     let gap = &summary(&folder)["choice"][0]["gap"];
     assert_eq!(gap["rows"], 1);
@@ -232,7 +235,7 @@ fn a_choice_that_is_not_possible_is_refused_before_the_run() {
     for (choice, piece) in [
         (
             "compliance:left=1e-6",
-            "the choice leaves open how loads are shared",
+            "the choice does not determine all loads",
         ),
         (
             "compliance:lift=1e-6",
@@ -288,10 +291,10 @@ fn a_choice_has_no_table_where_every_number_is_determined() {
     assert_eq!(summary(&folder)["choice"], serde_json::json!([]));
 }
 
-/// Within a tolerance rows are redundant that are not as described; choices share there, too.
+/// Within a tolerance further rows are redundant, and choices apply to these rows, too.
 #[test]
 fn choices_within_a_tolerance() {
-    // The right wheel stands 0.1 mm ahead.
+    // The right wheel is 0.1 mm ahead.
     let scene = CART.replace("point = [0.0, -0.5]", "point = [1e-4, -0.5]");
     let folder = Folder::new("chosen-tolerance");
     let mut arguments = vec![
@@ -306,7 +309,8 @@ fn choices_within_a_tolerance() {
     let output = with_scene(&arguments, &scene);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let [least, right] = ["choice.csv", "choice_2.csv"].map(|file| table(&folder, file));
-    // The right wheel is kept. Its force turns the cart faster: 5 N · 1e-4 m on 1 kg·m².
+    // The rows of the right wheel are independent. Its force accelerates the rotation of the cart:
+    // 5 N · 1e-4 m on 1 kg·m².
     for (k, t) in column(&least, "t").into_iter().enumerate() {
         let side = 10.0 * (0.5 + 5e-4 * t);
         for wheel in ["left.N", "middle.N", "right.N"] {
@@ -317,10 +321,10 @@ fn choices_within_a_tolerance() {
     near(&column(&right, "left.N"), 0.0, 0.0);
 }
 
-/// A run that is refused leaves the directory as it was.
+/// A rejected run does not change the directory.
 #[test]
 fn a_refusal_leaves_nothing_behind() {
-    // Two bars in one line between two pins: the weight has no finite reaction.
+    // Two collinear bars are between two pins: the weight has no finite reaction.
     let flat = r#"
         scene = { name = "flat", space = "plane", gravity = [0.0, -9.81] }
         body = [
@@ -347,7 +351,7 @@ fn a_refusal_leaves_nothing_behind() {
         let output = with_scene(&simulate, scene);
         assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
         assert!(!folder.0.exists(), "{more:?}");
-        // A directory that was there stays, with what is in it.
+        // An existing directory remains, with its contents.
         std::fs::create_dir_all(deep).expect("writable");
         std::fs::write(folder.0.join("a/b/notes.txt"), "mine").expect("writable");
         assert_eq!(with_scene(&simulate, scene).status.code(), Some(2));
@@ -356,7 +360,7 @@ fn a_refusal_leaves_nothing_behind() {
     }
 }
 
-/// A mechanism without joints has a table of reactions with nothing but times.
+/// The table of reactions of a mechanism without joints contains only times.
 #[test]
 fn no_joints_are_an_empty_table() {
     let stone = r#"

@@ -1,13 +1,13 @@
-//! Commands are quick from a cold start, including the start of the process. The bounds are five
-//! times the times promised for an idle machine, so that only considerable growth is noticed;
-//! `cargo xtask cold-start` prints the times.
+//! Commands start fast in a new process, including the start of the process. The bounds are five
+//! times the documented times for an idle machine, so that the test detects only considerable
+//! growth; `cargo xtask cold-start` prints the times.
 
 use std::time::{Duration, Instant};
 
 use super::{Folder, ROBOT, pfaff};
 
-/// Number of runs of a command, of which the fastest counts, because other processes can only slow
-/// it down.
+/// Number of runs of a command; the fastest one counts, because other processes can only slow it
+/// down.
 const RUNS: usize = 11;
 
 fn fastest(arguments: &[&str]) -> Duration {

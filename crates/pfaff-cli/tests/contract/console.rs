@@ -1,8 +1,8 @@
-//! Console blocks in pages: the output shown in a page is the output of the command.
+//! Console blocks in pages: the output in a page must be the output of the command.
 //!
 //! A block is fenced as `console`. A line that begins with `$ pfaff ` is run, in a folder with the
-//! scenes of the pages at their places in the repository; the lines up to the next `$ ` are its
-//! output, errors last. A line `…` represents any number of lines, possibly none. Other commands
+//! scenes of the pages at their paths in the repository. The lines up to the next `$ ` are its
+//! output, errors last. A line `…` represents any number of lines, possibly zero. Other commands
 //! (`$ cargo …`) are not run.
 
 use std::fs;
@@ -23,7 +23,7 @@ struct Shown<'a> {
     output: Vec<&'a str>,
 }
 
-/// All commands in the console blocks of a page.
+/// Returns all commands in the console blocks of a page.
 fn shown(page: &str) -> Vec<Shown<'_>> {
     let mut found: Vec<Shown<'_>> = Vec::new();
     let mut is_console = false;
@@ -52,7 +52,7 @@ fn shown(page: &str) -> Vec<Shown<'_>> {
     found
 }
 
-/// Words of a command line; quotes hold words together.
+/// Returns the words of a command line; a quoted word may contain blanks.
 fn words(command: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word: Option<String> = None;
@@ -72,8 +72,8 @@ fn words(command: &str) -> Vec<String> {
     words
 }
 
-/// Whether lines match a pattern with omissions; otherwise the first part of the pattern that does
-/// not occur.
+/// Whether lines match a pattern with omissions; otherwise it returns the first part of the pattern
+/// that does not occur.
 fn matches<'a>(pattern: &[&'a str], lines: &[&str]) -> Result<(), Vec<&'a str>> {
     let stretches: Vec<&[&str]> = pattern.split(|line| *line == OMISSION).collect();
     let mut rest = lines;
@@ -93,7 +93,7 @@ fn matches<'a>(pattern: &[&'a str], lines: &[&str]) -> Result<(), Vec<&'a str>> 
     Ok(())
 }
 
-/// A folder with the scenes that the pages use.
+/// Creates a folder with the scenes that the pages use.
 fn scenes(name: &str) -> Folder {
     let folder = Folder::new(name);
     for place in ["examples", "crates/robot-trolley"] {

@@ -1,13 +1,13 @@
-//! Couplings in loops: their own force, with its verdict, in every output. The arm hangs from its
-//! pivot at rest, and the seat at its end does not turn: the coupling carries the weight of the
-//! seat at its arm of a quarter of a metre, 3 kg · 10 m/s² · 0.25 m, and the arm between them feels
-//! it twice, in opposite directions.
+//! Tests couplings in loops: their own force, with its verdict, in every output. The arm hangs from
+//! its pivot at rest, and the seat at its end does not turn. The coupling carries the weight of the
+//! seat at its lever arm of a quarter of a metre, 3 kg · 10 m/s² · 0.25 m. This torque acts on the
+//! arm between them twice, in opposite directions.
 
 use serde_json::Value;
 
 use super::{Folder, stderr, stdout, with_scene};
 
-/// By hand, on the arm: the first body of the joint whose angle follows.
+/// Derived by hand, on the arm: the first body of the joint with the dependent angle.
 const LOAD: f64 = -7.5;
 
 const SWING: &str = r#"
@@ -24,7 +24,7 @@ MORE]
 simulate = { t_end = 0.1 }
 "#;
 
-/// The same coupling once more.
+/// The same coupling a second time.
 const AGAIN: &str = r#"    { name = "again", type = "coupling", measures = ["pivot.angle", "hinge.angle"], ratio = -1.0 },
 "#;
 
@@ -42,7 +42,7 @@ fn components(reaction: &Value) -> Vec<(String, String)> {
         .collect()
 }
 
-/// Header and last row of a table.
+/// Returns header and last row of a table.
 fn last_row(folder: &Folder, name: &str) -> Vec<(String, String)> {
     let table = folder.read(name);
     let mut lines = table.lines();
@@ -71,7 +71,7 @@ fn a_coupling_in_a_loop_has_the_force_along_what_follows() {
     assert_eq!(components(level), [unique("T"), unique("load")]);
     let value = d["groups"][0]["values"][0]["value"].as_f64();
     assert!(value.is_some_and(|x| (x - LOAD).abs() < 1e-12), "{value:?}");
-    // Both are one number, so they depend on the data alike.
+    // Both are the same number, so they have the same sensitivity to the data.
     let of = |k: usize| level["components"][k]["sensitivity"].as_f64();
     assert!(
         of(0).is_some_and(|x| x > 0.0) && of(0) == of(1),
@@ -134,9 +134,9 @@ fn doubled_couplings_share_one_force() {
     );
 }
 
-/// A coupling of two measures of one joint has its load in the answer, too: a nut of 2 kg on a
-/// vertical spindle of 1 m a radian, with 0.5 kg·m² about it, falls with m·g/(m + I/r²), so that
-/// the thread carries m·g·I/(I + m·r²).
+/// A coupling of two joint coordinates of one joint also has its load in the answer. A nut of 2 kg
+/// is on a vertical spindle of 1 m per radian, with 0.5 kg·m² about it. It falls with m·g/(m +
+/// I/r²), so that the thread carries m·g·I/(I + m·r²).
 #[test]
 fn a_coupling_within_a_joint_has_its_load() {
     let scene = r#"
@@ -158,7 +158,7 @@ joint = [
     assert!(names.contains(&"load".to_owned()), "{names:?}");
     for k in 0..2 {
         let value = d["groups"][k]["values"][0]["value"].as_f64();
-        // On the ground, the first body of the spindle: downwards.
+        // The force acts downwards on the ground, the first body of the spindle.
         let expected = -20.0 * 0.5 / 2.5;
         assert!(
             value.is_some_and(|x| (x - expected).abs() < 1e-12),
@@ -168,7 +168,7 @@ joint = [
     }
 }
 
-/// A gear of ratio zero would hold the second wheel at the carrier, without the first wheel, on
+/// A gear of ratio zero would fix the second wheel to the carrier, without the first wheel, on
 /// which its reaction is given.
 #[test]
 fn a_gear_of_ratio_zero_is_refused() {

@@ -1,4 +1,4 @@
-//! `pfaff diff`: the changes if a joint is relaxed.
+//! Tests `pfaff diff`: the changes if a joint is relaxed.
 
 use std::fs;
 
@@ -9,7 +9,7 @@ use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 const DOOR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/door.toml");
 const SLEIGH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/sleigh.toml");
 
-/// A scene with some text replaced.
+/// Returns a scene with some text replaced.
 fn changed(folder: &Folder, of: &str, from: &str, to: &str) -> String {
     fs::create_dir_all(&folder.0).expect("writable");
     let text = fs::read_to_string(of).expect("readable");
@@ -71,7 +71,7 @@ fn a_relaxed_hinge_is_told_in_words_and_numbers() {
 fn joints_come_and_go_by_name() {
     let folder = Folder::new("diff-sleigh");
     let renamed = changed(&folder, SLEIGH, "\"left\"", "\"port\"");
-    // The group names the runner, too.
+    // The group also contains the name of the runner.
     let text = fs::read_to_string(&renamed).expect("readable");
     fs::write(&renamed, text.replace("left.N", "port.N")).expect("writable");
     let document = pfaff(&["diff", SLEIGH, &renamed, "--json"]);
@@ -145,7 +145,7 @@ fn wrong_scenes_are_refused_with_their_places() {
     );
 }
 
-/// A body on a joint in space, driven at two rates.
+/// A body is on a joint in space and driven at two rates.
 fn driven(joint: &str, drives: &[(&str, f64)]) -> String {
     let drive = |(kind, rate): &(&str, f64)| {
         format!(
@@ -172,9 +172,9 @@ fn motions_in_space_are_compared_along_and_about_all_axes() {
     let slide = "type = \"translational\", axis = [0, 0, 1]";
     let hinge = "type = \"revolute\", axis = [1, 0, 0]";
     let screw = "type = \"cylindrical\", axis = [0, 0, 1]";
-    // What the scenes are apart after one second: along z, about x by 2.5 rad with the origin of
-    // the frame at 0.3 m from the axis, and both about z. During a whole turn the largest angle is
-    // half a turn.
+    // Distances between the scenes after one second: along z, about x by 2.5 rad with the origin of
+    // the frame at 0.3 m from the axis, and both about z. During a whole revolution the largest
+    // angle is half a turn.
     let chord = |angle: f64| 0.6 * (0.5 * angle).sin();
     let full = std::f64::consts::TAU + 0.1;
     let oblique = 0.9_f64.hypot(chord(0.9));
@@ -207,7 +207,7 @@ fn motions_in_space_are_compared_along_and_about_all_axes() {
         let car = &d["motion"]["bodies"][0];
         let found = ["distance", "angle"].map(|key| car[key].as_f64().expect("a number"));
         for (found, expected) in found.into_iter().zip(expected) {
-            // Half a turn is met at an instant between those that are compared: 2π/200 a row.
+            // Half a turn occurs at an instant between the compared ones: 2π/200 per row.
             let bound = if expected == std::f64::consts::PI {
                 0.02
             } else {

@@ -1,5 +1,5 @@
-//! Directories and files of answers: an answer replaces the earlier one of its command as a whole,
-//! and nothing that somebody else has made.
+//! Tests directories and files of answers: an answer replaces the earlier one of the same command
+//! completely, and no file from another source.
 
 use std::fs;
 
@@ -13,13 +13,13 @@ joint = [{ name = "pin", type = "revolute", bodies = ["ground", "rod"], at = [0.
 simulate = { t_end = 0.1 }
 "#;
 
-/// The same with a load, which is an input.
+/// The same rod with a load, which is an input.
 const PUSHED: &str = r#"
 force = [{ name = "push", type = "torque", body = "rod", torque = 0.0 }]
 "#;
 
-/// Each command with a directory; a file that another answer of it could have, with its first
-/// bytes; and one of another command.
+/// Each command with a directory, a file that another answer of it could contain, with its first
+/// bytes, and a file of another command.
 const COMMANDS: [(&[&str], &str, &str, &str); 6] = [
     (&["linearise", "-"], "mode-97.html", PAGE, "tolerance.csv"),
     (&["equilibrium", "-"], "at-rest.toml.part", "[sc", "a.csv"),
@@ -86,7 +86,7 @@ fn an_answer_removes_what_an_earlier_one_has_left() {
         let answer = names(&folder);
         for (name, content) in [
             (stale, head(content)),
-            // Of somebody else, with a name that the command may use, or not.
+            // The file comes from another source, with a name that the command may or may not use.
             ("notes.txt", b"mine".to_vec()),
             ("mode-1.txt", b"mine".to_vec()),
             (other, b"A,rod.angle\nrod.angle,1\n".to_vec()),
@@ -110,7 +110,7 @@ fn an_answer_removes_what_an_earlier_one_has_left() {
     }
 }
 
-/// The matrix of inputs of one mechanism would stand next to those of another.
+/// The matrix of inputs of one mechanism would be next to those of another.
 #[test]
 fn matrices_in_a_directory_are_of_one_mechanism() {
     let folder = Folder::new("directory-matrices");
@@ -123,7 +123,7 @@ fn matrices_in_a_directory_are_of_one_mechanism() {
     assert!(inputs.is_file());
     assert_eq!(with_scene(&out, ROD).status.code(), Some(0));
     assert!(!inputs.exists());
-    // A table of somebody else is neither replaced nor, with `--force`, removed.
+    // A table from another source is neither replaced nor, with `--force`, removed.
     fs::write(&inputs, "B,year\n1,2\n").expect("writable");
     let refused = with_scene(&out, ROD);
     assert_eq!(refused.status.code(), Some(2));
@@ -137,11 +137,11 @@ fn matrices_in_a_directory_are_of_one_mechanism() {
     assert_eq!(folder.read("b.csv"), "B,year\n1,2\n");
 }
 
-/// A pendulum as another program describes it.
+/// A pendulum in the format of another program.
 const MODEL: &str = "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/>\
     <inertial pos='0 0 -0.5' mass='1' diaginertia='0.1 0.1 0.01'/></body></worldbody></mujoco>";
 
-/// Commands that write one file, with what they read.
+/// Commands that write one file, with their input.
 const SINGLE: [(&[&str], &str); 3] = [
     (&["new", "door"], ""),
     (&["import", "-"], MODEL),
@@ -186,7 +186,7 @@ fn nothing_but_a_file_is_replaced_by_a_file() {
     assert_eq!(folder.read("precious"), "mine");
 }
 
-/// An existing file is kept, whatever goes wrong.
+/// An existing file is kept for any error.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_leaves_no_part_of_a_file() {

@@ -1,4 +1,4 @@
-//! Documents and files of the published mechanism.
+//! Tests documents and files of the published mechanism.
 
 use std::process::{Command, Stdio};
 
@@ -91,8 +91,9 @@ fn analyze_looks_at_any_time_of_the_motion() {
     assert_eq!(d["groups"][0]["verdict"], "not_unique");
 }
 
-/// Where the rate of a motor jumps by −3 rad/s, its impulse is that of the moment of momentum about
-/// the pin, 3·(0.3 + 2·0.5²) N·m·s on the ground; two pins at one place share theirs in any way.
+/// If the rate of a motor jumps by −3 rad/s, its impulse equals the change of the angular momentum
+/// about the pin, 3·(0.3 + 2·0.5²) N·m·s on the ground. Two coincident pins share their impulse in
+/// an undetermined way.
 #[test]
 fn impulses_are_values_with_verdicts() {
     let scene = r#"
@@ -132,8 +133,8 @@ simulate = { t_end = 2.0 }
     assert_eq!(impulses(&arguments, &silent), Value::Null);
 }
 
-/// Two mechanisms that have nothing to do with each other: where only the reactions of one are
-/// wanted, the other has its verdicts, too.
+/// Two mechanisms are independent of each other: if only the reactions of one are requested, the
+/// other also has its verdicts.
 #[test]
 fn what_is_not_wanted_is_not_called_unique() {
     let scene = r#"
@@ -215,8 +216,8 @@ fn simulate_writes_the_files_of_the_contract() {
     assert_eq!(summary["reactions"]["A"]["verdict"], "unique");
     let choice = &summary["choice"][0];
     assert_eq!(choice["deleted_rows"], serde_json::json!([20, 21]));
-    // Up to 1 s the edges lie along x, and so do the components that are determined; the table has
-    // these numbers and no others, the choice has all.
+    // Up to 1 s the edges are parallel to x, and so are the determined components. The table
+    // contains these numbers and no others, and the choice contains all numbers.
     let b = &summary["reactions"]["B"];
     assert_eq!(b["verdict"], "not_unique");
     let along = &b["components"]["Fx"];
@@ -325,7 +326,7 @@ fn one_body_is_no_bodies() {
 fn a_run_that_loses_energy_warns() {
     let folder = Folder::new("energy");
     let simulate = ["simulate", "-", "--out", folder.text(), "--t-end", "10"];
-    let warning = "warning: the energy balance is off by ";
+    let warning = "warning: the error of the energy balance is ";
     let text = stdout(&with_scene(&simulate, PENDULUM));
     assert!(!text.contains(warning), "{text}");
     let loose = [&simulate[..], &["--rtol", "1e-3", "--atol", "1e-3"]].concat();

@@ -1,10 +1,10 @@
-//! `pfaff equilibrium`: words, documents, files, refusals.
+//! Tests `pfaff equilibrium`: texts, documents, files, errors.
 
 use serde_json::Value;
 
 use super::{Folder, pfaff, stderr, stdout, with_scene};
 
-/// A horizontal rod of 2 kg on a torsion spring of 100 N·m/rad: it leans by about −0.1 rad.
+/// A horizontal rod of 2 kg is on a torsion spring of 100 N·m/rad: it leans by about −0.1 rad.
 const ROD: &str = r#"[scene]
 name = "rod"
 space = "plane"
@@ -37,11 +37,11 @@ fn a_rod_rests_in_words_documents_and_files() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
     for words in [
-        "rod rests, found in ",
-        "with functions of time at t = 0 s: forces balance",
-        "stable: forces push back from every displacement",
+        "rod: equilibrium found in ",
+        "(functions of time at t = 0 s): forces balance",
+        "stable: every displacement causes a restoring force",
         "rod   0.0497",
-        "Fx = 0, Fy = -20   unique",
+        "Fx = 0, Fy = -20         unique",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
@@ -72,7 +72,7 @@ fn a_rod_rests_in_words_documents_and_files() {
         "{scene}"
     );
     assert!(scene.contains("angular_velocity = 0\n"), "{scene}");
-    // It stays there, may be linearised, and the same again replaces its own files.
+    // It remains there, may be linearised, and a second call replaces its own files.
     let there = format!("{out}/at-rest.toml");
     let run = folder.0.join("run").display().to_string();
     let output = pfaff(&["simulate", &there, "--out", &run, "--t-end", "1"]);
@@ -95,15 +95,15 @@ fn an_upright_rod_is_left_when_it_is_asked() {
         .replace("100.0", "1.0");
     let output = with_scene(&["equilibrium", "-"], &upright);
     let text = stdout(&output);
-    let words = "unstable: forces push further along: `rod` turns about `pin`; `--stable` leaves such places";
+    let words = "unstable along: `rod` turns about `pin`; `--stable` skips unstable equilibria";
     assert!(
-        text.contains("rests where it starts") && text.contains(words),
+        text.contains("the start is an equilibrium") && text.contains(words),
         "{text}"
     );
     let output = with_scene(&["equilibrium", "-", "--stable"], &upright);
     let text = stdout(&output);
     assert!(
-        text.contains(" after 1 push, ") && text.contains("\nstable: "),
+        text.contains(" after 1 perturbation ") && text.contains("\nstable: "),
         "{text}"
     );
 }
@@ -139,8 +139,8 @@ fn what_does_not_rest_is_refused_with_its_code() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// A rod that a motor holds level and swings from there: at rest the motor carries its weight
-/// alone, and small motions about the written start are those of the place held.
+/// A motor supports a horizontal rod and swings it from there. At rest the motor carries only its
+/// weight, and small motions about the written start are those with locked drives.
 #[test]
 fn drives_are_held_without_acceleration() {
     let swung = format!(
@@ -154,14 +154,14 @@ fn drives_are_held_without_acceleration() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
     for words in [
-        "drives are held at t = 0 s: `motor`",
-        "a run from here begins with other forces, since functions of time accelerate: `motor`",
+        "drives locked at t = 0 s: `motor`",
+        "a simulation from here starts with other forces, because these functions of time accelerate: `motor`",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
     let read = |name: &str| folder.read(&format!("rest/{name}"));
     let d: Value = serde_json::from_str(&read("equilibrium.json")).expect("one document");
-    // 2 kg · 10 m/s² · 0.5 m; the acceleration would add (0.5 + 2·0.25)·0.4·25 N·m.
+    // The torque is 2 kg · 10 m/s² · 0.5 m; the acceleration would add (0.5 + 2·0.25)·0.4·25 N·m.
     let torque = d["reactions"]["motor"]["values"]["T"]["value"]
         .as_f64()
         .expect("a number");
@@ -170,7 +170,7 @@ fn drives_are_held_without_acceleration() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
     assert!(
-        text.contains("held at t = 0 s, since the state is at rest: `motor`"),
+        text.contains("locked at t = 0 s, because the state is at rest: `motor`"),
         "{text}"
     );
 }

@@ -1,4 +1,4 @@
-//! Every code is explained, and every example has its code.
+//! Every code is explained, and every example reports its code.
 
 use pfaff::model::codes::{Code, Example, entries};
 use serde_json::Value;
@@ -28,7 +28,7 @@ fn codes_are_found() {
     }
     let text = stdout(&pfaff(&["explain", "P0102"]));
     assert!(
-        text.starts_with("P0102: A table has no such key\n"),
+        text.starts_with("P0102: Unknown key in a table\n"),
         "{text}"
     );
     let document = |arguments: &[&str]| -> Value {
@@ -57,7 +57,7 @@ fn every_example_has_its_code() {
             .stderr(Stdio::piped())
             .spawn()
             .expect("the command starts");
-        // A command that does not read is done before.
+        // A command that does not read its input has already ended.
         let _ = child
             .stdin
             .take()
@@ -65,7 +65,7 @@ fn every_example_has_its_code() {
             .write_all(scene.as_bytes());
         child.wait_with_output().expect("the command ends")
     };
-    // A sound scene for commands without one.
+    // A valid scene for commands without a scene.
     let door = include_str!("../../../../examples/door.toml");
     let mut wrong = Vec::new();
     for entry in entries() {
@@ -73,8 +73,8 @@ fn every_example_has_its_code() {
             Example::Scene(arguments, scene) => (arguments, scene),
             Example::Command(arguments) => (arguments, door),
             Example::None(reason) => {
-                // A clause of its own, behind a colon.
-                let verbs = ["it needs ", "it depends ", "only programs ", " have to be "];
+                // A requirement or a dependency.
+                let verbs = ["requires ", "depends on ", "reachable only "];
                 assert!(verbs.iter().any(|verb| reason.contains(verb)), "{reason}");
                 let said = stdout(&pfaff(&["explain", &entry.code.to_string()]));
                 assert!(
@@ -91,7 +91,7 @@ fn every_example_has_its_code() {
             wrong.push(format!("{}: {arguments}: {said}", entry.code));
             continue;
         }
-        // The same code in the document.
+        // The document contains the same code.
         let output = run(&format!("{arguments} --json"), scene);
         let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
         assert_eq!(document["format"], 2, "{document:#}");

@@ -1,4 +1,4 @@
-//! Failures are reported in one JSON document if one was requested, with the same exit code as
+//! Failures are reported in one JSON document if it was requested, with the same exit code as
 //! without it.
 
 use serde_json::{Value, json};
@@ -7,7 +7,7 @@ use super::analyze::{contains, document};
 use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// The document of a failure; there may be no other output.
+/// Returns the document of a failure; there may be no other output.
 #[track_caller]
 fn failure(output: &std::process::Output, code: i32) -> Value {
     assert_eq!(output.status.code(), Some(code), "{output:?}");
@@ -87,7 +87,7 @@ fn a_run_that_stops_has_code_1() {
 
 #[test]
 fn what_can_be_judged_but_not_moved_is_checked_analysed_and_not_simulated() {
-    // Two pivots nearly at one point: one constraint too many, or a bar that cannot turn.
+    // Two pivots are nearly coincident: one constraint too many, or a bar that cannot turn.
     for distance in ["1e-9", "1e-12"] {
         let twin = format!(
             "[[joint]]\nname = \"twin\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [{distance}, 0.0]\n"
@@ -100,7 +100,7 @@ fn what_can_be_judged_but_not_moved_is_checked_analysed_and_not_simulated() {
         contains(&words, &["assembled", &format!("warning: {warning}")]);
         let d = document(&with_scene(&["analyze", "-", "--json"], &scene));
         assert_eq!(d["warnings"][0], warning, "{d:#}");
-        // The reason, in terms of the scene.
+        // The text gives the reason in terms of the scene.
         let folder = Folder::new("twin-pivots");
         let out = folder.0.to_str().expect("UTF-8");
         let output = with_scene(&["simulate", "-", "--out", out], &scene);
@@ -124,11 +124,12 @@ fn a_place_that_takes_no_results_is_wrong_input() {
     assert_eq!(d["problems"], json!([]));
 }
 
-/// Moments of which one is above the sum of the others: the scene is written, and no body has them.
+/// One of the moments is above the sum of the others: the scene is written, although no real body
+/// has such moments.
 const NO_BODY: &str = "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/>\
     <inertial pos='0 0 -0.5' mass='1' diaginertia='0.1 0.1 0.9'/></body></worldbody></mujoco>";
 
-/// Whatever ends a command with 1, its document has the code and the reason.
+/// For every error with exit code 1, the document contains the code and the reason.
 #[test]
 fn every_document_of_exit_code_1_has_its_code_and_error() {
     let folder = Folder::new("json-code-1");

@@ -1,5 +1,5 @@
-//! Faults of the environment: closed output, full disk, read-only directory, request to stop.
-//! Computed results are kept and readable, files that look complete are complete, and older results
+//! Tests faults of the environment: closed output, full disk, read-only directory, request to stop.
+//! Computed results are kept and readable, and files with final names are complete. Older results
 //! are kept until newer ones are complete.
 
 use std::fs::{self, File};
@@ -13,13 +13,13 @@ use serde_json::Value;
 use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stderr, stdout};
 
-/// How long a test waits for an event that must occur.
+/// Time limit for an event that must occur.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Longest time from a request to the end of the command.
 const AT_ONCE: Duration = Duration::from_secs(1);
 
-/// A directory with the scene of a pendulum in it, which runs up to `t_end`.
+/// Creates a directory with the scene of a pendulum, which runs up to `t_end`.
 fn place(name: &str, t_end: &str) -> (Folder, String) {
     let folder = Folder::new(name);
     fs::create_dir_all(&folder.0).expect("writable");
@@ -33,7 +33,7 @@ fn place(name: &str, t_end: &str) -> (Folder, String) {
     (folder, scene)
 }
 
-/// Every command that prints, with its arguments.
+/// Returns every command that prints, with its arguments.
 fn commands<'a>(scene: &'a str, out: &'a str) -> Vec<Vec<&'a str>> {
     vec![
         vec!["--help"],
@@ -80,8 +80,8 @@ fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
     }
 }
 
-/// The command under a limit of the shell: of the size of files (then no signal ends it), of
-/// memory.
+/// Runs the command under a limit of the shell: of the size of files (then no signal ends it), or
+/// of memory.
 pub(crate) fn with_limit(limit: &str, arguments: &[&str]) -> Output {
     let script = format!("trap '' XFSZ; ulimit {limit}; exec \"$0\" \"$@\"");
     let mut command = Command::new("sh");
@@ -96,8 +96,8 @@ fn send(signal: &str, child: &Child) {
     assert!(sent.is_ok_and(|status| status.success()));
 }
 
-/// A table in which every row has as many numbers as the header has names: the number of rows and
-/// the first number of the last row.
+/// Checks that every row of a table has as many numbers as the header has names; returns the number
+/// of rows and the first number of the last row.
 fn rows(path: &Path) -> (usize, f64) {
     let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     assert!(
@@ -115,7 +115,7 @@ fn rows(path: &Path) -> (usize, f64) {
     (count, last)
 }
 
-/// Names and contents of a directory.
+/// Returns names and contents of a directory.
 fn contents(folder: &Folder) -> Vec<(String, Vec<u8>)> {
     let entries = fs::read_dir(&folder.0).expect("readable").flatten();
     let mut files: Vec<_> = entries
@@ -136,7 +136,7 @@ fn nobody_has_to_listen_to_the_end() {
     let out = folder.0.join("out");
     for command in commands(&scene, out.to_str().expect("UTF-8")) {
         let mut child = begun(&command, Stdio::piped());
-        // Like `| head -1`, but the pipe is closed before anything is written.
+        // The test corresponds to `| head -1`, but the pipe is closed before the first output.
         drop(child.stdout.take());
         let output = child.wait_with_output().expect("it ends");
         assert_eq!(
@@ -152,7 +152,7 @@ fn nobody_has_to_listen_to_the_end() {
         .expect("a line");
     assert!(line.starts_with("pendulum"), "{line}");
     assert_eq!(child.wait().expect("it ends").code(), Some(0));
-    // A wrong input is still reported as wrong.
+    // Invalid input is still reported as invalid.
     let mut child = begun(&["check", "no-such-file.toml", "--json"], Stdio::piped());
     drop(child.stdout.take());
     assert_eq!(child.wait().expect("it ends").code(), Some(2));
@@ -187,7 +187,7 @@ fn a_full_disk_leaves_older_results_alone() {
     assert_eq!(pfaff(&simulate).status.code(), Some(0));
     let before = contents(&out);
     assert_eq!(before.len(), 4);
-    // Each of its files meets the full disk when the first bytes are written.
+    // Each of its files reaches the full disk when the first bytes are written.
     for (name, output) in [
         ("trajectory.csv", "reactions = false"),
         ("reactions.csv", "trajectory = false"),
@@ -210,7 +210,7 @@ fn a_full_disk_leaves_older_results_alone() {
             .collect();
         assert_eq!(whole, before, "after {name}");
     }
-    // Files that an earlier run left are no obstacle.
+    // Files that remain from an earlier run cause no error.
     fs::write(out.0.join("trajectory.csv.part"), "half a li").expect("writable");
     assert_eq!(pfaff(&simulate).status.code(), Some(0));
     let names: Vec<_> = contents(&out).into_iter().map(|(name, _)| name).collect();
@@ -227,12 +227,12 @@ fn a_full_disk_leaves_older_results_alone() {
 fn a_disk_that_fills_up_leaves_whole_rows() {
     let (folder, scene) = place("faults-filling", "10.0");
     let out = Folder(folder.0.join("out"));
-    // At most 8 blocks of 512 or 1024 bytes for each file.
+    // The limit is at most 8 blocks of 512 or 1024 bytes for each file.
     let output = with_limit("-f 8", &["simulate", &scene, "--out", out.text()]);
     let text = stderr(&output);
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(text.contains(".csv.part`: File too large"), "{text}");
-    // No file looks complete, and the existing files are readable.
+    // No file has a final name unless it is complete, and the existing files are readable.
     let names: Vec<_> = contents(&out).into_iter().map(|(name, _)| name).collect();
     assert_eq!(names, ["reactions.csv.part", "trajectory.csv.part"]);
     let (count, t) = rows(&out.0.join("trajectory.csv.part"));
@@ -270,7 +270,7 @@ fn a_sweep_without_a_disk_says_so_and_goes_on_later() {
         .filter(|(name, _)| !name.ends_with(".part"))
         .collect();
     assert_eq!(whole, before);
-    // Something else is where the summary goes.
+    // The path of the summary is occupied by another object.
     let path = out.0.join("summary.json");
     fs::remove_file(&path).expect("removable");
     fs::create_dir(&path).expect("writable");
@@ -379,7 +379,7 @@ fn a_second_request_ends_the_program_at_once() {
     wait_until("rows are written", || {
         fs::metadata(&part).is_ok_and(|m| m.len() > 100_000)
     });
-    // The second one arrives while the command puts its files in order, or has ended already.
+    // The second signal arrives while the command completes its files, or has already ended.
     send("-INT", &child);
     send("-INT", &child);
     let begin = Instant::now();
@@ -410,7 +410,7 @@ fn an_interrupted_import_writes_nothing() {
     for signal in ["-INT", "-TERM", "-HUP"] {
         let mut command = Command::new(env!("CARGO_BIN_EXE_pfaff"));
         command.args(["import", "-", "--out", &out, "--json"]);
-        // It waits for the rest of its input.
+        // The command waits for the rest of its input.
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().expect("the command starts");
         let input = child.stdin.take();
@@ -428,7 +428,7 @@ fn an_interrupted_import_writes_nothing() {
 
 #[test]
 fn what_has_nothing_to_keep_ends_at_once() {
-    // A motion of several days, with verdicts along it.
+    // The motion takes several days, with verdicts along it.
     let (_folder, scene) = place("faults-along", "50000.0");
     let mut child = begun(&["analyze", &scene, "--along"], Stdio::piped());
     wait_until_it_listens(&child);
@@ -471,7 +471,7 @@ fn an_interrupted_comparison_keeps_its_rows() {
         &["work-precision", ROBOT, "--out", folder.text(), "--json"],
         Stdio::piped(),
     );
-    // The place is taken before the first run, and some runs are made in a second.
+    // The directory is created before the first run, and some runs finish within a second.
     wait_until("it has begun", || folder.0.exists());
     std::thread::sleep(Duration::from_secs(1));
     send("-INT", &child);
@@ -546,9 +546,9 @@ fn files_of_others_are_replaced_by_force_only() {
         Some(0)
     );
     assert!(out.read("report.html").ends_with("</html>\n"));
-    // Now they are ours.
+    // From now on the files belong to this command.
     assert_eq!(pfaff(&simulate).status.code(), Some(0));
-    // A run that does not want them takes the tables of the earlier run away.
+    // A run that does not write tables removes those of the earlier run.
     let text = fs::read_to_string(&scene).expect("readable");
     fs::write(
         &scene,
@@ -563,7 +563,7 @@ fn files_of_others_are_replaced_by_force_only() {
         summary["files"],
         serde_json::json!(["trajectory.csv", "summary.json"])
     );
-    // A page somewhere else.
+    // The page is in a different directory.
     let page = folder.0.join("page.html");
     fs::write(&page, "mine").expect("writable");
     let page = page.to_str().expect("UTF-8");
@@ -587,7 +587,7 @@ fn an_implicit_run_of_one_row_is_interrupted() {
     one_row_interrupted("radau5");
 }
 
-/// A run whose only row of output is far away ends within a second after a signal.
+/// A run whose only output row is far away ends within a second after a signal.
 fn one_row_interrupted(method: &str) {
     let (folder, scene) = place(&format!("faults-one-row-{method}"), "50000.0");
     let text = fs::read_to_string(&scene).expect("readable");
@@ -625,14 +625,15 @@ fn no_character_of_a_file_reaches_a_terminal_as_a_command() {
     }
 }
 
-/// Kills, interrupts and limits at random times: whatever happens, files with their final names are
-/// whole and belong to one run.
+/// Kills, interrupts and limits occur at random times: in every case, files with their final names
+/// are complete and belong to one run.
 fn mishaps(name: &str, count: u32) {
     let (folder, scene) = place(name, "50000.0");
     let out = Folder(folder.0.join("out"));
     let short = ["simulate", &scene, "--t-end", "0.5", "--out", out.text()];
     assert_eq!(pfaff(&short).status.code(), Some(0));
-    // Wichmann's multiplicative generator; the same mishaps each time.
+    // The numbers come from Wichmann's multiplicative generator, so that the events are the same
+    // each time.
     let mut seed: u64 = 171;
     for k in 0..count {
         seed = seed * 171 % 30_269;
@@ -657,8 +658,8 @@ fn mishaps(name: &str, count: u32) {
             assert_eq!(whole(&contents(&out)), whole(&before), "{k}: killed");
         } else {
             send("-INT", &child);
-            // Where interrupts are ignored until somebody hears them, as in the background of a
-            // shell, the first one may come too early.
+            // If interrupts are ignored until a handler exists, as in the background of a shell,
+            // the first one may come too early.
             let mut sent = Instant::now();
             while child.try_wait().expect("it runs").is_none() {
                 std::thread::sleep(Duration::from_millis(2));

@@ -1,5 +1,5 @@
-//! Unique reactions that depend on the last digits of the data: every output reports them, and none
-//! reports them for ordinary scenes.
+//! Unique reactions that depend on the last digits of the data: every output reports them, and no
+//! output reports them for ordinary scenes.
 
 use std::fs;
 use suite::generate::Kind;
@@ -10,8 +10,8 @@ use super::{Folder, ROBOT, pfaff, stderr, stdout};
 
 const NAMES: [&str; 6] = ["O1", "P1", "O2", "P2", "O3", "P3"];
 
-/// A coupler on three parallel cranks of half a metre, 6 kg in all; the pin of the third crank on
-/// the ground is displaced by this much, and so is the hole of the crank there.
+/// A coupler is on three parallel cranks of half a metre, 6 kg in total. The pin of the third crank
+/// on the ground is displaced by this length, and so is the hole of the crank there.
 fn three_cranks(folder: &Folder, name: &str, off: f64) -> String {
     let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
     let mut bodies = String::new();
@@ -47,7 +47,7 @@ simulate = {{ t_end = 0.01 }}
     path.to_str().expect("UTF-8").to_owned()
 }
 
-/// The output of a command that must succeed.
+/// Returns the output of a command that must succeed.
 fn said(arguments: &[&str]) -> String {
     let output = pfaff(arguments);
     assert_eq!((output.status.code(), &*stderr(&output)), (Some(0), ""));
@@ -58,7 +58,7 @@ fn document(arguments: &[&str]) -> Value {
     serde_json::from_str(&said(arguments)).expect("one JSON document")
 }
 
-/// In one line, because lines may be wrapped at any blank.
+/// Joins all lines, because lines may be wrapped at any blank.
 fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -74,7 +74,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
         "FRAGILE: O1, P1, O2, P2, O3, P3",
         "O3 revolute 9–10 unique, FRAGILE",
         "`P3` are unique but would change by up to several times their size",
-        "if point `s_i` of `O2` moves by 0.24 mm",
+        "if the point of `O2` on its first body moves by 0.24 mm",
         "one row is redundant from a tolerance of 0.049 mm on",
     ] {
         assert!(text.contains(words), "{words}: {text}");
@@ -90,7 +90,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
         assert!(r["sensitivity"].as_f64().is_some_and(|x| x > 0.1), "{r:#}");
     }
     let from = d["data"]["lower_rank_from"].as_f64().expect("near");
-    // An eighth of the misfit, because eight points share it.
+    // The tolerance is an eighth of the violation, because eight points share it.
     assert!((from / 5e-5 - 1.0).abs() < 0.05, "{from}");
     assert!(d["evidence"]["nearly_redundant"]["change_per_micrometre"].is_number());
 
@@ -99,16 +99,19 @@ fn a_pin_that_is_off_is_told_in_every_output() {
         text.contains("warning: `O1`, `P1`, `O2`, `P2`, `O3` and `P3` are unique but would change"),
         "{text}"
     );
-    // Rounding locks it: without what the pins are off it moves.
-    let locked = "warning: mobility 0 for data as they are written, and 1 if lengths are known to 0.049 mm only";
+    // Rounding locks the mechanism: without the offset of the pins it moves.
+    let locked =
+        "warning: mobility 0 for data as written, but 1 if lengths are accurate only to 0.049 mm";
     assert!(text.contains(locked), "{text}");
-    assert!(!said(&["check", &right]).contains("lengths are known to"));
+    assert!(!said(&["check", &right]).contains("lengths are accurate only to"));
 
     let out = folder.0.join("run");
     let out = out.to_str().expect("UTF-8");
     let text = said(&["simulate", &off, "--out", out]);
     assert!(
-        text.contains("warning: unique but fragile at the start: O1, P1, O2, P2, O3, P3."),
+        text.contains(
+            "warning: unique but ill-determined (fragile) at the start: O1, P1, O2, P2, O3, P3."
+        ),
         "{text}"
     );
     assert!(flat(&text).contains(locked), "{text}");
@@ -173,7 +176,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
     assert_eq!(counts, [Some("6"), Some("6")]);
 }
 
-/// A lid of 18 kg on four hinges, one of them half a millimetre off the line of the others.
+/// A lid of 18 kg has four hinges, one of them half a millimetre off the line of the others.
 const HATCH: &str = "scene = { name = \"hatch\", space = \"spatial\", gravity = [0, 0, -9.81] }
 body = [{ name = \"lid\", mass = 18, inertia = [0.8, 1.2, 2], centre = [0, 0.35, 0.02] }]
 joint = [
@@ -184,7 +187,8 @@ joint = [
 ]
 ";
 
-/// No hinge is unique, but one component of one is, made of the half millimetre: W·c/e = 124 kN.
+/// No hinge is unique, but one component of one hinge is unique. It comes from the half millimetre:
+/// W·c/e = 124 kN.
 #[test]
 fn a_component_that_hangs_on_the_last_digits_is_told_in_every_output() {
     let folder = Folder::new("fragile-component");
@@ -245,7 +249,7 @@ fn a_component_that_hangs_on_the_last_digits_is_told_in_every_output() {
         (&d["groups"][0]["verdict"], &d["groups"][0]["fragile"]),
         (&"unique".into(), &true.into())
     );
-    // The weight is that of the lid, whatever the hinges do.
+    // The weight is that of the lid, whatever the share of the hinges is.
     let whole = of(&d["groups"][1]["components"], "Fz");
     assert_eq!(
         (&whole["verdict"], &whole["fragile"]),
@@ -279,7 +283,10 @@ fn a_component_that_hangs_on_the_last_digits_is_told_in_every_output() {
         page.contains("Unique components of the reactions of hinge 3 are fragile"),
         "headline"
     );
-    assert!(page.contains("not unique, unique parts fragile"), "table");
+    assert!(
+        page.contains("not unique, unique components fragile"),
+        "table"
+    );
     let straight = folder.0.join("straight.toml");
     fs::write(&straight, HATCH.replace("0.0005", "0")).expect("writable");
     let straight = straight.to_str().expect("UTF-8");
@@ -396,8 +403,9 @@ fn robots_of_a_fleet_are_as_fragile_as_one() {
     }
 }
 
-/// A weight between a wall and a slope that is almost as steep: both push with 10/0.0001 N against
-/// each other, and together they carry the weight. A sum of fragile numbers may be fragile, or not.
+/// A weight is between a wall and a slope that is almost as steep: both push with 10/0.0001 N
+/// against each other, and together they carry the weight. A sum of ill-determined numbers may be
+/// ill-determined, or not.
 const WEDGED: &str = r#"
 scene = { name = "wedged", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "weight", mass = 1.0, inertia = 1.0 }]
@@ -449,9 +457,9 @@ fn groups_are_fragile_by_their_own_numbers() {
         .as_object()
         .expect("a sum of wrenches");
     for (name, component) in components {
-        // Points that are not at one place any more are the arm of a couple. If one is 0.1 mm
-        // higher, the weight slides down as it turns, ÿ = −φ̈: 10 N accelerate m + I, which are as
-        // large as 2·m, and the supports carry 5 N. To first order nothing changes.
+        // Points that are no longer coincident are the arm of a couple. If one is 0.1 mm higher,
+        // the weight slides down and rotates, ÿ = −φ̈: 10 N accelerate m + I, which has the size of
+        // 2·m, and the supports carry 5 N. To first order there is no change.
         assert_eq!(component["fragile"], name != "Fx", "{name}: {component:#}");
         if name == "Fy" {
             let change = component["sensitivity"].as_f64().expect("a number");
@@ -476,7 +484,7 @@ fn groups_are_fragile_by_their_own_numbers() {
         assert!(columns.contains(&name), "{name}: {header}");
     }
     let simulated = said(&["simulate", scene, "--out", out]);
-    let named = "fragile at the start: wall, slope, skew, all, pair.";
+    let named = "ill-determined (fragile) at the start: wall, slope, skew, all, pair.";
     assert!(simulated.contains(named), "{simulated}");
     let checked = flat(&said(&["check", scene]));
     for name in ["`skew`", "`all.T`"] {

@@ -1,5 +1,5 @@
-//! Mobility with and without the drives, free motions, and drives that contradict each other, in
-//! every output.
+//! Tests mobility with and without the drives, free motions, and drives that contradict each other,
+//! in every output.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use super::analyze::contains;
 use super::bad_input::contradiction_at_half_a_second;
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// A crank, with a motor or without.
+/// A crank, with a motor or without a motor.
 fn crank(motor: bool) -> String {
     let drive = r#"
 [[drive]]
@@ -46,7 +46,7 @@ fn document(arguments: &[&str], scene: &str) -> Value {
     serde_json::from_slice(&output.stdout).expect("one JSON document")
 }
 
-/// `[vx, vy, omega]` of the crank that rotates about its pin.
+/// Returns `[vx, vy, omega]` of the crank that rotates about its pin.
 fn turns() -> Value {
     json!([{ "text": "`crank` turns about `pin`", "velocities": [{ "crank": [0.0, 0.5, 1.0] }] }])
 }
@@ -82,9 +82,9 @@ fn documents_have_both() {
     }
     let page = folder.read("report.html");
     for words in [
-        "no freedoms of motion are left with its drive, one without",
+        "The mobility is zero with its drive, and the mobility without drives is one",
         "<li>Free without its drive: <b>crank</b> turns about <b>pin</b></li>",
-        "<b>1</b><span>without drives</span>",
+        "<b>1</b><span>mobility without drives</span>",
     ] {
         assert!(page.contains(words), "{words}");
     }
@@ -132,7 +132,7 @@ fn words_have_both_where_they_differ() {
     contains(&robot, &["mobility 1 with its drive, 2 without"]);
 }
 
-/// Hinges that lock a leaf: it cannot move, whichever drive is added.
+/// Hinges lock a leaf: it cannot move with any additional drive.
 #[test]
 fn what_cannot_move_is_said_to() {
     let locked = crank(true).replace(
@@ -146,7 +146,7 @@ fn what_cannot_move_is_said_to() {
     );
     contains(
         &stdout(&with_scene(&["analyze", "-"], &still)),
-        &["this mechanism cannot move, with its drive or without: there is no other configuration"],
+        &["mobility 0 with its drive, 0 without: it cannot move"],
     );
     // The motor prescribes a motion that the hinges prevent.
     let output = with_scene(&["check", "-"], &locked);
@@ -161,8 +161,8 @@ fn what_cannot_move_is_said_to() {
     );
 }
 
-/// From 0.5 s on, one motor prescribes 1 rad, the other 1.1 rad: `check` refuses the scene,
-/// `analyze` warns, the run stops; all name both motors.
+/// From 0.5 s on, one motor prescribes 1 rad, the other 1.1 rad: `check` rejects the scene,
+/// `analyze` warns, and the run stops; all name both motors.
 #[test]
 fn drives_that_part_later_are_named_by_every_command() {
     let scene = contradiction_at_half_a_second();
@@ -181,6 +181,10 @@ fn drives_that_part_later_are_named_by_every_command() {
     assert_eq!(run.status.code(), Some(1));
     contains(
         &stderr(&run),
-        &["at t = 0.5", "redundant rows part: at t = ", names],
+        &[
+            "at t = 0.5",
+            "redundant rows contradict each other: at t = ",
+            names,
+        ],
     );
 }

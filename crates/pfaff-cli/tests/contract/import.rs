@@ -1,4 +1,4 @@
-//! What `pfaff import` answers: counts, exit codes, documents.
+//! Tests the answers of `pfaff import`: counts, exit codes, documents.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{Folder, pfaff, stdout, with_scene};
 
-/// A pendulum with a rotor; the moments are given.
+/// A pendulum with a rotor; the moments of inertia are given.
 fn pendulum(moments: &str) -> String {
     format!(
         "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' armature='0.1'/>\
@@ -14,7 +14,7 @@ fn pendulum(moments: &str) -> String {
     )
 }
 
-/// `check` counts a rotor as a body with two joints more, and the answer of `import` says so.
+/// `check` counts a rotor as a body with two more joints, and the answer of `import` states this.
 #[test]
 fn rotors_are_counted() {
     let folder = Folder::new("import-rotors");
@@ -28,8 +28,8 @@ fn rotors_are_counted() {
     assert!(checked.contains("2 bodies, 3 joints"), "{checked}");
 }
 
-/// No body has moments of which one is above the sum of the others: the scene is written, so that
-/// it can be mended, and the command does not end as if all were well.
+/// No real body has moments of which one is above the sum of the others. The scene is written, so
+/// that it can be corrected, and the command ends with an error.
 #[test]
 fn a_scene_with_an_error_is_no_success() {
     let folder = Folder::new("import-error");

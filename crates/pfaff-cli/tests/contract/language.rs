@@ -1,12 +1,13 @@
-//! Format 2 on the command line: `--set` for every command that reads a scene, `sweep` over
-//! parameters, and a scene in millimetres and degrees beside the same one in metres and radians.
+//! Tests format 2 on the command line: `--set` for every command that reads a scene, and `sweep`
+//! over parameters. A scene in millimetres and degrees is compared with the same scene in metres
+//! and radians.
 
 use serde_json::Value;
 
 use super::bad_input::PENDULUM;
 use super::{Folder, pfaff, stderr, stdout, with_scene};
 
-/// A rod on a hinge and a second hinge at its other end on a rail: a slider-crank, driven.
+/// A rod has a hinge and a second hinge at its other end on a rail: a driven slider-crank.
 const DRAWING: &str = r#"
 [scene]
 name = "slider-crank"
@@ -144,7 +145,7 @@ fn a_drawing_is_judged_as_the_same_scene_in_metres() {
     assert_eq!(verdict(DRAWING), verdict(&in_metres()));
 }
 
-/// Motions agree to what two runs with rounded data leave.
+/// Motions agree to the differences that two runs with rounded data have.
 const AGREED: f64 = 1e-9;
 
 #[test]
@@ -171,7 +172,7 @@ fn a_drawing_moves_as_the_same_scene_in_metres() {
     }
 }
 
-/// Every command that reads a scene takes other numbers for it.
+/// Every command that reads a scene accepts other numbers for it.
 #[test]
 fn set_changes_the_scene_of_every_command() {
     let folder = Folder::new("language-commands");
@@ -189,7 +190,7 @@ fn set_changes_the_scene_of_every_command() {
         vec!["work-precision", &file, "--quick", "--out", &out],
         vec!["sweep", &file, "--vary", "phi=10,20", "--out", &out],
     ] {
-        // One that shows: the crank is longer than its rod, and the start cannot be.
+        // The effect is visible: the crank is longer than its rod, and the start is not possible.
         let output = pfaff(&[&command[..], &["--set", "L=r/2"]].concat());
         assert_eq!(output.status.code(), Some(2), "{command:?}");
         assert!(
@@ -227,7 +228,7 @@ fn set_takes_expressions_and_keys() {
             .and_then(|cell| cell.parse::<f64>().ok())
             .expect("a number")
     };
-    // At φ = 0 the slider is r + L away.
+    // At φ = 0 the slider is at the distance r + L.
     for (sets, expected) in [
         (&["phi=0"][..], 0.4),
         (&["phi = 0", "L = 2*r"], 0.3),
@@ -278,10 +279,10 @@ fn wrong_settings_say_what_there_is() {
         said.contains("`parameters.L` and `L` are the same number"),
         "{said}"
     );
-    // What is no TOML is said as without settings.
+    // For a text that is not TOML the message is the same as without settings.
     let said = stderr(&with_scene(&["check", "-", "--set", "L=1"], "[scene"));
     assert!(said.contains("<stdin>"), "{said}");
-    // A scene of format 1 takes numbers.
+    // A scene of format 1 accepts numbers.
     let old = ["check", "-", "--set", "body.bob.mass=3"];
     assert_eq!(with_scene(&old, PENDULUM).status.code(), Some(0));
     let old = ["check", "-", "--set", "body.bob.mass=3 kg"];
@@ -335,7 +336,7 @@ fn a_parameter_is_swept_like_any_number() {
     );
 }
 
-/// The first cells of a column of `sweep.csv`.
+/// Returns the first cells of a column of `sweep.csv`.
 fn column(table: &str, name: &str) -> Vec<String> {
     let mut lines = table.lines();
     let header = lines.next().expect("a header");
@@ -345,7 +346,7 @@ fn column(table: &str, name: &str) -> Vec<String> {
     lines.map(cell).collect()
 }
 
-/// With a unit, the scene checks it, and the table has SI.
+/// The scene checks a unit, and the table is in SI.
 #[test]
 fn a_range_may_have_units() {
     let swept = |name: &str, vary: &str| {
@@ -391,7 +392,7 @@ fn a_range_may_have_units() {
     );
 }
 
-/// What is active may be varied; a run without a reaction has none in its row.
+/// The key `active` may be varied; a run without a reaction has no value for it in its row.
 #[test]
 fn what_is_active_may_be_varied() {
     let folder = Folder::new("language-active");
@@ -424,7 +425,7 @@ fn what_is_active_may_be_varied() {
     assert!((free - doubled).abs() < 1e-6 * free, "{free} {doubled}");
 }
 
-/// Curves are in the units of the drawing, and the page says so; files are in SI.
+/// Curves are in the units of the drawing, and the page states this; files are in SI.
 #[test]
 fn a_report_has_the_units_of_the_scene() {
     let page = |name: &str, scene: &str| {

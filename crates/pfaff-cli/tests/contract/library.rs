@@ -50,7 +50,8 @@ fn a_journey_is_the_one_of_the_command() {
     assert_eq!(written(&document), stdout(&output));
 }
 
-/// Flat cranks: the redundancy is larger here than at other configurations, and the document warns.
+/// In the singular configuration of the cranks the redundancy is larger than at other
+/// configurations, and the document warns.
 #[test]
 fn warnings_of_a_singular_configuration_are_those_of_the_command() {
     let flat = flat_cranks(&[0.0, 1.0]);
@@ -71,7 +72,7 @@ fn the_summary_of_a_run_is_the_one_of_the_command() {
     let timeless = |text: &str| {
         let mut value: Value = serde_json::from_str(text).expect("JSON");
         value["wall_seconds"] = 0.into();
-        // The head belongs to documents, of which the summary may be a part.
+        // The head belongs to documents, and the summary may be a part of a document.
         let object = value.as_object_mut().expect("an object");
         assert_eq!(object.remove("format"), Some(2.into()));
         assert_eq!(
@@ -90,9 +91,10 @@ fn the_summary_of_a_run_is_the_one_of_the_command() {
     let directory = OutputDirectory::create(folder.0.join("again")).expect("a folder");
     let run = study.simulate_into(&directory, |_| ControlFlow::Continue(()));
     assert_eq!(timeless(&written(&run.expect("a run"))), of_command);
-    // The same as plain data, including the rows, without a folder.
+    // The result is the same as plain data, including the rows, without a folder.
     let motion = study.motion(study.options.as_ref().expect("a run"));
-    // Through its text as well: a parsed number may differ from the printed one in its last bit.
+    // The comparison goes through the text: a parsed number may differ from the printed one in its
+    // last bit.
     let motion = serde_json::to_string(&motion.expect("a run")).expect("plain data");
     let motion: Value = serde_json::from_str(&motion).expect("JSON");
     let keys = |value: &Value| -> Vec<String> {

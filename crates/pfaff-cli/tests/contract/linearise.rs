@@ -1,10 +1,11 @@
-//! `pfaff linearise`: words, documents, files, refusals.
+//! Tests `pfaff linearise`: texts, documents, files, errors.
 
 use serde_json::Value;
 
 use super::{Folder, pfaff, stderr, stdout, with_scene};
 
-/// A rod of 2 kg, 1.5 m below its pin, with a damper: `5·ÿ + 0.3·ẏ + 29.43·y = push`.
+/// A rod of 2 kg has its mass centre 1.5 m below its pin, with a damper:
+/// `5·ÿ + 0.3·ẏ + 29.43·y = push`.
 const ROD: &str = r#"
 scene = { name = "rod", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "rod", mass = 2.0, inertia = 0.5, position = [0.0, -1.5] }]
@@ -40,7 +41,7 @@ fn a_rod_is_linearised_in_words_documents_and_files() {
     assert!((number("/b/1/0") - 0.2).abs() < 1e-14);
     assert!((number("/modes/0/real") + 0.03).abs() < 1e-12);
     assert_eq!(d["stability"], "stable");
-    // Damped and undamped: λ² + 0.06·λ + 5.886 = 0.
+    // Damped and undamped frequencies follow from λ² + 0.06·λ + 5.886 = 0.
     let natural = 5.886_f64.sqrt();
     let damped = (5.886 - 0.03 * 0.03_f64).sqrt();
     for (key, rate) in [("frequency", damped), ("natural_frequency", natural)] {
@@ -66,12 +67,12 @@ fn a_rod_is_linearised_in_words_documents_and_files() {
     );
     assert!(read("mode-1.html").contains("eigenvalue -0.030000 ± 2.425923i"));
     assert_eq!(read("linearisation.json"), stdout(&output));
-    // The same again replaces its own files.
+    // A second call replaces its own files.
     let again = with_scene(&["linearise", "-", "--out", &out], ROD);
     assert_eq!(again.status.code(), Some(0), "{}", stderr(&again));
 }
 
-/// Thirteen wheels that nothing drives, and a pendulum behind them.
+/// The scene has thirteen wheels without drives, followed by a pendulum.
 #[test]
 fn modes_that_move_by_themselves_have_pages_before_free_ones() {
     let wheels: String = (1..=13)
@@ -108,10 +109,10 @@ fn modes_that_move_by_themselves_have_pages_before_free_ones() {
     let again = with_scene(&["linearise", "-", "--out", &out], &scene);
     let text = stdout(&again);
     assert!(
-        text.contains("pages of modes open in any browser; modes ") && text.contains(" have none"),
+        text.contains("open the pages of the modes in a browser; no pages for modes "),
         "{text}"
     );
-    assert!(text.contains("first order does not decide"), "{text}");
+    assert!(text.contains("undecided at first order"), "{text}");
 }
 
 #[test]

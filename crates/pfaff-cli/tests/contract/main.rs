@@ -1,5 +1,5 @@
 //! The interface for users and scripts: exit codes, documents, files, and one clear message for
-//! each wrong input.
+//! each invalid input.
 
 mod advice;
 mod agreement;
@@ -69,7 +69,7 @@ fn pfaff(arguments: &[&str]) -> Output {
         .expect("the command starts")
 }
 
-/// The command with a scene on standard input.
+/// Runs the command with a scene on standard input.
 fn with_scene(arguments: &[&str], scene: &str) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_pfaff"))
         .args(arguments)
@@ -79,7 +79,7 @@ fn with_scene(arguments: &[&str], scene: &str) -> Output {
         .spawn()
         .expect("the command starts");
     let mut input = child.stdin.take().expect("piped");
-    // A command that refuses its arguments ends without reading.
+    // A command that rejects its arguments ends without reading.
     match input.write_all(scene.as_bytes()) {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => {}
         written => written.expect("the command reads"),
@@ -88,7 +88,7 @@ fn with_scene(arguments: &[&str], scene: &str) -> Output {
     child.wait_with_output().expect("the command ends")
 }
 
-/// A scene of any size.
+/// Returns a scene of any size.
 fn generated(kind: Kind, n: usize) -> String {
     let mut scene = Vec::new();
     let generator = Order::of(kind, n).generate().expect("a possible size");

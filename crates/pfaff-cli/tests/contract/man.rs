@@ -2,7 +2,7 @@
 
 use super::{pfaff, stderr, stdout};
 
-/// All commands, as the help lists them.
+/// Returns all commands, as the help lists them.
 fn commands() -> Vec<String> {
     let help = stdout(&pfaff(&["--help"]));
     let list = help.split("Commands:").nth(1).expect("commands");

@@ -1,4 +1,4 @@
-//! `pfaff new`: the templates are the examples, and no existing file is overwritten.
+//! Tests `pfaff new`: the templates are the examples, and no existing file is overwritten.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ fn place(name: &str) -> Folder {
     folder
 }
 
-/// Names of templates, as the command lists them.
+/// Returns the names of templates, as the command lists them.
 fn templates() -> Vec<String> {
     let output = pfaff(&["new", "--json"]);
     let document: Value = serde_json::from_slice(&output.stdout).expect("JSON");
@@ -104,7 +104,7 @@ fn a_file_that_is_there_is_kept() {
     assert_eq!(
         stderr(&again),
         format!(
-            "error[P0003]: `{path}` is there already; --force replaces it, --out writes another file\n"
+            "error[P0003]: `{path}` exists already; use --force to replace it, or --out for another file\n"
         )
     );
     assert_eq!(folder.read("mine.toml"), "mine");

@@ -1,5 +1,5 @@
-//! The whole command with a joint that is not built in: a user's program calls `pfaff_cli::run`
-//! with its registry.
+//! Tests the whole command with a joint that is not built in: the program of a user calls
+//! `pfaff_cli::run` with its registry.
 
 use std::fs;
 use std::process::ExitCode;
@@ -35,7 +35,7 @@ joint = [{ name = "wire", type = "bead-on-wire", bodies = ["ground", "bead"], at
 simulate = { t_end = 0.1 }
 "#;
 
-/// Exit code, answers and errors of a command with the bead's joint.
+/// Returns exit code, answers and errors of a command with the joint of the bead.
 fn command(arguments: &[&str]) -> (ExitCode, String, String) {
     let mut registry = Registry::standard();
     registry.add_constraint::<BeadOnWire>();
@@ -88,7 +88,7 @@ fn a_joint_of_ones_own_has_every_command() {
     let at = |name: &str| header.iter().position(|h| h == name).expect("a column");
     let first = rows.records().next().expect("a row").expect("read");
     let number = |name: &str| -> f64 { first[at(name)].parse().expect("a number") };
-    // On the first body, the ground: the opposite of the force on the bead.
+    // On the first body, the ground, the force is opposite to the force on the bead.
     assert!((number("wire.Fx") - 10.0).abs() < 1e-9 && (number("wire.Fy") + 10.0).abs() < 1e-9);
 
     assert!(answer(&["schema"]).contains("bead-on-wire"));

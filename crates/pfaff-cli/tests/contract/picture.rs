@@ -1,4 +1,4 @@
-//! Pictures as PNG: what another program reads of them, and what is refused.
+//! Tests pictures as PNG: the data that another program reads from them, and rejected requests.
 
 use std::fs;
 use std::io::Cursor;
@@ -16,7 +16,7 @@ const NOT_UNIQUE: [u8; 3] = [0xc4, 0x4f, 0x00];
 const UNDECIDED: [u8; 3] = [0xa3, 0x48, 0x7c];
 const WHITE: [u8; 3] = [255; 3];
 
-/// What another program reads of a picture.
+/// Data that another program reads from a picture.
 struct Picture {
     bytes: Vec<u8>,
     size: [u32; 2],
@@ -58,7 +58,7 @@ fn place(name: &str) -> Folder {
     folder
 }
 
-/// The size that the text of an SVG states (px).
+/// Returns the size that the text of an SVG states (px).
 fn stated_size(svg: &str) -> [f64; 2] {
     ["width", "height"].map(|side| {
         let (_, rest) = svg.split_once(&format!(" {side}=\"")).expect("a size");
@@ -67,7 +67,7 @@ fn stated_size(svg: &str) -> [f64; 2] {
     })
 }
 
-/// The PNG beside an SVG has two pixels for each of its px, and is not empty.
+/// Checks that the PNG for an SVG has two pixels for each of its px, and is not empty.
 pub(super) fn is_the_figure(folder: &Folder, stem: &str) {
     let svg = stated_size(&folder.read(&format!("{stem}.svg")));
     let picture = Picture::read(folder, &format!("{stem}.png"));
@@ -108,7 +108,7 @@ fn the_robot_has_the_colours_of_its_verdicts() {
     }
     assert!(picture.bytes == Picture::read(&folder, "again.PNG").bytes);
     assert!(picture.bytes.len() < 300_000, "{}", picture.bytes.len());
-    // A picture of this program is replaced, and nothing is left beside it.
+    // A picture of this program is replaced, and no temporary file remains.
     write("robot.png");
     assert_eq!(fs::read_dir(&folder.0).expect("a folder").count(), 3);
 }
@@ -152,7 +152,7 @@ fn pictures_of_others_are_kept() {
     fs::write(&path, &bytes).expect("writable");
     let path = path.to_str().expect("UTF-8");
     let view = ["view", ROBOT, "--no-open", "--out", path];
-    refused(&view, "has been written by something else than pfaff");
+    refused(&view, "was not written by pfaff");
     assert_eq!(fs::read(path).expect("it is there"), bytes);
     let output = pfaff(&[&view[..], &["--force"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -197,7 +197,7 @@ fn names_of_any_language_and_length_are_painted() {
         Picture::read(&folder, "x.png")
     };
     let plain = quiet("bob");
-    // Letters of these are in the fonts of the program: no machine has boxes.
+    // The fonts of the program contain these letters, so no machine draws boxes.
     for name in ["κνώδαλο φ̇", "маятник", "ß ğ ő ł č ñ", "R₁² ≤ ∞"] {
         assert!(quiet(name).bytes != plain.bytes, "{name}");
     }
@@ -206,7 +206,7 @@ fn names_of_any_language_and_length_are_painted() {
     for name in ["摆锤", "مطرقة", "🔨"] {
         assert!(view(name, &[]).stdout.len() > 50, "{name}");
     }
-    // A character that is not assigned is in no font.
+    // No font contains a character that is not assigned.
     let said = stdout(&view("b\u{378}b", &[]));
     let told = "x.png\nboxes, as no font here has them: U+0378\n";
     assert!(said.ends_with(told), "{said}");

@@ -1,10 +1,11 @@
-//! Markers, measures and what is not active on the command line: columns, pages, documents.
+//! Tests markers, joint coordinates and inactive elements on the command line: columns, pages,
+//! documents.
 
 use serde_json::Value;
 
 use super::{Folder, stderr, stdout, with_scene};
 
-/// A crank whose frame is at its shaft, with a pen at its tip; a lock that is not active.
+/// A crank has its frame at its shaft and a pen at its tip; a lock is not active.
 const CRANK: &str = r#"
 [scene]
 name = "crank"
@@ -74,7 +75,7 @@ fn run(name: &str, arguments: &[&str], scene: &str) -> Folder {
     folder
 }
 
-/// Two and a half turns of the pen on its circle: all columns in closed form.
+/// The pen makes two and a half revolutions on its circle: all columns have closed forms.
 #[test]
 fn columns_are_those_of_frames_markers_and_measures() {
     let folder = run("places-columns", &[], CRANK);
@@ -111,9 +112,9 @@ fn columns_are_those_of_frames_markers_and_measures() {
         "\"markers\":[{\"name\":\"shaft\",\"b\":-1",
         "\"name\":\"pen\",\"b\":0,\"p\":[0.5,0]",
         "\"frame\":[-0.5,0]",
-        "<h2>Measures</h2>",
+        "<h2>Measures (quantities between markers)</h2>",
         "distance of pen from shaft",
-        "Not active, so without any part in this: joint <b>lock</b>.",
+        "Inactive elements, excluded from this model: joint <b>lock</b>.",
     ] {
         assert!(page.contains(told), "{told}");
     }
@@ -150,7 +151,8 @@ fn check_says_what_is_not_active() {
     assert!(text.contains("\nnot active: joint `lock`\n"), "{text}");
     let document: Value = serde_json::from_str(&stdout(&check(&["--json"]))).expect("JSON");
     assert_eq!(document["inactive"], serde_json::json!(["joint `lock`"]));
-    // The lock and the motor together can neither move nor be.
+    // With the lock and the motor together the mechanism cannot move, and the drive contradicts the
+    // lock.
     let locked = check(&["--set", "joint.lock.active=1"]);
     assert_eq!(locked.status.code(), Some(2), "{}", stdout(&locked));
     let free = stdout(&check(&["--set", "drive.motor.active=0"]));

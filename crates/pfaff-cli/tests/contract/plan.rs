@@ -1,4 +1,4 @@
-//! `pfaff plan`, and that runs follow the plan.
+//! Tests `pfaff plan`, and that runs follow the plan.
 
 use serde_json::Value;
 
@@ -9,7 +9,7 @@ fn json(text: &str) -> Value {
     serde_json::from_str(text).expect("one JSON document and nothing else")
 }
 
-/// The decision on a subject, of one component if there are several.
+/// Returns the decision on a subject, for one component if there are several.
 fn decision<'d>(document: &'d Value, what: &str, component: Option<&str>) -> &'d Value {
     let decisions = document["decisions"].as_array().expect("a list");
     let mut found = decisions.iter().filter(|d| {
@@ -22,7 +22,7 @@ fn decision<'d>(document: &'d Value, what: &str, component: Option<&str>) -> &'d
     only
 }
 
-/// Two mechanisms on one ground: a pendulum, and a mass on a stiff damper.
+/// Two mechanisms have one ground: a pendulum, and a mass on a stiff damper.
 const TWO: &str = r#"
 scene = { name = "two", space = "plane", gravity = [0.0, -9.81] }
 body = [
@@ -43,9 +43,7 @@ fn the_plan_of_the_robot_is_a_table_and_a_document() {
     let output = pfaff(&["plan", ROBOT]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
-    assert!(
-        text.starts_with("robot-trolley: the plan of a run to t = 10 s (kept-rows, projection)")
-    );
+    assert!(text.starts_with("robot-trolley: plan of a run to t = 10 s (kept-rows, projection)"));
     for words in ["decision", "solved as one", "2 monitored", "b and Φt of 1"] {
         assert!(text.contains(words), "{words}: {text}");
     }
@@ -126,7 +124,7 @@ fn components_have_plans_and_numbers_of_their_own() {
     assert_eq!(summary["method"], "auto");
     assert_eq!(
         summary["plan"]["components"],
-        "2, each with its own method and steps"
+        "2, each with its own method and step size"
     );
     let components = summary["components"].as_array().expect("a list");
     let names: Vec<&Value> = components.iter().map(|c| &c["name"]).collect();
@@ -164,7 +162,7 @@ fn output_that_is_not_wanted_is_not_computed() {
     assert_eq!(files, [true; 2]);
     let (nothing, files, _) = run("nothing", &quiet);
     assert_eq!(files, [false; 2]);
-    assert_eq!(nothing["plan"]["rows_of_output"], "the ends only");
+    assert_eq!(nothing["plan"]["rows_of_output"], "only first and last");
     assert_eq!(nothing["steps"], everything["steps"]);
     let evaluations = |summary: &Value| summary["evaluations"].as_u64().expect("a number");
     assert!(evaluations(&nothing) < evaluations(&everything));

@@ -1,4 +1,4 @@
-//! Every command refuses every kind of wrong input with a code of the table: in words on standard
+//! Every command rejects every kind of invalid input with a code of the table: as text on standard
 //! error, and with `--json` as one document on standard output.
 
 use std::collections::BTreeSet;
@@ -12,13 +12,13 @@ use super::{Folder, pfaff, stderr, stdout};
 
 const DOOR: &[u8] = include_bytes!("../../../../examples/door.toml");
 
-/// A fault in the input, and the code with which a command refuses it.
+/// A fault in the input, and the code with which a command rejects it.
 struct Fault {
     what: &'static str,
     code: &'static str,
-    /// Arguments in place of those that would be right.
+    /// Arguments that replace the correct ones.
     arguments: Option<&'static str>,
-    /// Arguments in addition.
+    /// Additional arguments.
     more: &'static str,
     input: &'static [u8],
 }
@@ -31,7 +31,7 @@ const NONE: Fault = Fault {
     input: DOOR,
 };
 
-/// Faults of any command.
+/// Faults that any command may have.
 const OF_ALL: [Fault; 2] = [
     Fault {
         what: "unknown option",
@@ -85,12 +85,12 @@ const OF_SCENES: [Fault; 7] = [
     Fault {
         what: "unknown number",
         code: "P0501",
-        more: "--set body.nobody.mass=1",
+        more: "--set body.absent.mass=1",
         ..NONE
     },
 ];
 
-/// Faults of commands that write files; `taken` is one in the folder.
+/// Faults of commands that write files; `taken` is a file in the folder.
 const OF_PLACES: [Fault; 1] = [Fault {
     what: "not a place",
     code: "P0003",
@@ -98,7 +98,7 @@ const OF_PLACES: [Fault; 1] = [Fault {
     ..NONE
 }];
 
-/// The commands with arguments that are right, and whether these end with a scene and with a place.
+/// The commands with correct arguments, and whether these end with a scene and with a path.
 const COMMANDS: [(&str, &str, bool, bool); 17] = [
     ("analyze", "-", true, false),
     ("simulate", "- --out run --t-end 1", true, true),
@@ -135,8 +135,8 @@ const OF_ONE: [(&str, &str, &str); 31] = [
     ("linearise", "- --at-time soon", "P0001"),
     ("analyze", "- --drop 0", "P0001"),
     ("analyze", "- --drop 99", "P0403"),
-    ("analyze", "- --combine nobody.Fx", "P0311"),
-    ("analyze", "- --make-unique nobody", "P0310"),
+    ("analyze", "- --combine absent.Fx", "P0311"),
+    ("analyze", "- --make-unique absent", "P0310"),
     ("analyze", "- --choose nothing", "P0001"),
     ("analyze", "- --at-time soon", "P0001"),
     ("simulate", "- --out run --method gbs", "P0001"),
@@ -149,7 +149,7 @@ const OF_ONE: [(&str, &str, &str); 31] = [
     ("tolerance", "- --tolerance 1e-4 --runs 0", "P0511"),
     ("tolerance", "- --tolerance 0", "P0001"),
     ("tolerance", "- --vary body.leaf.mass=2", "P0001"),
-    ("tolerance", "- --vary body.nobody.mass=±1%", "P0501"),
+    ("tolerance", "- --vary body.absent.mass=±1%", "P0501"),
     ("tolerance", "- --vary body.leaf.mass=±200%", "P0513"),
     ("view", "- --out picture.gif", "P0001"),
     ("view", "- --scale 2 --out picture.svg", "P0001"),
@@ -173,12 +173,12 @@ fn run(folder: &Folder, arguments: &str, input: &[u8]) -> Output {
         .stderr(Stdio::piped())
         .spawn()
         .expect("the command starts");
-    // A command that does not read is done before.
+    // A command that does not read its input has already ended.
     let _ = child.stdin.take().expect("piped").write_all(input);
     child.wait_with_output().expect("the command ends")
 }
 
-/// What is wrong with the two answers to a wrong input.
+/// Returns the errors in the two answers to an invalid input.
 fn faults_of(folder: &Folder, arguments: &str, input: &[u8], code: &str) -> Option<String> {
     let words = run(folder, arguments, input);
     if words.status.code() != Some(2)

@@ -1,4 +1,4 @@
-//! `report.html` of a run: one file, complete, safe, small, and the same for the same input.
+//! Tests `report.html` of a run: one file, complete, safe, small, and the same for the same input.
 
 use serde_json::{Value, json};
 use suite::generate::Kind;
@@ -17,7 +17,7 @@ fn page(folder: &Folder, scene: &str) -> String {
     folder.read("report.html")
 }
 
-/// The document that scripts can read.
+/// Returns the document that scripts can read.
 #[track_caller]
 fn data(page: &str) -> Value {
     let begin = "<script id=\"data\" type=\"application/json\">";
@@ -26,11 +26,11 @@ fn data(page: &str) -> Value {
     serde_json::from_str(text).expect("the data are JSON")
 }
 
-/// Without the run time, the only number that differs between runs.
+/// Removes the run time, the only number that differs between runs.
 fn without_time(page: &str) -> String {
     let (before, after) = page
-        .split_once("<dt>Time of the integration</dt>")
-        .expect("the page tells the time");
+        .split_once("<dt>Run time of the integration</dt>")
+        .expect("the page contains the time");
     let after = after.split_once("</dd>").expect("a value").1;
     format!("{before}{after}")
 }
@@ -72,8 +72,8 @@ fn the_page_of_the_robot_is_small_and_fetches_nothing() {
         assert!(!page.contains(fetch), "`{fetch}`");
     }
     assert!(page.contains("default-src 'none'"));
-    assert!(page.contains("22 constraint rows have rank 20: two are redundant"));
-    assert!(page.contains("those of B, C, W1, W2, W3 and W4 are not"));
+    assert!(page.contains("22 constraint rows have rank 20: two rows are redundant"));
+    assert!(page.contains("The reactions of B, C, W1, W2, W3 and W4 are not unique"));
 }
 
 #[test]
@@ -104,8 +104,8 @@ fn reactions_that_are_not_unique_come_with_several_choices() {
     );
     assert!(labels[1].starts_with("least norm"), "{labels:?}");
     assert!(labels[2].starts_with("no reaction in rows"), "{labels:?}");
-    // Fx of B is determined at the start, where B is on the axis of the platform, but not after the
-    // platform has turned.
+    // Fx of B is determined at the start, because B is on the axis of the platform, but not after
+    // the platform has rotated.
     let (place, b) = joint(&data, "B");
     let at = compared.iter().position(|k| *k == place as u64);
     let at = at.expect("B is compared");
@@ -116,7 +116,7 @@ fn reactions_that_are_not_unique_come_with_several_choices() {
     );
     let free = &comparison["freedom"][at]["components"];
     assert_eq!(*free, serde_json::json!([true, true, false]));
-    // An edge has a force along its normal only, which turns with its body: the other direction
+    // An edge has a force only along its normal, which rotates with its body: the other direction
     // remains determined.
     let edge = joint(&data, "W1").0 as u64;
     let edge = compared.iter().position(|k| *k == edge);
@@ -143,7 +143,7 @@ fn names_are_text_wherever_they_stand() {
         .replace("name = \"pendulum\"", "name = \"]]><!-- & \\\"'\"");
     let folder = Folder::new("report-names");
     let page = page(&folder, &scene);
-    // The closing tags of the two scripts are those of the page.
+    // The page contains only the closing tags of its two scripts.
     assert_eq!(page.matches("</script>").count(), 2);
     assert!(
         !page.contains("<script>alert") && !page.contains("<img src=x") && !page.contains("<!-- &")
@@ -179,7 +179,7 @@ fn tables_have_the_rows_that_were_asked_for_whatever_the_page_needs() {
     let (with, reactions) = (folder.read("trajectory.csv"), folder.read("reactions.csv"));
     assert_eq!(times.len(), 5, "{times:?}");
     assert!(data(&page)["t"].as_array().is_some_and(|t| t.len() >= 200));
-    // The same bytes as without a page.
+    // The bytes are the same as without a page.
     let scene = format!("{coarse}\n[output]\nreport = false\n");
     let output = with_scene(&["simulate", "-", "--out", folder.text()], &scene);
     assert_eq!(output.status.code(), Some(0));
@@ -236,7 +236,7 @@ fn a_comparison_of_methods_in_the_same_directory_is_taken_in() {
     assert!(page.contains("%231"));
 }
 
-/// The configuration of wheels in mesh counts their turns; pictures are made of the bodies alone.
+/// The configuration of meshing wheels contains unwrapped angles; pictures use only the bodies.
 #[test]
 fn wheels_in_mesh_have_a_page() {
     let scene = r#"
@@ -260,7 +260,7 @@ simulate = { t_end = 1.0 }
     for name in ["A", "B"] {
         joint(&data, name);
     }
-    // The symbol is where the teeth touch, and the wheels have the radii of the ratio.
+    // The symbol is at the contact of the teeth, and the wheels have the radii of the ratio.
     let (k, _) = joint(&data, "teeth");
     let site = &data["drawing"]["sites"][k];
     assert_eq!(site["symbol"], "rotation");
@@ -270,7 +270,7 @@ simulate = { t_end = 1.0 }
     assert_eq!(site["wheels"], json!([wheel(0, 0.1), wheel(1, 0.2)]));
 }
 
-/// A wheel of radius 0.5 whose axis is y, on the ground z = 0.
+/// A wheel of radius 0.5 with the axis y is on the ground z = 0.
 #[test]
 fn a_wheel_on_the_ground_is_drawn_as_a_circle() {
     let scene = r#"
@@ -294,8 +294,8 @@ simulate = { t_end = 1.0 }
     }
 }
 
-/// A bar of length 2 on two pins and a pendulum of length 1: the pins can only push against each
-/// other along the bar, and the pendulum turns about its pin.
+/// A bar of length 2 is on two pins, with a pendulum of length 1. The pins can push against each
+/// other only along the bar, and the pendulum turns about its pin.
 #[test]
 fn self_stresses_and_free_motions_are_loads_and_velocities() {
     let scene = r#"
@@ -342,9 +342,9 @@ simulate = { t_end = 0.1 }
         (v[0] - v[2]).abs() < 1e-9 && v[1].abs() < 1e-9 && v[2].abs() > 0.5,
         "{v:?}"
     );
-    // What is not determined has no peak.
+    // Components that are not determined have no peak.
     let peaks = page
-        .split_once("<h3>Peaks</h3>")
+        .split_once("<h3>Peak reactions</h3>")
         .expect("a table of peaks")
         .1;
     let row = |name: &str| {
@@ -357,8 +357,11 @@ simulate = { t_end = 0.1 }
             .expect("its end")
             .0
     };
-    assert!(row("pivot").contains("every choice: it is unique"));
+    assert!(row("pivot").contains("every choice (unique reaction)"));
     let left = row("left");
-    assert!(left.contains("the rest is not determined"), "{left}");
+    assert!(
+        left.contains("the other components are not determined"),
+        "{left}"
+    );
     assert!(!left.contains("deleted"), "{left}");
 }

@@ -1,10 +1,10 @@
-//! Threads and memory: results do not depend on the number of threads, and a command that needs
-//! more memory than is allowed is refused beforehand.
+//! Tests threads and memory: results do not depend on the number of threads, and a command that
+//! needs more memory than is allowed is rejected before it starts.
 
 use super::{Folder, pfaff, stderr, stdout, with_scene};
 use suite::generate::Kind;
 
-/// Three uncoupled pendulums.
+/// Three pendulums without connection.
 const APART: &str = r#"
 scene = { name = "apart", space = "plane", gravity = [0.0, -9.81] }
 body = [
@@ -95,7 +95,7 @@ fn a_refusal_is_a_document_where_one_was_asked_for() {
 fn what_is_no_size_and_no_number_of_threads_is_named() {
     for (option, value, said) in [
         ("--max-memory", "4", "write a number with B, kB, MB"),
-        ("--max-memory", "-1GB", "is no size"),
+        ("--max-memory", "-1GB", "is not a size"),
         ("--threads", "0", "--threads"),
         ("--threads", "many", "--threads"),
     ] {
@@ -124,7 +124,7 @@ fn a_plan_says_how_much_memory_its_run_takes() {
     );
 }
 
-/// The command for a user who may have one thread. Limits of threads do not concern root.
+/// Runs the command for a user who may have one thread. Limits of threads do not apply to root.
 #[cfg(target_os = "linux")]
 fn with_one_thread(arguments: &[&str]) -> std::process::Output {
     let is_root = std::fs::metadata("/proc/self").is_ok_and(|own| {
@@ -145,7 +145,7 @@ fn with_one_thread(arguments: &[&str]) -> std::process::Output {
     command.args(arguments).output().expect("it starts")
 }
 
-/// One thread computes everything, with the same results, and says so once.
+/// One thread computes everything, with the same results, and the command prints this once.
 #[cfg(target_os = "linux")]
 #[test]
 fn without_threads_one_thread_goes_on() {
@@ -191,7 +191,7 @@ fn without_threads_one_thread_goes_on() {
     }
 }
 
-/// The cells of a table, less those that tell how long it took.
+/// Returns the cells of a table without those that contain run times.
 #[cfg(target_os = "linux")]
 fn without_seconds(table: &str) -> Vec<String> {
     let names: Vec<&str> = table
@@ -208,7 +208,7 @@ fn without_seconds(table: &str) -> Vec<String> {
     table.lines().flat_map(cells).collect()
 }
 
-/// Bodies in a row, each on a pin to the one before, to the ground, or free.
+/// Returns a row of bodies, each on a pin to the previous one, on a pin to the ground, or free.
 #[cfg(target_os = "linux")]
 fn row_of(bodies: usize, is_spatial: bool, joined: Joined) -> String {
     use std::fmt::Write as _;
@@ -248,7 +248,7 @@ enum Joined {
     InAChain,
 }
 
-/// The largest memory (bytes) of a command, as Linux counts it.
+/// Returns the largest memory (bytes) of a command, as Linux counts it.
 #[cfg(target_os = "linux")]
 fn peak(arguments: &[&str]) -> f64 {
     use std::process::{Command, Stdio};
@@ -269,7 +269,7 @@ fn peak(arguments: &[&str]) -> f64 {
     1024.0 * most
 }
 
-/// The largest estimate (bytes) of a command: the smallest limit that it accepts.
+/// Returns the largest estimate (bytes) of a command: the smallest limit that it accepts.
 #[cfg(target_os = "linux")]
 fn estimate(arguments: &[&str]) -> f64 {
     let mut most: f64 = 1.0;
@@ -289,7 +289,7 @@ fn estimate(arguments: &[&str]) -> f64 {
     }
 }
 
-/// What decides whether a command is refused.
+/// The estimate decides whether a command is rejected.
 #[cfg(target_os = "linux")]
 #[test]
 fn estimates_of_memory_are_right_to_a_fifth() {
@@ -315,11 +315,11 @@ fn estimates_of_memory_are_right_to_a_fifth() {
             let command = [command, &["--threads", "1"]].concat();
             let [(least, floor), (estimate, peak)] = [1, bodies].map(|bodies| {
                 std::fs::write(&file, row_of(bodies, is_spatial, joined)).expect("writable");
-                // Short runs can end before they are looked at.
+                // Short runs can end before their memory is read.
                 let peaks = (0..if bodies == 1 { 10 } else { 1 }).map(|_| peak(&command));
                 (estimate(&command), peaks.fold(0.0, f64::max))
             });
-            // A program that is not optimised is larger, whatever the scene.
+            // A program without optimisation is larger, for any scene.
             let estimate = estimate + floor - least;
             let case = format!("{bodies} {joined:?} {is_spatial} {}", command[0]);
             let error = (estimate / peak - 1.0).abs();

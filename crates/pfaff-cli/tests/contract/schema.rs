@@ -1,5 +1,5 @@
-//! `pfaff schema` prints one document, that of the reader. Its content is tested with the reader,
-//! in `scene`.
+//! `pfaff schema` prints one document, the schema of the reader. The tests of the reader in `scene`
+//! check its content.
 
 use serde_json::Value;
 

@@ -1,13 +1,13 @@
-//! Sessions on a command line as files: what was typed, and what the command answered.
+//! Recorded command lines as files: the typed commands, and the output of each.
 //!
 //! A session is `NAME.out` in `tests/answers` or `tests/wrong`. A line `$ pfaff …` is a command.
-//! Below it stand its exit code as `? 2` if it is not 0, its standard output, and its standard
-//! error with `! ` before each line. `$ cat FILE` and `$ ls FOLDER` show what commands have
-//! written. Commands run in a new folder with the scenes that they name: of `examples/`, the
-//! published robot, or beside the session. `UPDATE=1` writes the answers anew; read what has
-//! changed before it is committed.
+//! Below it there are its exit code as `? 2` if it is not 0, its standard output, and its standard
+//! error with `! ` before each line. `$ cat FILE` and `$ ls FOLDER` show the files that commands
+//! have written. Commands run in a new folder with the scenes that they name: scenes of
+//! `examples/`, the published robot, or scenes in the folder of the session. `UPDATE=1` writes the
+//! recorded output again; review the changes before each commit.
 //!
-//! Words are compared exactly, numbers as far as processors agree on them: see [`agree`].
+//! Words are compared exactly, numbers to the accuracy that all processors share: see [`agree`].
 
 use std::fmt::Write;
 use std::fs;
@@ -24,19 +24,19 @@ const SCENES: [&str; 2] = [
     concat!(env!("CARGO_MANIFEST_DIR"), "/../robot-trolley"),
 ];
 
-/// Numbers that differ by less than this share are the same.
+/// Numbers that differ by less than this fraction are the same.
 const SAME: f64 = 1e-6;
 
-/// Numbers below this are roundings of others, which are of order one in these scenes.
+/// Numbers below this value are rounding errors of others, which are of order one in these scenes.
 const SMALL: f64 = 1e-8;
 
-/// Sessions that are played at the same time.
+/// Number of sessions that are run at the same time.
 const AT_ONCE: usize = 4;
 
-/// Ratios beyond this have a rounding in their denominator.
+/// Ratios above this value have a rounding error in their denominator.
 const HUGE: f64 = 1e9;
 
-/// The files with this ending in a folder, sorted by name.
+/// Returns the files with this ending in a folder, sorted by name.
 fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder").flatten();
     let mut files: Vec<_> = entries
@@ -47,7 +47,7 @@ fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     files
 }
 
-/// The words of a command line; those in quotes may have blanks.
+/// Returns the words of a command line; quoted words may contain blanks.
 fn words(command: &str) -> Vec<String> {
     let quoted = command.split('"').enumerate();
     quoted
@@ -58,7 +58,7 @@ fn words(command: &str) -> Vec<String> {
         .collect()
 }
 
-/// What one command line answers.
+/// Returns the output of one command line.
 fn answer(command: &str, folder: &Path) -> String {
     let words = words(command);
     let (program, arguments) = words.split_first().expect("a command");
@@ -66,7 +66,7 @@ fn answer(command: &str, folder: &Path) -> String {
     let (code, out, err) = match &**program {
         "pfaff" => {
             let mut pfaff = Command::new(env!("CARGO_BIN_EXE_pfaff"));
-            // Help texts are as wide as they are.
+            // Help texts are not wrapped to a width.
             pfaff.env("COLUMNS", "1000").args(arguments);
             let output = pfaff.current_dir(folder).output();
             let output = output.expect("the command starts");
@@ -101,7 +101,7 @@ fn answer(command: &str, folder: &Path) -> String {
     answer
 }
 
-/// The session that has the same commands, with the answers of today.
+/// Returns the session with the same commands and their present output.
 fn played(session: &Path) -> String {
     let name = session.file_stem().expect("a name").to_string_lossy();
     let folder = Folder::new(&format!("session-{name}"));
@@ -127,7 +127,7 @@ fn played(session: &Path) -> String {
     played
 }
 
-/// A line as words and numbers, in turn.
+/// Splits a line into words and numbers, alternating.
 fn parts(line: &str) -> impl Iterator<Item = (&str, Option<f64>)> {
     let mut rest = line;
     std::iter::from_fn(move || {
@@ -140,7 +140,7 @@ fn parts(line: &str) -> impl Iterator<Item = (&str, Option<f64>)> {
         let (words, number) = rest.split_at(begin);
         let is_of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | 'e' | '-' | '+');
         let mut end = number.find(|c| !is_of_number(c)).unwrap_or(number.len());
-        // The longest beginning that is a number: `1e-3.` is one with a full stop.
+        // Finds the longest beginning that is a number: `1e-3.` is a number with a full stop.
         while end > 0 && number[..end].parse::<f64>().is_err() {
             end -= 1;
         }
@@ -150,8 +150,8 @@ fn parts(line: &str) -> impl Iterator<Item = (&str, Option<f64>)> {
     })
 }
 
-/// Whether two lines say the same. Signs are part of the words before a number: they may differ
-/// where the number is a rounding.
+/// Whether two lines agree. Signs are part of the words before a number: they may differ if the
+/// number is a rounding error.
 fn agree(expected: &str, found: &str) -> bool {
     if expected == found {
         return true;
@@ -180,12 +180,12 @@ fn agree(expected: &str, found: &str) -> bool {
     }
 }
 
-/// Lines of run times, which differ from run to run.
+/// Whether a line contains run times, which differ between runs.
 fn is_run_time(line: &str) -> bool {
     line.contains("wall_seconds") || line.contains(" evaluations in ")
 }
 
-/// The first line in which two sessions differ, with the command above it.
+/// Returns the first line in which two sessions differ, with the command above it.
 fn difference(expected: &str, found: &str) -> Option<String> {
     let mut command = "";
     let (mut expected, mut found) = (expected.lines(), found.lines());
@@ -211,7 +211,7 @@ fn compare(folder: &str) {
         let found = played(session);
         let expected = fs::read_to_string(session).expect("readable");
         let line = difference(&expected.replace("\r\n", "\n"), &found)?;
-        // What differs in run times alone stays as it is.
+        // A session that differs only in run times is not changed.
         if std::env::var_os("UPDATE").is_some() {
             fs::write(session, &found).expect("writable");
             return None;

@@ -1,5 +1,5 @@
-//! Every option of `analyze` works for mechanisms of every size, by analysing the parts that it
-//! concerns; a part that is too large is named.
+//! Every option of `analyze` works for mechanisms of every size, because it analyses only the parts
+//! that it needs; the error names a part that is too large.
 
 use serde_json::Value;
 use suite::generate::Kind;
@@ -12,7 +12,7 @@ fn document(arguments: &[&str], scene: &str) -> Value {
     serde_json::from_slice(&output.stdout).expect("a document")
 }
 
-/// Eighty parallelograms in a row, two of three with a third crank: each is a part, and the answers
+/// Eighty parallelograms in a row, two of three with a third crank: each is a part, and the results
 /// equal those for one of them alone.
 #[test]
 fn options_answer_by_parts() {
@@ -55,8 +55,8 @@ fn options_answer_by_parts() {
         let row = &way["rows"][0];
         assert!(!own.as_array().expect("a list").contains(row), "{row}");
     }
-    // Twelve for each of more than fifty cells: more sets than can be counted, and the first ones
-    // differ in the last cell.
+    // There are twelve for each of more than fifty cells: more sets than can be counted, and the
+    // first sets differ in the last cell.
     let eliminations = &asked["eliminations"];
     assert!(
         eliminations["reason"]
@@ -130,7 +130,7 @@ fn a_part_that_is_too_large_is_named() {
     );
 }
 
-/// Rows are counted in the whole mechanism, and a part that an answer omits is named; every
+/// Rows are counted in the whole mechanism, and the text names a part that an answer omits; every
 /// reaction with a unique component has a sensitivity.
 #[test]
 fn what_is_asked_of_all_parts_is_told_of_all() {
@@ -143,7 +143,8 @@ fn what_is_asked_of_all_parts_is_told_of_all() {
         assert_eq!(r["sensitivity"].is_number(), is_unique, "{r}");
     }
     let p = known["redundancy"].as_u64().expect("a number");
-    // The rows that analyze drops by itself: the label at every number stays short.
+    // These are the redundant rows that analyze selects by default: the label at every number is
+    // short.
     let dropped = known["dropped_rows"].as_array().expect("a list");
     let dropped: Vec<String> = dropped.iter().map(Value::to_string).collect();
     let chosen = document(
@@ -152,7 +153,7 @@ fn what_is_asked_of_all_parts_is_told_of_all() {
     );
     let label = chosen["choices"][0]["label"].as_str().expect("a label");
     assert!(label.ends_with(&format!("and {} more", p - 3)), "{label}");
-    // As many as are redundant, all in the first parts.
+    // The number equals the degree of redundancy, and all of them are in the first parts.
     let many: Vec<String> = (1..=p).map(|row| row.to_string()).collect();
     for (option, asked, expected) in [
         (
@@ -175,7 +176,8 @@ fn what_is_asked_of_all_parts_is_told_of_all() {
         (
             "--choose",
             "compliance:low-0-0=1e-6",
-            "among `low-1-0`, `top-1-0`, `low-1-1` and 3 more: the choice leaves open".to_owned(),
+            "among `low-1-0`, `top-1-0`, `low-1-1` and 3 more: the choice does not determine"
+                .to_owned(),
         ),
     ] {
         let output = with_scene(&["analyze", "-", option, asked], &scene);

@@ -1,10 +1,10 @@
-//! A run in space: its files and its page.
+//! Tests a run in space: its files and its page.
 
 use serde_json::Value;
 
 use super::{Folder, stderr, stdout, with_scene};
 
-/// A top that starts at a quaternion with w < 0 and turns about nine times.
+/// A top starts at a quaternion with w < 0 and makes about nine revolutions.
 const TOP: &str = r#"
 [scene]
 name = "top"
@@ -31,7 +31,7 @@ at = [0, 0, 0]
 t_end = 5.0
 "#;
 
-/// The columns of a table by their names.
+/// Returns the columns of a table by their names.
 fn columns(csv: &str) -> Vec<(String, Vec<f64>)> {
     let mut lines = csv.lines();
     let header = lines.next().expect("a header").split(',');
@@ -59,9 +59,9 @@ fn a_run_has_the_files_of_space() {
             names.join(","),
             "t,top.x,top.y,top.z,top.qw,top.qx,top.qy,top.qz,top.vx,top.vy,top.vz,top.wx,top.wy,top.wz"
         );
-        // The orientation that is given, with the sign that makes w ≥ 0, and no jump to its
-        // negative later: at 11 rad/s and 0.025 s between rows the angle of the quaternion changes
-        // by 0.14 rad.
+        // The start has the given orientation, with the sign that makes w ≥ 0. The quaternion does
+        // not jump to its negative later: at 11 rad/s and 0.025 s between rows its angle changes by
+        // 0.14 rad.
         let quaternion = |row: usize| [4, 5, 6, 7].map(|k| table[k].1[row]);
         assert_eq!(quaternion(0), [0.5, -0.5, -0.5, -0.5]);
         let mut least = 1.0_f64;
@@ -97,7 +97,7 @@ fn the_page_of_a_run_draws_space() {
     let (_, data) = page.split_once("type=\"application/json\">").expect("data");
     let (data, _) = data.split_once("</script>").expect("its end");
     let data: Value = serde_json::from_str(data).expect("JSON");
-    // Gravity along −z: z is straight up in the picture.
+    // Gravity along −z means that z points straight up in the picture.
     let view = &data["drawing"]["view"];
     assert_eq!(view["right"][2], 0);
     assert_eq!(view["above"], serde_json::json!([0, 0, 1]));
@@ -130,8 +130,8 @@ fn the_page_of_a_run_draws_space() {
     }
 }
 
-/// The axes of a universal joint and of its shafts meet in the origin, so that forces through it
-/// are free, and moments about it are not.
+/// The axes of a universal joint and of its shafts meet at the origin, so that forces through it
+/// are free, and moments about it are not free.
 #[test]
 fn moments_are_judged_about_any_point() {
     let hooke = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/hooke.toml");
@@ -153,7 +153,7 @@ fn moments_are_judged_about_any_point() {
                 .iter()
                 .all(|x| x.as_f64().expect("a number").abs() < 1e-12)
         );
-        // The place of an arm is this point.
+        // The reference point of an arm is this point.
         assert_eq!(document["reactions"][1].get("moment_unique_about"), None);
         words
     };

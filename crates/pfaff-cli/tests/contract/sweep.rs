@@ -1,5 +1,5 @@
-//! `sweep`: its tables, its shards, its refusals, and that no finished run is lost or repeated
-//! whatever ends its process.
+//! Tests `sweep`: its tables, its shards, its errors, and that no finished run is lost or repeated,
+//! however its process ends.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -18,13 +18,13 @@ use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 const COLUMNS: &str = "status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,fragile,seconds,\
 max_position_residual,max_velocity_residual,energy_balance,start_correction,start_velocity_correction,t_state,";
 
-/// Masses of the robot's platform: enough of them that a sweep can be stopped while it runs.
+/// Masses of the platform of the robot: enough values that a sweep can be stopped while it runs.
 const MASSES: &str = "body.platform.mass=10:40:24";
 
-/// How long a test waits for an event that must occur.
+/// Time limit for an event that must occur.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// A table, header included, cell by cell.
+/// Returns a table, header included, cell by cell.
 fn cells(folder: &Folder) -> Vec<Vec<String>> {
     let text = folder.read("sweep.csv");
     let mut reader = csv::ReaderBuilder::new()
@@ -36,7 +36,7 @@ fn cells(folder: &Folder) -> Vec<Vec<String>> {
     rows.collect()
 }
 
-/// The same without the run times.
+/// Returns the same table without the run times.
 fn table(folder: &Folder) -> Vec<Vec<String>> {
     let mut rows = cells(folder);
     let seconds = rows[0]
@@ -56,7 +56,7 @@ fn begun(arguments: &[&str]) -> Child {
     command.spawn().expect("the command starts")
 }
 
-/// Lines of finished runs in the files of the folder `shards` with this ending, by run.
+/// Returns lines of finished runs in the files of the folder `shards` with this ending, by run.
 fn lines(folder: &Folder, ending: &str) -> BTreeMap<usize, String> {
     let entries = fs::read_dir(folder.0.join("shards")).into_iter().flatten();
     let paths = entries.map(|entry| entry.expect("readable").path());
@@ -118,7 +118,7 @@ fn a_killed_sweep_loses_nothing_and_repeats_nothing() {
         let words = arguments(&killed, "2");
         let mut child = begun(&words.iter().map(String::as_str).collect::<Vec<_>>());
         wait_for(&killed, 4 * k);
-        // SIGKILL: no code of the program runs after it.
+        // After SIGKILL no code of the program runs.
         child.kill().expect("it runs");
         assert!(!child.wait().expect("it ends").success());
         let now = lines(&killed, ".journal");
@@ -128,7 +128,7 @@ fn a_killed_sweep_loses_nothing_and_repeats_nothing() {
         );
         kept = now;
         assert!(kept.len() < 24, "it was too fast to be killed");
-        // Half of a line, as a power failure leaves it.
+        // The line is incomplete, as after a power failure.
         for entry in fs::read_dir(killed.0.join("shards")).expect("begun") {
             let path = entry.expect("readable").path();
             if path.extension().is_some_and(|ending| ending == "journal") {
@@ -143,13 +143,13 @@ fn a_killed_sweep_loses_nothing_and_repeats_nothing() {
     let sealed = lines(&killed, ".rows");
     assert_eq!(sealed.len(), 24);
     assert!(
-        // Also the time that it took.
+        // The run times are also equal.
         kept.iter().all(|(run, row)| sealed.get(run) == Some(row)),
         "a finished run was made again"
     );
     assert_eq!(run(&whole, "1").status.code(), Some(0));
     assert_eq!(table(&killed), table(&whole));
-    // A third run finds nothing to do.
+    // A third call finds no unfinished run.
     assert_eq!(run(&killed, "1").status.code(), Some(0));
     assert_eq!(lines(&killed, ".rows"), sealed);
     assert_eq!(summary(&killed)["repeated"], 0);
@@ -191,8 +191,8 @@ fn the_same_shard_in_two_processes_is_harmless() {
     assert_eq!(table(&twice), table(&whole));
 }
 
-/// Two hundred shards, a hundred of them made before; a run that is made again would have another
-/// time.
+/// There are two hundred shards, and a hundred of them are finished; a repeated run would have
+/// another time.
 #[test]
 fn shards_that_are_finished_are_not_made_again() {
     let [folder, whole] = ["sweep-resumed", "sweep-in-one"].map(Folder::new);
@@ -262,7 +262,8 @@ fn an_interrupted_sweep_says_so_and_has_code_1() {
         (Some(1), "")
     );
     let mut document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
-    // The file is the same whoever made the runs; why this command made no more is its own.
+    // The file is the same for any process that performed the runs; the reason why this command
+    // performed no more runs is its own.
     let reason = document
         .as_object_mut()
         .map(|d| [d.remove("code"), d.remove("error")]);
@@ -282,7 +283,7 @@ fn an_interrupted_sweep_says_so_and_has_code_1() {
     assert_eq!(document["finished"], runs.len());
     assert!(runs.is_sorted() && runs.len() < 24);
     assert_eq!(document["crashed"], 0);
-    // It has left by order, so that no run is suspected.
+    // The process ended on request, so that no run counts as the cause.
     let entries = fs::read_dir(folder.0.join("shards")).expect("begun");
     let paths = entries.map(|entry| entry.expect("readable").path());
     let journals: Vec<_> = paths
@@ -343,7 +344,7 @@ fn shards_make_the_whole() {
     ]);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     assert_eq!(table(&two), table(&whole));
-    // The same run, made differently.
+    // The same run with a different result.
     let path = two.0.join("shards/3-5.rows");
     let three = lines(&two, ".rows")[&3].clone();
     let changed = three.replacen("done", "done ", 1);
@@ -386,7 +387,7 @@ fn shards_make_the_whole() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// The script of the book, with the variables that Slurm sets and fewer runs.
+/// The script of the book runs with the variables that Slurm sets and fewer runs.
 #[cfg(unix)]
 #[test]
 fn the_script_for_slurm_makes_the_sweep() {
@@ -424,7 +425,7 @@ fn the_script_for_slurm_makes_the_sweep() {
             )),
     );
     let path = path.expect("a path");
-    // In any order; the second one twice, as after a lost machine.
+    // The order is arbitrary; the second shard is performed twice, as after the loss of a machine.
     for (k, last) in [("3", false), ("2", false), ("2", false), ("1", true)] {
         let output = Command::new("sh")
             .arg("sweep.sh")
@@ -552,7 +553,7 @@ fn wrong_keys_and_changed_sweeps_have_code_2() {
     ] {
         refused(&sweep(PENDULUM, vary), piece);
     }
-    // A scene that is wrong without any variation is reported with its place.
+    // A scene that is invalid without any variation is reported with its position.
     refused(
         &sweep(&PENDULUM.replace("inertia", "inertja"), "body.bob.mass=1,2"),
         "<stdin>:10:1",
@@ -619,7 +620,7 @@ fn wrong_keys_and_changed_sweeps_have_code_2() {
 
 #[test]
 fn runs_are_read_within_the_tolerance_of_the_command() {
-    // A second pivot is 10 µm beside the first one: with exact numbers the bar cannot turn.
+    // A second pivot is 10 µm away from the first one: with exact numbers the bar cannot turn.
     let bar = r#"
 scene = { name = "bar", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "bar", mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }]
@@ -652,7 +653,7 @@ simulate = { t_end = 0.1 }
     let output = sweep(&within, &["--tolerance", "0.1mm"]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     assert_eq!(redundancies(&within), ["2", "2"]);
-    // It is another sweep.
+    // This is a different sweep.
     let output = sweep(&exact, &["--tolerance", "0.1mm"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(stderr(&output).contains("belongs to another sweep"));

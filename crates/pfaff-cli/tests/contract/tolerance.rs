@@ -1,11 +1,11 @@
-//! Tolerances of the data: flags that take precedence over the scene, the documents and sentences
-//! that report them, and wrong values.
+//! Tests tolerances of the data: options that take precedence over the scene, the documents and
+//! sentences that report them, and invalid values.
 
 use serde_json::{Value, json};
 
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// A door on one hinge, 2 m long, with its dimensions from a drawing.
+/// A door on one hinge, 2 m long, has its dimensions from a drawing.
 const DOOR: &str = r#"
 [scene]
 name = "door"
@@ -42,7 +42,7 @@ fn flags_go_before_the_scene() {
         let arguments = [&["analyze", "-", "--json"], flags].concat();
         data(&with_scene(&arguments, DOOR))
     };
-    // Angles: the length divided by the 2 m of the mechanism.
+    // The angle tolerance is the length tolerance divided by the 2 m of the mechanism.
     assert_eq!(told(&[]), known_to(1e-3.into(), 5e-4.into()));
     assert_eq!(
         told(&["--tolerance", "1e-4"]),
@@ -62,10 +62,10 @@ fn what_nobody_states_is_not_told() {
     let output = with_scene(&["analyze", "-", "--json"], &silent);
     assert_eq!(data(&output), known_to(Value::Null, Value::Null));
     let words = stdout(&with_scene(&["analyze", "-"], &silent));
-    assert!(!words.contains("known to"), "{words}");
+    assert!(!words.contains("accurate to"), "{words}");
     let words = stdout(&with_scene(&["analyze", "-"], DOOR));
     assert!(
-        words.contains("  data known to 1 mm (angles 5.0e-4 rad)\n"),
+        words.contains("  data accurate to 1 mm (angles 5.0e-4 rad)\n"),
         "{words}"
     );
 }
@@ -125,8 +125,8 @@ fn every_command_that_judges_takes_them() {
     }
 }
 
-/// An arm that two parallel cylinders turn about its hinge, with the direction of their axes typed
-/// with four digits.
+/// Two parallel cylinders turn an arm about its hinge; the direction of their axes is given with
+/// four digits.
 fn cylinders(axis: &str) -> String {
     let mut text = String::from(
         r#"
@@ -223,7 +223,7 @@ fn what_is_unique_within_the_tolerance_says_so() {
             (&json!("unique"), &json!(true))
         );
         let margin = r["margin"].as_f64().expect("a number");
-        // The direction is off by 1.5e-5 rad.
+        // The direction has an error of 1.5e-5 rad.
         assert!((1e-6..1.5e-5).contains(&margin), "{margin:e}");
         let row = &r["row_verdicts"][0];
         assert_eq!(
@@ -258,7 +258,7 @@ fn what_is_unique_within_the_tolerance_says_so() {
     );
 }
 
-/// Two wheels of one axle, whose directions differ by 1e-4 rad, with a line of `[scene]`.
+/// Two wheels of one axle have directions that differ by 1e-4 rad, with a line of `[scene]`.
 fn axle(stated: &str) -> String {
     format!(
         r#"
@@ -286,7 +286,7 @@ normal = [1e-4, 1.0]
     )
 }
 
-/// The tolerance of directions alone changes verdicts, whether the flag or the scene states it.
+/// The tolerance of directions alone changes verdicts, stated by the option or by the scene.
 #[test]
 fn an_angle_tolerance_changes_verdicts_without_a_length() {
     let judged = |stated: &str, flags: &[&str]| -> Value {
@@ -322,7 +322,7 @@ fn an_angle_tolerance_changes_verdicts_without_a_length() {
     );
 }
 
-/// A lid on four hinges along x, the third of them `off` (m) from the line of the others.
+/// A lid is on four hinges along x, the third of them `off` (m) from the line of the others.
 fn hatch(off: f64) -> String {
     let hinge = |(k, x): (usize, f64)| {
         let y = if k == 2 { off } else { 0.0 };
@@ -339,8 +339,8 @@ fn hatch(off: f64) -> String {
     )
 }
 
-/// Half a millimetre locks the lid as it is written; within a millimetre it turns, whatever is
-/// asked. Its weight, less its acceleration, is on the hinges.
+/// Half a millimetre locks the lid with its described data; within a millimetre it rotates for
+/// every request. The hinges carry its weight minus its acceleration.
 #[test]
 fn what_a_tolerance_has_freed_is_moved_shared_out_and_not_advised_again() {
     let scene = hatch(5e-4);
@@ -354,7 +354,7 @@ fn what_a_tolerance_has_freed_is_moved_shared_out_and_not_advised_again() {
     };
     let locked = words(&["check", "-"]);
     assert!(
-        locked.contains("mobility 0 for data as they are written, and 1 if lengths are known to"),
+        locked.contains("mobility 0 for data as written, but 1 if lengths are accurate only to"),
         "{locked}"
     );
     let advised = locked
@@ -391,10 +391,10 @@ fn what_a_tolerance_has_freed_is_moved_shared_out_and_not_advised_again() {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let d: Value = serde_json::from_str(&stdout(&output)).expect("one document");
     assert_eq!((&d["redundancy"], &d["mobility"]), (&json!(15), &json!(1)));
-    // About the line of the hinges: J = 0.7 + 18·(0.35² + 0.1²), M = 18·9.81·0.35.
+    // The values about the line of the hinges are J = 0.7 + 18·(0.35² + 0.1²) and M = 18·9.81·0.35.
     let alpha = -18.0 * 9.81 * 0.35 / (0.7 + 18.0 * (0.35_f64.powi(2) + 0.01));
     let acceleration = [-0.1 * alpha, 0.35 * alpha];
-    // The reaction on the ground.
+    // The reaction acts on the ground.
     let expected = [-18.0 * acceleration[0], -18.0 * (9.81 + acceleration[1])];
     for (k, expected) in expected.into_iter().enumerate() {
         let values = [
@@ -405,14 +405,14 @@ fn what_a_tolerance_has_freed_is_moved_shared_out_and_not_advised_again() {
             let value = value
                 .as_f64()
                 .unwrap_or_else(|| panic!("{:#}", d["groups"]));
-            // Arms are off by up to half a millimetre of a tenth of a metre.
+            // Lever arms of a tenth of a metre have an error of up to half a millimetre.
             assert!(
                 (value - expected).abs() < 1e-2 * expected.abs(),
                 "{value} {expected}"
             );
         }
     }
-    // What a choice leaves out is as many rows as the run drops.
+    // A choice deletes as many rows as the run.
     let dropped: Vec<String> = d["dropped_rows"]
         .as_array()
         .expect("rows")

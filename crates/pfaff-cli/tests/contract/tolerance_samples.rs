@@ -1,4 +1,4 @@
-//! `pfaff tolerance`: words, documents, files, seeds and threads.
+//! Tests `pfaff tolerance`: texts, documents, files, seeds and threads.
 
 use serde_json::Value;
 
@@ -23,7 +23,7 @@ fn said(arguments: &[&str]) -> String {
     stdout(&output)
 }
 
-/// In one line, because lines may be wrapped at any blank.
+/// Joins all lines, because lines may be wrapped at any blank.
 fn flat(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
@@ -33,20 +33,20 @@ fn a_pin_that_is_off_has_a_range_in_a_sentence() {
     let set = "joint.pivot-3.at[0]=0.5004";
     let text = flat(&said(&[CRANKS, "--set", set, "--tolerance", "1e-6"]));
     for words in [
-        "each uniform within ± 1 µm",
+        "uniform within ± 1 µm",
         "as described: rank 12 of 12 rows, redundancy 0, mobility 0",
-        "with exact numbers the rank is the same in all samples",
+        "the rank without tolerance is the same in all samples",
         "unique, FRAGILE |F| (N)",
         "within ± 1 µm `pivot-2` carries ",
         "(88210 N as described)",
-        "body bar moves farthest: up to ",
+        "largest displacement: body bar, up to ",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }
-    // Nearer to what the rank hangs on, both readings are told.
+    // Near the tolerance at which the rank changes, both interpretations are reported.
     let text = flat(&said(&[CRANKS, "--set", set, "--tolerance", "1e-4"]));
     for words in [
-        "as described the rank is undecided: with data known to 1.0e-4 m the rank is 11 or 12",
+        "as described the rank is undecided: with data accurate to 1.0e-4 m the rank is 11 or 12",
         "samples are assembled with rank 11",
         "`pivot-2` is undecided; rigid and without play, data within ± 0.1 mm alone would decide it",
     ] {
@@ -79,7 +79,7 @@ fn files_are_the_same_for_a_seed_on_any_number_of_threads() {
     let other = made("other", &["--seed", "2"]);
     assert_eq!(one[..2], two[..2]);
     assert_ne!(one[0], other[0]);
-    // A row for each sample, and as many cells as columns.
+    // The table has one row for each sample, and each row has as many cells as columns.
     let lines: Vec<&str> = one[0].lines().collect();
     assert_eq!(lines.len(), 61);
     let head: Vec<&str> = lines[0].split(',').collect();
@@ -102,7 +102,7 @@ fn files_are_the_same_for_a_seed_on_any_number_of_threads() {
             .all(|line| line.split(',').count() == head.len())
     );
     assert!(lines[1].starts_with("1,done,9,0,0,unique,"), "{}", lines[1]);
-    // The document says what the table has.
+    // The document contains the values of the table.
     let d: Value = serde_json::from_str(&one[1]).expect("JSON");
     assert_eq!(
         (&d["format"], &d["samples"], &d["assembled"]),
@@ -121,14 +121,14 @@ fn files_are_the_same_for_a_seed_on_any_number_of_threads() {
         d["measures"]["travel"]["range"]["least"].as_f64(),
         Some(least)
     );
-    // The page loads nothing and has no scripts.
+    // The page loads no external resource and has no scripts.
     let page = &one[2];
     assert!(page.contains("default-src 'none'") && page.contains("<svg"));
     for word in ["<script", "http:", "https:", "src="] {
         let found = page.replace("http://www.w3.org/2000/svg", "");
         assert!(!found.contains(word), "{word}");
     }
-    // The same again replaces its own files.
+    // A second call replaces its own files.
     assert_eq!(made("one", &["--threads", "1"])[0], one[0]);
 }
 
@@ -152,7 +152,7 @@ fn a_robot_keeps_its_unique_reactions_and_gets_no_others() {
         assert_eq!(reaction["verdict"], expected, "{name}");
         let reading = &reaction["values"][0]["reading"];
         if is_unique {
-            // With wheels that are a little askew, some depend on how these share loads.
+            // With slightly misaligned wheels, some reactions depend on how the wheels share loads.
             let reason = reaction["values"][0]["reason"].as_str().unwrap_or_default();
             assert!(
                 reading == "kept_rows" || reason.contains("share loads"),
@@ -189,9 +189,9 @@ fn nothing_that_varies_is_refused_with_what_to_write() {
     assert!(stderr(&output).contains("need 1 to 100000"));
 }
 
-/// A boom on a pin that two equal cylinders hold side by side: how they share the load is a choice,
-/// and so is what a cylinder that is a little askew pushes sideways. An arm beyond them is not
-/// concerned.
+/// A boom on a pin is supported by two equal parallel cylinders. Their load sharing depends on the
+/// choice, and so does the lateral force of a slightly misaligned cylinder. The arm beyond them is
+/// not affected.
 #[test]
 fn ranges_of_a_choice_are_not_given() {
     let scene = r#"
@@ -222,7 +222,7 @@ joint = [
             .filter(|v| v["name"] == name);
         own.next().unwrap_or_else(|| panic!("{values:#}")).clone()
     };
-    // Symmetry: neither cylinder is favoured, along no axis.
+    // By symmetry no cylinder has a larger share, along any axis.
     for component in ["|F|", "Fx", "Fy", "Fz"] {
         for cylinder in ["left", "right"] {
             let found = value(cylinder, component);
@@ -237,14 +237,14 @@ joint = [
             );
         }
     }
-    // As described nothing acts along z; askew, the share of a cylinder does.
+    // As described no force acts along z; with a misalignment the share of a cylinder does.
     assert_eq!(value("left", "Fz")["unique"], true);
     let reason = &value("left", "Fz")["reason"];
     assert!(
         reason.as_str().is_some_and(|r| r.contains("share loads")),
         "{reason}"
     );
-    // The weight of the arm: the elbow only turns with the pose.
+    // The reaction carries the weight of the arm: the elbow only rotates with the pose.
     let weight = value("elbow", "Fy");
     assert_eq!(weight["verdict"], "unique");
     let [least, greatest] =
@@ -255,7 +255,7 @@ joint = [
     );
     let text = flat(&stdout(&with_scene(&arguments, scene)));
     assert!(
-        text.contains("not unique in any sample, so no range: `left`, `right`"),
+        text.contains("no range, because not unique in any sample: `left`, `right`"),
         "{text}"
     );
 }

@@ -1,4 +1,4 @@
-//! `pfaff view`: a picture of every example, with names, rows and verdicts.
+//! Tests `pfaff view`: a picture of every example, with names, rows and verdicts.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -55,12 +55,12 @@ fn the_page_is_written_beside_the_caller_and_nothing_is_opened_without_a_display
         said.contains("written to robot-trolley.html\nnot opened: "),
         "{said}"
     );
-    // The page of a run without the parts that only a run has.
+    // The page is that of a run without the parts that only a run has.
     let page = folder.read("robot-trolley.html");
     assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n"));
-    assert!(page.contains("22 constraint rows have rank 20: two are redundant"));
+    assert!(page.contains("22 constraint rows have rank 20: two rows are redundant"));
     assert!(page.contains("id=\"picture\"") && page.contains("id=\"verdicts\""));
-    for of_run in ["id=\"scrub\"", "id=\"curves\"", "Numbers of the run"] {
+    for of_run in ["id=\"scrub\"", "id=\"curves\"", "Statistics of the run"] {
         assert!(!page.contains(of_run), "{of_run}");
     }
 }

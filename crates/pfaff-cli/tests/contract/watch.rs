@@ -1,4 +1,5 @@
-//! `pfaff check --watch`: a result for each change, and an end that does not count as a failure.
+//! Tests `pfaff check --watch`: a result for each change, and an end that does not count as a
+//! failure.
 
 use std::fs;
 use std::io::{BufRead, BufReader};
@@ -9,7 +10,7 @@ use std::time::Duration;
 
 use super::{Folder, pfaff, stderr, stdout};
 
-/// Longer than any machine needs for one check.
+/// Time limit for one check, longer than any machine needs.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Reads lines until one contains this text.
@@ -70,7 +71,7 @@ fn each_change_is_checked_until_somebody_stops_it() {
     until(&lines, "assembled");
 
     if !cfg!(unix) {
-        // A test cannot press Ctrl-C there.
+        // On this system a test cannot press Ctrl-C.
         child.kill().expect("it runs");
         child.wait().expect("ends");
         return;
@@ -102,7 +103,7 @@ fn what_cannot_be_watched_is_refused() {
     ] {
         let output = pfaff(arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        // With `--json` a refusal is a document.
+        // With `--json` an error is a document.
         let said = if arguments.contains(&"--json") {
             stdout(&output)
         } else {

@@ -1,4 +1,4 @@
-//! `work-precision`: its files, its rows, its refusals.
+//! Tests `work-precision`: its files, its rows, its errors.
 
 use serde_json::Value;
 

@@ -1,4 +1,4 @@
-//! Choices of mechanisms for which the result of each choice can be derived by hand.
+//! Tests choices of mechanisms for which the result of each choice can be derived by hand.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use super::compare;
 use crate::run_options::RunOptions;
 use crate::study::Study;
 
-/// The comparisons of a scene over one second.
+/// Returns the comparisons of a scene over one second.
 fn compared(scene: &str) -> (Study, Vec<Comparison>) {
     let study = Study::read(
         "scene.toml",
@@ -50,7 +50,7 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
     (study, comparisons)
 }
 
-/// A cart on two wheels on one axle that is pushed sideways with 6 N.
+/// A cart has two wheels on one axle and is pushed sideways with 6 N.
 const CART: &str = r#"
 scene = { name = "cart", space = "plane" }
 body = [{ name = "cart", mass = 10.0, inertia = 1.0, velocity = [1.0, 0.0] }]
@@ -82,7 +82,8 @@ fn two_wheels_of_one_axle_share_in_any_way() {
         }
         shares.push([choice.values[0][0][1], choice.values[0][1][1]]);
     }
-    // The choices: that of the run, the least norm, and the other wheel without force.
+    // The expected choices are the choice of the run, the least norm, and the other wheel without
+    // force.
     assert!(shares[0].iter().any(|x| x.abs() < 1e-12));
     assert!(shares[1].iter().all(|x| (x + 3.0).abs() < 1e-12));
     assert_eq!(
@@ -90,14 +91,14 @@ fn two_wheels_of_one_axle_share_in_any_way() {
         shares[2].map(|x| x.abs() > 1e-12)
     );
     for freedom in c.freedom.iter().flatten() {
-        // Across the cart, and in no other direction.
+        // The force is free across the cart, and in no other direction.
         assert!(freedom.angle.cos().abs() < 1e-12 && !freedom.plane);
         assert_eq!(freedom.components[..3], [false, true, false]);
     }
 }
 
-/// Three equal cranks on one coupler: the redundancy is one, and every choice gives the bodies the
-/// same accelerations.
+/// Three equal cranks carry one coupler: the degree of redundancy is one, and every choice gives
+/// the bodies the same accelerations.
 #[test]
 fn choices_differ_by_loads_that_cancel_on_every_body() {
     let text = suite::find("three-cranks").expect("a case").scene;
@@ -112,7 +113,7 @@ fn choices_differ_by_loads_that_cancel_on_every_body() {
             for ((&k, f), r) in c.reactions.iter().zip(frame).zip(reference) {
                 let change = [f[0] - r[0], f[1] - r[1]];
                 differs |= change[0].hypot(change[1]) > 1e-3;
-                // Positive on the first body, negative on the second.
+                // The sign is positive on the first body and negative on the second.
                 for (body, sign) in mechanism.layout().groups[k].bodies.iter().zip([1.0, -1.0]) {
                     if let Some(b) = body.moving() {
                         force[b][0] += sign * change[0];

@@ -9,9 +9,10 @@ use super::{ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 
 impl ConfigurationAnalysis<'_> {
-    /// Ranks with their proof, verdicts, groups, reasons and warnings as plain data: the document
-    /// that `pfaff analyze --json` writes, key by key. Groups are those of the scene, followed by
-    /// the given combinations as in [`ConfigurationAnalysis::groups`]; rows are counted from 1.
+    /// Returns ranks with their proof, verdicts, groups, reasons and warnings as plain data: the
+    /// document that `pfaff analyze --json` writes, with the same keys. The groups are those of the
+    /// scene, followed by the given combinations as in [`ConfigurationAnalysis::groups`]; rows are
+    /// counted from 1.
     ///
     /// More expensive results are computed separately and may be added to the document:
     ///
@@ -31,9 +32,10 @@ impl ConfigurationAnalysis<'_> {
     /// ```
     ///
     /// # Errors
-    /// As [`ConfigurationAnalysis::groups`], [`ConfigurationAnalysis::explanation`],
-    /// [`ConfigurationAnalysis::continuation`] and [`ConfigurationAnalysis::is_locked`]. Groups
-    /// without numbers are reported as a warning in the document, not as an error.
+    /// Returns the errors of [`ConfigurationAnalysis::groups`],
+    /// [`ConfigurationAnalysis::explanation`], [`ConfigurationAnalysis::continuation`] and
+    /// [`ConfigurationAnalysis::is_locked`]. Groups without numbers are reported as a warning in
+    /// the document, not as an error.
     pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
         let groups = self.groups(combine)?;
         let (generic, generic_verdicts) = self.generic_with_verdicts().unzip();
@@ -82,8 +84,8 @@ impl ConfigurationAnalysis<'_> {
         let layout = self.mechanism.layout();
         let has_drives = layout.groups.iter().any(|group| group.is_drive());
         let freedoms = &mut document.ranks.freedoms;
-        // Other configurations that were reached prove that the mechanism can move, unless
-        // drives, knife edges or the like were left free on the way.
+        // If other configurations were reached, the mechanism can move, unless the search left
+        // drives, knife edges or similar constraints free.
         if freedoms.cannot_move.is_none() && generic.is_some() && !has_drives && layout.h == 0 {
             freedoms.cannot_move = Some(false);
         }
@@ -96,8 +98,9 @@ impl ConfigurationAnalysis<'_> {
     }
 }
 
-/// Adds the points about which moments of reactions in space are unique that are not about their
-/// places. In the plane they are all points of a line of action.
+/// Adds the points about which moments of reactions in space are unique, for moments that are not
+/// unique about the reference points. In the plane all points of a line of action have this
+/// property.
 fn add_centres(
     document: &mut AnalysisDocument,
     configuration: &ConfigurationAnalysis<'_>,
@@ -114,8 +117,8 @@ fn add_centres(
     Ok(())
 }
 
-/// The configurations with which a singular one was compared. The motion need not reach them,
-/// because the steps away ignore the drives.
+/// Describes the configurations with which a singular configuration was compared. The motion may
+/// not reach these configurations, because the steps to them ignore the drives.
 fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) -> Option<String> {
     let generic = d.generic.as_ref()?;
     if generic.redundancy >= d.ranks.redundancy || d.evidence.permanent != Some(false) {
@@ -135,12 +138,12 @@ fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) ->
     };
     Some(format!(
         "redundancy {} and its verdicts hold at this singular configuration only; {compared} that the joints allow{free}, and `--along` \
-         tells whether the motion leaves this one",
+         shows whether the motion leaves this one",
         d.ranks.redundancy,
     ))
 }
 
-/// A sentence that the free velocities of first order are not motions.
+/// States in a sentence that the first-order free velocities are not motions.
 fn locked(d: &AnalysisDocument) -> Option<String> {
     let freedoms = &d.ranks.freedoms;
     let at_first_order = freedoms.first_order(d.ranks.mobility)?;

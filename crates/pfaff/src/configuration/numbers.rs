@@ -6,18 +6,18 @@ use super::{ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 
 impl ConfigurationAnalysis<'_> {
-    /// How strongly the numbers of the groups of the scene depend on the data, by their names; what
-    /// is not unique, or not known, has no sensitivity. `reactions` are those of
-    /// [`ConfigurationAnalysis::sensitivities`].
+    /// Computes how strongly the numbers of the groups of the scene depend on the data, by group
+    /// name; numbers that are not unique, or unknown, have no sensitivity. `reactions` contains the
+    /// results of [`ConfigurationAnalysis::sensitivities`].
     ///
     /// # Errors
-    /// [`StudyError::Choice`], and as [`ConfigurationAnalysis::reaction`].
+    /// [`StudyError::Choice`], and the errors of [`ConfigurationAnalysis::reaction`].
     pub fn group_sensitivities(
         &self,
         reactions: &Sensitivities,
     ) -> Result<Vec<(String, GroupSensitivities)>, StudyError> {
         let groups = requests::groups(self.scene, self.mechanism, &[])?;
-        // A group of a part that is too large has no verdict here.
+        // A group that involves a part that is too large has no verdict here.
         let judged: Vec<Option<GroupVerdict>> = groups
             .iter()
             .map(|(_, group)| self.questions.group(group).ok())
@@ -35,7 +35,7 @@ impl ConfigurationAnalysis<'_> {
             .collect())
     }
 
-    /// How strongly the unique numbers of these groups depend on the data.
+    /// Computes how strongly the unique numbers of these groups depend on the data.
     pub(super) fn sensitivities_of_groups(
         &self,
         groups: &[(&Group, &GroupVerdict)],

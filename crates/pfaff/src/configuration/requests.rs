@@ -6,7 +6,7 @@ use solvability::{Group, Term};
 
 use crate::error::StudyError;
 
-/// The joint or drive with this name.
+/// Finds the joint or drive with this name.
 pub(crate) fn reaction(
     scene: &Scene,
     mechanism: &Mechanism,
@@ -24,7 +24,7 @@ pub(crate) fn reaction(
     })
 }
 
-/// Groups with their names: those of the scene, then the requested combinations.
+/// Returns groups with their names: those of the scene, then the requested combinations.
 pub(crate) fn groups(
     scene: &Scene,
     mechanism: &Mechanism,

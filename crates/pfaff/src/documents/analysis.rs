@@ -1,5 +1,5 @@
-//! The document of `analyze --json`. Results that were not requested are absent; existing keys
-//! never change their meaning.
+//! The document of `analyze --json`. Results that were not requested are absent; later versions do
+//! not change the meaning of existing keys.
 
 mod along;
 mod choices;
@@ -39,39 +39,41 @@ use super::{FreedomsDocument, from_one};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct AnalysisDocument {
-    /// What was judged.
+    /// The analysed configuration.
     #[serde(flatten)]
     pub configuration: ConfigurationDocument,
-    /// What its rank is.
+    /// The ranks of the constraint matrix.
     #[serde(flatten)]
     pub ranks: RanksDocument,
-    /// What the data are known to, and what hangs on that.
+    /// The accuracy of the data, and the results that depend on it.
     pub data: DataDocument,
-    /// The numbers behind the rank.
+    /// The numerical evidence for the rank.
     pub evidence: EvidenceDocument,
-    /// Ranks at other configurations; `null` if nobody asked, or none could be reached.
+    /// Ranks at other configurations; `null` if not requested, or if no other configuration could
+    /// be reached.
     pub generic: Option<GenericDocument>,
     /// Joints and drives in the order of their rows.
     pub reactions: Vec<ReactionDocument>,
-    /// Verdicts of combinations that were asked for; [`AnalysisDocument::new`] leaves it empty.
+    /// Verdicts of the requested combinations; [`AnalysisDocument::new`] leaves the list empty.
     pub groups: Vec<GroupDocument>,
-    /// Which unique reactions and components are fragile and what they hang on, in words.
+    /// Unique reactions and components that are sensitive to the data, with the datum on which each
+    /// depends most, as text.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fragile: Vec<String>,
-    /// Why reactions are not unique.
+    /// Reasons why reactions are not unique.
     #[serde(flatten)]
     pub reasons: ReasonsDocument,
-    /// What else was asked for.
+    /// Other requested results.
     #[serde(flatten)]
     pub answers: AnswersDocument,
-    /// What definitions say of the reactions of their joints; [`AnalysisDocument::add_notes`] fills
-    /// it.
+    /// Notes of joint definitions on the reactions of their joints; [`AnalysisDocument::add_notes`]
+    /// adds them.
     pub notes: Vec<NoteDocument>,
-    /// What else the reader should know.
+    /// Further warnings for the reader.
     pub warnings: Vec<String>,
 }
 
-/// What was judged: a mechanism at a time, and its size.
+/// The analysed configuration: a mechanism at a time, and its size.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -84,7 +86,7 @@ pub struct ConfigurationDocument {
     pub bodies: usize,
     /// Number of coordinates n_q.
     pub coordinates: usize,
-    /// Number of velocities n_v: mobility is n_v − rank.
+    /// Number of velocities n_v; the mobility is n_v − rank.
     pub velocities: usize,
     /// Number of rows m + h.
     pub rows: usize,
@@ -94,7 +96,7 @@ pub struct ConfigurationDocument {
     pub nonholonomic_rows: usize,
 }
 
-/// The rank of C, and what follows from it alone.
+/// The rank of C, and the numbers that follow from it alone.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -113,9 +115,9 @@ pub struct RanksDocument {
     /// empty.
     #[serde(flatten)]
     pub freedoms: FreedomsDocument,
-    /// r independent rows.
+    /// A set of r independent rows.
     pub kept_rows: Vec<usize>,
-    /// The other p rows.
+    /// The p redundant rows.
     pub dropped_rows: Vec<usize>,
     /// Sets of joints on common cycles that were analysed separately; absent if all were analysed
     /// together.
@@ -123,7 +125,7 @@ pub struct RanksDocument {
     pub parts: Option<PartsDocument>,
 }
 
-/// Why reactions are not unique.
+/// Reasons why reactions are not unique.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -134,12 +136,12 @@ pub struct ReasonsDocument {
     pub mixing: Vec<MixingDocument>,
 }
 
-/// Answers to questions that not every analysis is asked.
+/// Results that are computed only on request.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct AnswersDocument {
-    /// What may be deleted without a change of motion.
+    /// Sets of rows that may be deleted without a change of motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub eliminations: Option<EliminationsDocument>,
     /// Deletions that make reactions unique.
@@ -177,14 +179,14 @@ pub struct DependencyDocument {
     pub rows: Vec<usize>,
     /// Joints and drives of these rows, each once.
     pub joints: Vec<String>,
-    /// `Σ coefficient·row = 0`, largest coefficient 1.
+    /// Coefficients with `Σ coefficient·row = 0`; the largest coefficient is 1.
     pub coefficients: Vec<f64>,
-    /// Whether the dependency without other rows holds only within the tolerance that the scene
+    /// Whether the dependency of these rows alone is valid only within the tolerance that the scene
     /// states; absent if not.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub within_tolerance: bool,
-    /// The largest coefficient that counts as zero for this reason, of scaled rows and relative to
-    /// the largest of all.
+    /// The largest coefficient that counts as zero for this reason, for scaled rows and relative to
+    /// the largest coefficient.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
     /// Explanation as text.
@@ -196,7 +198,7 @@ pub struct DependencyDocument {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MixingDocument {
-    /// Their names.
+    /// Names of the joints and drives.
     pub reactions: Vec<String>,
     /// Rows of C that are coupled.
     pub rows: Vec<usize>,
@@ -207,9 +209,9 @@ pub struct MixingDocument {
 }
 
 impl AnalysisDocument {
-    /// The document of an analysis, with ranks at other configurations; `None` if they were not
-    /// requested, or none could be reached. The evidence is that of the part whose rank is least
-    /// certain.
+    /// Builds the document of an analysis with ranks at other configurations; `None` if the ranks
+    /// were not requested, or if no other configuration could be reached. The evidence is that of
+    /// the part whose rank is least certain.
     #[must_use]
     pub fn new(scene: &str, analysis: &Analysis, generic: Option<&Generic>) -> Self {
         let decision = &analysis.decision;
@@ -259,15 +261,16 @@ impl AnalysisDocument {
         }
     }
 
-    /// Adds what can move. The freedoms must belong to the analysis.
+    /// Adds the possible motions. The freedoms must belong to the analysis.
     #[must_use]
     pub fn with_freedoms(mut self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         self.ranks.freedoms = FreedomsDocument::new(freedoms, mechanism);
         self
     }
 
-    /// Adds the verdicts that hold at nearly all configurations, one for each joint and drive:
-    /// those of the stretches of the motion that contain the instant, or at other configurations.
+    /// Adds the verdicts that hold at nearly all configurations, one for each joint and drive. They
+    /// come from the stretches of the motion that contain the instant, or from other
+    /// configurations.
     pub fn add_generic_verdicts(&mut self, generic: &[GenericVerdict]) {
         for (reaction, generic) in self.reactions.iter_mut().zip(generic) {
             reaction.add_generic(generic);
@@ -283,12 +286,13 @@ impl AnalysisDocument {
         }
     }
 
-    /// The reactions with a fragile component.
+    /// Iterates over the reactions with an ill-determined component.
     pub fn fragile_reactions(&self) -> impl Iterator<Item = &ReactionDocument> {
         self.reactions.iter().filter(|r| r.data.fragile)
     }
 
-    /// The names of what is fragile: of reactions, or else of their components.
+    /// Returns the names of the ill-determined reactions, or of their components if only components
+    /// are ill-determined.
     #[must_use]
     pub fn fragile_names(&self) -> Vec<String> {
         let reactions = self.reactions.iter();
@@ -297,7 +301,8 @@ impl AnalysisDocument {
             .collect()
     }
 
-    /// Adds why the reactions are not unique. The explanation must belong to the analysis.
+    /// Adds the explanation why the reactions are not unique. The explanation must belong to the
+    /// analysis.
     pub fn explain(&mut self, explanation: &Explanation, layout: &Layout) {
         ReactionDocument::explain_all(&mut self.reactions, explanation);
         let stress = |stress: &solvability::SelfStress| {
@@ -309,7 +314,7 @@ impl AnalysisDocument {
             let (rows, coefficients) = (&stress.rows, &stress.coefficients);
             DependencyDocument::of(rows, joints, coefficients, stress.left_out, &stress.text)
         };
-        // Results for parts that were not explained are kept.
+        // Results for parts that were not explained remain unchanged.
         let told: Vec<DependencyDocument> = explanation.stresses.iter().map(stress).collect();
         let mut others = std::mem::replace(&mut self.reasons.dependencies, told);
         if self.ranks.parts.is_some() {
@@ -332,7 +337,7 @@ impl AnalysisDocument {
         self.reasons.mixing = explanation.mixing.iter().map(mixing).collect();
     }
 
-    /// Adds which reactions have no number in the motion, with a warning for each set.
+    /// Adds the reactions that have no finite value in the motion, with a warning for each set.
     pub fn add_no_finite(&mut self, found: &NoFiniteReaction) {
         for id in &found.reactions {
             self.reactions[id.0].no_finite_reaction = Some(found.clone());
@@ -369,7 +374,8 @@ impl DependencyDocument {
         Self::of(rows, joints.collect(), coefficients, left_out, text)
     }
 
-    /// Of rows from 0; `left_out` is what counts as zero within the tolerance only.
+    /// Converts a dependency with rows counted from 0; `left_out` is the part that counts as zero
+    /// only within the tolerance.
     fn of(
         rows: &[usize],
         joints: Vec<String>,
@@ -392,7 +398,7 @@ impl DependencyDocument {
     }
 }
 
-/// The joint or drive of each row.
+/// The index of the joint or drive of each row.
 fn groups_of_rows(analysis: &Analysis) -> Vec<usize> {
     let mut group_of = vec![0; analysis.holonomic_rows + analysis.nonholonomic_rows];
     for (k, reaction) in analysis.reactions.iter().enumerate() {

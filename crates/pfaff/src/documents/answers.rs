@@ -1,5 +1,5 @@
-//! Documents of commands whose result is a few numbers, and of errors. `ok` states whether there is
-//! a result.
+//! Documents of commands whose result is a few numbers, and documents of errors. The key `ok`
+//! states whether there is a result.
 
 use model::codes::{Code, Entry, Example};
 use serde::Serialize;
@@ -10,21 +10,21 @@ use serde::Serialize;
 pub struct RefusalDocument<'a, P> {
     /// `false`
     pub ok: bool,
-    /// Its code.
+    /// Code of the reason.
     pub code: Option<Code>,
-    /// The reason in one line.
+    /// The reason as one line of text.
     pub error: String,
-    /// Places in the scene that are wrong.
+    /// Invalid positions in the scene.
     pub problems: &'a [P],
 }
 
-/// Codes of errors and warnings with what they mean.
+/// Codes of errors and warnings with their meanings.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CodesDocument {
     /// `true`
     pub ok: bool,
-    /// The codes, ascending.
+    /// The codes, in ascending order.
     pub codes: Vec<CodeDocument>,
 }
 
@@ -37,16 +37,16 @@ impl CodesDocument {
     }
 }
 
-/// What one code means.
+/// Meaning of one code.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct CodeDocument {
     code: Code,
     title: &'static str,
     advice: &'static str,
-    /// Arguments of `pfaff` with which it is reported.
+    /// Arguments of `pfaff` with which the code is reported.
     arguments: Option<&'static str>,
-    /// The scene on standard input that they need.
+    /// The scene that these arguments need on standard input.
     scene: Option<&'static str>,
 }
 
@@ -67,7 +67,7 @@ impl From<&Entry> for CodeDocument {
     }
 }
 
-/// The summary of a run whose process was ended before it could write its own.
+/// The summary of a run whose process ended before it could write its own summary.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EndedDocument {
@@ -77,11 +77,11 @@ pub struct EndedDocument {
     pub partial: bool,
     /// Code of the reason why it ended.
     pub code: Code,
-    /// Why it ended.
+    /// Reason why the process ended.
     pub error: &'static str,
 }
 
-/// A picture that was written.
+/// A picture that was written to a file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ViewDocument<'a> {
@@ -91,19 +91,19 @@ pub struct ViewDocument<'a> {
     pub scene: &'a str,
     /// The file.
     pub file: String,
-    /// Its size (bytes).
+    /// Size of the file (bytes).
     pub bytes: usize,
     /// Width and height of a PNG in pixels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixels: Option<[u32; 2]>,
-    /// Characters that are boxes in a PNG because no font has them.
+    /// Characters that are drawn as boxes in a PNG because no font contains them.
     #[serde(skip_serializing_if = "str::is_empty")]
     pub boxes: &'a str,
     /// Number of joints and drives.
     pub reactions: usize,
     /// Number of reactions that are not unique.
     pub not_unique: usize,
-    /// Number of reactions with a unique component that is fragile.
+    /// Number of reactions with an ill-determined unique component.
     pub fragile: usize,
     /// Mobility n_v − r.
     pub mobility: usize,
@@ -123,7 +123,7 @@ pub struct NewDocument<'a> {
     pub file: &'a str,
 }
 
-/// A scene that was made of a file of another format.
+/// A scene that was converted from a file of another format.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ImportDocument<'a> {
@@ -137,27 +137,27 @@ pub struct ImportDocument<'a> {
     pub bodies: usize,
     /// Number of joints and couplings.
     pub joints: usize,
-    /// Number of rotors for armatures: each is one more body with a joint and a coupling.
+    /// Number of rotors for armatures: each rotor is one more body with a joint and a coupling.
     pub rotors: usize,
     /// Statements about the scene as a whole.
     pub remarks: &'a [String],
-    /// What the scene does not contain.
+    /// Elements of the file that the scene does not contain.
     pub left_out: Vec<OmissionDocument<'a>>,
-    /// The first error of the scene, where it has one.
+    /// The first error of the scene, if the scene has an error.
     pub scene_error: Option<String>,
 }
 
-/// Something of a file that its scene does not contain.
+/// An element of a file that the converted scene does not contain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct OmissionDocument<'a> {
-    /// What kind of thing.
+    /// Kind of the element.
     pub kind: &'a str,
-    /// Which one.
+    /// Name of the element.
     pub subject: &'a str,
-    /// Its file, if it is an included one.
+    /// File of the element, if it is an included file.
     pub file: Option<&'a str>,
-    /// Its line.
+    /// Line of the element in its file.
     pub line: usize,
 }
 
@@ -175,8 +175,8 @@ pub struct TemplatesDocument<'a> {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TemplateDocument<'a> {
-    /// Its name.
+    /// Name of the template.
     pub name: &'a str,
-    /// Its description.
+    /// Description of the template.
     pub summary: String,
 }

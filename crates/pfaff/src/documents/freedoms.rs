@@ -15,13 +15,14 @@ pub struct FreedomsDocument {
     pub without_drives: Option<WithoutDrivesDocument>,
     /// Motions that are possible while the drives are locked.
     pub free_motions: Vec<FreeMotionDocument>,
-    /// Freedoms without a described motion.
+    /// Freedoms without a description of their motions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_motions_left_out: Option<LeftOutDocument>,
-    /// A basis of the velocities that second order excludes: they are free at first order only.
+    /// A basis of the velocities that are free at first order but excluded at second order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub freedoms_blocked: Vec<FreeMotionDocument>,
-    /// A basis of the velocities for which second order neither excludes a motion nor proves one.
+    /// A basis of the velocities for which the second-order conditions neither exclude a motion nor
+    /// prove one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub freedoms_undecided: Vec<FreeMotionDocument>,
     /// Whether no motion is possible; `null` if this is not decided.
@@ -37,13 +38,13 @@ pub struct WithoutDrivesDocument {
     pub drives: usize,
     /// Rank of the other rows.
     pub rank: usize,
-    /// Number of these rows minus their rank.
+    /// Number of the other rows minus their rank.
     pub redundancy: usize,
     /// Mobility n_v − rank.
     pub mobility: usize,
     /// Motions that are possible.
     pub free_motions: Vec<FreeMotionDocument>,
-    /// Freedoms without a described motion.
+    /// Freedoms without a description of their motions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_motions_left_out: Option<LeftOutDocument>,
 }
@@ -56,25 +57,25 @@ pub struct FreeMotionDocument {
     /// Description.
     pub text: String,
     /// `[vx, vy, omega]` of the moving bodies (m/s, rad/s), in space `[vx, vy, vz, wx, wy, wz]` of
-    /// their frames in ground axes, for each degree of freedom in the description: three or six for
-    /// a body that is free as a whole, otherwise one. The largest rotation is 1, or the fastest
-    /// translation if nothing rotates.
+    /// their frames in ground axes, for each degree of freedom in the description. A body that is
+    /// free as a whole has three or six degrees of freedom; every other free motion has one. The
+    /// largest angular velocity is 1, or the largest velocity if nothing rotates.
     pub velocities: Vec<ByName<Vec<f64>>>,
 }
 
-/// Freedoms that are only counted.
+/// Freedoms that are counted but not described.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct LeftOutDocument {
-    /// Their number.
+    /// Number of these freedoms.
     pub freedoms: usize,
-    /// Reason why they are not described.
+    /// Reason why these freedoms are not described.
     pub reason: String,
 }
 
 impl FreedomsDocument {
-    /// The document of the freedoms of a mechanism.
+    /// Builds the document of the freedoms of a mechanism.
     #[must_use]
     pub fn new(freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         let without_drives = freedoms.without_drives.as_ref();
@@ -95,8 +96,8 @@ impl FreedomsDocument {
         }
     }
 
-    /// The mobility as a phrase: "mobility 0 with its drive, 1 without", or "mobility 1" if there
-    /// is no drive.
+    /// Returns the mobility as a phrase: "mobility 0 with its drive, 1 without", or "mobility 1" if
+    /// there is no drive.
     #[must_use]
     pub fn sentence(&self, mobility: usize) -> String {
         match &self.without_drives {
@@ -109,8 +110,8 @@ impl FreedomsDocument {
         }
     }
 
-    /// The same phrase, with a remark if the mechanism cannot move, or if second order does not
-    /// decide whether it can.
+    /// Returns the same phrase, with a remark if the mechanism cannot move, or if the second-order
+    /// conditions do not decide whether it can.
     #[must_use]
     pub fn summary(&self, mobility: usize) -> String {
         let sentence = self.sentence(mobility);
@@ -124,7 +125,7 @@ impl FreedomsDocument {
         }
     }
 
-    /// After a phrase that has a comma, one more.
+    /// Returns a comma for a phrase that already contains one, and otherwise an empty string.
     fn comma(&self) -> &'static str {
         if self.without_drives.is_some() {
             ","
@@ -133,8 +134,8 @@ impl FreedomsDocument {
         }
     }
 
-    /// The freedoms of first order as a phrase, if there are any: "mobility 1", or "mobility 1
-    /// without its drive" if the drive alone takes the last one.
+    /// Returns the freedoms of first order as a phrase, if there are any: "mobility 1", or
+    /// "mobility 1 without its drive" if the drive alone removes the last freedom.
     #[must_use]
     pub fn first_order(&self, mobility: usize) -> Option<String> {
         match (&self.without_drives, mobility) {
@@ -148,7 +149,7 @@ impl FreedomsDocument {
         }
     }
 
-    /// That the mechanism cannot move, as a sentence without a full stop.
+    /// States that the mechanism cannot move, as a sentence without a full stop.
     #[must_use]
     pub fn cannot_move_sentence(&self, mobility: usize) -> String {
         match &self.without_drives {
@@ -164,21 +165,22 @@ impl FreedomsDocument {
         }
     }
 
-    /// The mobility without the drives; `None` if there are none.
+    /// The mobility without the drives; `None` if there are no drives.
     #[must_use]
     pub fn mobility_without_drives(&self) -> Option<usize> {
         self.without_drives.as_ref().map(|without| without.mobility)
     }
 
-    /// The free motions as sentences: those with the drives, then those that the drives prescribe,
-    /// each once, and those that second order blocks, with an introduction that distinguishes them.
+    /// Returns the free motions as sentences: the motions with the drives, then the motions that
+    /// the drives prescribe, each once, then the motions excluded at second order, with an
+    /// introduction that distinguishes them.
     #[must_use]
     pub fn sentences(&self) -> Vec<(String, String)> {
         let told = self.told().into_iter();
         told.map(|(lead, text, _)| (lead, text)).collect()
     }
 
-    /// The motions of these sentences that are described, with their introductions.
+    /// Returns the described motions of these sentences, with their introductions.
     #[must_use]
     pub fn motions(&self) -> Vec<(String, &FreeMotionDocument)> {
         let told = self.told().into_iter();
@@ -218,7 +220,7 @@ impl FreedomsDocument {
 /// Introduction, sentence, and the motion if it is described.
 type MotionSentence<'a> = (String, String, Option<&'a FreeMotionDocument>);
 
-/// Adds motions that are not told yet, and how many are only counted.
+/// Adds motions that are not yet in the list, and the number of freedoms that are only counted.
 fn tell<'a>(
     told: &mut Vec<MotionSentence<'a>>,
     lead: &str,
@@ -243,7 +245,7 @@ fn tell<'a>(
 }
 
 impl WithoutDrivesDocument {
-    /// "its drive" or "its drives".
+    /// Returns "its drive" or "its drives".
     #[must_use]
     pub fn possessive(&self) -> &'static str {
         match self.drives {
@@ -252,7 +254,7 @@ impl WithoutDrivesDocument {
         }
     }
 
-    /// "its drive is" or "its drives are".
+    /// Returns "its drive is" or "its drives are".
     fn are_locked(&self) -> &'static str {
         match self.drives {
             1 => "its drive is",
@@ -282,7 +284,7 @@ fn documents(motions: &[FreeMotion], mechanism: &Mechanism) -> Vec<FreeMotionDoc
     motions.iter().map(told).collect()
 }
 
-/// Rounded to the digits that are accurate for a null space: 13.
+/// Rounds a number to 13 digits, the accuracy of a null space.
 fn shown(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }

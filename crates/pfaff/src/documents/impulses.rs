@@ -1,4 +1,4 @@
-//! Impulses of joints and drives where velocities jump, with their verdicts.
+//! Impulses of joints and drives at jumps of velocities, with their verdicts.
 
 use dynamics::ReactionImpulse;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use super::ByName;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ImpulseDocument {
-    /// Its components that are not identically zero, and the named one of its definition, at this
+    /// Components that are not identically zero, and the named component of the definition, at this
     /// instant (N·s, N·m·s).
     pub components: ByName<Value>,
 }

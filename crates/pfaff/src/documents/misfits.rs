@@ -1,5 +1,5 @@
-//! What rows miss that are redundant within a stated tolerance only, and how far two choices of
-//! kept rows part.
+//! Constraint violations of rows that are redundant only within a stated tolerance, and the
+//! difference between the motions for two choices of independent rows.
 
 use std::fmt;
 
@@ -10,35 +10,35 @@ use serde::Serialize;
 
 use super::from_one;
 
-/// The largest misfit of a dropped row.
+/// The largest constraint violation of a redundant row.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MisfitDocument {
-    /// The row, from 1.
+    /// The row, counted from 1.
     pub row: usize,
-    /// Its joint or drive.
+    /// Joint or drive of the row.
     pub joint: String,
     /// The row within the joint.
     pub component: String,
-    /// The largest misfit, in `unit`.
+    /// The largest constraint violation, in `unit`.
     pub largest: f64,
-    /// When it occurs (s).
+    /// Time of the largest violation (s).
     pub time: f64,
-    /// What data within their tolerances explain then, in `unit`.
+    /// The violation that data within their tolerances explain at that time, in `unit`.
     pub bound: f64,
     /// m or rad; m/s or rad/s for a nonholonomic row.
     pub unit: &'static str,
-    /// For angles: the misfit times the size of the mechanism (m, or m/s).
+    /// For angles: the violation times the size of the mechanism (m, or m/s).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_size: Option<f64>,
 }
 
-/// Largest number of misfits that are reported in words; summary.json has all.
+/// Largest number of violations that are printed as text; summary.json contains all.
 const TOLD: usize = 12;
 
 impl MisfitDocument {
-    /// The misfits in words, a line each; of many the first.
+    /// Returns one line of text for each of the first violations, and the number of the others.
     #[must_use]
     pub fn lines(misfits: &[Self]) -> Vec<String> {
         let mut lines: Vec<String> = misfits.iter().take(TOLD).map(Self::to_string).collect();
@@ -84,25 +84,26 @@ impl fmt::Display for MisfitDocument {
     }
 }
 
-/// How far the motions on two choices of kept rows part.
+/// Difference between the motions for two choices of independent rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SpreadDocument {
-    /// The rows deleted by the other choice, from 1.
+    /// The rows that the other choice deletes, counted from 1.
     pub deleted_rows: Vec<usize>,
     /// Largest distance of a centre of mass (m).
     pub position: f64,
     /// Largest difference of an angle (rad).
     pub angle: f64,
-    /// When the distance, or without one the angle, is largest (s).
+    /// Time at which the distance is largest, or the angle if all distances are zero (s).
     pub time: f64,
-    /// Reason why the other run stopped; the numbers are those up to there.
+    /// Reason why the other run stopped; the numbers hold up to that time.
     pub error: Option<String>,
 }
 
 impl SpreadDocument {
-    /// No difference yet; the dropped rows of the other choice, from 0.
+    /// Starts without a difference; the argument contains the redundant rows of the other choice,
+    /// counted from 0.
     #[must_use]
     pub fn new(dropped: &[usize]) -> Self {
         Self {
@@ -114,7 +115,8 @@ impl SpreadDocument {
         }
     }
 
-    /// A run on other rows that could not begin; the dropped rows, from 0.
+    /// Describes a run on other rows that could not begin; the argument contains the redundant
+    /// rows, counted from 0.
     #[must_use]
     pub fn stopped(dropped: &[usize], error: &MotionError) -> Self {
         Self {
@@ -123,7 +125,7 @@ impl SpreadDocument {
         }
     }
 
-    /// Takes the displacements between both runs at a time, along the columns of C.
+    /// Adds the displacements between both runs at one time, along the columns of C.
     pub fn take(&mut self, t: f64, apart: &[f64], space: SpaceKind) {
         let before = (self.position, self.angle);
         for body in apart.chunks_exact(space.n_v()) {

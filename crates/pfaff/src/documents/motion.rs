@@ -19,8 +19,8 @@ pub struct MotionDocument {
 }
 
 impl MotionDocument {
-    /// The document of a run with its rows, whose numbers are those of one choice: those that are
-    /// not determined on their stretch are left out.
+    /// Builds the document of a run with its rows for one choice; numbers that are not determined
+    /// on their stretch are left out.
     #[must_use]
     pub fn new(
         summary: RunDocument,
@@ -49,20 +49,20 @@ pub struct MomentDocument {
     /// Markers by name.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub markers: ByName<ByName<f64>>,
-    /// Measures by name (m, rad, m/s, rad/s).
+    /// Joint coordinates (measures) by name (m, rad, m/s, rad/s).
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub measures: ByName<f64>,
     /// Force and torque on the first body of joints and drives, by name and in the order of their
-    /// rows: `Fx`, `Fy` (N), `T` (N·m), and the named component of the definition, if it has one.
-    /// Values that are not determined on their stretch, or were not computed, are NaN, `null` in
-    /// JSON.
+    /// rows. The components are `Fx`, `Fy` (N), `T` (N·m), and the named component of the
+    /// definition, if it has one. Values that are not determined on their stretch, or were not
+    /// computed, are NaN, `null` in JSON.
     pub reactions: ByName<ByName<f64>>,
 }
 
-/// Position and velocity of a body or marker by the names of the columns of its space; in the plane
-/// `x`, `y` (m), `angle` (rad, not reduced to one revolution), `vx`, `vy` (m/s) and `omega` (rad/s)
-/// of the origin of the body's frame, which is its centre of mass unless the scene says otherwise,
-/// or of the marker.
+/// Returns position and velocity of a body or marker by the names of the columns of its space. In
+/// the plane these are `x`, `y` (m), `angle` (rad, not reduced to one revolution), `vx`, `vy` (m/s)
+/// and `omega` (rad/s). The point is the marker, or the origin of the frame of the body, which is
+/// its centre of mass unless the scene states otherwise.
 fn state(of: &FrameState) -> ByName<f64> {
     let columns = of.space.columns().iter();
     ByName(
@@ -86,11 +86,11 @@ impl MomentDocument {
         }
     }
 
-    /// State and reactions of a mechanism: q and v body by body, reactions of all joints and drives
-    /// in the order of their rows.
+    /// Returns state and reactions of a mechanism: q and v body by body, reactions of all joints
+    /// and drives in the order of their rows.
     ///
     /// # Panics
-    /// If q and v are not those of the mechanism.
+    /// Panics if q and v do not belong to the mechanism.
     #[must_use]
     pub fn new(
         mechanism: &Mechanism,

@@ -1,16 +1,16 @@
-//! The plan of a run, short for its summary.
+//! The plan of a run in short form for its summary.
 
 use dynamics::plan::{ComponentPlan, Line, Plan};
 
 use super::ByName;
 
-/// The decisions about the whole, and about its only component if there is one.
+/// Returns the decisions about the whole mechanism, and about its component if there is only one.
 pub(super) fn short(plan: &Plan<'_>) -> ByName<String> {
     let lines = plan.lines().into_iter();
     named(lines.filter(|line| line.component.is_none()))
 }
 
-/// The decisions about one of several components.
+/// Returns the decisions about one of several components.
 pub(super) fn short_of(component: &ComponentPlan<'_>) -> ByName<String> {
     named(component.decisions.lines().into_iter())
 }
@@ -23,7 +23,7 @@ fn named<'p>(lines: impl Iterator<Item = Line<'p>>) -> ByName<String> {
     )
 }
 
-/// The name of a decision as a key of documents.
+/// Converts the name of a decision to a key of documents.
 #[must_use]
 pub fn decision_key(decision: &str) -> String {
     decision.replace(' ', "_")

@@ -18,40 +18,40 @@ use super::{
 /// A run and its results.
 #[derive(Clone, Copy)]
 pub struct Run<'a> {
-    /// Start, kept rows, and plan of the run.
+    /// Plan of the run with its start and its independent rows.
     pub plan: &'a Plan<'a>,
-    /// Verdicts at the start.
+    /// Verdicts at the start of the run.
     pub reactions: &'a [ReactionVerdict],
-    /// How strongly the reactions depend on the data at the start.
+    /// Sensitivities of the reactions to the data at the start.
     pub sensitivities: &'a Sensitivities,
     /// Tolerances of the data, and what depends on them.
     pub data: DataDocument,
     /// The possible motions at the start.
     pub freedoms: &'a Freedoms,
-    /// Verdicts and peaks of the run; `None` if no reactions were asked for.
+    /// Verdicts and peaks of the run; `None` if no reactions were requested.
     pub verdicts: Option<RunVerdicts<'a>>,
-    /// Numbers of the run.
+    /// Numerical summary of the run.
     pub summary: &'a Summary,
-    /// The same on other rows, if rows have missed.
+    /// The difference to the motion on other rows, if rows are violated.
     pub spread: Option<&'a SpreadDocument>,
-    /// How it ended.
+    /// How the run ended.
     pub ending: Ending<'a>,
-    /// Number of rows in its tables.
+    /// Number of rows in the tables of the run.
     pub rows: usize,
-    /// Names of its files.
+    /// Names of the files of the run.
     pub files: &'a [String],
-    /// The rows without numbers of each choice of the plan.
+    /// The rows without numbers for each choice of the plan.
     pub gaps: &'a [Option<Gap>],
 }
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug)]
 pub enum Ending<'a> {
-    /// The last time was reached.
+    /// The run reached its end time.
     Complete,
     /// The run was interrupted; the results up to there are valid.
     Interrupted,
-    /// It stopped with this error; the results up to there are valid.
+    /// The run stopped with this error; the results up to there are valid.
     Stopped(&'a MotionError),
 }
 
@@ -64,13 +64,13 @@ pub struct RunDocument {
     pub method: &'static str,
     /// Treatment of redundancy.
     pub formulation: &'static str,
-    /// Treatment of drift.
+    /// Method against constraint drift.
     pub stabilisation: &'static str,
-    /// Whether the run ended before its last time.
+    /// Whether the run ended before its end time.
     pub partial: bool,
-    /// Code of the reason why it ended early.
+    /// Code of the reason why the run ended early.
     pub code: Option<Code>,
-    /// Reason why it ended early.
+    /// Reason why the run ended early.
     pub error: Option<String>,
     /// Last time reached (s).
     pub t_end: f64,
@@ -94,8 +94,8 @@ pub struct RunDocument {
     pub max_position_residual: f64,
     /// Largest |C·v − b|.
     pub max_velocity_residual: f64,
-    /// Largest |E − E₀ − work| relative to the largest kinetic energy, or an upper bound on it if
-    /// there are components.
+    /// Largest |E − E₀ − work| relative to the largest kinetic energy, or an upper bound on this
+    /// value if there are several components.
     pub energy_balance: f64,
     /// Largest change of a coordinate by the assembly (m or rad).
     pub start_correction: f64,
@@ -103,14 +103,14 @@ pub struct RunDocument {
     pub start_velocity_correction: f64,
     /// Degrees of freedom at the start, n_v − r.
     pub mobility: usize,
-    /// The possible motions there, with the drives and without them.
+    /// The possible motions at the start, with the drives and without them.
     #[serde(flatten)]
     pub freedoms: FreedomsDocument,
     /// Tolerances of the data, and what depends on them at the start.
     pub data: DataDocument,
-    /// What rows miss at most that are redundant within the stated tolerance only.
+    /// Largest violations of rows that are redundant only within the stated tolerance.
     pub misfits: Vec<MisfitDocument>,
-    /// How far the motion on another choice of rows differs; `null` if no row misses.
+    /// Difference to the motion on another choice of rows; `null` if no row is violated.
     pub spread: Option<SpreadDocument>,
     /// Events of the run.
     pub events: Vec<EventDocument>,
@@ -119,12 +119,12 @@ pub struct RunDocument {
     /// Verdicts of the groups of the scene, by name.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub groups: ByName<RunGroupDocument>,
-    /// Instants at which another verdict holds than on their stretch of the run.
+    /// Instants at which a verdict differs from the verdict of its stretch of the run.
     pub special: Vec<SpecialDocument>,
-    /// The choices by which the numbers of `choice.csv` and of further files were made; empty if
-    /// every number is determined.
+    /// The choices that determine the numbers of `choice.csv` and of further files; empty if every
+    /// number is determined.
     pub choice: Vec<ChoiceDocument>,
-    /// Decisions before the run, in short.
+    /// Decisions before the run, in short form.
     pub plan: ByName<String>,
     /// Components that were run separately.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -136,7 +136,7 @@ pub struct RunDocument {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ComponentRunDocument {
-    /// Its bodies as text.
+    /// Bodies of the component as text.
     pub name: String,
     /// Integrator.
     pub method: &'static str,
@@ -156,13 +156,13 @@ pub struct ComponentRunDocument {
     pub max_position_residual: f64,
     /// Largest |C·v − b|.
     pub max_velocity_residual: f64,
-    /// Largest |E − E₀ − work| relative to its largest kinetic energy.
+    /// Largest |E − E₀ − work| relative to the largest kinetic energy of the component.
     pub energy_balance: f64,
-    /// Decisions about it, in short.
+    /// Decisions about the component, in short form.
     pub plan: ByName<String>,
 }
 
-/// An event.
+/// An event of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -171,34 +171,34 @@ pub struct EventDocument {
     pub time: f64,
     /// Kind of event.
     pub kind: &'static str,
-    /// Degree of redundancy before.
+    /// Degree of redundancy before the event.
     pub redundancy_before: usize,
-    /// Degree of redundancy after.
+    /// Degree of redundancy after the event.
     pub redundancy_after: usize,
     /// Rows deleted after the event.
     pub deleted_rows: Vec<usize>,
     /// Description.
     pub text: String,
-    /// The impulses of joints and drives where velocities jump, by name and component, with the
+    /// Impulses of joints and drives at a jump of velocities, by name and component, with the
     /// verdicts at this instant.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub impulses: ByName<ImpulseDocument>,
 }
 
-/// The choice by which the numbers of a table were made, on an interval of time.
+/// The choice that determines the numbers of a table, on an interval of time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ChoiceDocument {
-    /// The table; absent if there is one only.
+    /// Name of the table; absent if there is only one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
-    /// Time of its first row (s).
+    /// Time of the first row of the table (s).
     pub from: f64,
-    /// Time up to which it holds (s).
+    /// Time up to which the choice is valid (s).
     pub to: f64,
-    /// Its name: `kept-rows` if the run chooses the rows whose multipliers are zero; else that of
-    /// the requested choice.
+    /// Name of the choice: `kept-rows` if the run selects the rows with zero multipliers; otherwise
+    /// the name of the requested choice.
     pub name: String,
     /// Rows whose multipliers are zero by choice.
     pub deleted_rows: Vec<usize>,
@@ -211,16 +211,16 @@ pub struct ChoiceDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Gap {
-    /// How many there are.
+    /// Number of these rows.
     pub rows: usize,
-    /// The time of the first (s).
+    /// Time of the first of these rows (s).
     pub first: f64,
-    /// Why there is no solution there.
+    /// Reason why there is no solution at these rows.
     pub reason: String,
 }
 
 impl Gap {
-    /// No row yet; the first will be at this time.
+    /// Creates a gap without rows; its first row will be at this time.
     #[must_use]
     pub fn at(first: f64, reason: String) -> Self {
         Self {
@@ -231,7 +231,7 @@ impl Gap {
     }
 }
 
-/// The name of the table of a choice, counted from 0.
+/// Returns the file name of the table of a choice, counted from 0.
 #[must_use]
 pub fn choice_file(k: usize) -> String {
     match k {
@@ -241,7 +241,7 @@ pub fn choice_file(k: usize) -> String {
 }
 
 impl ChoiceDocument {
-    /// The choices of a run, file by file in the order of time.
+    /// Returns the choices of a run, file by file in the order of time.
     fn of(run: &Run<'_>) -> Vec<Self> {
         let (choices, summary) = (&run.plan.choices, run.summary);
         if choices.is_empty() {
@@ -260,7 +260,7 @@ impl ChoiceDocument {
         .collect()
     }
 
-    /// The choices of the rows that a run keeps, in the order of time.
+    /// Returns the choices of independent rows during a run, in the order of time.
     fn of_kept_rows(summary: &Summary) -> Vec<Self> {
         let all = &summary.dropped;
         let ends = all.iter().skip(1).map(|next| next.from).chain([summary.t]);
@@ -289,7 +289,7 @@ impl fmt::Display for ChoiceDocument {
 }
 
 impl RunDocument {
-    /// What a run that ended early has kept, in words.
+    /// Describes the saved results of a run that ended early.
     #[must_use]
     pub fn kept(&self) -> String {
         let tables = self.files.iter().filter(|name| name.ends_with(".csv"));

@@ -5,25 +5,25 @@ use serde::Serialize;
 use solvability::{GroupSensitivities, Sensitivities, Sensitivity};
 
 /// How strongly a unique reaction, component, direction, sum or moment depends on the data, and
-/// whether it is fragile.
+/// whether it is ill-determined.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SensitivityDocument {
-    /// Largest change of the number when one point moves by 1e-4 of the size, or by its tolerance,
-    /// relative to the larger of the number and of the largest load, to three digits; of a reaction
-    /// the largest of its unique components. `null` if nothing is unique, or if not
-    /// requested.
+    /// Largest change of the number when one point moves by 1e-4 of the size, or by its tolerance.
+    /// The change is relative to the number or to the largest load, whichever is larger, and has
+    /// three digits. The value for a reaction is the largest value of its unique components. `null`
+    /// if no number is unique, or if not requested.
     pub sensitivity: Option<f64>,
     /// Whether the change is above 10 %.
     pub fragile: bool,
-    /// The datum that changes it most, as text; absent if it is not fragile.
+    /// The datum that changes the number most, as text; absent if the number is not ill-determined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hangs_on: Option<String>,
 }
 
 impl SensitivityDocument {
-    /// The sensitivity of the joint or drive with this number.
+    /// Returns the sensitivity of the joint or drive with this index.
     #[must_use]
     pub fn of(all: &Sensitivities, id: ConstraintId, layout: &Layout) -> Self {
         let text = || all.sentences_of(id, layout).join("; ");
@@ -31,7 +31,7 @@ impl SensitivityDocument {
             .map_or_else(Self::default, |own| Self::with(own, text))
     }
 
-    /// The sensitivity of a number with this name.
+    /// Returns the sensitivity of a number with this name.
     #[must_use]
     pub fn of_number(found: Option<&Sensitivity>, name: &str, layout: &Layout) -> Self {
         found.map_or_else(Self::default, |own| {
@@ -48,8 +48,8 @@ impl SensitivityDocument {
         }
     }
 
-    /// The sensitivity of a group with this name: the largest of its numbers, which is named if
-    /// there are several.
+    /// Returns the sensitivity of a group with this name: the largest sensitivity of its numbers;
+    /// the text names the number if there are several.
     #[must_use]
     pub fn of_group(found: &GroupSensitivities, name: &str, layout: &Layout) -> Self {
         let whole = found.whole.as_ref();
@@ -60,7 +60,7 @@ impl SensitivityDocument {
         }
     }
 
-    /// The sensitivity of a number of a group with this name: the sum, or a component.
+    /// Returns the sensitivity of a number of a group with this name: the sum, or a component.
     #[must_use]
     pub fn of_group_number(
         found: &GroupSensitivities,
@@ -72,7 +72,7 @@ impl SensitivityDocument {
         Self::of_number(found.number(number), &name, layout)
     }
 
-    /// The name of a number of a group in sentences.
+    /// Returns the name of a number of a group for use in sentences.
     pub(super) fn name_in_group(group: &str, number: &str) -> String {
         match number {
             "sum" => group.to_owned(),

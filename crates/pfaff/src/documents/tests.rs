@@ -1,4 +1,4 @@
-//! Whole documents of small runs, byte for byte.
+//! Compares whole documents of small runs, byte for byte.
 
 mod space;
 
@@ -37,7 +37,7 @@ fn analysis() -> Analysis {
     certified(None)
 }
 
-/// The same with this certificate.
+/// The same analysis with this certificate.
 fn certified(certificate: Option<Certificate>) -> Analysis {
     let c = Matrix::from_rows(&[
         [1.0, 0.0, 0.0],
@@ -132,7 +132,7 @@ fn json(document: &impl serde::Serialize) -> String {
     let mut bytes = Vec::new();
     write_json(&mut bytes, document).expect("memory takes everything");
     let text = String::from_utf8(bytes).expect("JSON is UTF-8");
-    // Every document has this head; what follows is compared.
+    // Every document begins with this head; the test compares the rest.
     let head = concat!(
         "{\n  \"format\": 2,\n  \"version\": \"",
         env!("CARGO_PKG_VERSION"),
@@ -142,7 +142,8 @@ fn json(document: &impl serde::Serialize) -> String {
     format!("{{\n{rest}")
 }
 
-/// The golden text without the white space of indentation, which keeps it readable here.
+/// Removes the white space of indentation from the golden text, which is indented to be readable
+/// here.
 fn squeezed(text: &str) -> String {
     let value: Value = serde_json::from_str(text).expect("valid JSON");
     value.to_string()
@@ -296,7 +297,7 @@ fn an_undecided_rank_says_why() {
     assert_eq!(upper["margin"], Value::Null);
 }
 
-/// Its freedoms.
+/// The freedoms of the door.
 fn freedoms(prepared: &PreparedMechanism) -> Freedoms {
     let (mechanism, q) = (&prepared.mechanism, &prepared.q);
     let analysis = analyse(mechanism, 0.0, q).expect("the door hangs");
@@ -329,7 +330,7 @@ fn prepared() -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), &rows).expect("the door hangs")
 }
 
-/// Two seconds of it.
+/// A plan of two seconds of the motion of the door.
 fn planned(prepared: &PreparedMechanism) -> Plan<'_> {
     Plan::new(prepared, &MotionOptions::to(2.0), &OutputRequest::default())
         .expect("the door has a plan")
@@ -383,7 +384,7 @@ fn summary_has_the_keys_of_the_contract() {
         each: vec![upper, ReactionSensitivities::default()],
         left_out: Vec::new(),
     };
-    // `lower` is determined along x up to 1 s.
+    // The reaction of `lower` is determined along x up to 1 s.
     let mut stretches = Stretches::unique(&prepared.mechanism, [0.0, 2.0], &[]);
     let stretch = |from, to, verdict| VerdictStretch { from, to, verdict };
     let along_x = VerdictTrack::of([
@@ -431,11 +432,11 @@ fn summary_has_the_keys_of_the_contract() {
         "misfits": [], "spread": null, "events": [],
         "reactions": {
             "upper": { "verdict": "unique", "sensitivity": 0.25, "fragile": true,
-                "hangs_on": "`upper` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm",
+                "hangs_on": "`upper` is unique but changes by about 25 % if the point of `lower` on its first body moves by 0.20 mm",
                 "at_start": { "verdict": "unique", "margin": 0.0, "within_tolerance": false },
                 "components": {
                     "Fx": { "verdict": "unique", "sensitivity": 0.25, "fragile": true,
-                        "hangs_on": "`upper.Fx` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm" },
+                        "hangs_on": "`upper.Fx` is unique but changes by about 25 % if the point of `lower` on its first body moves by 0.20 mm" },
                     "Fy": { "verdict": "unique", "sensitivity": null, "fragile": false,
                         "peak": { "value": -3.5, "verdict": "unique", "fragile": false, "sensitivity": null, "time": 0.25, "over": [[0.0, 2.0]] } } } },
             "lower \"2\"": { "verdict": "not_unique", "sensitivity": null, "fragile": false,
@@ -445,7 +446,7 @@ fn summary_has_the_keys_of_the_contract() {
                     "Fy": { "verdict": "not_unique", "sensitivity": null, "fragile": false } } } },
         "special": [],
         "choice": [ { "from": 0.0, "to": 2.0, "name": "kept-rows", "deleted_rows": [4] } ],
-        "plan": { "components": "solved as one", "generated_code": "interpreted", "rows_of_output": "201", "accelerations": "at rows of output", "method": "dop853", "linear_systems": "none",
+        "plan": { "components": "solved as one", "generated_code": "interpreted", "rows_of_output": "201", "accelerations": "at output rows", "method": "dop853", "linear_systems": "none",
             "elimination": "null space, 3 × 3", "refinement": "none", "freedom": "none", "nonholonomic_rows": "none", "dropped_rows": "1 monitored",
             "rows_of_time": "b = 0", "varying_entries": "4 evaluated", "rows_of_gamma": "4 evaluated", "turning_bodies": "1 of 1",
             "forces": "Q = 0", "reactions": "all 2" } }"#;
@@ -506,7 +507,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     assert_eq!(document.error, Some(error.to_string()));
     assert_eq!(document.t_end, 1.5);
     assert_eq!(document.events[0].kind, "rows-exchanged");
-    // Where everything is determined there is no choice.
+    // If every number is determined, there is no choice.
     assert_eq!(document.choice, []);
     let mut partly = stretches.clone();
     partly.reactions[0].components[0].1 = VerdictTrack::constant([0.0, 1.5], Verdict::NotUnique);
@@ -520,8 +521,8 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     assert_eq!(open.choice[1].to_string(), "kept-rows, row 2 deleted");
 }
 
-/// A crank with its motor: `null` without drives, otherwise ranks and motions of the other rows;
-/// moving bodies are given by name.
+/// The mechanism is a crank with its motor. The document contains `null` without drives, and
+/// otherwise ranks and motions of the other rows; moving bodies are given by name.
 #[test]
 fn freedoms_are_told_with_the_drives_and_without() {
     let mut d = Description::new("crank");

@@ -1,4 +1,4 @@
-//! What reactions, ranks and places do while data vary within their tolerances.
+//! Ranges of reactions, ranks and positions for data that vary within their tolerances.
 
 use report::figures::RangeDocument;
 use serde::Serialize;
@@ -13,54 +13,56 @@ pub struct ToleranceDocument {
     pub scene: String,
     /// Time of the configuration (s).
     pub time: f64,
-    /// What the samples are drawn from.
+    /// Description of the random data of the samples.
     pub drawn: DrawnDocument,
-    /// Samples that were made, of those that were asked for.
+    /// Number of samples that were computed, of those that were requested.
     pub samples: u64,
-    /// Whether a stop was requested before all were made.
+    /// Whether a stop was requested before all samples were computed.
     pub partial: bool,
     /// Samples that could be assembled.
     pub assembled: u64,
-    /// Why others could not, the most frequent reason first.
+    /// Reasons why the other samples could not be assembled, the most frequent reason first.
     pub failures: Vec<FailureDocument>,
-    /// The described mechanism, as it is read within its tolerances.
+    /// The described mechanism, analysed within its tolerances.
     pub described: DescribedDocument,
-    /// Ranks of the samples with exact numbers at their poses, the most frequent one first.
+    /// Ranks of the samples with exact numbers at their configurations, the most frequent rank
+    /// first.
     pub ranks: Vec<RankCountDocument>,
     /// Samples whose rank is undecided with exact numbers.
     pub undecided: u64,
-    /// What rows that are redundant as described miss in the samples, the largest first: angles
-    /// count by their arm, the size of the mechanism.
+    /// Violations, in the samples, of rows that are redundant as described, the largest first.
+    /// Angles are multiplied by their lever arm, the size of the mechanism.
     pub misfits: Vec<RowMisfitDocument>,
     /// Joints and drives, the largest relative range first.
     pub reactions: Vec<ReactionRangeDocument>,
-    /// How far bodies are from where they are described.
+    /// Distances of bodies from their described positions.
     pub bodies: ByName<MovedDocument>,
-    /// Where markers are.
+    /// Ranges of the positions of markers.
     pub markers: ByName<MarkerRangeDocument>,
-    /// Values of measures.
+    /// Ranges of joint coordinates (measures).
     pub measures: ByName<MeasureRangeDocument>,
 }
 
-/// What samples are drawn from.
+/// Description of the random data of samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DrawnDocument {
-    /// Samples that were asked for.
+    /// Number of requested samples.
     pub samples: u64,
-    /// The seed: the same one gives the same samples.
+    /// The seed: the same seed gives the same samples.
     pub seed: u64,
     /// The distribution of each displacement within its tolerance.
     pub distribution: &'static str,
-    /// The tolerances in words, as `± 0.1 mm`.
+    /// The tolerances as text, such as `± 0.1 mm`.
     pub within: String,
-    /// Least and greatest tolerance of points and lengths (m); `null` if none varies.
+    /// Smallest and largest tolerance of points and lengths (m); `null` if none varies.
     pub lengths: Option<[f64; 2]>,
-    /// Least and greatest tolerance of directions, angles and ratios (rad); `null` if none varies.
+    /// Smallest and largest tolerance of directions, angles and ratios (rad); `null` if none
+    /// varies.
     pub angles: Option<[f64; 2]>,
     /// Number of points, directions and numbers that vary.
     pub data: usize,
-    /// Numbers of the scene that vary besides.
+    /// Further numbers of the scene that vary.
     pub varied: Vec<VariedDocument>,
 }
 
@@ -68,23 +70,23 @@ pub struct DrawnDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct VariedDocument {
-    /// Its key.
+    /// Key of the number in the scene.
     pub key: String,
-    /// By how much, as it was asked for.
+    /// The requested variation.
     pub by: String,
 }
 
-/// Samples with the same reason.
+/// Samples that failed for the same reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FailureDocument {
-    /// Why they could not be assembled.
+    /// Reason why the samples could not be assembled.
     pub reason: String,
-    /// Their number.
+    /// Number of these samples.
     pub samples: u64,
-    /// The first of them, from 1.
+    /// The first of these samples, counted from 1.
     pub first: u64,
-    /// What is special to it.
+    /// Further details of the first sample.
     pub detail: String,
 }
 
@@ -94,72 +96,73 @@ pub struct FailureDocument {
 pub struct DescribedDocument {
     /// Number of rows.
     pub rows: usize,
-    /// Rank; if it is undecided, the lower one, at which samples are assembled.
+    /// Rank of the described mechanism; if it is undecided, the lower rank, at which samples are
+    /// assembled.
     pub rank: usize,
-    /// Rows beyond the rank.
+    /// Number of rows minus the rank.
     pub redundancy: usize,
-    /// Free motions.
+    /// Number of free motions.
     pub mobility: usize,
-    /// Why the rank is undecided within the tolerances.
+    /// Reason why the rank is undecided within the tolerances.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub undecided_because: Option<String>,
 }
 
-/// Samples of one rank.
+/// Samples with the same rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RankCountDocument {
     /// Rank of all rows.
     pub rank: usize,
-    /// Rows beyond the rank.
+    /// Number of rows minus the rank.
     pub redundancy: usize,
-    /// Free motions.
+    /// Number of free motions.
     pub mobility: usize,
     /// Number of samples.
     pub samples: u64,
 }
 
-/// What a row misses.
+/// Violation of a row in the samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RowMisfitDocument {
-    /// The row, from 1.
+    /// The row, counted from 1.
     pub row: usize,
-    /// Its joint or drive.
+    /// Joint or drive of the row.
     pub joint: String,
-    /// Its name in the joint.
+    /// Name of the row in the joint.
     pub name: &'static str,
     /// `m` or `rad`.
     pub unit: &'static str,
-    /// Mean size.
+    /// Mean absolute violation.
     pub mean: f64,
-    /// Largest size.
+    /// Largest absolute violation.
     pub greatest: f64,
-    /// The sample with the largest one, from 1.
+    /// The sample with the largest violation, counted from 1.
     pub sample: u64,
 }
 
-/// A joint or drive in all samples.
+/// Results for a joint or drive in all samples.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ReactionRangeDocument {
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
-    /// Its type in scenes.
+    /// Type of the joint or drive in scenes.
     #[serde(rename = "type")]
     pub kind: &'static str,
-    /// Its verdict as described, within the tolerances.
+    /// Verdict for the described data, within the tolerances.
     pub verdict: &'static str,
-    /// Whether it is unique, but hangs on the last digits of the data.
+    /// Whether the reaction is unique, but sensitive to the last digits of the data.
     pub fragile: bool,
-    /// How many samples have which verdict with exact numbers.
+    /// Number of samples with each verdict, with exact numbers.
     pub verdicts: VerdictCounts,
-    /// The range in words.
+    /// The range as text.
     pub sentence: String,
-    /// Width of the range of its first number, relative to the described one; `null` if there is
-    /// no range, or nothing to relate it to.
+    /// Width of the range of the first number, relative to the described value; `null` if there is
+    /// no range, or no value for comparison.
     pub relative: Option<f64>,
-    /// Its numbers; the first one is that of the sentence.
+    /// Numbers of the reaction; the text describes the first one.
     pub values: Vec<QuantityRangeDocument>,
 }
 
@@ -167,11 +170,11 @@ pub struct ReactionRangeDocument {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct VerdictCounts {
-    /// Unique.
+    /// Number of samples in which the reaction is unique.
     pub unique: u64,
-    /// Not unique.
+    /// Number of samples in which it is not unique.
     pub not_unique: u64,
-    /// Undecided.
+    /// Number of samples in which its verdict is undecided.
     pub undecided: u64,
 }
 
@@ -183,68 +186,69 @@ pub struct QuantityRangeDocument {
     pub name: &'static str,
     /// `N` or `N·m`.
     pub unit: &'static str,
-    /// Whether it is unique as described.
+    /// Whether the number is unique as described.
     pub unique: bool,
-    /// The verdict on it: as described, and if it is unique there, the worst of all samples with
-    /// the redundancy as it is described.
+    /// The verdict on the number as described; if the number is unique there, the worst verdict of
+    /// all samples with the described redundancy.
     pub verdict: &'static str,
-    /// `kept_rows`: the redundancy stays as it is described, and the number is unique there in all
-    /// samples. `exact`: not unique as described; all rows count with exact numbers, rigid and
-    /// without play, and determine it in all samples. `none`: some sample does not determine it.
+    /// `kept_rows`: the redundancy is as described, and the number is unique with it in all
+    /// samples. `exact`: the number is not unique as described. With exact numbers all rows count,
+    /// the bodies are rigid and the joints have no clearance; then all samples determine the
+    /// number. `none`: at least one sample does not determine the number.
     pub reading: &'static str,
-    /// Why it has no range; absent if it has one.
+    /// Reason why the number has no range; absent if it has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<&'static str>,
-    /// Its values; `null` unless all samples determine it.
+    /// Range of its values; `null` unless all samples determine the number.
     pub range: Option<RangeDocument>,
 }
 
-/// How far a body is from where it is described.
+/// Displacement of a body from its described position.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MovedDocument {
-    /// Mean distance of its frame (m).
+    /// Mean distance of the frame of the body (m).
     pub mean: f64,
-    /// Largest distance of its frame (m).
+    /// Largest distance of the frame of the body (m).
     pub greatest: f64,
-    /// Largest angle (rad).
+    /// Largest rotation (rad).
     pub turned: f64,
 }
 
-/// Where a marker is.
+/// Position of a marker.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MarkerRangeDocument {
-    /// With the data as described (m).
+    /// Position for the described data (m).
     pub described: Vec<f64>,
-    /// Least coordinates (m).
+    /// Smallest coordinates (m).
     pub least: Vec<f64>,
-    /// Greatest coordinates (m).
+    /// Largest coordinates (m).
     pub greatest: Vec<f64>,
-    /// Mean distance from the described place (m).
+    /// Mean distance from the described position (m).
     pub mean: f64,
-    /// Largest distance from the described place (m).
+    /// Largest distance from the described position (m).
     pub farthest: f64,
 }
 
-/// Values of a measure.
+/// Values of a joint coordinate (measure).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MeasureRangeDocument {
-    /// Its unit.
+    /// Unit of the joint coordinate.
     pub unit: &'static str,
-    /// Its values.
+    /// Range of its values.
     pub range: RangeDocument,
 }
 
-/// A row that misses by less than this share of the tolerances fits.
+/// A row with a violation below this fraction of the tolerances counts as satisfied.
 const FITS: f64 = 1e-6;
 
-/// A row that misses by less than this (m or rad) fits, whatever the tolerances.
+/// A row with a violation below this value (m or rad) counts as satisfied for any tolerances.
 const CLOSED: f64 = 1e-12;
 
 impl ToleranceDocument {
-    /// What was done and what holds, in sentences: all but the ranges of single reactions.
+    /// Describes the samples and the results in sentences, without the ranges of single reactions.
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         let drawn = &self.drawn;
@@ -262,7 +266,7 @@ impl ToleranceDocument {
                     "point, direction or number",
                     "points, directions and numbers",
                 );
-                format!("{samples} of {data}, each {distribution} within {within}{angles}")
+                format!("{samples} of {data}, {distribution} within {within}{angles}")
             }
         };
         let mut all = vec![format!(
@@ -275,7 +279,7 @@ impl ToleranceDocument {
                 .iter()
                 .map(|own| format!("`{}` {}", own.key, own.by));
             let varied: Vec<String> = varied.collect();
-            all.push(format!("varied besides: {}", model::words::listed(&varied)));
+            all.push(format!("also varied: {}", model::words::listed(&varied)));
         }
         if self.partial {
             all.push(format!(
@@ -298,7 +302,8 @@ impl ToleranceDocument {
         all
     }
 
-    /// Reactions without a range, in sentences: those with the same reason together.
+    /// Lists reactions without a range in sentences; reactions with the same reason share a
+    /// sentence.
     #[must_use]
     pub fn without_range(&self) -> Vec<String> {
         let mut by_reason: Vec<(&str, Vec<String>)> = Vec::new();
@@ -319,12 +324,12 @@ impl ToleranceDocument {
         let told = by_reason.into_iter();
         told.map(|(reason, names)| {
             let names = model::words::listed(&names);
-            format!("{reason}, so no range: {names}")
+            format!("no range, because {reason}: {names}")
         })
         .collect()
     }
 
-    /// How the described mechanism is read.
+    /// Describes the rank with which the described mechanism is analysed.
     fn reading(&self) -> String {
         let d = &self.described;
         match &d.undecided_because {
@@ -342,17 +347,17 @@ impl ToleranceDocument {
         }
     }
 
-    /// The ranks with exact numbers.
+    /// Describes the ranks with exact numbers.
     fn exact(&self) -> Vec<String> {
         let d = &self.described;
         let mut all = Vec::new();
         for own in &self.ranks {
             if own.rank == d.rank {
                 all.push(if own.samples == self.assembled {
-                    "with exact numbers the rank is the same in all samples".to_owned()
+                    "the rank without tolerance is the same in all samples".to_owned()
                 } else {
                     format!(
-                        "with exact numbers the rank is the same in {} of {} samples",
+                        "the rank without tolerance is the same in {} of {} samples",
                         own.samples, self.assembled
                     )
                 });
@@ -364,33 +369,33 @@ impl ToleranceDocument {
                     lost => format!("{lost} free motions are"),
                 };
                 format!(
-                    "rows that are redundant as described are independent there, and without play or slip {free} lost"
+                    "rows that are redundant as described are independent there; without play or slip {free} lost"
                 )
             } else {
                 "rows are redundant there that are independent as described".to_owned()
             };
             all.push(format!(
-                "with exact numbers the rank is {} (redundancy {}, mobility {}) in {} of {} samples: {meaning}",
+                "the rank without tolerance is {} (redundancy {}, mobility {}) in {} of {} samples: {meaning}",
                 own.rank, own.redundancy, own.mobility, own.samples, self.assembled
             ));
         }
         if self.undecided > 0 {
             all.push(format!(
-                "with exact numbers the rank is undecided in {} of {} samples",
+                "the rank without tolerance is undecided in {} of {} samples",
                 self.undecided, self.assembled
             ));
         }
         all
     }
 
-    /// What the redundant rows miss.
+    /// Describes the violations of the redundant rows.
     fn fit(&self) -> Option<String> {
         let worst = self.misfits.first()?;
         let drawn = &self.drawn;
         let tolerances = drawn.lengths.into_iter().chain(drawn.angles).flatten();
         let least = tolerances.reduce(f64::min).unwrap_or(0.0);
         if worst.greatest <= (FITS * least).max(CLOSED) {
-            return Some("the redundant rows fit in all samples".to_owned());
+            return Some("the redundant rows are satisfied in all samples".to_owned());
         }
         let told = |x: f64| match worst.unit {
             "m" => distance(x),
@@ -401,8 +406,8 @@ impl ToleranceDocument {
             n => format!(", the largest of {n}"),
         };
         Some(format!(
-            "the redundant rows do not fit exactly: row {} (`{}`, {}) misses by up to {}, {} on average{others}; play or \
-             elasticity has to take it, or the parts cannot be put together",
+            "the redundant rows are violated: row {} (`{}`, {}) by up to {}, {} on average{others}; without play or elasticity \
+             the parts cannot be assembled",
             worst.row,
             worst.joint,
             worst.name,
@@ -412,7 +417,7 @@ impl ToleranceDocument {
     }
 }
 
-/// A distance with at most three significant digits, in the unit that people say.
+/// Formats a distance with at most three significant digits, in a customary unit.
 ///
 /// ```
 /// use pfaff::documents::distance;

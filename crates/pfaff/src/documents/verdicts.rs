@@ -1,5 +1,5 @@
-//! Verdicts of a run: of joints and drives, of their components and of groups, by stretches of
-//! time, with the peaks of what is determined.
+//! Verdicts of a run: on joints and drives, on their components and on groups, by stretches of
+//! time, with the peaks of the determined numbers.
 
 use model::words::rounded;
 use model::{Layout, System};
@@ -18,19 +18,21 @@ use report::tables::{Quantity, ReactionColumn};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct TrackDocument {
-    /// `unique` if it is on all stretches; `not_unique` if it is not on one; else `undecided`.
+    /// `unique` if the number is unique on all stretches; `not_unique` if it is not unique on at
+    /// least one stretch; otherwise `undecided`.
     pub verdict: &'static str,
-    /// Reason why it is undecided.
+    /// Reason why the verdict is undecided.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// The intervals of time on which it is determined (s), where only some are.
+    /// The intervals of time on which the number is determined (s), if it is determined on only
+    /// some.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub determined: Vec<[f64; 2]>,
 }
 
 impl TrackDocument {
-    /// The intervals on which it is determined as text, as `0 … 1 s`; empty if there are none, or
-    /// if it is determined throughout.
+    /// Returns the intervals on which the number is determined as text, such as `0 … 1 s`. The text
+    /// is empty if there are no such intervals, or if the number is determined throughout.
     #[must_use]
     pub fn on_intervals(&self) -> String {
         let each = self.determined.iter();
@@ -62,22 +64,23 @@ impl From<&VerdictTrack> for TrackDocument {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RunReactionDocument {
-    /// The verdict over the run; absent if no reactions were asked for.
+    /// The verdict over the run; absent if no reactions were requested.
     #[serde(flatten)]
     pub of_run: Option<TrackDocument>,
-    /// How strongly it depends on the data at the start.
+    /// Sensitivity of the reaction to the data at the start.
     #[serde(flatten)]
     pub data: SensitivityDocument,
     /// The verdict at the start alone.
     pub at_start: VerdictDocument,
-    /// Its components by name, as far as they are not identically zero, and the named one of its
-    /// definition; empty if no reactions were asked for.
+    /// Components by name that are not identically zero, and the named component of the definition;
+    /// empty if no reactions were requested.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub components: ByName<RunNumberDocument>,
 }
 
 impl RunReactionDocument {
-    /// The word of the verdict: over the run, or at the start if nothing else was asked for.
+    /// Returns the verdict as a word: over the run, or at the start if no other verdict was
+    /// requested.
     #[must_use]
     pub fn verdict(&self) -> &'static str {
         let of_run = self.of_run.as_ref().map(|run| run.verdict);
@@ -93,23 +96,23 @@ pub struct RunNumberDocument {
     /// The verdict over the run.
     #[serde(flatten)]
     pub of_run: TrackDocument,
-    /// How strongly it depends on the data at the start.
+    /// Sensitivity of the number to the data at the start.
     #[serde(flatten)]
     pub data: SensitivityDocument,
-    /// The largest value over the determined cells of the table; absent without such a cell.
+    /// The largest value over the determined cells of the table; absent if there is no such cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<PeakDocument>,
 }
 
-/// A peak.
+/// The peak of a number over a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PeakDocument {
-    /// The value with its sign (N, N·m), and its verdict there.
+    /// The value with its sign (N, N·m), and its verdict at that time.
     #[serde(flatten)]
     pub value: Value,
-    /// The first time at which it occurs (s).
+    /// The first time at which the value occurs (s).
     pub time: f64,
     /// The intervals on which the number is determined (s).
     pub over: Vec<[f64; 2]>,
@@ -123,18 +126,18 @@ pub struct RunGroupDocument {
     /// The verdict over the run.
     #[serde(flatten)]
     pub of_run: TrackDocument,
-    /// How strongly it depends on the data at the start: the largest of its numbers.
+    /// Sensitivity to the data at the start: the largest sensitivity of the numbers of the group.
     #[serde(flatten)]
     pub data: SensitivityDocument,
     /// The components of a sum of wrenches.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub components: ByName<RunNumberDocument>,
-    /// The peak of a sum that is one number.
+    /// The peak of a sum that is a single number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<PeakDocument>,
 }
 
-/// An instant with another verdict than its stretch.
+/// An instant at which a verdict differs from the verdict of its stretch.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -143,24 +146,24 @@ pub struct SpecialDocument {
     pub time: f64,
     /// Name of the joint, drive or group.
     pub name: String,
-    /// The component; absent for a sum that is one number.
+    /// Name of the component; absent for a sum that is a single number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub component: Option<&'static str>,
-    /// The verdict there.
+    /// The verdict at this instant.
     pub verdict: &'static str,
 }
 
-/// What a run has of its reactions.
+/// Verdicts and peaks of the reactions of a run.
 #[derive(Clone, Copy)]
 pub struct RunVerdicts<'a> {
-    /// Its verdicts.
+    /// Verdicts of the run by stretches of time.
     pub stretches: &'a Stretches,
-    /// The groups of the scene by name, and how strongly their numbers depend on the data at the
+    /// The groups of the scene by name, and the sensitivities of their numbers to the data at the
     /// start.
     pub groups: &'a [(String, GroupSensitivities)],
-    /// Columns of its table, and the peaks of the determined numbers in each.
+    /// Columns of the table of reactions.
     pub columns: &'a [ReactionColumn],
-    /// One for each column.
+    /// Peaks of the determined numbers, one for each column.
     pub peaks: &'a [Option<Peak>],
 }
 
@@ -177,8 +180,9 @@ impl RunVerdicts<'_> {
         })
     }
 
-    /// A number of the name that stands in sentences. The data of the start say nothing of it where
-    /// it is determined at that instant only.
+    /// Builds the document of a number; the name is used in sentences. If the number is unique only
+    /// at the instant of the start, and not on the stretch after it, its sensitivity at the start
+    /// is left out.
     fn number(
         &self,
         quantity: Quantity,
@@ -212,14 +216,14 @@ impl RunVerdicts<'_> {
         ByName(own.collect())
     }
 
-    /// Whether a column of its table has a number that is not determined.
+    /// Whether a column of the table of reactions contains a number that is not determined.
     pub(super) fn has_choice(&self) -> bool {
         let tracks = self.columns.iter();
         let mut tracks = tracks.filter_map(|c| c.quantity.verdicts(self.stretches));
         tracks.any(|track| !track.of_run().is_unique())
     }
 
-    /// The groups by name.
+    /// Returns the groups by name.
     pub(super) fn groups(&self, layout: &Layout) -> ByName<RunGroupDocument> {
         let all = self.groups.iter().zip(&self.stretches.groups).enumerate();
         let document = |(k, ((name, known), found)): (usize, (&(String, _), _))| {
@@ -255,8 +259,8 @@ impl RunVerdicts<'_> {
 }
 
 impl SpecialDocument {
-    /// The instants at which another verdict holds than on their stretch, in the order of time.
-    /// The names of the groups are given.
+    /// Returns the instants at which a verdict differs from the verdict of its stretch, in the
+    /// order of time. The caller gives the names of the groups.
     pub(super) fn all<T>(
         stretches: &Stretches,
         groups: &[(String, T)],
@@ -288,7 +292,7 @@ impl SpecialDocument {
 }
 
 impl RunReactionDocument {
-    /// The verdict of a joint or drive, with that of the run if there is one.
+    /// Builds the verdict of a joint or drive, with the verdict of the run if there is one.
     pub(super) fn new(
         at_start: &ReactionVerdict,
         run: Option<&RunVerdicts<'_>>,

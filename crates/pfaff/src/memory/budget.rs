@@ -1,4 +1,4 @@
-//! What computations may take of the memory of the machine.
+//! Limits for the memory that computations may use.
 
 use std::fmt;
 use std::str::FromStr;
@@ -14,20 +14,21 @@ use crate::refusal::Refusal;
 #[cfg(target_os = "linux")]
 use super::linux::available;
 
-/// The memory that computations may take: more is refused before it is allocated.
+/// The memory that computations may use; a computation that needs more is rejected before the
+/// memory is allocated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// The limit; `None` for the available memory of the machine.
+    /// The limit; `None` means the available memory of the machine.
     pub limit: Option<Bytes>,
     /// The name of the option that sets the limit, for messages.
     pub option: &'static str,
 }
 
 impl Budget {
-    /// Refuses a computation that needs more memory than is allowed.
+    /// Rejects a computation that needs more memory than is allowed.
     ///
     /// # Errors
-    /// P0007, with both numbers.
+    /// Returns P0007, with both numbers.
     ///
     /// ```
     /// use pfaff::memory::{Budget, Bytes};
@@ -58,11 +59,11 @@ impl Budget {
         Err(Refusal::stopped(words).coded(const { Code::new(7) }))
     }
 
-    /// Reads a scene, given by its name and its text, and builds its mechanism, if the memory
-    /// suffices for the mechanism and its verdicts.
+    /// Reads a scene, given by its name and its text, and builds its mechanism, if the memory is
+    /// sufficient for the mechanism and its verdicts.
     ///
     /// # Errors
-    /// The memory does not suffice, or the errors of the scene.
+    /// Returns an error if the memory is not sufficient, and the errors of the scene.
     pub fn assembled(
         self,
         (name, text): (&str, &str),
@@ -77,11 +78,12 @@ impl Budget {
         Ok(assembled)
     }
 
-    /// Refuses a scene, given by its name, its text and its mechanism, if the memory does not
-    /// suffice for the mechanism and its verdicts.
+    /// Rejects a scene, given by its name, its text and its mechanism, if the memory is not
+    /// sufficient for the mechanism and its verdicts.
     ///
     /// # Errors
-    /// As [`Self::allow`], or elimination would take too many operations.
+    /// Returns the errors of [`Self::allow`], and an error if elimination would take too many
+    /// operations.
     pub fn allow_scene(
         self,
         (name, text): (&str, &str),
@@ -107,7 +109,7 @@ impl Budget {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bytes(pub u64);
 
-/// Units that can be read, larger ones first.
+/// Units that the parser accepts, larger ones first.
 const UNITS: [(&str, u64); 9] = [
     ("TiB", 1 << 40),
     ("GiB", 1 << 30),
@@ -126,7 +128,7 @@ impl FromStr for Bytes {
     fn from_str(text: &str) -> Result<Self, String> {
         let said = || {
             format!(
-                "`{text}` is no size; write a number with B, kB, MB, GB, TB, KiB, MiB, GiB or TiB, as 4GB"
+                "`{text}` is not a size; write a number with B, kB, MB, GB, TB, KiB, MiB, GiB or TiB, e.g. 4GB"
             )
         };
         let (number, unit) = UNITS
@@ -158,11 +160,11 @@ impl fmt::Display for Bytes {
 fn available() -> Option<u64> {
     let mut system = sysinfo::System::new().ok()?;
     system.refresh_memory();
-    // A system that is not known reports 0.
+    // On unsupported systems this function returns 0.
     Some(system.available_memory()).filter(|bytes| *bytes > 0)
 }
 
-/// Not known without the feature `sysinfo`.
+/// Without the feature `sysinfo` the available memory is unknown.
 #[cfg(all(not(target_os = "linux"), not(feature = "sysinfo")))]
 fn available() -> Option<u64> {
     None

@@ -1,10 +1,10 @@
-//! The memory that Linux has left, from its files.
+//! The available memory of Linux, read from system files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The memory (bytes) that is still available, if the system reports it: of the machine, of the
-/// control groups of this process, and of its address space.
+/// Returns the memory (bytes) that is still available, if the system reports it: the least of the
+/// machine, of the control groups of this process, and of its address space.
 pub(super) fn available() -> Option<u64> {
     let read = |path: &Path| fs::read_to_string(path).ok();
     let machine =
@@ -27,15 +27,15 @@ pub(super) fn available() -> Option<u64> {
     machine.into_iter().chain(groups).chain(space).min()
 }
 
-/// The number of bytes in a line of a table of the system in kB.
+/// Returns the number of bytes from a line, in kB, of a system table.
 fn kibibytes(text: &str, name: &str) -> Option<u64> {
     let line = text.lines().find_map(|l| l.strip_prefix(name))?;
     let number: u64 = line.split_whitespace().next()?.parse().ok()?;
     Some(number << 10)
 }
 
-/// Directories of the control groups that limit the memory of a process, from its `cgroup` file:
-/// its own group and all groups around it, of both versions.
+/// Lists directories of the control groups that limit the memory of a process, from its `cgroup`
+/// file: its own group and all enclosing groups, of both versions.
 fn folders_of_groups(text: &str) -> Vec<PathBuf> {
     let mut folders = Vec::new();
     for line in text.lines() {

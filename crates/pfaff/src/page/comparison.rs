@@ -4,7 +4,7 @@
 /// Joints and drives that share loads, with their reactions for different choices.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Joints and drives whose reaction is not unique at some time of the run, as indices.
+    /// Joints and drives whose reactions are not unique at some time of the run, as indices.
     pub reactions: Vec<usize>,
     /// The choices.
     pub choices: Vec<ComparedChoice>,
@@ -30,16 +30,16 @@ pub struct Freedom {
     pub angle: f64,
     /// Whether the force is also free across that direction.
     pub plane: bool,
-    /// Whether the components of [`model::SpaceKind::components`] are free; the rest is false. In
-    /// global components a reaction may be determined at one time and not at another.
+    /// Whether the components of [`model::SpaceKind::components`] are free; the rest is false. A
+    /// reaction may be determined in global components at one time and not at another.
     pub components: [bool; 6],
-    /// The same along the axes of the first body, along which a component may always be
+    /// The same flags along the axes of the first body, along which a component may always be
     /// determined.
     pub in_body: [bool; 6],
 }
 
 impl Freedom {
-    /// Not known.
+    /// The free components are unknown.
     pub const UNKNOWN: Self = Self {
         angle: f64::NAN,
         plane: false,

@@ -1,4 +1,4 @@
-//! What is plotted beside reactions: measures, drives, energies and residuals.
+//! Curves other than reactions: joint coordinates, drives, energies and residuals.
 
 use model::{Measure, Mechanism, System};
 use serde::Serialize;
@@ -7,13 +7,13 @@ use super::run_page::{DriveCurve, RunPage};
 use report::Frame;
 use report::channel::Channel;
 
-/// Largest number of measures that are plotted.
+/// Largest number of joint coordinates that are plotted.
 pub(super) const MEASURES_MAX: usize = 24;
 
 /// Largest number of drives that are plotted.
 pub(super) const DRIVES_MAX: usize = 12;
 
-/// What is plotted beside reactions.
+/// Curves other than reactions.
 #[derive(Serialize)]
 pub(super) struct Curves<'a> {
     measures: Vec<MeasureCurve<'a>>,
@@ -56,7 +56,7 @@ struct Residuals {
 }
 
 impl<'a> Curves<'a> {
-    /// Those of a page.
+    /// Returns the curves of a page.
     pub(super) fn of(page: &'a RunPage<'a>) -> Self {
         let measured = EnergyCurves::of(page.mechanism, &page.recording.frames);
         Self {
@@ -71,7 +71,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// The measures at the frames.
+/// Returns the joint coordinates at the frames.
 fn measures<'a>(page: &RunPage<'a>) -> Vec<MeasureCurve<'a>> {
     let (mechanism, frames) = (page.mechanism, &page.recording.frames);
     let observed = mechanism.frames().observed();
@@ -129,7 +129,7 @@ impl EnergyCurves {
         let layout = mechanism.layout();
         let mut s = mechanism.scratch();
         for frame in frames {
-            // Rows at a break time show the values just before.
+            // Rows at a break time contain the values just before it.
             let breaks = layout
                 .break_times
                 .binary_search_by(|t| t.total_cmp(&frame.t));
@@ -163,12 +163,12 @@ impl EnergyCurves {
     }
 }
 
-/// log₁₀ of sizes; zero is a gap.
+/// Returns log₁₀ of absolute values; a zero value becomes a gap.
 fn logarithmic(values: impl Iterator<Item = f64> + Clone) -> Channel {
     Channel::new(values.map(|x| x.abs().log10()))
 }
 
-/// The largest absolute value; zero if there is none.
+/// Returns the largest absolute value; zero if there are no values.
 pub(super) fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |a, x| if x.abs() > a { x.abs() } else { a })
 }

@@ -18,7 +18,7 @@ use report::figures::drawing::{DrawingModel, Stage};
 /// Largest number of joints and drives, and of bodies, that are drawn and plotted.
 pub(super) const DRAWN_MAX: usize = 1200;
 
-/// A force below this fraction of the largest one is rounding.
+/// A force below this fraction of the largest force counts as rounding.
 const NOISE: f64 = 1e-12;
 
 /// All data that the scripts need.
@@ -37,11 +37,12 @@ pub(super) struct Data<'a> {
     #[serde(flatten)]
     curves: Curves<'a>,
     events: &'a [EventDocument],
-    /// Units of the scene for those of curves, with how many of them one SI unit is.
+    /// Units of the scene for the units of the curves, with the number of scene units in one SI
+    /// unit.
     units: BTreeMap<&'static str, (String, f64)>,
 }
 
-/// A time with ten digits.
+/// A time that is written with ten digits.
 struct Time(f64);
 
 impl Serialize for Time {
@@ -64,7 +65,7 @@ struct Joint<'a> {
     explanation: Option<&'a str>,
     /// The choice on which its numbers depend if they are not unique.
     choice: Option<String>,
-    /// Its components, and the named one; `None` if they were not requested.
+    /// Components of the reaction, and the named component; `None` if reactions were not requested.
     reaction: Option<Reaction>,
 }
 
@@ -73,7 +74,7 @@ struct Component {
     name: &'static str,
     unit: &'static str,
     verdict: &'static str,
-    /// The intervals on which it is determined (s), where only some are.
+    /// The intervals on which the reaction is determined (s), if it is determined on only some.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     determined: Vec<[f64; 2]>,
 }
@@ -105,7 +106,7 @@ struct FreedomData {
     plane: bool,
     /// Whether the components are free at some time.
     components: Vec<bool>,
-    /// Whether they are free along the axes of the first body at some time.
+    /// Whether the components along the axes of the first body are free at some time.
     in_body: Vec<bool>,
 }
 
@@ -118,8 +119,8 @@ pub(super) struct Cast {
 }
 
 impl Cast {
-    /// A small mechanism as a whole; the first bodies of a large one, with the joints and drives
-    /// among them.
+    /// Selects a small mechanism as a whole; of a large mechanism the first bodies, with the joints
+    /// and drives among them.
     pub(super) fn of(mechanism: &Mechanism) -> Self {
         let groups = &mechanism.layout().groups;
         let bodies = mechanism.bodies().len();
@@ -149,12 +150,12 @@ impl Cast {
         }
     }
 
-    /// Bodies that are drawn, ascending.
+    /// Returns the bodies that are drawn, in ascending order.
     pub(super) fn bodies(&self) -> &[usize] {
         &self.bodies
     }
 
-    /// Joints and drives that are drawn, ascending.
+    /// Returns the joints and drives that are drawn, in ascending order.
     pub(super) fn joints(&self) -> &[usize] {
         &self.joints
     }
@@ -240,7 +241,8 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
     }
 }
 
-/// The components of a reaction with their verdicts: of the run, or else at the start.
+/// Returns the components of a reaction with their verdicts over the run, or otherwise at the
+/// start.
 fn components(page: &RunPage<'_>, id: ConstraintId) -> Vec<Component> {
     let group = &page.mechanism.layout().groups[id.0];
     if let Some(own) = page.stretches.and_then(|s| s.reactions.get(id.0)) {
@@ -272,7 +274,7 @@ fn components(page: &RunPage<'_>, id: ConstraintId) -> Vec<Component> {
         .collect()
 }
 
-/// The reaction at the frames; what is not determined there is a gap.
+/// Returns the reaction at the frames; numbers that are not determined become gaps.
 fn reaction(page: &RunPage<'_>, id: ConstraintId, noise: f64) -> Option<Reaction> {
     let (frames, space) = (&page.recording.frames, page.mechanism.space());
     if !frames.iter().all(|f| f.reactions.len() > id.0) {
@@ -309,7 +311,7 @@ fn reaction(page: &RunPage<'_>, id: ConstraintId, noise: f64) -> Option<Reaction
         }),
     })
 }
-/// A comparison as data; `None` if a joint of it is not drawn.
+/// Converts a comparison to data; `None` if one of its joints is not drawn.
 fn comparison<'a>(
     c: &'a Comparison,
     cast: &Cast,
@@ -317,7 +319,7 @@ fn comparison<'a>(
     noise: f64,
 ) -> Option<ComparisonData<'a>> {
     let components = 0..space.n_v();
-    // The torque of the plane is the same in all axes.
+    // The torque of the plane has the same value in all axes.
     let of_body = if space.n_rotations() > 1 {
         components.clone()
     } else {
@@ -360,7 +362,7 @@ fn comparison<'a>(
     })
 }
 
-/// Angles of axes without jumps by half a revolution.
+/// Unwraps angles of axes, so that they do not jump by half a revolution.
 fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
     let half = std::f64::consts::PI;
     let mut last = 0.0;
@@ -375,7 +377,8 @@ fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
         .collect()
 }
 
-/// Size of a force that is rounding (N); torques about places are compared with it, too.
+/// Size of a force that counts as rounding (N); torques about reference points are compared with
+/// the same number.
 pub(super) fn noise(frames: &[Frame]) -> f64 {
     NOISE * largest_force(frames)
 }
@@ -396,8 +399,8 @@ fn unit(space: SpaceKind, component: &str) -> &'static str {
     }
 }
 
-/// Numbers in a row, weighted so that a recording stays small: those that are stored, and an
-/// additional weight for each that is shown.
+/// Returns the number of values in a row, weighted so that a recording stays small: the stored
+/// values, with an additional weight for each value that is shown.
 pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     let layout = mechanism.layout();
     let kept = layout.n_q + layout.n_v + layout.rows() + 4 * layout.groups.len();
@@ -406,10 +409,10 @@ pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     kept + SHOWN * (layout.space.columns().len() * bodies + layout.space.n_v() * joints)
 }
 
-/// A number that is shown has the weight of this many stored numbers.
+/// A value that is shown has the weight of this many stored values.
 const SHOWN: usize = 10;
 
-/// Number of digits of the levels of a curve.
+/// Returns the number of levels of a curve, as a power of ten.
 pub(super) fn levels() -> u64 {
     report::channel::LEVELS as u64
 }

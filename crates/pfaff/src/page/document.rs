@@ -1,5 +1,5 @@
-//! The page from its head to its scripts. Names and sentences from outside are escaped where they
-//! are inserted.
+//! The complete page, from its head to its scripts. Names and sentences that come from the scene
+//! are escaped at insertion.
 
 use model::SpaceKind;
 
@@ -12,7 +12,7 @@ use report::page::{add, safe, short};
 
 const STYLE: &str = include_str!("report.css");
 
-/// Scripts in the order of their use; together they are one module.
+/// Scripts in the order of their use; together they form one module.
 const SCRIPTS: [&str; 17] = [
     include_str!("script/data.js"),
     include_str!("script/poses.js"),
@@ -33,8 +33,8 @@ const SCRIPTS: [&str; 17] = [
     include_str!("script/main.js"),
 ];
 
-/// Content security policy: the page loads nothing; only data in the page itself are allowed as
-/// addresses.
+/// Content security policy: the page loads no external resource; only data in the page itself are
+/// allowed as addresses.
 const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
@@ -86,8 +86,8 @@ fn head(out: &mut String, page: &RunPage<'_>) {
              <button id=\"theme\" type=\"button\">Dark</button></div>\n",
             match page.shows {
                 Shows::Run(_) => "Motion and reactions",
-                Shows::Mode(_) => "A small motion",
-                Shows::Start => "The start",
+                Shows::Mode(_) => "Mode of small motions",
+                Shows::Start => "Start configuration",
             },
             safe(page.mechanism.name())
         ),
@@ -97,7 +97,7 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         add(
             out,
             format_args!(
-                "<p class=\"warning\"><b>Partial:</b> the run ended at t = {} s. {}. What was reached is shown.</p>\n",
+                "<p class=\"warning\"><b>Partial:</b> the run ended at t = {} s. {}. The page shows the motion up to this time.</p>\n",
                 run.t_end,
                 safe(&sentence(why))
             ),
@@ -112,7 +112,7 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         add(
             out,
             format_args!(
-                "<p class=\"grey\">Not active, so without any part in this: {names}.</p>\n"
+                "<p class=\"grey\">Inactive elements, excluded from this model: {names}.</p>\n"
             ),
         );
     }
@@ -151,7 +151,7 @@ fn head(out: &mut String, page: &RunPage<'_>) {
     );
 }
 
-/// One or two sentences with the main result.
+/// Returns one or two sentences with the main result.
 fn answer(page: &RunPage<'_>) -> String {
     if let Shows::Mode(words) = page.shows {
         return safe(words);
@@ -162,7 +162,8 @@ fn answer(page: &RunPage<'_>) -> String {
         of_it.map(|(name, ..)| *name).collect()
     };
     let (unique, open, doubt) = (of("unique"), of("not_unique"), of("undecided"));
-    // Whole reactions, and those of which unique components are fragile.
+    // Selects reactions that are ill-determined as a whole, or reactions with ill-determined unique
+    // components.
     let of_fragile = |is_whole: bool| -> Vec<&str> {
         let of_it = all
             .iter()
@@ -173,34 +174,34 @@ fn answer(page: &RunPage<'_>) -> String {
     let mut text = String::new();
     if let Some(a) = page.analysis {
         if a.configuration.rows == 0 {
-            return "Nothing is constrained: all bodies move freely.".to_owned();
+            return "The mechanism has no constraints: all bodies move freely.".to_owned();
         }
         let rows = match a.configuration.rows {
             1 => "The one constraint row has".to_owned(),
             n => format!("The {n} constraint rows have"),
         };
         let redundant = match a.ranks.redundancy {
-            0 => "none is redundant".to_owned(),
-            1 => "one is redundant".to_owned(),
-            p => format!("{} are redundant", count(p)),
+            0 => "no row is redundant".to_owned(),
+            1 => "one row is redundant".to_owned(),
+            p => format!("{} rows are redundant", count(p)),
         };
         let mut freedoms = match a.ranks.mobility {
             _ if page.freedoms().is_some_and(|f| f.cannot_move == Some(true)) => {
-                "the mechanism cannot move".to_owned()
+                "The mechanism cannot move".to_owned()
             }
-            1 => "one freedom of motion is left".to_owned(),
-            f => format!("{} freedoms of motion are left", count(f)),
+            1 => "The mobility is one".to_owned(),
+            f => format!("The mobility is {}", count(f)),
         };
         if let Some(without) = page.freedoms().and_then(|f| f.without_drives.as_ref()) {
             let left = count(without.mobility);
-            freedoms += &format!(" with {}, {left} without", without.possessive());
+            freedoms += &format!(
+                " with {}, and the mobility without drives is {left}",
+                without.possessive()
+            );
         }
         add(
             &mut text,
-            format_args!(
-                "{rows} rank {}: {redundant}, and {freedoms}. ",
-                a.ranks.rank
-            ),
+            format_args!("{rows} rank {}: {redundant}. {freedoms}. ", a.ranks.rank),
         );
     }
     match (unique.as_slice(), open.as_slice()) {
@@ -209,22 +210,22 @@ fn answer(page: &RunPage<'_>) -> String {
             add(&mut text, format_args!("<b>{}</b>. ", hanging(&fragile)));
             text.push_str(match (fragile.len() == unique.len(), doubt.is_empty()) {
                 (true, _) => "",
-                (false, true) => "The other reactions are unique. ",
-                (false, false) => "The other reactions that are decided are unique. ",
+                (false, true) => "All other reactions are unique. ",
+                (false, false) => "All other reactions with a decided verdict are unique. ",
             });
         }
-        (_, []) => text.push_str("<b>All reactions that are decided are unique.</b> "),
+        (_, []) => text.push_str("<b>All reactions with a decided verdict are unique.</b> "),
         ([], names) => add(
             &mut text,
             format_args!(
-                "<b>No reaction is unique</b>: the model does not determine {}. ",
+                "<b>No reaction is unique</b>: the model does not determine the reactions of {}. ",
                 names_in_words(names)
             ),
         ),
         (some, names) => add(
             &mut text,
             format_args!(
-                "The reactions of {} are unique; <b>those of {} are not</b>: the model does not determine them. ",
+                "The reactions of {} are unique. <b>The reactions of {} are not unique</b>: the model does not determine them. ",
                 names_in_words(some),
                 names_in_words(names)
             ),
@@ -237,7 +238,7 @@ fn answer(page: &RunPage<'_>) -> String {
         add(
             &mut text,
             format_args!(
-                "<b>Unique components of the reactions of {} are fragile, made of the last digits of the data</b>. ",
+                "<b>Unique components of the reactions of {} are fragile: they depend on the last digits of the data</b>. ",
                 names_in_words(&partly)
             ),
         );
@@ -245,36 +246,36 @@ fn answer(page: &RunPage<'_>) -> String {
     if !doubt.is_empty() {
         add(
             &mut text,
-            format_args!("Undecided: {}. ", names_in_words(&doubt)),
+            format_args!("The verdict is undecided for {}. ", names_in_words(&doubt)),
         );
     }
-    // Shorter if nothing is undecided.
+    // The text is shorter if no verdict is undecided.
     if doubt.is_empty() {
         text = text.replace(
-            "All reactions that are decided are unique",
+            "All reactions with a decided verdict are unique",
             "All reactions are unique",
         );
     }
     text.trim_end().to_owned()
 }
 
-/// States that some unique reactions are fragile.
+/// States that some unique reactions are sensitive to the data.
 fn hanging(names: &[&str]) -> String {
     let names_in_words = names_in_words(names);
     match names.len() {
         1 => format!(
-            "The reaction of {names_in_words} is unique but fragile, made of the last digits of the data"
+            "The reaction of {names_in_words} is unique but fragile: it depends on the last digits of the data"
         ),
         _ => format!(
-            "The reactions of {names_in_words} are unique but fragile, made of the last digits of the data"
+            "The reactions of {names_in_words} are unique but fragile: they depend on the last digits of the data"
         ),
     }
 }
 
-/// Small numbers as words.
+/// Writes small numbers as words.
 fn count(n: usize) -> String {
     let words = [
-        "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+        "zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
     ];
     words
         .get(n)
@@ -295,12 +296,12 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     if let Some(a) = page.analysis {
         tiles.push((
             format!("{} of {}", a.ranks.rank, a.configuration.rows),
-            "rank of the constraint rows",
+            "independent constraint rows",
         ));
         tiles.push((a.ranks.redundancy.to_string(), "degree of redundancy"));
-        tiles.push((a.ranks.mobility.to_string(), "freedoms of motion"));
+        tiles.push((a.ranks.mobility.to_string(), "mobility"));
         if let Some(without) = page.freedoms().and_then(|f| f.without_drives.as_ref()) {
-            tiles.push((without.mobility.to_string(), "without drives"));
+            tiles.push((without.mobility.to_string(), "mobility without drives"));
         }
     }
     let all = page.verdicts();
@@ -308,15 +309,18 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
         .iter()
         .filter(|(_, verdict, _)| *verdict == "unique")
         .count();
-    tiles.push((format!("{unique} of {}", all.len()), "reactions unique"));
+    tiles.push((format!("{unique} of {}", all.len()), "unique reactions"));
     match all.iter().filter(|(.., is_fragile)| *is_fragile).count() {
         0 => {}
-        n => tiles.push((n.to_string(), "with fragile components")),
+        n => tiles.push((n.to_string(), "reactions with fragile components")),
     }
     if let Some(run) = page.run() {
-        tiles.push((format!("{} s", run.t_end), "of motion"));
-        tiles.push((short(run.max_position_residual), "largest |Φ|"));
-        tiles.push((short(run.energy_balance), "energy balance"));
+        tiles.push((format!("{} s", run.t_end), "simulated time"));
+        tiles.push((
+            short(run.max_position_residual),
+            "largest constraint violation |Φ|",
+        ));
+        tiles.push((short(run.energy_balance), "relative energy error"));
     }
     out.push_str("<ul class=\"tiles\">\n");
     for (value, words) in tiles {
@@ -328,19 +332,19 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</ul>\n");
 }
 
-/// Empty elements for the curves; scripts fill them.
+/// Writes empty elements for the curves; scripts add their contents.
 fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
     out.push_str(
         "<section id=\"reactions\" aria-labelledby=\"reactions-title\">\n<h2 id=\"reactions-title\">Reactions</h2>\n\
          <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select> \
-         <label for=\"frame\">Components</label> <select id=\"frame\"><option value=\"global\">global</option>\
-         <option value=\"body\">along the first body</option></select></div>\n\
+         <label for=\"frame\">Components</label> <select id=\"frame\"><option value=\"global\">in global axes</option>\
+         <option value=\"body\">in axes of the first body</option></select></div>\n\
          <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n",
     );
     peaks::table(out, page);
     out.push_str(
         "<details class=\"on-request\" id=\"all-reactions\"><summary>Curves of all reactions</summary>\n\
-         <p class=\"grey\">They are drawn when this is opened, and printed if it is open.</p>\n<div id=\"all-curves\"></div>\n</details>\n</section>\n\
+         <p class=\"grey\">The curves are drawn when this section is opened. They are printed only if it is open.</p>\n<div id=\"all-curves\"></div>\n</details>\n</section>\n\
          <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n",
     );
     let units: Vec<&str> = page.scene.units.iter().flatten().map(|u| u.0).collect();
@@ -348,7 +352,7 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
         add(
             out,
             format_args!(
-                "<p class=\"grey\">Lengths and angles of these curves are in the units of the scene ({}); values under the pointer are told in SI, too, and so are all files.</p>\n",
+                "<p class=\"grey\">Lengths and angles of these curves are in the units of the scene ({}). Values at the pointer are also shown in SI units. All files use SI units.</p>\n",
                 safe(&units.join(", "))
             ),
         );
@@ -371,7 +375,7 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
     if page.mechanism.frames().observed().measures.is_empty() {
         out.push_str("<div id=\"measure-curves\" hidden></div>\n");
     } else {
-        out.push_str("<h2>Measures</h2>\n<div class=\"curves\" id=\"measure-curves\"></div>\n");
+        out.push_str("<h2>Measures (quantities between markers)</h2>\n<div class=\"curves\" id=\"measure-curves\"></div>\n");
     }
     if !page.drives.is_empty() {
         out.push_str("<h2>Drives</h2>\n<div class=\"curves\" id=\"drive-curves\"></div>\n");
@@ -385,7 +389,7 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
         add(
             out,
             format_args!(
-                "<img alt=\"Error against run time of the methods compared, one curve for each\" src=\"data:image/svg+xml,{}\">\n",
+                "<img alt=\"Error against run time, with one curve for each compared method\" src=\"data:image/svg+xml,{}\">\n",
                 encoded(figure)
             ),
         );
@@ -412,7 +416,7 @@ fn events(out: &mut String, run: &RunDocument) {
 }
 
 fn close(out: &mut String, data: &Data<'_>) {
-    // Only numbers and names, so this cannot fail.
+    // The data contain only numbers and names, so this cannot fail.
     let json = report::part_as_json(data).unwrap_or_else(|_| "null".to_owned());
     add(
         out,
@@ -427,8 +431,8 @@ fn close(out: &mut String, data: &Data<'_>) {
     out.push_str("</script>\n</body>\n</html>\n");
 }
 
-/// JSON that cannot end a script: `<` occurs in strings only, in which it may be written as an
-/// escape.
+/// Returns JSON that cannot end a script: `<` occurs only in strings, in which it may be written as
+/// an escape.
 fn harmless(json: &str) -> String {
     json.replace('<', "\\u003c")
 }
@@ -476,14 +480,14 @@ mod tests {
 
     const RECORDER: &str = include_str!("script/recorder.js");
 
-    /// Uses a context to find what is under the pointer, and paints nothing.
+    /// This script uses a context to find the element under the pointer, and paints nothing.
     const POINTER: &str = include_str!("script/pointer.js");
 
-    /// Members of the context of the screen alone: a hatch becomes a pattern of SVG, and a `Pen`
-    /// writes out the symbols that the screen has as stamps.
+    /// Members of the context that only the screen has: a hatch becomes an SVG pattern, and a `Pen`
+    /// draws the symbols that the screen draws as stamps.
     const OF_THE_SCREEN: [&str; 2] = ["createPattern", "drawImage"];
 
-    /// The members of `context` that a script names.
+    /// Returns the members of `context` that a script uses.
     fn members_of_context(script: &'static str) -> BTreeSet<&'static str> {
         let named = script.split("context.").skip(1);
         named
@@ -508,7 +512,7 @@ mod tests {
         assert!(lacking.is_empty(), "add to `Recorder`: {lacking:?}");
     }
 
-    /// What is a `Path2D` and no `Path` cannot be written as SVG.
+    /// A `Path2D` that is not a `Path` cannot be written as SVG.
     #[test]
     fn only_paths_that_can_be_written_are_painted() {
         for script in SCRIPTS {

@@ -1,4 +1,4 @@
-//! First order about the start, for the picture: free motions as velocities of bodies, and
+//! First-order results at the start, for the picture: free motions as velocities of bodies, and
 //! self-stresses as loads on the first bodies of joints.
 
 use std::collections::HashMap;
@@ -14,18 +14,18 @@ use report::channel::FewDigits;
 /// Largest number of free motions, and of self-stresses, that can be chosen.
 const MOST: usize = 40;
 
-/// A free motion of the start.
+/// A free motion at the start.
 #[derive(Serialize)]
 pub(super) struct Motion<'a> {
-    /// Introduction, and description.
+    /// Introduction and description of the motion.
     lead: String,
     text: &'a str,
-    /// For each degree of freedom of the description the drawn bodies that move, with the
-    /// velocities of their frames in ground axes.
+    /// The moving drawn bodies for each degree of freedom of the description, with the velocities
+    /// of their frames in ground axes.
     velocities: Vec<Vec<(usize, Vec<FewDigits>)>>,
 }
 
-/// A self-stress of the start: loads that cancel on every body.
+/// A self-stress at the start: loads that cancel on every body.
 #[derive(Serialize)]
 pub(super) struct Stress<'a> {
     text: &'a str,
@@ -34,7 +34,7 @@ pub(super) struct Stress<'a> {
     wrenches: Vec<Vec<FewDigits>>,
 }
 
-/// What can be chosen for the picture.
+/// Motions and self-stresses that can be chosen for the picture.
 #[derive(Serialize)]
 pub(super) struct FirstOrder<'a> {
     pub(super) motions: Vec<Motion<'a>>,
@@ -42,7 +42,7 @@ pub(super) struct FirstOrder<'a> {
 }
 
 impl<'a> FirstOrder<'a> {
-    /// That of a page, as far as bodies and joints are drawn.
+    /// Returns the motions and self-stresses of a page whose bodies and joints are drawn.
     pub(super) fn of(page: &'a RunPage<'_>, cast: &Cast) -> Self {
         Self {
             motions: motions(page, cast),
@@ -51,7 +51,7 @@ impl<'a> FirstOrder<'a> {
     }
 }
 
-/// The free motions of a page, as far as their bodies are drawn.
+/// Returns the free motions of a page whose bodies are drawn.
 fn motions<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Motion<'a>> {
     let bodies = page.mechanism.bodies();
     let place: HashMap<&str, usize> = (0..)
@@ -82,7 +82,7 @@ fn motions<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Motion<'a>> {
     told.collect()
 }
 
-/// The self-stresses of a page whose joints are all drawn.
+/// Returns the self-stresses of a page whose joints are all drawn.
 fn stresses<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Stress<'a>> {
     let (Some(analysis), Some(frame)) = (page.analysis, page.recording.frames.first()) else {
         return Vec::new();
@@ -113,7 +113,8 @@ fn stresses<'a>(page: &'a RunPage<'_>, cast: &Cast) -> Vec<Stress<'a>> {
     dependencies.iter().filter_map(stress).take(MOST).collect()
 }
 
-/// The coefficients of a dependency as multipliers of all rows; `None` if a row does not exist.
+/// Converts the coefficients of a dependency to multipliers of all rows; `None` if a row does not
+/// exist.
 fn multipliers(mechanism: &Mechanism, dependency: &DependencyDocument) -> Option<Vec<f64>> {
     let mut lambda = vec![0.0; mechanism.layout().rows()];
     for (row, coefficient) in dependency.rows.iter().zip(&dependency.coefficients) {

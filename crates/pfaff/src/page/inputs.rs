@@ -1,5 +1,5 @@
-//! Information needed to reproduce the page: scene, options, versions, numbers of the run; and the
-//! parts that the page omits.
+//! Information needed to reproduce the page: scene, options, versions and numbers of the run; and a
+//! list of the parts that the page omits.
 
 use model::System;
 
@@ -30,15 +30,15 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
     if let Some(text) = page.scene.text {
         scene(out, text);
     }
-    out.push_str("<h3>What the page leaves out</h3>\n");
+    out.push_str("<h3>Omitted from this page</h3>\n");
     list(out, &left_out(page, cast));
     out.push_str("</section>\n");
 }
 
 fn of_run(out: &mut String, run: &RunDocument) {
-    out.push_str("<h3>Numbers of the run</h3>\n<dl>\n");
+    out.push_str("<h3>Statistics of the run</h3>\n<dl>\n");
     numbers(out, run);
-    out.push_str("</dl>\n<details><summary>What was decided before the run</summary>\n<dl>\n");
+    out.push_str("</dl>\n<details><summary>Plan of the run</summary>\n<dl>\n");
     for (what, taken) in &run.plan.0 {
         pair(out, &safe(what), &safe(taken));
     }
@@ -63,51 +63,62 @@ fn numbers(out: &mut String, run: &RunDocument) {
                 run.method, run.formulation, run.stabilisation
             ),
         ),
-        ("Reached", format!("t = {} s", run.t_end)),
+        ("Time reached", format!("t = {} s", run.t_end)),
         (
             "Steps",
             format!("{} accepted, {} rejected", run.steps, run.rejected),
         ),
         (
             "Evaluations",
-            format!("{} of accelerations", run.evaluations),
+            format!("{} evaluations of the accelerations", run.evaluations),
         ),
         ("Projections", run.projections.to_string()),
-        ("Time of the integration", duration(run.wall_seconds)),
+        ("Run time of the integration", duration(run.wall_seconds)),
         ("Largest |Φ|", short(run.max_position_residual)),
         ("Largest |C·v − b|", short(run.max_velocity_residual)),
         (
-            "Energy balance",
+            "Energy error",
             format!(
-                "{} of the largest kinetic energy",
+                "{} relative to the largest kinetic energy",
                 short(run.energy_balance)
             ),
         ),
         (
-            "Correction of the start",
+            "Initial corrections",
             format!(
-                "{} in position, {} in velocity",
+                "position {}, velocity {}",
                 short(run.start_correction),
                 short(run.start_velocity_correction)
             ),
         ),
-        ("Components run apart", run.components.len().to_string()),
+        (
+            "Separately simulated components",
+            run.components.len().to_string(),
+        ),
     ];
     for (what, value) in numbers {
         pair(out, what, &safe(&value));
     }
     for line in MisfitDocument::lines(&run.misfits) {
-        pair(out, "Within the tolerance", &safe(&line));
+        pair(
+            out,
+            "Constraint violations within the tolerance",
+            &safe(&line),
+        );
     }
     if let Some(spread) = &run.spread {
-        pair(out, "Another choice of rows", &safe(&spread.to_string()));
+        pair(
+            out,
+            "Difference between choices of independent rows",
+            &safe(&spread.to_string()),
+        );
     }
 }
 
 fn scene(out: &mut String, text: &str) {
     let end = text.floor_char_boundary(SCENE_MOST);
-    out.push_str("<details><summary>The scene</summary>\n<pre>");
-    // Line by line, because escaping replaces line feeds by spaces.
+    out.push_str("<details><summary>Text of the scene</summary>\n<pre>");
+    // Lines are escaped separately, because escaping replaces line feeds by spaces.
     for line in text[..end].lines() {
         out.push_str(&safe(line));
         out.push('\n');
@@ -117,7 +128,7 @@ fn scene(out: &mut String, text: &str) {
         add(
             out,
             format_args!(
-                "<p class=\"grey\">The first {end} of {} bytes of the scene are shown.</p>\n",
+                "<p class=\"grey\">This page shows the first {end} of {} bytes of the scene.</p>\n",
                 text.len()
             ),
         );
@@ -128,13 +139,13 @@ fn pair(out: &mut String, what: &str, value: &str) {
     add(out, format_args!("<dt>{what}</dt><dd>{value}</dd>\n"));
 }
 
-/// Sentences on the drawn part of a large mechanism.
+/// Returns sentences on the drawn part of a large mechanism.
 fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
     let mut told = Vec::new();
     let groups = page.mechanism.layout().groups.len();
     if !cast.is_whole() {
         told.push(format!(
-            "The picture and the curves show {} of {groups} joints and drives, those of the first {} bodies (of {}).",
+            "The picture and the curves show {} of {groups} joints and drives: the joints and drives of the first {} of {} bodies.",
             cast.joints().len(),
             cast.bodies().len(),
             page.mechanism.bodies().len()
@@ -142,7 +153,7 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
     }
     if page.recording.stride > 1 {
         told.push(format!(
-            "One in {} rows of output is kept: {} of {}. trajectory.csv and reactions.csv contain all requested rows.",
+            "This page uses one in {} output rows ({} of {}). The files trajectory.csv and reactions.csv contain all requested rows.",
             page.recording.stride,
             page.recording.frames.len(),
             page.recording.rows()
@@ -151,20 +162,20 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
     let measures = page.mechanism.frames().observed().measures.len();
     if measures > curves::MEASURES_MAX {
         told.push(format!(
-            "{} of {measures} measures are plotted; trajectory.csv has all.",
+            "This page plots {} of {measures} measures. The file trajectory.csv contains all of them.",
             curves::MEASURES_MAX
         ));
     }
     if page.drives.len() > curves::DRIVES_MAX {
         told.push(format!(
-            "{} of {} drives are plotted.",
+            "This page plots {} of {} drives.",
             curves::DRIVES_MAX,
             page.drives.len()
         ));
     }
     if page.run().is_some() {
         told.push(format!(
-        "Each curve is rounded to 1/{} of its range; between rows the picture follows cubics through positions and velocities.",
+        "Each curve is rounded to 1/{} of its range. Between output rows, the picture interpolates the positions with cubic polynomials that match the positions and velocities of the rows.",
         data::levels()
     ));
     }

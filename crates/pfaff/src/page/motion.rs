@@ -1,4 +1,4 @@
-//! The picture with its controls: views, what is shown, free motions and self-stresses, and the
+//! The picture with its controls: views, visible items, free motions and self-stresses, and the
 //! time.
 
 use model::SpaceKind;
@@ -8,7 +8,7 @@ use super::first_order::FirstOrder;
 use super::run_page::RunPage;
 use report::page::{add, safe};
 
-/// What the section of the picture is called.
+/// Title of the section with the picture.
 pub(super) fn title(page: &RunPage<'_>) -> &'static str {
     if page.moves() { "Motion" } else { "Picture" }
 }
@@ -22,20 +22,20 @@ const VIEWS: &str = "<div class=\"views\" role=\"group\" aria-label=\"View\">\
 <button id=\"perspective\" type=\"button\" aria-label=\"Perspective\" aria-pressed=\"false\" title=\"Perspective\">⬡</button></div>\n\
 <p id=\"view\" class=\"unseen\" aria-live=\"polite\"></p>\n";
 
-/// Keys of the picture of space, for those who do not see it.
-const SPATIAL_KEYS: &str = ". Arrow keys turn it, with Shift they move it, plus and minus zoom, x, y, z and i are standard views, p is perspective";
+/// Description of the keys of a picture in space, for readers who cannot see it.
+const SPATIAL_KEYS: &str = ". Arrow keys rotate the view. Shift with an arrow key moves the view. Plus and minus zoom. The keys x, y, z and i select standard views. The key p switches the perspective on or off";
 
 /// Controls that only the page of a run has.
 const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
 step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
 <fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
 
-/// Saves the picture as it is seen.
+/// Controls that save the picture as shown.
 const SAVE: &str = "<fieldset class=\"option save\"><legend>Save picture</legend>\
 <button id=\"save-svg\" type=\"button\" aria-label=\"Save picture as SVG\">SVG</button>\
 <button id=\"save-png\" type=\"button\" aria-label=\"Save picture as PNG\">PNG</button></fieldset>\n";
 
-/// The animation with its controls.
+/// Writes the animation with its controls.
 pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     let title = title(page);
     add(
@@ -45,7 +45,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
         ),
     );
     out.push_str(
-        "<noscript><p class=\"warning\">Picture and curves need scripts; verdicts and inputs below do not.</p></noscript>\n\
+        "<noscript><p class=\"warning\">The picture and the curves require JavaScript. The verdicts and inputs below do not.</p></noscript>\n\
          <div class=\"stage\">\n",
     );
     let is_spatial = page.mechanism.space() == SpaceKind::Space3;
@@ -57,8 +57,8 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     add(
         out,
         format_args!(
-            "<canvas id=\"picture\" role=\"img\" tabindex=\"0\" aria-label=\"{} to scale, moving; joints are marked by the verdict of their \
-             reactions, which the table below tells in words{}\"></canvas>\n",
+            "<canvas id=\"picture\" role=\"img\" tabindex=\"0\" aria-label=\"Animated drawing of {} to scale. Each joint is marked with the verdict of its \
+             reaction; the table below lists these verdicts{}\"></canvas>\n",
             safe(page.mechanism.name()),
             if is_spatial { SPATIAL_KEYS } else { "" }
         ),
@@ -73,7 +73,7 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     }
     out.push_str(
         "<div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
-         aria-label=\"What the picture shows\">\n",
+         aria-label=\"Legend and display options\">\n",
     );
     if !page.verdicts().is_empty() {
         out.push_str("<fieldset><legend>Reactions</legend>\n");
@@ -90,17 +90,17 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
     out.push_str("</aside>\n</div>\n");
     first_order(out, &data.first_order);
     out.push_str(
-        "<p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
-         are unknown. ",
+        "<p class=\"grey\">The model does not contain the shapes of bodies. Each body is drawn through its centre of mass and the points \
+         at which joints and forces act on it. ",
     );
-    out.push_str(if is_spatial { "Drag to turn, with Shift, the right button or two fingers to move; Ctrl and wheel, or the wheel after a click, to zoom" } else { "Drag to move, Ctrl and wheel, or the wheel after a click, to zoom" });
+    out.push_str(if is_spatial { "Drag to rotate the view. Drag with Shift, the right button or two fingers to move the view. Zoom with Ctrl and the wheel, or with the wheel after a click" } else { "Drag to move the view. Zoom with Ctrl and the wheel, or with the wheel after a click" });
     if page.run().is_some() {
-        out.push_str(", click a joint for its reaction, a body for its trace");
+        out.push_str(". Click a joint to plot its reaction, or a body to show or hide its trace");
     }
     out.push_str(".</p>\n</section>\n");
 }
 
-/// Choices of free motions and self-stresses, if there are any.
+/// Writes the lists of free motions and self-stresses, if there are any.
 fn first_order(out: &mut String, shown: &FirstOrder<'_>) {
     if shown.motions.is_empty() && shown.stresses.is_empty() {
         return;
@@ -120,7 +120,7 @@ fn first_order(out: &mut String, shown: &FirstOrder<'_>) {
     out.push_str("</div>\n");
 }
 
-/// The meaning of marks and arrows, as far as they occur.
+/// Writes the meaning of marks and arrows that occur in the picture.
 fn legend(out: &mut String, page: &RunPage<'_>) {
     const MARK: &str = "<g transform=\"translate(17 11)\" class=\"site VERDICT\"><circle class=\"mark\" r=\"6.5\"/></g>";
     const ARROW: &str = "<path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/>";
@@ -148,30 +148,33 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
     }
     let is_spatial = page.mechanism.space() == SpaceKind::Space3;
     if page.run().is_some() {
-        row(ARROW, "determined part, on the first body");
+        row(ARROW, "determined part of the reaction on the first body");
         if is_spatial {
-            row(MOMENT, "the same of the moment");
+            row(
+                MOMENT,
+                "determined part of the reaction moment on the first body",
+            );
         }
     }
     if !page.comparisons.is_empty() {
         row(
             FREE,
             if is_spatial {
-                "directions in which the model leaves the chosen one open"
+                "directions in which the model does not determine the selected reaction"
             } else {
-                "direction in which the model leaves it open"
+                "direction in which the model does not determine the reaction"
             },
         );
     }
 }
 
-/// The controls of the time.
+/// Writes the controls of the time.
 pub(super) fn transport(out: &mut String) {
     out.push_str(
         "<div class=\"transport\" role=\"group\" aria-label=\"Time\">\n\
          <button id=\"play\" type=\"button\" aria-label=\"Play\">▶</button>\n\
          <div class=\"track\"><div id=\"marks\"></div><input id=\"scrub\" type=\"range\" aria-label=\"Time (s)\"></div>\n\
          <span id=\"time\"></span>\n<label>Speed <select id=\"speed\"></select></label>\n\
-         <span class=\"keys\">space: play · ← →: frame</span>\n</div>\n",
+         <span class=\"keys\">space: play or pause · ← →: step one frame</span>\n</div>\n",
     );
 }

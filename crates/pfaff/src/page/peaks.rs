@@ -1,6 +1,6 @@
 //! The largest force and the largest moment of each reaction over the run, with their times, as a
-//! table. What the model does not determine has no peak of its own: its numbers stand beside the
-//! choice that they depend on, or are left out.
+//! table. A number that the model does not determine has no peak of its own: it is shown with the
+//! choice on which it depends, or it is left out.
 
 use model::{ConstraintId, Mechanism, Reaction, System};
 
@@ -17,15 +17,15 @@ const LINES: usize = 300;
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Peak {
     value: f64,
-    /// s
+    /// Time (s).
     t: f64,
 }
 
-/// The peaks of a joint or drive; `None` where nothing finite is known.
+/// The peaks of a joint or drive; `None` if no finite value is known.
 struct Peaks {
     force: Option<Peak>,
     moment: Option<Peak>,
-    /// The named component, with its sign. What is `noise` or smaller is zero.
+    /// Peak of the named component, with its sign. Values not larger than `noise` count as zero.
     named: Option<Peak>,
 }
 
@@ -37,7 +37,7 @@ impl Peaks {
                 let value = if value.abs() <= noise { 0.0 } else { value };
                 value.is_finite().then_some(Peak { value, t: frame.t })
             });
-            // The first of equals.
+            // Of equal values the first one is used.
             known.fold(None, |best: Option<Peak>, peak| match best {
                 Some(best) if best.value.abs() >= peak.value.abs() => Some(best),
                 _ => Some(peak),
@@ -52,7 +52,7 @@ impl Peaks {
     }
 }
 
-/// The table, if the run has reactions.
+/// Writes the table, if the run has reactions.
 pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     let (Some(run), frames) = (page.run(), &page.recording.frames) else {
         return;
@@ -63,9 +63,9 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
         return;
     }
     out.push_str(
-        "<h3>Peaks</h3>\n<div class=\"wide\"><table class=\"peaks\">\n<thead><tr><th>Joint or drive</th>\
+        "<h3>Peak reactions</h3>\n<div class=\"wide\"><table class=\"peaks\">\n<thead><tr><th>Joint or drive</th>\
          <th>Largest force (N)</th><th>at (s)</th><th>Largest moment (N·m)</th><th>at (s)</th>\
-         <th>Component</th><th>at (s)</th><th>Holds for</th></tr></thead>\n<tbody>\n",
+         <th>Component</th><th>at (s)</th><th>Valid for</th></tr></thead>\n<tbody>\n",
     );
     let noise = data::noise(frames);
     let told = layout.constraint_ids().take(LINES);
@@ -82,11 +82,11 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
                 name,
                 forces,
                 &[component],
-                "every choice: it is unique",
+                "every choice (unique reaction)",
             );
             continue;
         }
-        // Components that are determined, each on its own intervals.
+        // Determined components, each on its own intervals.
         let determined = document.components.0.iter();
         let determined: Vec<(Option<&str>, Option<Peak>)> = determined
             .filter_map(|(name, number)| {
@@ -106,7 +106,7 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     notes(out, page.mechanism, page.recording.stride);
 }
 
-/// When the numbers of a reaction hold that is not unique over the run.
+/// States when the numbers hold, for a reaction that is not unique over the run.
 fn holds(document: &RunReactionDocument) -> String {
     let mut parts: Vec<String> = Vec::new();
     for (name, number) in &document.components.0 {
@@ -122,7 +122,10 @@ fn holds(document: &RunReactionDocument) -> String {
     }
     match parts.as_slice() {
         [] => "not determined by the model".to_owned(),
-        parts => format!("{}; the rest is not determined", parts.join("; ")),
+        parts => format!(
+            "{}; the other components are not determined",
+            parts.join("; ")
+        ),
     }
 }
 
@@ -157,7 +160,7 @@ fn line(
     add(
         out,
         format_args!(
-            "<tr><td><b>{}</b></td>{}{}{}<td class=\"why\" data-label=\"Holds for\">{}</td></tr>\n",
+            "<tr><td><b>{}</b></td>{}{}{}<td class=\"why\" data-label=\"Valid for\">{}</td></tr>\n",
             safe(name),
             value("Largest force (N)", force),
             value("Largest moment (N·m)", moment),
@@ -173,25 +176,25 @@ fn notes(out: &mut String, mechanism: &Mechanism, stride: usize) {
         add(
             out,
             format_args!(
-                "<p class=\"grey\">{} more are not listed; reactions.csv has all.</p>\n",
+                "<p class=\"grey\">The table omits {} joints and drives. The file reactions.csv contains all of them.</p>\n",
                 groups - LINES
             ),
         );
     }
     let rows = match stride {
-        0 | 1 => "rows of output".to_owned(),
-        n => format!("rows that the page keeps, one in {n}"),
+        0 | 1 => "output rows".to_owned(),
+        n => format!("output rows on this page (one in {n})"),
     };
     add(
         out,
         format_args!(
-            "<p class=\"grey\">Largest of the {rows}; between them reactions may be larger. Force and moment act on the first body, \
-             about the place of the joint.</p>\n"
+            "<p class=\"grey\">Each peak is the largest value in the {rows}. Between these rows, a reaction may be larger. Forces and \
+             moments act on the first body. Moments are about the reference point of the joint.</p>\n"
         ),
     );
 }
 
-/// Four digits.
+/// Formats a number with four digits.
 fn digits(x: f64) -> String {
     if x == 0.0 {
         return "0".to_owned();

@@ -1,4 +1,4 @@
-//! The contents of a page.
+//! The data from which a page is made.
 
 use model::Mechanism;
 use solvability::Stretches;
@@ -8,60 +8,62 @@ use crate::documents::{AnalysisDocument, FreedomsDocument, MakeUniqueDocument, R
 use report::Provenance;
 use report::Recording;
 
-/// The contents of a page.
+/// The data from which a page is made.
 pub struct RunPage<'a> {
     /// The mechanism that was run.
     pub mechanism: &'a Mechanism,
-    /// Verdicts at the start, with their explanation; `None` if there are none.
+    /// Verdicts at the start, with their explanation; `None` if there is no analysis.
     pub analysis: Option<&'a AnalysisDocument>,
     /// Deletions that would make non-unique reactions unique.
     pub hints: &'a [MakeUniqueDocument],
-    /// What it shows.
+    /// Kind of the page.
     pub shows: Shows<'a>,
     /// The verdicts of the run by stretches of time; `None` without a run or its reactions.
     pub stretches: Option<&'a Stretches>,
-    /// Its rows.
+    /// Recorded rows of the run.
     pub recording: &'a Recording,
     /// Non-unique reactions for several choices.
     pub comparisons: &'a [Comparison],
     /// The values that drives prescribe, at the frames.
     pub drives: &'a [DriveCurve],
-    /// How to reproduce the run.
+    /// Information to reproduce the run.
     pub origin: &'a Origin,
-    /// The scene as it is written.
+    /// The text of the scene with its units.
     pub scene: WrittenScene<'a>,
     /// Options of the run, as text.
     pub options: &'a [(String, String)],
-    /// Sentences on what was left out.
+    /// Sentences on the omitted parts.
     pub left_out: &'a [String],
-    /// Error against run time, as an SVG figure, if there is one.
+    /// Figure of error against run time, as SVG, if there is one.
     pub work_precision: Option<&'a str>,
 }
 
-/// What a page shows.
+/// Kind of a page.
 #[derive(Clone, Copy)]
 pub enum Shows<'a> {
-    /// A start alone.
+    /// Page of a start alone.
     Start,
-    /// A run, with its numbers.
+    /// Page of a run, with its numbers.
     Run(&'a RunDocument),
-    /// A mode of small motions, with a sentence about it.
+    /// Page of a mode of small motions, with a sentence about it.
     Mode(&'a str),
 }
 
-/// What a page tells of the text of a scene.
+/// Information about the text of a scene for the page.
 #[derive(Clone, Debug, Default)]
 pub struct WrittenScene<'a> {
     /// The text, if there is one.
     pub text: Option<&'a str>,
-    /// Joints, drives, forces and groups that are in it, but not active.
+    /// Joints, drives, forces and groups that are in the scene, but not active.
     pub inactive: Vec<String>,
-    /// Its units of lengths and angles with their values in metres and radians, if they are others.
+    /// Units of lengths and angles of the scene with their values in metres and radians, if they
+    /// are not SI units.
     pub units: [Option<(&'static str, f64)>; 2],
 }
 
 impl WrittenScene<'_> {
-    /// The unit of the scene for an SI unit of a curve, with its number in one of these.
+    /// Returns the scene unit for the SI unit of a curve, with the number of scene units in one SI
+    /// unit.
     pub(super) fn unit(&self, si: &str) -> Option<(String, f64)> {
         let (base, rest) = si.split_at(si.find('/').unwrap_or(si.len()));
         let (name, value) = match base {
@@ -74,7 +76,7 @@ impl WrittenScene<'_> {
 }
 
 impl RunPage<'_> {
-    /// The numbers of the run, if it shows one.
+    /// Returns the numbers of the run, if the page shows a run.
     pub(super) fn run(&self) -> Option<&RunDocument> {
         match self.shows {
             Shows::Run(run) => Some(run),
@@ -87,14 +89,14 @@ impl RunPage<'_> {
         !matches!(self.shows, Shows::Start)
     }
 
-    /// The free motions at the start.
+    /// Returns the free motions at the start.
     pub(super) fn freedoms(&self) -> Option<&FreedomsDocument> {
         let of_run = self.run().map(|run| &run.freedoms);
         of_run.or(self.analysis.map(|a| &a.ranks.freedoms))
     }
 
-    /// Joints and drives: name, verdict of the run or else at the start, and whether they are
-    /// fragile.
+    /// Returns name and verdict of joints and drives over the run, or otherwise at the start, and
+    /// whether they are ill-determined.
     pub(super) fn verdicts(&self) -> Vec<(&str, &'static str, bool)> {
         match (self.run(), self.analysis) {
             (Some(run), _) => {
@@ -121,7 +123,7 @@ pub struct DriveCurve {
     pub text: String,
     /// `m` or `rad`.
     pub unit: &'static str,
-    /// Change since the start, at the frames.
+    /// Change of the driven quantity since the start, at the frames.
     pub values: Vec<f64>,
 }
 
@@ -146,7 +148,7 @@ impl From<&Provenance> for Origin {
 impl Default for Origin {
     fn default() -> Self {
         Self {
-            command: "called from a program".to_owned(),
+            command: "none (the library was called directly)".to_owned(),
             versions: format!("pfaff {}", env!("CARGO_PKG_VERSION")),
         }
     }

@@ -1,5 +1,6 @@
-//! Verdicts as text: the table of joints and drives, the coupled reactions, and what would make
-//! reactions unique. Static text, so that it is available without scripts and on paper.
+//! Verdicts as text: the table of joints and drives, the coupled reactions, and deletions that
+//! would make reactions unique. The text is static, so that it is available without scripts and in
+//! print.
 
 use super::run_page::RunPage;
 use crate::documents::{MakeUniqueDocument, ReactionDocument, RunReactionDocument};
@@ -34,18 +35,18 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
                 add(
                     out,
                     format_args!(
-                        "<p class=\"grey\">{more} more are not listed; summary.json has all.</p>\n"
+                        "<p class=\"grey\">The table omits {more} joints and drives. The file summary.json contains all of them.</p>\n"
                     ),
                 );
             }
             why(out, page);
         }
-        None => out.push_str("<p>The verdicts are in summary.json.</p>\n"),
+        None => out.push_str("<p>The file summary.json contains the verdicts.</p>\n"),
     }
     out.push_str("</section>\n");
 }
 
-/// If there are too many, those that are not unique, or fragile, come first.
+/// If there are too many reactions, those that are not unique, or ill-determined, come first.
 fn selected(all: &[ReactionDocument]) -> Vec<&ReactionDocument> {
     if all.len() <= LINES {
         return all.iter().collect();
@@ -73,7 +74,7 @@ fn table(out: &mut String, page: &RunPage<'_>, reactions: &[&ReactionDocument]) 
         if r.data.fragile {
             said.push_str(match verdict {
                 "unique" => ", fragile",
-                _ => ", unique parts fragile",
+                _ => ", unique components fragile",
             });
         }
         let badge = if r.data.fragile { "fragile" } else { verdict };
@@ -96,13 +97,14 @@ fn table(out: &mut String, page: &RunPage<'_>, reactions: &[&ReactionDocument]) 
     }
     out.push_str("</tbody>\n</table></div>\n");
     out.push_str(
-        "<p class=\"grey\">The margin tells how far a reaction is from unique: it is the norm of its part of the left null space of the \
-         constraint matrix at the start, rows and columns equilibrated. Rows are counted from 1. Fx and Fy are global: where bodies turn, \
-         other components are determined later than at the start. A verdict of a run holds on all of it.</p>\n",
+        "<p class=\"grey\">The margin measures how far a reaction is from being unique. It is the norm of the part of the left null space \
+         of the constraint matrix that belongs to the reaction. The matrix is taken at the start and has equilibrated rows and columns. Row numbers begin at 1. \
+         Fx and Fy are components in global axes. If bodies rotate, the determined components can differ from those at the start. \
+         The verdict of a run applies to the whole run.</p>\n",
     );
 }
 
-/// Why the verdict of the run is not that of the start.
+/// Explains why the verdict of the run differs from that of the start.
 fn over_the_run(r: &ReactionDocument, run: &RunReactionDocument) -> String {
     let start = r.wrench.verdict.replace('_', " ");
     let on = run.of_run.iter().flat_map(|track| &track.determined);
@@ -111,9 +113,9 @@ fn over_the_run(r: &ReactionDocument, run: &RunReactionDocument) -> String {
         .collect();
     let determined = match on.as_slice() {
         [] => String::new(),
-        on => format!("; it is determined on {}", on.join(", ")),
+        on => format!("; over the run, it is determined on {}", on.join(", ")),
     };
-    format!("at the start alone it is {start}{determined}")
+    format!("at the start, the reaction is {start}{determined}")
 }
 
 fn reason(r: &ReactionDocument) -> String {
@@ -133,21 +135,21 @@ fn reason(r: &ReactionDocument) -> String {
     }
 }
 
-/// Why a reaction is unique or not, apart from what it depends on.
+/// Explains why a reaction is unique or not, without the data on which it depends.
 fn because(r: &ReactionDocument) -> String {
     match (&r.explanation, r.settled, r.wrench.verdict) {
         (Some(text), ..) => {
-            // The column before contains this text.
+            // The previous column of the table already contains this text.
             let known = format!("the reaction of `{}` is not determined: ", r.name);
             text.strip_prefix(&known).unwrap_or(text).to_owned()
         }
         (None, Some("bridge"), _) => {
-            "nothing else connects the two parts of the mechanism that it joins".to_owned()
+            "it is the only connection between the two parts of the mechanism that it joins".to_owned()
         }
         (None, Some(_), _) => {
-            "it follows from the bodies at the ends of the mechanism alone".to_owned()
+            "it can be computed from the free ends of the mechanism inwards, without the joints that share loads".to_owned()
         }
-        (None, None, "unique") => "no dependency of rows reaches it".to_owned(),
+        (None, None, "unique") => "its rows are not part of any linear dependency of constraint rows".to_owned(),
         (None, None, _) => components(r),
     }
 }
@@ -168,28 +170,29 @@ fn why(out: &mut String, page: &RunPage<'_>) {
     let dependencies = analysis.reasons.dependencies.iter().map(|d| d.text.clone());
     let reasons: Vec<String> = mixing.chain(dependencies).map(|t| capital(&t)).collect();
     if !reasons.is_empty() {
-        out.push_str("<h3>What is redundant</h3>\n");
+        out.push_str("<h3>Redundant constraints</h3>\n");
         some(out, &reasons);
     }
     let hints = remedies(page.hints);
     if !hints.is_empty() {
-        out.push_str("<h3>What would make a reaction unique, without a change of motion</h3>\n");
+        out.push_str("<h3>Ways to make a reaction unique without changing the motion</h3>\n");
         some(out, &hints);
     }
     let notes = analysis.notes.iter().map(|note| note.text.clone());
     let known: Vec<String> = analysis.warnings.iter().cloned().chain(notes).collect();
     if !known.is_empty() {
-        out.push_str("<h3>To be known</h3>\n");
+        out.push_str("<h3>Warnings and notes</h3>\n");
         some(out, &known);
     }
 }
 
-/// What would make reactions unique: those with the same ways in one sentence.
+/// Lists deletions that would make reactions unique; reactions with the same deletions share a
+/// sentence.
 fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
     let mut grouped: Vec<(Vec<String>, Vec<String>)> = Vec::new();
     for hint in hints {
         let ways = match &hint.reason {
-            Some(reason) => vec![format!("not known: {reason}")],
+            Some(reason) => vec![format!("unknown: {reason}")],
             None => hint.ways.iter().map(|w| w.text.clone()).collect(),
         };
         let reaction = format!("`{}`", hint.reaction);
@@ -208,10 +211,12 @@ fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
         if ways.len() > WAYS {
             let more = ways.len() - WAYS;
             let few = ways[..WAYS].join("; ");
-            return format!("{reactions}: {few}; or {more} others, which `--make-unique` lists");
+            return format!(
+                "{reactions}: {few}; or {more} other sets of deletions (`--make-unique` lists them)"
+            );
         }
         match ways.split_last() {
-            None => format!("{reactions}: no small set of deletions was found"),
+            None => format!("{reactions}: the search found no small set of deletions"),
             Some((last, [])) => format!("{reactions}: {last}"),
             Some((last, first)) => format!("{reactions}: {}; or {last}", first.join("; ")),
         }
@@ -232,7 +237,7 @@ fn some(out: &mut String, sentences: &[String]) {
     }
 }
 
-/// A number with two digits.
+/// Formats a number with two digits.
 fn margin(x: f64) -> String {
     if x >= 0.01 {
         format!("{x:.2}")
@@ -241,7 +246,7 @@ fn margin(x: f64) -> String {
     }
 }
 
-/// Text in which names are enclosed in grave accents.
+/// Marks names that are enclosed in grave accents.
 pub(super) fn marked(text: &str) -> String {
     let mut out = String::new();
     for (k, part) in text.split('`').enumerate() {

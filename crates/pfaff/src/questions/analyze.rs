@@ -60,7 +60,7 @@ impl Question for Analyze {
         };
         match judged {
             JudgedStart::Moves(study) => self.of_study(of, (judged, study), control),
-            // A mechanism that cannot move can still be judged at the start.
+            // A mechanism that cannot move can still be analysed at the start.
             JudgedStart::Stands(stands) if self.at_time == 0.0 && self.along.is_none() => {
                 let start = of
                     .configuration(judged, 0.0, control, |_| ())
@@ -97,7 +97,7 @@ impl Analyze {
             let document = document::of(self, of, &configuration)?;
             Ok::<_, Refusal>((configuration, document))
         };
-        // A motion is computed step by step, so the verdicts of the start can run in another
+        // A motion is computed step by step, so the verdicts at the start can run in another
         // thread.
         let (of_configuration, along) = match self.along {
             Some(along) => crate::both(of_configuration, || Some(judge(of, study, along, control))),
@@ -116,7 +116,7 @@ impl Analyze {
     }
 }
 
-/// Runs and judges the motion.
+/// Runs and analyses the motion.
 fn judge(
     of: &Start<'_>,
     study: &Study,
@@ -145,7 +145,8 @@ fn judge(
     found.map_err(|e| refused(of, e))
 }
 
-/// Why there is no analysis: nothing is written before all of it is there.
+/// Returns the reason why there is no analysis; no output is written before the analysis is
+/// complete.
 fn refused(of: &Start<'_>, error: StudyError) -> Refusal {
     match error {
         StudyError::Interrupted => Refusal::stopped(NOTHING_WRITTEN.to_owned()).coded(INTERRUPTED),
@@ -161,7 +162,7 @@ pub struct AnalyzeAnswer {
     /// Ranks, verdicts, reasons, and answers to the options.
     #[serde(flatten)]
     pub document: AnalysisDocument,
-    /// What would make reactions unique: in words only.
+    /// Deletions that would make reactions unique; only the text contains them.
     #[serde(skip)]
     hints: Vec<MakeUniqueDocument>,
 }

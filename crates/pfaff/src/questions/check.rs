@@ -14,7 +14,7 @@ use crate::question::{Control, Question};
 use crate::refusal::Refusal;
 use crate::start::{JudgedStart, Start};
 
-/// Read and assemble only: report every error of the file, with its place
+/// Read and assemble the scene; report all errors
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
@@ -22,7 +22,7 @@ use crate::start::{JudgedStart, Start};
 #[cfg_attr(feature = "command", command(after_help = include_str!("check/examples.txt")))]
 pub struct Check {}
 
-/// Number of fragile reactions that have a warning each.
+/// Largest number of ill-determined reactions with a separate warning.
 const FRAGILE_TOLD: usize = 10;
 
 impl Question for Check {
@@ -70,13 +70,13 @@ impl Question for Check {
     }
 }
 
-/// Sentences on fragile reactions, then on fragile sums.
+/// Returns sentences on ill-determined reactions, then on ill-determined sums.
 fn fragile(start: &ConfigurationAnalysis<'_>) -> Result<Vec<String>, StudyError> {
     let layout = start.mechanism.layout();
     let reactions = start.sensitivities()?;
     let mut sentences = reactions.sentences(layout);
     for (name, found) in start.group_sensitivities(&reactions)? {
-        // Separate reactions have their own sentences.
+        // Separate reactions have separate sentences.
         if !found.numbers.is_empty() {
             sentences.extend(SensitivityDocument::of_group(&found, &name, layout).hangs_on);
         }

@@ -13,7 +13,7 @@ use crate::refusal::Refusal;
 use crate::start::{JudgedStart, Start, document_of};
 use crate::words::Block;
 
-/// Compare two scenes: ranks, verdicts, dependencies, motion
+/// Compare ranks, verdicts, dependencies and motion of two scenes
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
@@ -47,7 +47,7 @@ impl Answer for DiffAnswer {
     }
 }
 
-/// Compares the motions, or says why they are not compared.
+/// Compares the motions, or returns the reason why they are not compared.
 fn motion(names: [&str; 2], judged: [&JudgedStart; 2]) -> Result<DiffMotion, String> {
     for (name, judged) in names.iter().zip(judged) {
         if judged.parts().0.simulate.is_none() {

@@ -1,4 +1,4 @@
-//! Where does the mechanism rest?
+//! Where is the static equilibrium of the mechanism?
 
 mod answer;
 mod words;
@@ -19,22 +19,22 @@ use crate::start::Start;
 use crate::study::Study;
 use crate::words::Block;
 
-/// A start at rest: where forces balance near the described start
+/// Find a static equilibrium near the start
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("equilibrium/examples.txt")))]
 pub struct Equilibrium {
-    /// Leave places that are not stable by a small push, and search on
+    /// Skip unstable equilibria: perturb and continue
     #[cfg_attr(feature = "command", arg(long))]
     pub stable: bool,
 }
 
-/// The scene that starts at rest.
+/// The scene that starts at the equilibrium.
 const SCENE: &str = "at-rest.toml";
 
-/// The document.
+/// File name of the document.
 const DOCUMENT: &str = "equilibrium.json";
 
 impl Question for Equilibrium {
@@ -42,7 +42,7 @@ impl Question for Equilibrium {
     const SCHEMA: &'static str = include_str!("equilibrium/answer.schema.json");
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[SCENE, DOCUMENT]),
-        contents: "a scene that starts there, at rest",
+        contents: "a scene that starts at the equilibrium",
         writing: Writing::AtEnd,
     });
     type Subject<'s> = &'s Start<'s>;
@@ -59,7 +59,7 @@ impl Question for Equilibrium {
         if control.wants_files {
             let text = study.text_at_rest(&found.q);
             let text = text.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))?;
-            // What is written has to start where it says.
+            // The written scene must start at the configuration that it contains.
             Study::read(SCENE, &text, of.registry, &RunOptions::default()).map_err(|e| {
                 Refusal::stopped(format!("the scene that starts at rest cannot be read: {e}"))
             })?;
@@ -83,7 +83,7 @@ impl Answer for EquilibriumAnswer {
     }
 }
 
-/// The reactions at the start of a study.
+/// Returns the reactions at the start of a study.
 fn reactions_at_rest(there: &Study) -> Result<ByName<ReactionAtRest>, StudyError> {
     let configuration = there.analyse(0.0, None)?;
     Ok(ReactionAtRest::all(

@@ -1,4 +1,4 @@
-//! How do small motions about a state go on?
+//! How do small motions about a state evolve?
 
 mod answer;
 mod page;
@@ -16,14 +16,14 @@ use crate::refusal::{Refusal, json};
 use crate::start::Start;
 use crate::words::Block;
 
-/// Small motions about a state at rest or a steady one: matrices, eigenvalues, modes
+/// Linearise at rest or in steady motion: eigenvalues, modes
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("linearise/examples.txt")))]
 pub struct Linearise {
-    /// Time of the motion at which it is linearised (s)
+    /// Linearise the motion at this time (s)
     #[cfg_attr(
         feature = "command",
         arg(
@@ -34,15 +34,15 @@ pub struct Linearise {
         )
     )]
     pub at_time: f64,
-    /// Independent coordinates to use, such as crank.angle or rod.x, in space also rod.rz; the
-    /// others are chosen
+    /// Independent coordinates to use, e.g. crank.angle, rod.x, rod.rz (space); others are chosen
+    /// automatically
     #[cfg_attr(
         feature = "command",
         arg(long, value_name = "NAMES", value_delimiter = ',')
     )]
     pub coordinates: Vec<String>,
-    /// Coordinates in which a steady motion goes on, such as frame.x,frame.y,frame.wz: they are
-    /// left out, and the axes turn with the latter
+    /// Cyclic coordinates of a steady motion, e.g. frame.x,frame.y,frame.wz; they are eliminated,
+    /// and the axes rotate with frame.wz
     #[cfg_attr(
         feature = "command",
         arg(long, value_name = "NAMES", value_delimiter = ',')
@@ -50,10 +50,10 @@ pub struct Linearise {
     pub follow: Vec<String>,
 }
 
-/// The table of the modes.
+/// File name of the table of modes.
 const MODES: &str = "modes.csv";
 
-/// The document.
+/// File name of the document.
 const DOCUMENT: &str = "linearisation.json";
 
 impl Question for Linearise {
@@ -70,7 +70,7 @@ impl Question for Linearise {
             DOCUMENT,
             "mode-*.html",
         ]),
-        contents: "matrices and modes as tables, and pages on which the modes move",
+        contents: "matrices, modes and animated pages",
         writing: Writing::AtEnd,
     });
     type Subject<'s> = &'s Start<'s>;

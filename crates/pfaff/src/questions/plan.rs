@@ -1,4 +1,4 @@
-//! What does a run compute and omit, and why?
+//! Which results does a run compute and which does it omit, and why?
 
 mod answer;
 mod words;
@@ -14,14 +14,14 @@ use crate::start::Start;
 use crate::sweep::{Axis, Sweep, SweepError};
 use crate::words::Block;
 
-/// What a run of the scene computes and omits, and why
+/// Report what a run computes and omits, with reasons
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("plan/examples.txt")))]
 pub struct Plan {
-    /// Also say how the runs of a sweep with these values are evaluated: as of `sweep`
+    /// Also report how a sweep with these values evaluates its runs
     #[cfg_attr(feature = "command", arg(long, value_name = "KEY=VALUES"))]
     #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub vary: Vec<Axis>,

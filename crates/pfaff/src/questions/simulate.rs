@@ -1,4 +1,4 @@
-//! How does the mechanism move, and what do its joints carry on the way?
+//! How does the mechanism move, and which reactions do its joints have during the motion?
 
 mod words;
 
@@ -23,10 +23,10 @@ use crate::start::Start;
 use crate::study::FAMILY;
 use crate::words::Block;
 
-/// The file that says whether the others are whole.
+/// The file that states whether the other files are complete.
 const SUMMARY: &str = "summary.json";
 
-/// Motion and reactions, written into a directory with a report for any browser
+/// Simulate the motion; write tables and a report for the browser
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
@@ -36,7 +36,7 @@ pub struct Simulate {
     /// The run
     #[cfg_attr(feature = "command", command(flatten))]
     pub run: RunOptions,
-    /// Choose the numbers of choice.csv (choice_2.csv, …): as of analyze; repeatable
+    /// Write choice.csv (choice_2.csv, …) for a choice, as in analyze; repeatable
     #[cfg_attr(feature = "command", arg(long, value_name = "CHOICE"))]
     pub choose: Vec<String>,
 }
@@ -46,7 +46,7 @@ impl Question for Simulate {
     const SCHEMA: &'static str = include_str!("simulate/answer.schema.json");
     const OUTPUT: Option<Output> = Some(Output {
         family: FAMILY,
-        contents: "the results",
+        contents: "tables and report",
         writing: Writing::Meanwhile { shared: false, cut },
     });
     type Subject<'s> = &'s Start<'s>;
@@ -54,7 +54,7 @@ impl Question for Simulate {
 
     fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<SimulateAnswer, Refusal> {
         let Some(directory) = control.directory else {
-            let message = "a run is written into a directory; none was given";
+            let message = "a run needs an output directory";
             return Err(Refusal::input(message.to_owned()));
         };
         let run = RunOptions {
@@ -87,8 +87,8 @@ impl Question for Simulate {
     }
 }
 
-/// Puts the whole rows of the tables at their place, with a summary that says that they are
-/// partial.
+/// Gives the tables of complete rows their final names and writes a summary that states that they
+/// are partial.
 fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
     let Some(scene) = begun else {
         return NOTHING_WRITTEN.to_owned();
@@ -110,18 +110,18 @@ fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
     }
 }
 
-/// A run.
+/// A run with its results.
 #[derive(Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SimulateAnswer {
-    /// Its summary.
+    /// Summary of the run.
     #[serde(flatten)]
     pub document: RunDocument,
     /// Name of the scene.
     #[serde(skip)]
     scene: String,
-    /// Last time that was asked for (s).
+    /// Requested end time (s).
     #[serde(skip)]
     t_end: f64,
     #[serde(skip)]

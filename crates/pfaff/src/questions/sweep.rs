@@ -1,4 +1,4 @@
-//! What do runs with other numbers give?
+//! What are the results of runs with different numbers?
 
 mod words;
 
@@ -21,29 +21,28 @@ use crate::sweep::{
 };
 use crate::words::Block;
 
-/// Many runs with other numbers in the scene: parallel, resumable, in shards
+/// Run a parameter sweep (parallel, resumable, sharded)
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("sweep/examples.txt")))]
 pub struct Sweep {
-    /// A parameter or number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or
-    /// KEY=A,B,C; may be given several times
+    /// Vary a parameter or number: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; repeatable
     #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     #[cfg_attr(
         feature = "command",
         arg(long, value_name = "KEY=VALUES", required_unless_present = "merge")
     )]
     pub vary: Vec<Axis>,
-    /// The k-th of n parts of the runs only; shards may share a directory
+    /// Run only part K of N; shards may share a directory
     #[cfg_attr(feature = "schema", schemars(with = "String"))]
     #[cfg_attr(feature = "command", arg(long, value_name = "K/N", default_value_t = Shard::WHOLE))]
     pub shard: Shard,
-    /// Keep the trajectory of each run, in runs/NUMBER/trajectory.csv
+    /// Keep the trajectory of each run (runs/NUMBER/trajectory.csv)
     #[cfg_attr(feature = "command", arg(long))]
     pub keep_rows: bool,
-    /// Instead of runs: write one table of the results in these directories
+    /// Merge the results of these directories instead of running
     #[cfg_attr(feature = "command", arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["vary", "shard", "keep_rows"]))]
     pub merge: Vec<PathBuf>,
 }
@@ -59,7 +58,7 @@ impl Default for Sweep {
     }
 }
 
-/// Code of a sweep of which runs are not done.
+/// Code of a sweep with unfinished runs.
 const NOT_DONE: Code = Code::new(514);
 
 impl Question for Sweep {
@@ -67,7 +66,7 @@ impl Question for Sweep {
     const SCHEMA: &'static str = include_str!("sweep/answer.schema.json");
     const OUTPUT: Option<Output> = Some(Output {
         family: FAMILY,
-        contents: "the tables, and what they are made of",
+        contents: "tables and partial results",
         writing: Writing::Meanwhile { shared: true, cut },
     });
     type Subject<'s> = Option<&'s Start<'s>>;
@@ -79,7 +78,7 @@ impl Question for Sweep {
         control: &Control<'_>,
     ) -> Result<SweepAnswer, Refusal> {
         let Some(directory) = control.directory else {
-            let message = "a sweep is written into a directory; none was given";
+            let message = "a sweep needs an output directory";
             return Err(Refusal::input(message.to_owned()));
         };
         match of {
@@ -108,7 +107,7 @@ impl Question for Sweep {
 }
 
 impl Sweep {
-    /// Makes the runs.
+    /// Performs the runs.
     fn made(
         &self,
         of: &Start<'_>,
@@ -129,7 +128,7 @@ impl Sweep {
         let mut sweep = sweep.map_err(refused)?;
         let threads = control.threads.map_or(0, NonZeroUsize::get);
         if of.budget.limit.is_some() {
-            // A scene that has no start may have one with other numbers.
+            // A scene without a consistent start may have one with other numbers.
             let study = of.study(control).ok();
             let of_run = study.and_then(|study| study.memory(of.text.len()).ok());
             let of_all = of_run.unwrap_or(0).saturating_mul(threads.max(1));
@@ -143,7 +142,7 @@ impl Sweep {
             threads,
         };
         (control.progress)(Progress::Writing(self.shard.to_string()));
-        // Runs that are done, all of them, and those that failed.
+        // Number of finished runs, number of all runs, and number of failed runs.
         let counts = Mutex::new((0, 0, 0));
         let outcome = sweep.run_into(directory.path(), &settings, control.stop, |progress| {
             let mut counts = counts.lock().unwrap_or_else(PoisonError::into_inner);
@@ -177,8 +176,8 @@ impl Sweep {
     }
 }
 
-/// Ends the attempt in order, so that none of its runs is suspected, and writes the tables of what
-/// is finished. `begun` is the shard.
+/// Ends the attempt properly, so that none of its runs counts as the cause of a crash, and writes
+/// the tables of the finished runs. `begun` is the name of the shard.
 fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
     let out = directory.path();
     end_attempts(out);
@@ -208,7 +207,7 @@ enum SweepEnd {
     Whole(Tables),
     /// A stop was requested.
     Interrupted,
-    /// Some runs have not been made by any shard.
+    /// Some runs have not been performed by any shard.
     Missing {
         /// The number of shards, if it is known.
         shards: Option<u64>,
@@ -220,7 +219,7 @@ enum SweepEnd {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SweepAnswer {
-    /// Their summary.
+    /// Summary of the runs.
     #[serde(flatten)]
     pub document: SweepDocument,
     #[serde(skip)]

@@ -1,4 +1,4 @@
-//! How far do verdicts, reactions and places hold while data vary within their tolerances?
+//! How much do verdicts, reactions and positions vary if the data vary within their tolerances?
 
 mod page;
 mod words;
@@ -18,7 +18,7 @@ use crate::tolerance::{
 };
 use crate::words::Block;
 
-/// Data within their tolerances: how far verdicts, reactions and places hold
+/// Run a Monte-Carlo analysis of the tolerances
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
@@ -28,15 +28,14 @@ pub struct Tolerance {
     /// Number of samples
     #[cfg_attr(feature = "command", arg(long, value_name = "N", default_value_t = SAMPLES))]
     pub runs: usize,
-    /// A parameter or number of the scene that varies besides, and by how much: KEY=±VALUE or
-    /// KEY=±P%; may be given several times
+    /// Also vary a parameter or number: KEY=±VALUE or KEY=±P%; repeatable
     #[cfg_attr(feature = "command", arg(long, value_name = "KEY=±VALUE"))]
     #[cfg_attr(feature = "schema", schemars(with = "Vec<String>"))]
     pub vary: Vec<Variation>,
-    /// Another seed gives other samples
+    /// Random seed
     #[cfg_attr(feature = "command", arg(long, value_name = "S", default_value_t = 1))]
     pub seed: u64,
-    /// Time of the motion at which the samples are analysed (s)
+    /// Analyse the samples at this time (s)
     #[cfg_attr(
         feature = "command",
         arg(
@@ -69,7 +68,7 @@ impl Question for Tolerance {
     const SCHEMA: &'static str = include_str!("tolerance/answer.schema.json");
     const OUTPUT: Option<Output> = Some(Output {
         family: Family(&[TABLE, DOCUMENT, PAGE]),
-        contents: "the samples as a table, the document, and a page",
+        contents: "samples, JSON document and page",
         writing: Writing::AtEnd,
     });
     type Subject<'s> = &'s Start<'s>;
@@ -123,15 +122,15 @@ impl Question for Tolerance {
     }
 }
 
-/// What samples say together.
+/// Combined results of all samples.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ToleranceAnswer {
-    /// Verdicts, ranges and places.
+    /// Verdicts, and ranges of reactions and positions.
     #[serde(flatten)]
     pub document: ToleranceDocument,
-    /// Number of samples that were asked for.
+    /// Number of requested samples.
     #[serde(skip)]
     wanted: usize,
     #[serde(skip)]

@@ -14,20 +14,20 @@ use crate::start::Start;
 use crate::words::Block;
 use crate::work_precision::{ComparisonPlan, Rival, Subject, overview};
 
-/// Error versus run time, for every method and tolerance
+/// Measure error against run time of all methods
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 #[cfg_attr(feature = "command", derive(clap::Args))]
 #[cfg_attr(feature = "command", command(after_help = include_str!("work_precision/examples.txt")))]
 pub struct WorkPrecision {
-    /// Three tolerances, for a quick overview
+    /// Use only three tolerances
     #[cfg_attr(feature = "command", arg(long, conflicts_with = "all"))]
     pub quick: bool,
-    /// Every method with every stabilisation
+    /// Measure every method with every stabilisation
     #[cfg_attr(feature = "command", arg(long))]
     pub all: bool,
-    /// Also the figure as PNG (feature `png`)
+    /// Also write the figure as PNG (feature `png`)
     #[cfg_attr(feature = "command", arg(long))]
     pub png: bool,
 }
@@ -57,18 +57,18 @@ impl Question for WorkPrecision {
             let study = of.prepared(&RunOptions::default(), control)?;
             Subject::of_study(study).map_err(|e| of.refusal(e))
         };
-        // All scenes are read before the first is run.
+        // All scenes are read before the first one is run.
         let subjects = of.iter().map(subject).collect::<Result<Vec<_>, _>>()?;
         self.compared(&subjects, &[], control)
     }
 }
 
 impl WorkPrecision {
-    /// Makes the runs of these scenes, also by methods that are not part of pfaff. Of runs that are
-    /// stopped, those before are the answer.
+    /// Performs the runs of these scenes, also with methods that are not part of pfaff. If a run is
+    /// stopped, the answer contains the runs before it.
     ///
     /// # Errors
-    /// Nothing can be compared.
+    /// Returns an error if no scene can be compared.
     pub fn compared(
         &self,
         subjects: &[Subject],
@@ -109,7 +109,7 @@ impl WorkPrecision {
                         break;
                     }
                 }
-                // The runs of the scenes before it are kept.
+                // The runs of the preceding scenes are kept.
                 Err(e) if k > 0 => {
                     let (code, error) = (e.code(), e.to_string());
                     ending = Ending::Partial { code, error };

@@ -1,4 +1,4 @@
-//! Problems of a scene with its lines and carets.
+//! Prints the problems of a scene with its lines and carets.
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
 use scene::{Diagnostic, Severity};
@@ -8,7 +8,7 @@ use super::visible;
 /// Largest number of problems that are shown; the others are counted.
 const SHOWN: usize = 50;
 
-/// Problems of a scene with its lines and carets.
+/// Prints the problems of a scene with its lines and carets.
 pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: bool) -> String {
     let mut out = Vec::new();
     // The positions of the lines are computed once for all problems.
@@ -51,7 +51,7 @@ pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: 
     // If some problems are not listed, the last one states how many.
     let is_listed = diagnostics.iter().all(|d| d.severity != Severity::Note);
     if diagnostics.len() > SHOWN {
-        // The last one may be the number of more.
+        // The last problem may be only the number of unlisted problems.
         let (more, listed) = if is_listed {
             ("", diagnostics.len())
         } else {
@@ -66,7 +66,8 @@ pub(super) fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: 
     rendered
 }
 
-/// A text without codes of colours: kinds with a code of their own are coloured in any case.
+/// Removes colour codes from a text: the library colours kinds with a code of their own in any
+/// case.
 fn uncoloured(text: &str) -> String {
     let mut pieces = text.split('\u{1b}');
     let first = pieces.next().unwrap_or_default().to_owned();
@@ -78,10 +79,10 @@ fn uncoloured(text: &str) -> String {
 /// Length of the longest line (bytes) that is shown completely.
 const WIDEST: usize = 2000;
 
-/// Bytes of a longer line that are shown on each side of a place.
+/// Bytes of a longer line that are shown on each side of a position.
 const AROUND: usize = 40;
 
-/// The line that contains a place.
+/// Returns the line that contains a position.
 fn line_around(text: &str, at: usize) -> &str {
     let at = text.floor_char_boundary(at);
     let (before, after) = text.split_at(at);

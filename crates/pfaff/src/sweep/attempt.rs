@@ -1,4 +1,4 @@
-//! An attempt of this process to make the runs of a shard, on several threads, with a journal.
+//! An attempt of this process to perform the runs of a shard, on several threads, with a journal.
 
 use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -14,14 +14,15 @@ use super::varied::reason;
 use super::{Sweep, SweepError, gate};
 use crate::workers::Workers;
 
-/// A run is the cause if its process has ended so often while it made no other run. Once may be an
-/// accident, or somebody who was impatient.
+/// A run counts as the cause of a crash if its process has ended this many times while it performed
+/// no other run. A single end may be an accident, or an impatient user may have stopped the
+/// process.
 const PROOF: u64 = 2;
 
 /// Progress of a sweep.
 #[derive(Clone, Copy, Debug)]
 pub enum SweepProgress<'a> {
-    /// It begins.
+    /// The attempt begins.
     Begin {
         /// Number of runs of this shard.
         runs: u64,
@@ -32,21 +33,21 @@ pub enum SweepProgress<'a> {
     Finished(&'a SweepRow),
 }
 
-/// An attempt.
+/// An attempt to perform the runs of a shard.
 pub(super) struct Attempt<'a, P> {
     sweep: &'a Sweep<'a>,
     keep: Keep<'a>,
     interrupted: &'a Stop<'a>,
-    /// Whether a thread has met an error.
+    /// Whether an error has occurred on a thread.
     fails: AtomicBool,
     ledger: Mutex<Ledger<P>>,
 }
 
-/// What the threads of an attempt share.
+/// Data that the threads of an attempt share.
 struct Ledger<P> {
     journal: Journal,
     progress: P,
-    /// Whether some run could begin.
+    /// Whether at least one run could begin.
     has_begun: bool,
 }
 
@@ -71,19 +72,19 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
         }
     }
 
-    /// The journal, after the attempt.
+    /// Returns the journal, after the attempt.
     pub(super) fn into_journal(self) -> Journal {
         let ledger = self.ledger.into_inner();
         ledger.unwrap_or_else(PoisonError::into_inner).journal
     }
 
-    /// Whether one of the runs that were made could begin.
+    /// Whether one of the performed runs could begin.
     pub(super) fn has_begun(&self) -> bool {
         self.with(|ledger| ledger.has_begun)
     }
 
     fn with<T>(&self, act: impl FnOnce(&mut Ledger<P>) -> T) -> T {
-        // A thread that panicked has written a whole line or none.
+        // A thread that panicked has written either a whole line or no line.
         act(&mut self.ledger.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
@@ -91,8 +92,8 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
         self.fails.load(Ordering::Relaxed) || (self.interrupted)()
     }
 
-    /// Makes the pending runs: first those that may have ended a process, alone, then the others
-    /// on several threads.
+    /// Performs the pending runs: first the runs that may have ended a process, alone, then the
+    /// others on several threads.
     pub(super) fn make(
         &self,
         known: &Records,
@@ -107,7 +108,7 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
         let workers = Workers::start(threads);
         workers.install(|| self.make_alone(known, &suspects))?;
         let n = workers.number();
-        // Small groups if there are few runs, so that threads end at the same time.
+        // If there are few runs, the groups are small, so that threads end at the same time.
         let size = others.len().div_ceil(4 * n).clamp(1, TOGETHER);
         let groups: Vec<&[u64]> = others.chunks(size).collect();
         let next = AtomicUsize::new(0);
@@ -170,8 +171,9 @@ impl<'a, P: FnMut(SweepProgress<'_>) + Send> Attempt<'a, P> {
         })
     }
 
-    /// The error of a sweep of which no run can begin, after those that were made could not. `None`
-    /// if one can, or if that is not known because a run may end the process.
+    /// Returns the error of a sweep in which no run can begin, after the performed runs could not
+    /// begin. Returns `None` if a run can begin, or if this is unknown because a run may end the
+    /// process.
     pub(super) fn none_begins(
         &self,
         made: Runs,

@@ -7,16 +7,16 @@ use std::str::FromStr;
 use scene::WithUnit;
 use serde::Deserialize;
 
-/// Largest number of runs of a sweep: their rows are held in memory when tables are written.
+/// Largest number of runs of a sweep: their rows are stored in memory when tables are written.
 const RUNS_MAX: usize = 10_000_000;
 
-/// A key of a scene with the values it takes, as `KEY=FROM:TO:N`, `KEY=FROM:TO:N:log` or
+/// A key of a scene with the values it takes, such as `KEY=FROM:TO:N`, `KEY=FROM:TO:N:log` or
 /// `KEY=1,2,5`.
 ///
 /// `FROM:TO:N` are N ≥ 2 values including both ends, evenly spaced, or evenly spaced in their
-/// logarithms. Both ends are exact. Numbers may have a unit, both ends of a range the same one, as
-/// `L=300mm:500mm:21`; then the values of the axis are in SI, and the scene gets them as written
-/// and checks the unit.
+/// logarithms. Both ends are exact. Numbers may have a unit, and both ends of a range must have the
+/// same unit, as in `L=300mm:500mm:21`. Then the values of the axis are in SI units; the scene
+/// receives them as written and checks the unit.
 ///
 /// ```
 /// use pfaff::sweep::Axis;
@@ -35,7 +35,7 @@ pub struct Axis {
     /// The text of the values.
     text: String,
     values: Vec<f64>,
-    /// The values as the scene gets them, if they have a unit.
+    /// The values as the scene receives them, if they have a unit.
     written: Option<Vec<String>>,
 }
 
@@ -57,12 +57,12 @@ pub enum AxisError {
         /// The value.
         value: String,
     },
-    /// Some values have a unit and others have none, or another one.
+    /// Some values have a unit and others have no unit or a different one.
     #[error("`{text}`: {problem}")]
     Units {
         /// The text.
         text: String,
-        /// What does not go together.
+        /// Description of the inconsistency.
         problem: &'static str,
     },
     /// A range has fewer than two values, or too many.
@@ -90,7 +90,7 @@ pub enum AxisError {
 }
 
 impl AxisError {
-    /// Its code; see [`model::codes`].
+    /// Returns the code of the error; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -106,7 +106,7 @@ impl AxisError {
 }
 
 impl Axis {
-    /// An axis with a key and any values.
+    /// Creates an axis with a key and any values.
     ///
     /// # Errors
     /// [`AxisError::Form`], [`AxisError::Value`]: there are no values, or they are not finite.
@@ -121,12 +121,12 @@ impl Axis {
         &self.key
     }
 
-    /// Whether its values have no unit: they are in those of the scene.
+    /// Whether the values of the axis have no unit: then they are in the units of the scene.
     pub(super) fn is_bare(&self) -> bool {
         self.written.is_none()
     }
 
-    /// Its values.
+    /// Returns the values of the axis.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
@@ -219,7 +219,7 @@ impl FromStr for Axis {
     }
 }
 
-/// A number of an axis as it is written.
+/// A number of an axis in its written form.
 #[derive(Clone, Copy)]
 struct Number<'a> {
     number: f64,
@@ -243,12 +243,12 @@ impl<'a> Number<'a> {
         }
     }
 
-    /// Another number with its unit, in SI; without a unit the number itself.
+    /// Converts another number with the same unit to SI; without a unit the number is unchanged.
     fn in_si(&self, number: f64) -> f64 {
         self.unit.map_or(number, |unit| unit.in_si(number))
     }
 
-    /// Another number with its unit, for a scene.
+    /// Writes another number with the same unit, for a scene.
     fn text(&self, number: f64) -> String {
         let unit = self.unit.map_or("", |unit| unit.unit);
         format!("{number:?} {unit}")
@@ -262,18 +262,19 @@ enum Spacing {
 }
 
 impl Spacing {
-    /// Value k of 0 … last.
+    /// Returns value k of the values 0 … last.
     fn value(self, from: f64, to: f64, k: usize, last: usize) -> f64 {
         let share = k as f64 / last as f64;
         match self {
             _ if k == 0 => from,
             _ if k == last => to,
-            // Rounded once if the ends are whole numbers, so that 0:1:11 contains 0.3.
+            // The result is rounded once if the ends are whole numbers, so that 0:1:11 contains
+            // 0.3.
             Self::Even if (from.abs() + to.abs()) * (last as f64) < f64::MAX => {
                 (from * (last - k) as f64 + to * k as f64) / last as f64
             }
             Self::Even => from * (1.0 - share) + to * share,
-            // Exact at powers of ten.
+            // The result is exact at powers of ten.
             Self::Logarithmic => {
                 let exponent = from.abs().log10() * (1.0 - share) + to.abs().log10() * share;
                 10_f64.powf(exponent).copysign(from)
@@ -304,12 +305,12 @@ impl Grid {
         Ok(Self { axes, len })
     }
 
-    /// The values of a combination, from 0.
+    /// Returns the values of a combination, counted from 0.
     pub(super) fn point(&self, run: usize) -> Vec<f64> {
         self.each(run, |axis, k| axis.values[k])
     }
 
-    /// The same values as a scene gets them.
+    /// Returns the same values in the form that a scene receives.
     pub(super) fn written(&self, run: usize) -> Vec<String> {
         self.each(run, |axis, k| match &axis.written {
             Some(written) => written[k].clone(),
@@ -317,7 +318,7 @@ impl Grid {
         })
     }
 
-    /// What belongs to the index of the value of each axis in a combination.
+    /// Returns the item for the index of the value of each axis in a combination.
     fn each<T>(&self, run: usize, of: impl Fn(&Axis, usize) -> T) -> Vec<T> {
         let mut rest = run;
         let mut point: Vec<T> = self

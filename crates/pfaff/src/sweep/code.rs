@@ -1,5 +1,5 @@
-//! Generated code for the runs of a sweep: made once, without a compiler, with what the varied keys
-//! touch as inputs.
+//! Generated code for the runs of a sweep. The code is generated once, without a compiler; its
+//! inputs are the numbers that the varied keys affect.
 
 use std::sync::Arc;
 
@@ -11,7 +11,8 @@ use scene_codegen::{CodeError, LANES, NotAnInput, Tape};
 use super::run::UnvariedScene;
 use crate::study::Study;
 
-/// Sweeps of fewer runs are interpreted: making the code takes as long as 10 to 30 of them.
+/// Sweeps with fewer runs are interpreted, because the generation of the code takes as long as 10
+/// to 30 runs.
 const FEW: u64 = 100;
 
 /// The code of all runs of a sweep.
@@ -20,11 +21,11 @@ pub(super) struct SweepCode {
 }
 
 impl SweepCode {
-    /// The code for runs of a scene with other numbers at these keys; `described` is the scene
-    /// without changes.
+    /// Generates the code for runs of a scene with other numbers at these keys; `described` is the
+    /// scene without changes.
     ///
     /// # Errors
-    /// Why runs are interpreted.
+    /// Returns the reason why runs are interpreted.
     pub(super) fn new(
         (name, text): (&str, &str),
         registry: &Registry,
@@ -35,7 +36,7 @@ impl SweepCode {
             return Err(format!("code is made for {FEW} runs and more"));
         }
         let described = described.ok_or("the scene has no start without its changes")?;
-        // What is no number of the equations, such as a tolerance, needs no input.
+        // A setting that is not a number of the equations, such as a tolerance, needs no input.
         let is_of_run = |key: &&String| key.starts_with("simulate.");
         let mut keys: Vec<String> = keys.iter().filter(|key| !is_of_run(key)).cloned().collect();
         let tape = loop {
@@ -55,7 +56,7 @@ impl SweepCode {
         Ok(code)
     }
 
-    /// What it is, in words.
+    /// Describes the code as text.
     pub(super) fn describe(&self) -> String {
         let inputs = self.tape.inputs().map_or(0, |inputs| inputs.list.len());
         let inputs = match inputs {
@@ -68,7 +69,7 @@ impl SweepCode {
         )
     }
 
-    /// Prepares a run for the code with its numbers; `None` if it has to be interpreted.
+    /// Prepares a run for the code with its numbers; `None` if the run must be interpreted.
     pub(super) fn of_run(
         &self,
         study: &mut Study,

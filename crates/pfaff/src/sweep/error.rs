@@ -1,4 +1,4 @@
-//! Reasons why a sweep does not begin or continue. Faults of single runs are reported in their
+//! Reasons why a sweep does not begin or continue. Errors of single runs are reported in their
 //! rows.
 
 use model::codes::Code;
@@ -29,7 +29,7 @@ pub enum SweepError {
         runs: u64,
         /// Keys with their values in the first run.
         values: String,
-        /// The reason why it does not begin.
+        /// Reason why the first run does not begin.
         reason: String,
     },
     /// The results in the directory cannot be continued.
@@ -44,7 +44,7 @@ pub enum SweepError {
 }
 
 impl SweepError {
-    /// Its code; see [`model::codes`].
+    /// Returns the code of the error; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -60,7 +60,7 @@ impl SweepError {
 }
 
 impl SweepError {
-    /// Whether the input is invalid; otherwise the computation stopped.
+    /// Whether the input is invalid; otherwise the error occurred during the computation.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

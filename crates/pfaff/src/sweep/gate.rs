@@ -1,22 +1,22 @@
-//! Runs that may end their process are made while it makes no other run of any sweep, so that its
-//! end has one cause.
+//! Runs that may end their process are performed while the process performs no other run of any
+//! sweep, so that its end has a unique cause.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError};
 use std::thread::sleep;
 use std::time::Duration;
 
-/// Runs beside others share it.
+/// Runs that may execute at the same time share this lock.
 static GATE: RwLock<()> = RwLock::new(());
 
-/// How many wait to be alone; they go first.
+/// Number of threads that wait to run alone; they take precedence.
 static WAITING: AtomicUsize = AtomicUsize::new(0);
 
-/// Time between two attempts.
+/// Time between two attempts to lock.
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Waits until no run is made alone. Returns `None` if it was interrupted. A thread passes once at
-/// a time.
+/// Waits until no thread runs alone. Returns `None` if the wait was interrupted. A thread may hold
+/// only one lock at a time.
 pub(super) fn beside_others(
     interrupted: &dyn Fn() -> bool,
 ) -> Option<RwLockReadGuard<'static, ()>> {
@@ -35,7 +35,8 @@ pub(super) fn beside_others(
     }
 }
 
-/// Waits until no other run is made, and lets none begin. Returns `None` if it was interrupted.
+/// Waits until no other run is in progress, and prevents others from beginning. Returns `None` if
+/// the wait was interrupted.
 pub(super) fn alone(interrupted: &dyn Fn() -> bool) -> Option<RwLockWriteGuard<'static, ()>> {
     let _waits = Waits::new();
     loop {

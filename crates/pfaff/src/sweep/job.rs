@@ -1,4 +1,5 @@
-//! One run with what it writes: moved to its end, again without code if it has lost its way.
+//! One run with its output. The run is repeated without generated code if it stopped after it had
+//! left that code.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -9,25 +10,25 @@ use report::{OutputDirectory, TrajectoryTable};
 use super::SweepError;
 use super::run::{MadeRun, PreparedRun};
 
-/// What is kept of runs besides their rows.
+/// Output of runs in addition to their rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Keep<'d> {
-    /// Nothing.
+    /// No further output.
     Rows,
-    /// The trajectories, in this directory.
+    /// The trajectories, written to this directory.
     Trajectories(&'d Path),
 }
 
-/// A run that has begun, with what it writes.
+/// A run that has begun, with its output.
 pub(super) struct Job {
     pub(super) run: u64,
     pub(super) begun: PreparedRun,
-    /// Where its trajectory goes.
+    /// Directory of the trajectory.
     folder: Option<OutputDirectory>,
 }
 
 impl Job {
-    /// A run of so many with what it writes.
+    /// Creates a run, one of this number of runs, with its output.
     pub(super) fn new(
         run: u64,
         begun: PreparedRun,
@@ -38,15 +39,16 @@ impl Job {
             Keep::Rows => None,
             Keep::Trajectories(directory) => {
                 let folder = folder(directory, run, runs);
-                // Another process may make the same run.
+                // Another process may perform the same run.
                 Some(OutputDirectory::create(folder)?.with_own_parts())
             }
         };
         Ok(Self { run, begun, folder })
     }
 
-    /// Moves it to its end and stores its trajectory; `None` if `stop` has ended it: it is made
-    /// again then. `evaluator` evaluates its code, if there are several runs at once.
+    /// Performs the run up to its end and stores its trajectory; returns `None` if `stop` ended the
+    /// run, which is then repeated later. `evaluator` evaluates the code of the run, if several
+    /// runs are performed at once.
     pub(super) fn go(
         mut self,
         evaluator: Option<&dyn SceneCode>,
@@ -54,8 +56,8 @@ impl Job {
     ) -> Result<Option<MadeRun>, SweepError> {
         let ended = self.attempt(evaluator, stop)?;
         if ended.as_ref().is_some_and(MadeRun::has_lost_its_way) {
-            // The interpreter passes some places from where it comes, and not from where code
-            // leaves it.
+            // The interpreter passes some configurations if it starts before them, but not if it
+            // starts at the end of generated code.
             self.begun.leave_code();
             return self.attempt(None, stop);
         }
@@ -106,7 +108,8 @@ impl Job {
     }
 }
 
-/// Directory of the files of a run; its number has as many digits as that of the last run.
+/// Returns the directory of the files of a run; its number has as many digits as that of the last
+/// run.
 fn folder(directory: &Path, run: u64, runs: u64) -> PathBuf {
     let width = runs.to_string().len();
     directory.join("runs").join(format!("{run:0width$}"))

@@ -1,7 +1,11 @@
-//! Several runs on one thread, whose code is evaluated together. Each run is a coroutine that waits
-//! whenever it needs a function of its code; once all wait, the function that most of them need is
-//! evaluated for as many of these as fill whole lanes. So runs keep their own steps, projections
-//! and events, and are the same bits as alone.
+//! Several runs on one thread, with a combined evaluation of their code. Each run is a coroutine
+//! that waits whenever it needs a function of its code. When all runs wait, the function that most
+//! of them need is evaluated for a number of runs that fills whole SIMD batches. So each run has
+//! its own steps, projections and events, and its results are bitwise the same as alone.
+//!
+//! Rejected alternatives: a separate loop for several runs, and threads instead of coroutines,
+//! because a switch of threads costs more than an evaluation. Code that is compiled at run time was
+//! also rejected, because it needs `unsafe`.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -17,13 +21,13 @@ use super::SweepError;
 use super::job::Job;
 use super::run::MadeRun;
 
-/// Size of the stack of a run (bytes); memory is taken by what is used of it.
+/// Size of the stack of a run (bytes); memory is used only for the touched part.
 const STACK: usize = 2 << 20;
 
-/// How a run has ended: `None` if it was interrupted.
+/// Result of a run: `None` if it was interrupted.
 type Outcome = Result<Option<MadeRun>, SweepError>;
 
-/// What a run waits for.
+/// The function for which a run waits.
 struct Wait {
     function: CodeFunction,
     call: Box<TapeCall>,
@@ -31,7 +35,7 @@ struct Wait {
 
 type Lane = Coroutine<Option<Box<TapeCall>>, Wait, Outcome, DefaultStack>;
 
-/// Makes the runs and hands each result over as soon as it is there.
+/// Performs the runs and passes on each result as soon as it is available.
 pub(super) fn together(
     jobs: Vec<Job>,
     interrupted: &Stop<'_>,
@@ -49,7 +53,7 @@ pub(super) fn together(
             continue;
         };
         let stopped = Arc::clone(&stopped);
-        // What a coroutine begins with has to be small.
+        // The initial data of a coroutine must be small.
         let job = Box::new(job);
         let mut lane = Lane::with_stack(stack, move |yielder, _| {
             let waits = Waits {
@@ -78,7 +82,8 @@ pub(super) fn together(
         let Some(&function) = needed.filter(|f| !calls[f.index()].is_empty()) else {
             return Ok(());
         };
-        // Who would leave lanes empty waits for others, if there are others to go on with.
+        // If other runs can continue, runs that would leave SIMD batches incomplete wait for
+        // others.
         let count = calls[function.index()].len();
         let count = if count < LANES {
             count
@@ -100,10 +105,10 @@ pub(super) fn together(
     }
 }
 
-/// The code of a run that waits until a function is evaluated.
+/// The code of a run, which waits until a function is evaluated.
 struct Waits<'y> {
     spec: Tape,
-    /// Where arguments and results are; it is away during an evaluation.
+    /// Storage for arguments and results; empty during an evaluation.
     call: RefCell<Option<Box<TapeCall>>>,
     yielder: &'y Yielder<Option<Box<TapeCall>>, Wait>,
 }

@@ -1,5 +1,5 @@
-//! Runs made on one thread, one after another or together, each handed over as soon as it is
-//! finished. Whoever makes several at once makes them here.
+//! Runs on one thread, one after another or together, each passed on as soon as it is finished. All
+//! callers that perform several runs at once use this module.
 
 use dynamics::Stop;
 use report::SweepRow;
@@ -12,9 +12,9 @@ use super::{Sweep, SweepError};
 pub(super) const TOGETHER: usize = 32;
 
 impl Sweep<'_> {
-    /// Makes these runs (from 1, ascending, at most [`TOGETHER`]) on this thread, and hands each
-    /// row over. What a row has does not depend on the others. Runs that are interrupted have no
-    /// row.
+    /// Performs these runs (from 1, ascending, at most [`TOGETHER`]) on this thread, and passes on
+    /// each row. The contents of a row do not depend on the other runs. Runs that are interrupted
+    /// have no row.
     pub(super) fn make(
         &self,
         runs: &[u64],

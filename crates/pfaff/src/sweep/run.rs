@@ -1,4 +1,4 @@
-//! One run of a sweep: the scene with its numbers, moved and recorded.
+//! One run of a sweep: the scene with its numbers, simulated and recorded.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
@@ -23,22 +23,22 @@ pub(super) struct PreparedRun {
     pub(super) study: Study,
     pub(super) options: MotionOptions,
     pub(super) analysis: Arc<Analysis>,
-    /// Number of unique reactions that are fragile.
+    /// Number of unique reactions that are ill-determined.
     pub(super) fragile: u64,
     /// Indices of the requested reactions in this mechanism.
     pub(super) reactions: Vec<Option<usize>>,
-    /// The code that the run is made on, if it is made on code.
+    /// The generated code of the run, if it uses generated code.
     pub(super) code: Option<Tape>,
 }
 
-/// The scene without changes, whose decisions serve all runs with the same constraints.
+/// The scene without changes, whose decisions are used for all runs with the same constraints.
 pub(super) struct UnvariedScene {
     study: Study,
     pub(super) analysis: Arc<Analysis>,
 }
 
 impl UnvariedScene {
-    /// `None` if it cannot be analysed.
+    /// Returns `None` if the scene cannot be analysed.
     pub(super) fn new(study: Study) -> Option<Self> {
         let PreparedMechanism {
             mechanism,
@@ -57,7 +57,8 @@ impl UnvariedScene {
         &self.study.prepared
     }
 
-    /// Whether a run has its constraints and its configuration, and so its decisions.
+    /// Whether a run has the same constraints and the same configuration, and so the same
+    /// decisions.
     pub(super) fn decides(&self, run: &PreparedMechanism) -> bool {
         let own = self.prepared();
         let both = own.decided.as_ref().zip(run.decided.as_ref());
@@ -65,30 +66,30 @@ impl UnvariedScene {
     }
 }
 
-/// How a run ended: what its row has, and the reason if it stopped.
+/// Result of a run: the contents of its row, and the reason if it stopped.
 pub(super) struct MadeRun {
     pub(super) motion: SweepMotion,
     pub(super) error: Option<StudyError>,
-    /// Whether it has left generated code on the way.
+    /// Whether the run has left generated code before its end.
     left_code: bool,
 }
 
 impl MadeRun {
-    /// Whether it stopped after it had left generated code.
+    /// Whether the run stopped after it had left generated code.
     pub(super) fn has_lost_its_way(&self) -> bool {
         self.error.is_some() && self.left_code
     }
 }
 
 impl PreparedRun {
-    /// Interprets it from its start on.
+    /// Interprets the run from its start on.
     pub(super) fn leave_code(&mut self) {
         self.study.prepared = self.study.prepared.clone().without_code();
     }
 
-    /// Moves it to its end, or until `each`, which is called with every written row, or `stop`,
-    /// which is called at each evaluation, stops it. `evaluator` evaluates its code, if there are
-    /// several runs at once.
+    /// Performs the run up to its end, or until a callback stops it: `each` is called with every
+    /// written row, and `stop` at each evaluation. `evaluator` evaluates the code of the run, if
+    /// several runs are performed at once.
     pub(super) fn go(
         &self,
         evaluator: Option<&dyn SceneCode>,
@@ -102,7 +103,7 @@ impl PreparedRun {
             reactions: Reactions::Of(watch.names()),
             groups: Vec::new(),
             choices: Vec::new(),
-            // A row of a sweep has no instants.
+            // The row of a sweep contains no instants.
             verdicts: Verdicts::OfRun,
         };
         let row = |sample: &mut Sample<'_, '_>| {
@@ -128,25 +129,25 @@ impl PreparedRun {
     }
 }
 
-/// Whether an event is one of the motion, not of how it is computed.
+/// Whether an event belongs to the motion and not to its computation.
 fn is_of_motion(event: &&Event) -> bool {
     !matches!(event.kind, EventKind::CodeLeft | EventKind::CodeUsed)
 }
 
-/// Values kept from the rows of a run.
+/// Values stored from the rows of a run.
 struct Watch<'s> {
     begun: &'s PreparedRun,
     /// Time of the last state (s).
     t_state: f64,
-    /// The last coordinates and velocities; none before the first row.
+    /// The last coordinates and velocities; `None` before the first row.
     last: Option<(Vec<f64>, Vec<f64>)>,
     /// The requested reactions; `None` for one that this run does not have.
     reactions: &'s [Option<usize>],
-    /// Of force and torque of each.
+    /// Largest force and torque of each reaction.
     largest: Vec<[Largest; 2]>,
 }
 
-/// The largest number, and the first time at which it occurs (s); NaN if there is none.
+/// The largest number, and the first time at which it occurs (s); NaN if there is no number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Largest {
     number: f64,
@@ -159,7 +160,7 @@ impl Largest {
         time: f64::NAN,
     };
 
-    /// Takes a number at a time into account; NaN is ignored.
+    /// Includes a number at a time; NaN is ignored.
     fn include(&mut self, time: f64, number: f64) {
         // A comparison with NaN is false, so the first number is always taken.
         if number > self.number || self.number.is_nan() && !number.is_nan() {
@@ -183,7 +184,7 @@ impl<'s> Watch<'s> {
         &self.begun.study.prepared.mechanism
     }
 
-    /// Names of the joints and drives whose reactions are looked at.
+    /// Returns the names of the joints and drives whose reactions are recorded.
     fn names(&self) -> Vec<String> {
         let groups = &self.mechanism().layout().groups;
         let known = self.reactions.iter().flatten();
@@ -215,7 +216,7 @@ impl<'s> Watch<'s> {
         Ok(())
     }
 
-    /// The last state, body by body in the order of trajectories; NaN if there is none.
+    /// Returns the last state, body by body in the order of trajectories; NaN if there is no state.
     fn state(&self) -> Vec<f64> {
         let mechanism = self.mechanism();
         let bodies = 0..mechanism.bodies().len();
@@ -229,7 +230,7 @@ impl<'s> Watch<'s> {
         }
     }
 
-    /// The extremes with their verdicts on the whole run.
+    /// Returns the extremes with their verdicts on the whole run.
     fn extremes(&self, verdicts: Option<&Stretches>) -> Vec<Option<[Extreme; 2]>> {
         let space = self.mechanism().space();
         let of = |place: Option<usize>, [force, torque]: [Largest; 2]| {

@@ -31,17 +31,17 @@ pub struct ShardError {
     text: String,
 }
 
-/// Largest number of parts that is guessed of the runs of a part.
+/// Largest number of parts that the search considers.
 const PARTS_MAX: u64 = 100_000;
 
 impl Shard {
-    /// All runs.
+    /// The shard that contains all runs.
     pub const WHOLE: Self = Self { k: 1, n: 1 };
 
-    /// The k-th of n parts.
+    /// Creates the k-th of n parts.
     ///
     /// # Errors
-    /// If it is not 1 ≤ k ≤ n.
+    /// Returns an error unless 1 ≤ k ≤ n.
     pub fn new(k: u64, n: u64) -> Result<Self, ShardError> {
         if 1 <= k && k <= n {
             Ok(Self { k, n })
@@ -51,28 +51,30 @@ impl Shard {
         }
     }
 
-    /// Which part it is.
+    /// Returns the index of the part, counted from 1.
     #[must_use]
     pub fn k(self) -> u64 {
         self.k
     }
 
-    /// How many parts there are.
+    /// Returns the number of parts.
     #[must_use]
     pub fn n(self) -> u64 {
         self.n
     }
 
-    /// Its runs of that many; `None` if there are more parts than runs, and none for this one.
+    /// Returns the runs of the part, of this total number; `None` if there are more parts than runs
+    /// and this part is empty.
     #[must_use]
     pub fn runs(self, all: u64) -> Option<Runs> {
-        // At most `all`, because k ≤ n.
+        // The result is at most `all`, because k ≤ n.
         let end = |k: u64| (u128::from(k) * u128::from(all) / u128::from(self.n)) as u64;
         Runs::new(end(self.k - 1) + 1, end(self.k))
     }
 
-    /// The number of parts of which all of these are some; `None` if they are all runs, if there
-    /// are none, or if they have been made for different numbers.
+    /// Finds a number of parts such that all given ranges are parts. Returns `None` if a range
+    /// contains all runs, if there are no ranges, or if the ranges belong to different numbers of
+    /// parts.
     #[must_use]
     pub fn number(all: u64, parts: &[Runs]) -> Option<u64> {
         let size = parts.iter().map(|part| part.count()).min()?;
@@ -85,7 +87,8 @@ impl Shard {
         (least..=most).find(|n| parts.iter().all(|part| is_part(*n, part)))
     }
 
-    /// Those of n parts that are these runs; `None` if they begin or end inside a part.
+    /// Returns the parts, of n, that consist of these runs; `None` if the runs begin or end inside
+    /// a part.
     #[must_use]
     pub fn of(runs: Runs, all: u64, n: u64) -> Option<Vec<Self>> {
         let at = |run: u64| (u128::from(run) * u128::from(n)).div_ceil(u128::from(all)) as u64;
@@ -153,7 +156,7 @@ mod tests {
             }
         }
         assert_eq!(Shard::WHOLE.runs(9), Runs::new(1, 9));
-        // The number of all runs may be as large as there is.
+        // The number of all runs may have the largest representable value.
         let last = Shard::new(u64::MAX, u64::MAX).expect("a shard");
         assert_eq!(last.runs(u64::MAX), Runs::new(u64::MAX, u64::MAX));
     }

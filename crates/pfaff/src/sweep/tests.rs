@@ -1,4 +1,4 @@
-//! Sweeps compared with closed forms, for any number of threads and shards and with interruptions.
+//! Compares sweeps with closed forms, for any number of threads and shards and with interruptions.
 
 mod code;
 
@@ -32,7 +32,7 @@ impl Folder {
         Self(path)
     }
 
-    /// The table, without the column of seconds.
+    /// Returns the table, without the column of seconds.
     fn table(&self) -> Vec<Vec<String>> {
         let text = fs::read_to_string(self.0.join("sweep.csv")).expect("written");
         let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
@@ -54,7 +54,7 @@ impl Drop for Folder {
     }
 }
 
-/// Cells of the force and of the torque of a joint.
+/// Returns cells of the force and of the torque of a joint.
 fn extremes(motion: &SweepMotion, joint: usize) -> [[f64; 2]; 2] {
     let of = motion.extremes[joint].as_ref().expect("it has reactions");
     of.each_ref().map(report::sweep::Extreme::cells)
@@ -79,8 +79,8 @@ fn shard(text: &str) -> Shard {
     text.parse().expect("a shard")
 }
 
-/// Small oscillations: x(t) = v/ω·sin ωt with ω² = g/L, and the largest tension m·(g + v²/L) at the
-/// bottom. Terms of order θ² < 10⁻⁸ are neglected.
+/// For small oscillations, x(t) = v/ω·sin ωt with ω² = g/L, and the largest tension at the bottom
+/// is m·(g + v²/L). Terms of order θ² < 10⁻⁸ are neglected.
 #[test]
 fn a_pendulum_swings_as_its_length_says() {
     let registry = Registry::standard();
@@ -118,7 +118,8 @@ fn a_pendulum_swings_as_its_length_says() {
     }
 }
 
-/// A beam on two hinges: the force along it is not determined, so no table has a number for it.
+/// A beam has two hinges: the force along it is not determined, so no table contains a value for
+/// it.
 #[test]
 fn reactions_that_are_not_unique_have_no_number() {
     let beam = r#"
@@ -149,8 +150,8 @@ simulate = { t_end = 0.1 }
     assert_eq!(sweep.plan.reactions, ["right"]);
 }
 
-/// Three parallel cranks stand upright at the start and turn: one pivot is two points on lines, and
-/// the horizontal one is unique at the start only.
+/// Three parallel cranks are upright at the start and rotate. One pivot consists of two points on
+/// lines, and the horizontal one is unique only at the start.
 const UPRIGHT: &str = r#"
 scene = { name = "upright", space = "plane", gravity = [0.0, -10.0] }
 body = [
@@ -193,7 +194,7 @@ fn verdicts_of_a_row_are_those_of_its_run() {
     let motion = of("");
     assert_eq!((motion.redundancy, motion.not_unique), (1, Some(7)));
     assert!((0..7).all(|k| extremes(&motion, k)[0][0].is_nan()));
-    // All joints are counted, whichever reactions have columns.
+    // All joints are counted, whether or not their reactions have columns.
     let motion = of("output = { reactions = [\"guide x\"] }\n");
     assert_eq!((motion.not_unique, motion.extremes.len()), (Some(7), 1));
     // Without reactions there are no verdicts of the run.
@@ -201,8 +202,8 @@ fn verdicts_of_a_row_are_those_of_its_run() {
     assert_eq!((motion.not_unique, motion.extremes.len()), (None, 0));
 }
 
-/// A bar that is fixed at one end and held along itself at the other: the force along it is shared,
-/// the torque of the fixed end is not.
+/// A bar is fixed at one end, and the other end is constrained along the bar. The force along the
+/// bar is shared, but the torque of the fixed end is unique.
 #[test]
 fn force_and_torque_have_numbers_of_their_own() {
     let scene = r#"
@@ -218,7 +219,7 @@ simulate = { t_end = 0.1 }
     let sweep = sweep(&registry, scene, &["body.bar.mass=3,6"]);
     let motion = sweep.row(2).motion.expect("it stands still");
     let [[force, _], [torque, _]] = extremes(&motion, 0);
-    // 6 kg at 0.5 m.
+    // The load is 6 kg at 0.5 m.
     assert!(
         force.is_nan() && (torque - 30.0).abs() < 1e-12,
         "{force} {torque}"
@@ -229,7 +230,7 @@ simulate = { t_end = 0.1 }
 #[test]
 fn threads_and_shards_leave_no_trace() {
     let registry = Registry::standard();
-    // A mass of −1 is refused.
+    // A mass of −1 is rejected.
     let sweep = sweep(
         &registry,
         PENDULUM,
@@ -238,7 +239,7 @@ fn threads_and_shards_leave_no_trace() {
     let folders = ["one", "two", "shards", "apart", "merged"].map(Folder::new);
     let [one, two, shards, apart, merged] = &folders;
     let document = run(&sweep, one, Shard::WHOLE, 1);
-    // Mass 0 allows no motion either: two of the ten masses, times two.
+    // Mass 0 also allows no motion: the two values are two of ten masses, and each occurs twice.
     assert_eq!(
         (document.runs, document.done, document.stopped),
         (20, 16, 0)
@@ -275,7 +276,7 @@ fn threads_and_shards_leave_no_trace() {
         (missing.as_slice(), found.shards),
         (&["1-6".to_owned()][..], Some(3))
     );
-    // The whole sweep in the directory of two shards makes the third part only.
+    // The whole sweep in the directory of two shards performs only the third part.
     let mut begun = (0, 0);
     let settings = SweepSettings::default();
     let note = |progress: SweepProgress<'_>| match progress {
@@ -289,7 +290,8 @@ fn threads_and_shards_leave_no_trace() {
     assert_eq!(one.table(), shards.table());
 }
 
-/// Whoever ends last finds all runs and writes the tables, and more shards than runs do no harm.
+/// The process that ends last finds all runs and writes the tables, and more shards than runs cause
+/// no error.
 #[test]
 fn the_last_shard_writes_the_tables() {
     let registry = Registry::standard();
@@ -311,7 +313,7 @@ fn the_last_shard_writes_the_tables() {
     assert_eq!(folder.table(), whole.table());
 }
 
-/// Two processes that make the same shard at the same time, here two threads.
+/// Two processes, here two threads, perform the same shard at the same time.
 #[test]
 fn the_same_shard_twice_at_once_is_harmless() {
     let registry = Registry::standard();
@@ -321,7 +323,7 @@ fn the_same_shard_twice_at_once_is_harmless() {
         threads: 1,
         ..SweepSettings::default()
     };
-    // Both begin before one of them has finished anything.
+    // Both threads begin before one of them has finished a run.
     let barrier = std::sync::Barrier::new(2);
     std::thread::scope(|scope| {
         for _ in 0..2 {
@@ -377,16 +379,16 @@ fn groups_leave_no_trace() {
             if let (Some(a), Some(b)) = (&a.motion, &mut b.motion) {
                 b.seconds = a.seconds;
             }
-            // NaN are equal as texts.
+            // NaN values are equal as texts.
             assert_eq!(format!("{a:?}"), format!("{b:?}"));
         }
     }
 }
 
-/// Runs that end their process. The variable is read by the test alone.
+/// Runs that end their process. Only the test reads this variable.
 const FATAL: &str = "PFAFF_TEST_FATAL_RUNS";
 
-/// Is called before a run is made.
+/// Called before a run is performed.
 pub(super) fn begins(run: u64) {
     if let Ok(fatal) = std::env::var(FATAL)
         && fatal.split(' ').any(|fatal| fatal == run.to_string())
@@ -397,7 +399,7 @@ pub(super) fn begins(run: u64) {
 
 const MASSES: &str = "body.bob.mass=1:60:60";
 
-/// A process of its own that makes a sweep, if a test has begun it.
+/// A separate process that performs a sweep, if a test has started it.
 #[test]
 fn a_process_that_may_be_ended() {
     if let (Ok(_), Ok(folder)) = (std::env::var(FATAL), std::env::var("PFAFF_TEST_FOLDER")) {
@@ -431,7 +433,7 @@ fn a_run_that_ends_its_process_twice_is_named() {
         deaths += 1;
         assert!(deaths <= 6, "{child:?}");
     }
-    // Twice each alone, and once each among others if not both at once.
+    // Each run ends the process twice alone, and once among others unless both did so at once.
     assert!((5..=6).contains(&deaths), "{deaths}");
     let sweep = sweep(&registry, PENDULUM, &[MASSES]);
     let document = run(&sweep, &folder, Shard::WHOLE, 1);
@@ -451,7 +453,7 @@ fn a_run_that_ends_its_process_twice_is_named() {
     for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
         assert_eq!(found == expected, ![7, 45].contains(&k), "{found:?}");
     }
-    // What is known stays known.
+    // Stored results remain available.
     let again = SweepSettings::default();
     let note = |progress: SweepProgress<'_>| {
         assert!(matches!(
@@ -465,7 +467,8 @@ fn a_run_that_ends_its_process_twice_is_named() {
     sweep
         .run_into(&folder.0, &again, || false, note)
         .expect("nothing is left");
-    // It is forgotten if that is asked for: then the two runs, and no others, are made again.
+    // After a request the rows of the crashed runs are deleted: then these two runs, and no others,
+    // are repeated.
     assert_eq!(super::forget_crashed(&folder.0).expect("forgotten"), 2);
     assert_eq!(super::forget_crashed(&folder.0).expect("forgotten"), 0);
     let (mut finished, mut made) = (0, Vec::new());
@@ -592,7 +595,8 @@ fn wrong_sweeps_are_refused_before_anything_is_written() {
     }
 }
 
-/// The columns of varied numbers are in SI, however they are written, like all other columns.
+/// The columns of varied numbers are in SI units, in any notation of the input, like all other
+/// columns.
 #[test]
 fn varied_numbers_are_in_si_whatever_was_typed() {
     let scene = "
@@ -623,7 +627,8 @@ t_end = 0.1
         let is_near = |(a, b): (&f64, f64)| (a - b).abs() <= 1e-15 * b;
         found.iter().zip(expected).all(is_near)
     };
-    // kg·mm², which is no number of the scene with a unit of its own, mm, deg and plain numbers.
+    // The cases are kg·mm², for which the scene has no separate unit, and mm, deg and plain
+    // numbers.
     for (bare, with_unit, expected) in [
         ("body.arm.inertia=100,200", None, [1e-4, 2e-4]),
         (

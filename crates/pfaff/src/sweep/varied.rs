@@ -1,4 +1,4 @@
-//! The runs of a sweep: what each of them reads, and its row.
+//! The runs of a sweep: the scene of each run, and its row.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
@@ -46,30 +46,32 @@ use crate::run_options::RunOptions;
 pub struct Sweep<'r> {
     template: Template,
     grid: Grid,
-    /// What a one of each axis is in SI, if its values have no unit; otherwise they are in SI.
+    /// Value of one unit of each axis in SI, if the values of the axis have no unit; otherwise the
+    /// values are already in SI.
     scales: Vec<f64>,
     pub(super) plan: SweepPlan,
     /// Indices of the requested reactions.
     reactions: Vec<usize>,
     registry: &'r Registry,
-    /// Takes precedence over the tolerance that the scene states.
+    /// Tolerance that takes precedence over the tolerance that the scene states.
     tolerance: Tolerance,
     /// The text of the scene.
     text: String,
     /// The scene without changes, prepared when the first run begins.
     pub(super) described: OnceLock<Option<UnvariedScene>>,
-    /// The code of its runs, or why they are interpreted; made when the first run begins.
+    /// The generated code of the runs, or the reason why they are interpreted; created when the
+    /// first run begins.
     pub(super) code: OnceLock<Result<SweepCode, String>>,
 }
 
 impl<'r> Sweep<'r> {
-    /// Reads a scene and finds the numbers that are varied; `name` is the file name in messages.
+    /// Reads a scene and finds the varied numbers; `name` is the file name in messages.
     ///
     /// # Errors
     /// - [`SweepError::Study`]: the scene is invalid without changes, or it does not state the end
     ///   of a run.
     /// - [`SweepError::Key`]: a key does not refer to a number of the scene.
-    /// - [`SweepError::Axis`]: nothing is varied, or there are too many combinations.
+    /// - [`SweepError::Axis`]: no number is varied, or there are too many combinations.
     pub fn read(
         name: &str,
         text: &str,
@@ -80,10 +82,10 @@ impl<'r> Sweep<'r> {
         Self::of(&assembled, text, (registry, Tolerance::default()), axes)
     }
 
-    /// The same of a scene that has been read, whose data are known to this.
+    /// Like [`Self::read`], for a scene that has been read, with this accuracy of its data.
     ///
     /// # Errors
-    /// As [`Self::read`].
+    /// Returns the errors of [`Self::read`].
     pub(crate) fn of(
         assembled: &AssembledScene,
         text: &str,
@@ -143,8 +145,8 @@ impl<'r> Sweep<'r> {
         })
     }
 
-    /// What evaluates the equations of its runs, in words: code that is generated for all of them
-    /// without a compiler, or the interpreter, with the reason.
+    /// Describes as text the evaluation of the equations of the runs: code that is generated for
+    /// all of them without a compiler, or the interpreter, with the reason.
     ///
     /// ```
     /// use pfaff::model::Registry;
@@ -179,7 +181,7 @@ impl<'r> Sweep<'r> {
         AssembledScene::read(&self.plan.scene, text, self.registry)?.stating(self.tolerance)
     }
 
-    /// The scene without changes, if it can be analysed.
+    /// Returns the scene without changes, if it can be analysed.
     pub(super) fn described(&self) -> Option<&UnvariedScene> {
         let make = || {
             let assembled = self.assembled(&self.text).ok()?;
@@ -188,7 +190,7 @@ impl<'r> Sweep<'r> {
         self.described.get_or_init(make).as_ref()
     }
 
-    /// The code of the runs, if they are made on code.
+    /// Returns the code of the runs, if they use generated code.
     fn code(&self) -> Option<&SweepCode> {
         let text = (self.plan.scene.as_str(), self.text.as_str());
         let runs = (self.plan.keys.as_slice(), self.plan.runs);
@@ -203,22 +205,22 @@ impl<'r> Sweep<'r> {
         self
     }
 
-    /// Number of runs of all shards.
+    /// Returns the number of runs of all shards.
     #[must_use]
     pub fn runs(&self) -> u64 {
         self.plan.runs
     }
 
-    /// The varied numbers of a run in SI, whatever the units in which they are written; a parameter
-    /// without a unit is a plain number.
+    /// Returns the varied numbers of a run in SI, for any units in which they are written; a
+    /// parameter without a unit is a plain number.
     ///
     /// # Panics
-    /// If there is no such run; they are counted from 1.
+    /// Panics if there is no such run; runs are counted from 1.
     #[must_use]
     pub fn point(&self, run: u64) -> Vec<f64> {
         let runs = self.runs();
         assert!((1..=runs).contains(&run), "no run {run} of 1 to {runs}");
-        // Fits, because the number of runs was a usize.
+        // The conversion is safe, because the number of runs was a usize.
         let point = self.grid.point((run - 1) as usize).into_iter();
         point
             .zip(&self.scales)
@@ -226,8 +228,8 @@ impl<'r> Sweep<'r> {
             .collect()
     }
 
-    /// Indices of the requested reactions in the mechanism of a run, which may lack some of them if
-    /// it is varied what is active.
+    /// Returns the indices of the requested reactions in the mechanism of a run; some may be
+    /// missing if the sweep varies which joints are active.
     fn places(&self, mechanism: &Mechanism) -> Vec<Option<usize>> {
         let groups = &mechanism.layout().groups;
         let place = |(&k, name): (&usize, &String)| match groups.get(k) {
@@ -241,10 +243,10 @@ impl<'r> Sweep<'r> {
             .collect()
     }
 
-    /// Makes a run without writing any file.
+    /// Performs a run without writing any file.
     ///
     /// # Panics
-    /// If there is no such run; they are counted from 1.
+    /// Panics if there is no such run; runs are counted from 1.
     #[must_use]
     pub fn row(&self, run: u64) -> SweepRow {
         match self.begin(run) {
@@ -256,7 +258,7 @@ impl<'r> Sweep<'r> {
         }
     }
 
-    /// The varied keys with their values in a run.
+    /// Returns the varied keys with their values in a run.
     pub(super) fn values(&self, run: u64) -> String {
         let axes = self.grid.axes.iter().zip(self.point(run));
         let texts: Vec<String> = axes
@@ -265,7 +267,7 @@ impl<'r> Sweep<'r> {
         texts.join(", ")
     }
 
-    /// Assembles a run (from 1).
+    /// Assembles a run (counted from 1).
     pub(super) fn begin(&self, run: u64) -> Result<PreparedRun, StudyError> {
         let written = self.grid.written((run - 1) as usize);
         let written: Vec<&str> = written.iter().map(String::as_str).collect();
@@ -304,7 +306,7 @@ impl<'r> Sweep<'r> {
         })
     }
 
-    /// The row of a run that has begun.
+    /// Returns the row of a run that has begun.
     pub(super) fn row_of(&self, run: u64, MadeRun { motion, error, .. }: MadeRun) -> SweepRow {
         match error {
             // The run has no state.
@@ -322,7 +324,7 @@ impl<'r> Sweep<'r> {
         }
     }
 
-    /// The row of a run that cannot begin.
+    /// Returns the row of a run that cannot begin.
     pub(super) fn refused(&self, run: u64, error: &StudyError) -> SweepRow {
         SweepRow {
             run,
@@ -333,7 +335,7 @@ impl<'r> Sweep<'r> {
         }
     }
 
-    /// The row of a run that has ended its process twice.
+    /// Returns the row of a run that has ended its process twice.
     pub(super) fn crashed(&self, run: u64) -> SweepRow {
         SweepRow {
             run,
@@ -345,10 +347,11 @@ impl<'r> Sweep<'r> {
     }
 }
 
-/// What is known of a run that has ended its process.
+/// Message for a run that has ended its process.
 const CRASHED: &str = "the process ended twice while it made this run and no other";
 
-/// An error as text, without the name and the lines of a text that the user has not written.
+/// Returns an error as text, without the name and the lines of a text that the user has not
+/// written.
 pub(super) fn reason(error: &StudyError) -> String {
     let StudyError::Scene(diagnostics) = error else {
         return error.to_string();
@@ -360,8 +363,9 @@ pub(super) fn reason(error: &StudyError) -> String {
     texts.collect::<Vec<_>>().join("; ")
 }
 
-/// What a one of each axis is in SI, by the keys at which the scene reads bare numbers. Scenes of
-/// the first run or of the last one can be read, or none is told by them.
+/// Returns the value of one unit of each axis in SI, for keys at which the scene reads numbers
+/// without units. The function reads the scene of the first or the last run; if neither can be
+/// read, no run of the sweep uses the result.
 fn scales(template: &Template, grid: &Grid, registry: &Registry) -> Vec<f64> {
     let read = |run: usize| {
         let written = grid.written(run);
@@ -379,8 +383,8 @@ fn scales(template: &Template, grid: &Grid, registry: &Registry) -> Vec<f64> {
     told.unwrap_or_else(|| vec![1.0; grid.axes.len()])
 }
 
-/// A text, and what its numbers are known to if whoever asks says so: sweeps that differ in one of
-/// them are different ones.
+/// Combines a text with the accuracy of its numbers if the caller states one: sweeps that differ in
+/// one of these are different sweeps.
 fn known_text(text: &str, tolerance: Tolerance) -> String {
     if tolerance == Tolerance::default() {
         return text.to_owned();

@@ -1,5 +1,5 @@
-//! Random numbers of a sample: each datum has a stream of its own, so that a sample depends on the
-//! seed, on its number and on nothing that was drawn before it.
+//! Random numbers of a sample. Each datum has a stream of its own, so that a sample depends on the
+//! seed and on its number, and not on numbers drawn before it.
 //!
 //! Source: SplitMix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, OOPSLA
 //! 2014), also as the hash that separates streams.
@@ -7,11 +7,11 @@
 /// The increment of SplitMix64: 2⁶⁴ over the golden ratio, odd.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// Numbers of one datum of one sample.
+/// Random numbers of one datum of one sample.
 pub(super) struct Stream(u64);
 
 impl Stream {
-    /// The stream of datum `place` of sample `number` for a seed.
+    /// Creates the stream of datum `place` of sample `number` for a seed.
     pub(super) fn new(seed: u64, number: u64, place: u64) -> Self {
         let of_sample = mixed(mixed(seed).wrapping_add(number));
         Self(mixed(of_sample.wrapping_add(place)))
@@ -22,14 +22,14 @@ impl Stream {
         mixed(self.0)
     }
 
-    /// A number that is uniform in [−1, 1).
+    /// Returns a number that is uniform in [−1, 1).
     pub(super) fn uniform(&mut self) -> f64 {
-        // 53 bits: every multiple of 2⁻⁵² in the interval is as likely as any other.
+        // The number has 53 bits: all multiples of 2⁻⁵² in the interval are equally likely.
         (self.next() >> 11) as f64 * (2.0 * f64::EPSILON / 2.0) - 1.0
     }
 
-    /// A vector that is uniform in the unit ball of one, two or three dimensions; other components
-    /// are zero.
+    /// Returns a vector that is uniform in the unit ball of one, two or three dimensions; other
+    /// components are zero.
     pub(super) fn ball(&mut self, dimensions: usize) -> [f64; 3] {
         loop {
             let point: [f64; 3] =
@@ -56,7 +56,7 @@ mod tests {
 
     const N: u64 = 20_000;
 
-    /// Moments of the uniform distribution in a ball of d dimensions: no mean, and E|x|² =
+    /// Moments of the uniform distribution in a ball of d dimensions: the mean is zero, and E|x|² =
     /// d/(d + 2). Five standard deviations of the mean of 20000 numbers of size one are 0.035.
     #[test]
     fn displacements_fill_the_ball_evenly() {
@@ -90,7 +90,7 @@ mod tests {
         }
         let product = |k| Stream::new(1, k, 0).uniform() * Stream::new(1, k, 1).uniform();
         let correlation = (0..N).map(product).sum::<f64>() / N as f64;
-        // Five standard deviations: the product of two has the variance 1/9.
+        // The limit is five standard deviations: the product of two numbers has the variance 1/9.
         assert!(
             correlation.abs() < 5.0 / 3.0 / (N as f64).sqrt(),
             "{correlation}"

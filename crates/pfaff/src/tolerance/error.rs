@@ -1,4 +1,5 @@
-//! Reasons why no samples are made. Samples that cannot be assembled are counted, not refused.
+//! Reasons why no samples are computed. Samples that cannot be assembled are counted and are not an
+//! error.
 
 use model::codes::Code;
 use scene::KeyError;
@@ -6,14 +7,14 @@ use scene::KeyError;
 use super::limits::{ROWS_MAX, SAMPLES_MAX};
 use crate::error::StudyError;
 
-/// Reason why no samples are made.
+/// Reason why no samples are computed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ToleranceError {
     /// The scene without any displacement is invalid, or cannot be analysed.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// Nothing has a tolerance.
+    /// No number has a tolerance.
     #[error(
         "no number of the scene has a tolerance: write `--tolerance 1e-4` for ± 0.1 mm, or `tolerance = 1e-4` in [scene], \
          in a body, a joint or a marker"
@@ -27,7 +28,7 @@ pub enum ToleranceError {
     Vary {
         /// The number and its interval.
         variation: String,
-        /// What is wrong at one of its ends.
+        /// Description of the error at one of its ends.
         reason: String,
     },
     /// There are no numbers to displace.
@@ -38,7 +39,7 @@ pub enum ToleranceError {
     /// The number of samples is out of its range.
     #[error("{samples} samples: need 1 to {SAMPLES_MAX}")]
     Samples {
-        /// The number.
+        /// The requested number of samples.
         samples: usize,
     },
     /// The mechanism is too large.
@@ -47,13 +48,13 @@ pub enum ToleranceError {
          decided with dense matrices: make a scene of a part of it"
     )]
     TooLarge {
-        /// Its rows.
+        /// Number of rows.
         rows: usize,
     },
 }
 
 impl ToleranceError {
-    /// Its code; see [`model::codes`].
+    /// Returns the code of the error; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -66,7 +67,7 @@ impl ToleranceError {
         }
     }
 
-    /// Whether the input is invalid; otherwise the computation stopped.
+    /// Whether the input is invalid; otherwise the error occurred during the computation.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {

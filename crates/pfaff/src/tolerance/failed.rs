@@ -1,13 +1,13 @@
-//! Why a sample could not be assembled.
+//! The reason why a sample could not be assembled.
 
 use std::fmt;
 
-/// Why a sample could not be assembled.
+/// The reason why a sample could not be assembled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SampleFailure {
-    /// The reason, the same words for all samples with it.
+    /// The reason, as a text that is the same for all samples with this reason.
     pub reason: &'static str,
-    /// This sample in particular.
+    /// Details of this sample.
     pub detail: String,
 }
 

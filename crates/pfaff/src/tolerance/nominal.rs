@@ -1,5 +1,5 @@
-//! The described mechanism: its pose, the rows that are kept, the data that are displaced, and what
-//! is said of its reactions.
+//! The described mechanism: its configuration, the independent rows, the displaced data, and the
+//! verdicts on its reactions.
 
 use model::start::KeepLevel;
 use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
@@ -13,26 +13,26 @@ use crate::error::StudyError;
 use crate::run_options::RunOptions;
 use crate::study::Study;
 
-/// A datum that is displaced.
+/// A datum that is displaced in the samples.
 #[derive(Clone, Debug)]
 pub(super) struct DisplacedDatum {
     pub(super) block: DataBlock,
-    /// By how much at most (in its unit).
+    /// Largest displacement of the datum (in its unit).
     pub(super) tolerance: f64,
-    /// The stream of its random numbers: a drive has those of its joint, because both have the
-    /// same points.
+    /// The stream of its random numbers: a drive uses the streams of its joint, because both have
+    /// the same points.
     pub(super) stream: u64,
 }
 
-/// How the rank of the described mechanism is read within its tolerances.
+/// The rank with which the described mechanism is analysed within its tolerances.
 #[derive(Clone, Debug)]
 pub(super) enum Reading {
     Decided,
-    /// Between two ranks: the lower one is kept, and no reaction is called unique.
+    /// The rank is between two values: the lower one is used, and no reaction counts as unique.
     Undecided(String),
 }
 
-/// What is said of a joint or drive of the described mechanism.
+/// Verdict on a joint or drive of the described mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct NominalReaction {
     pub(super) name: String,
@@ -54,26 +54,26 @@ pub(super) struct Nominal {
     pub(super) mechanism: Mechanism,
     pub(super) t: f64,
     pub(super) base: Base,
-    /// Columns of C along which the start keeps positions.
+    /// Columns of C along which the start keeps positions fixed.
     pub(super) kept_columns: Vec<usize>,
     pub(super) size: f64,
     pub(super) data: Vec<DisplacedDatum>,
     pub(super) reading: Reading,
     pub(super) rank: usize,
-    /// Rows of C that are kept.
+    /// Independent rows of C.
     pub(super) kept: Vec<usize>,
-    /// Rows of Φq that are kept.
+    /// Independent rows of Φq.
     pub(super) position_kept: Vec<usize>,
     /// The other rows of Φq.
     pub(super) missing: Vec<usize>,
     pub(super) reactions: Vec<NominalReaction>,
     pub(super) quantities: Vec<Quantity>,
-    /// The verdict on each quantity as the described mechanism is read.
+    /// The verdict on each quantity for the rank of the described mechanism.
     pub(super) verdicts: Vec<&'static str>,
 }
 
 impl Nominal {
-    /// The mechanism of a scene at time t.
+    /// Analyses the mechanism of a scene at time t.
     pub(super) fn new(assembled: AssembledScene, t: f64) -> Result<Self, ToleranceError> {
         let stated = assembled.mechanism.clone();
         let (study, doubt) = study_of(assembled)?;
@@ -124,8 +124,8 @@ impl Nominal {
                 }
             }
         }
-        // Places, directions and numbers are those of the start, as joints have taken them there;
-        // what they are known to is what the scene states.
+        // Reference points, directions and numbers have the values to which the joints set them at
+        // the start; their accuracy is the accuracy that the scene states.
         let of_stated = stated.with_numbers(&mechanism.data().numbers());
         let mut at = of_stated.scratch();
         of_stated.pose(0.0, &prepared.q, &mut at);
@@ -159,8 +159,8 @@ impl Nominal {
     }
 }
 
-/// The study of a scene. If its rank within the tolerances is undecided: the study of the same
-/// numbers as exact ones, and the doubt.
+/// Prepares the study of a scene. If the rank within the tolerances is undecided, it returns the
+/// study for exact numbers, and the doubt.
 fn study_of(assembled: AssembledScene) -> Result<(Study, Option<Doubt>), ToleranceError> {
     let (scene, mechanism) = (assembled.scene.clone(), assembled.mechanism.clone());
     let doubt = match assembled.prepare(&RunOptions::default()) {
@@ -175,7 +175,7 @@ fn study_of(assembled: AssembledScene) -> Result<(Study, Option<Doubt>), Toleran
     Ok((exact.prepare(&RunOptions::default())?, Some(doubt)))
 }
 
-/// Kept rows of C and of Φq at the lower of two ranks.
+/// Returns independent rows of C and of Φq at the lower of two ranks.
 fn lower_rank(
     mechanism: &Mechanism,
     s: &model::Scratch,
@@ -202,7 +202,7 @@ fn lower_rank(
     };
     let layout = mechanism.layout();
     let kept = rows(layout.rows(), all).map_err(|_| undecided())?;
-    // With nonholonomic rows it may be they that are redundant.
+    // If there are nonholonomic rows, these may be the redundant ones.
     let position_kept = match layout.h {
         0 => kept.clone(),
         _ => holonomic.kept.clone(),
@@ -210,7 +210,7 @@ fn lower_rank(
     Ok((kept, position_kept))
 }
 
-/// The data with a stated tolerance, each with the stream of its random numbers.
+/// Returns the data with a stated tolerance, each with the stream of its random numbers.
 pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<DisplacedDatum> {
     let layout = mechanism.layout();
     let own_stream = |block: &DataBlock| block.numbers.start as u64;
@@ -241,7 +241,8 @@ pub(super) fn displaced(mechanism: &Mechanism, blocks: Vec<DataBlock>) -> Vec<Di
 }
 
 impl Nominal {
-    /// The least and the greatest tolerance of a unit; `None` if nothing of it is displaced.
+    /// Returns the smallest and the largest tolerance for a unit; `None` if no datum with this unit
+    /// is displaced.
     pub(super) fn tolerances(&self, unit: DataUnit) -> Option<[f64; 2]> {
         let own = self.data.iter().filter(|d| d.block.unit == unit);
         own.map(|d| d.tolerance).fold(None, |range, x| {
@@ -255,13 +256,13 @@ impl Nominal {
         self.verdicts[quantity] == "unique"
     }
 
-    /// About how many numbers a sample keeps.
+    /// Estimates the number of values that a sample stores.
     pub(super) fn numbers_of_sample(&self) -> usize {
         let observed = self.mechanism.frames().observed();
         let places = 2 * self.mechanism.bodies().len() + 3 * observed.markers.len();
-        // A verdict is a pointer and a length.
+        // A verdict consists of a pointer and a length.
         let of_reactions = 4 * self.quantities.len() + 2 * self.reactions.len();
-        // And the lists themselves.
+        // The last number accounts for the lists themselves.
         of_reactions + places + self.missing.len() + observed.measures.len() + 32
     }
 

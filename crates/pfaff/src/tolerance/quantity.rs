@@ -1,4 +1,4 @@
-//! The numbers of reactions of which ranges are given: components, and sizes of forces and torques.
+//! The numbers of reactions that have ranges: components, and magnitudes of forces and torques.
 
 use linalg::kernels::norm;
 use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
@@ -9,11 +9,11 @@ use solvability::Configuration;
 pub(super) enum Kind {
     /// The named component of the definition.
     ByName,
-    /// A component in ground axes, as index of those of the space.
+    /// A component in ground axes, as index into the components of the space.
     Component(usize),
-    /// The size of the force.
+    /// The magnitude of the force.
     Force,
-    /// The size of the torque.
+    /// The magnitude of the torque.
     Torque,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Quantity {
     pub(super) unit: &'static str,
 }
 
-/// The verdict on two numbers together.
+/// Returns the verdict on two numbers together.
 pub(super) fn worse(one: &'static str, other: &'static str) -> &'static str {
     let severity = |word: &str| match word {
         "unique" => 0,
@@ -41,7 +41,8 @@ pub(super) fn worse(one: &'static str, other: &'static str) -> &'static str {
 }
 
 impl Quantity {
-    /// All numbers of all reactions, joint by joint; the first of a joint is the one that is told.
+    /// Returns all numbers of all reactions, joint by joint; the text describes the first number of
+    /// each joint.
     pub(super) fn all(mechanism: &Mechanism) -> Vec<Self> {
         let layout = mechanism.layout();
         layout
@@ -65,7 +66,7 @@ impl Quantity {
         };
         let mut all = Vec::new();
         if let Some(name) = group.spec.component {
-            // A drive of an angle has a torque only.
+            // The reaction of a drive of an angle is a torque only.
             let unit = if forces > 0 { "N" } else { "N·m" };
             all.push(quantity(Kind::ByName, name, unit));
         }
@@ -86,7 +87,7 @@ impl Quantity {
         all
     }
 
-    /// Its value in a reaction.
+    /// Returns the value of the quantity in a reaction.
     pub(super) fn of_reaction(&self, space: SpaceKind, reaction: &Reaction) -> f64 {
         let mut components = reaction.components(space);
         match self.kind {
@@ -97,9 +98,9 @@ impl Quantity {
         }
     }
 
-    /// What a configuration says of it: the worst of the components on which it depends. What a
-    /// choice changes by no more than the share `within` of the component itself counts as unique,
-    /// and only that, if it is above zero.
+    /// Returns the verdict on the quantity at a configuration: the worst verdict of the components
+    /// on which it depends. If `within` is above zero, a component counts as unique if, and only
+    /// if, the choice changes it by no more than this fraction of itself.
     pub(super) fn verdict(
         &self,
         mechanism: &Mechanism,
@@ -110,7 +111,8 @@ impl Quantity {
             let Ok(form) = at.reactions().component(self.id, name) else {
                 return "undecided";
             };
-            // Relative to the component: a small one of a reaction that is shared is shared, too.
+            // The change is relative to the component: a small component of a shared reaction is
+            // also shared.
             let share = at.solvability().combination(form.coefficients());
             match (at.judge(&form), share) {
                 (_, Ok(share)) if within > 0.0 && share.margin <= within => "unique",
@@ -122,7 +124,7 @@ impl Quantity {
         judged.fold("unique", worse)
     }
 
-    /// The components on which it depends, by name.
+    /// Returns the components on which the quantity depends, by name.
     fn depends_on(&self, mechanism: &Mechanism) -> Vec<&'static str> {
         let group = &mechanism.layout().groups[self.id.0];
         let space = group.space;

@@ -1,10 +1,14 @@
-//! One sample: the mechanism with displaced data, assembled again, and what it carries.
+//! One sample: the mechanism with displaced data, assembled again, and its reactions.
 //!
-//! Two readings of the same numbers. *On the kept rows* of the described mechanism the redundancy
-//! stays as it is read there: its dropped rows miss by a little, which play or elasticity takes,
-//! and the reactions that are unique there have their numbers here. *With exact numbers* all rows
-//! count at this pose, as rigid bodies without play have them: where redundant rows are independent
-//! now, the mechanism has fewer free motions, and what was not unique is decided by the data alone.
+//! The same numbers are analysed in two ways. *On the independent rows* of the described mechanism
+//! the redundancy is the same as there. Its redundant rows have small violations, which clearance
+//! or elasticity takes up. The reactions that are unique there have their values here. *With exact
+//! numbers* all rows count at this configuration, as for rigid bodies without clearance. If
+//! redundant rows are now independent, the mechanism has fewer free motions, and the data alone
+//! decide the numbers that were not unique.
+//!
+//! Assembly is not damped, because nearly dependent rows are the important ones. The rank of all
+//! rows is decided at the assembled pose with exact numbers, as for a plain matrix.
 
 use linalg::{KeptRowSaddle, Matrix};
 use model::start::requirement;
@@ -19,37 +23,37 @@ use super::nominal::{Base, DisplacedDatum, Nominal};
 use super::quantity::Quantity;
 use super::vary::VariedText;
 
-/// A pose that is farther from the described one than this share of the size of the mechanism, or
-/// than this angle (rad), is another assembly of the same parts.
+/// A configuration is another assembly of the same parts if its distance from the described one
+/// exceeds this fraction of the size of the mechanism, or this angle (rad).
 pub(super) const FAR: f64 = 0.3;
 
-/// Iterations towards a pose; from within a tolerance a few are enough, and where the rows are
-/// nearly dependent some more.
+/// Iterations towards a configuration; within a tolerance a few are enough, and more are needed if
+/// the rows are nearly dependent.
 const ITERATIONS: usize = 40;
 
-/// A pose satisfies its rows below this many roundings of their terms, or below the second number
-/// of them if it comes no nearer.
+/// A configuration satisfies its rows if their residuals are below this many roundings of their
+/// terms, or below the second number of them if the iteration no longer improves.
 const ROUNDINGS: f64 = 10.0;
 const STILL: f64 = 1e3;
 
-/// The reason of samples whose rows contradict each other, or nearly so.
+/// The reason for samples whose rows contradict each other, or nearly so.
 const NO_POSE: &str = "there is no pose near the described one on which the rows hold";
 
 fn unassembled(e: linalg::SaddleError) -> SampleFailure {
     SampleFailure::new(NO_POSE, e)
 }
 
-/// Velocities satisfy rows that they are not made for to this share of the fastest one.
+/// Velocities satisfy the other rows to this fraction of the largest velocity.
 const SATISFIED: f64 = 1e-9;
 
-/// The outcome of a sample.
+/// The result of a sample.
 #[derive(Clone, Debug)]
 pub struct Sample {
-    /// Its number, from 1.
+    /// Number of the sample, counted from 1.
     pub number: u64,
-    /// What was found, or why it could not be assembled.
+    /// The results, or the reason why the sample could not be assembled.
     pub outcome: Result<AssembledSample, SampleFailure>,
-    /// Where varied numbers are in their intervals, from −1 to 1.
+    /// Positions of varied numbers in their intervals, from −1 to 1.
     pub varied: Vec<f64>,
 }
 
@@ -60,25 +64,25 @@ pub struct AssembledSample {
     pub rank: Option<usize>,
     /// The verdict on each joint and drive with exact numbers.
     pub verdicts: Vec<&'static str>,
-    /// The verdict on each number of a reaction, with the dropped rows as redundant as they are
-    /// described: what depends on how they share loads is not unique, however little it is.
+    /// The verdict on each number of a reaction with the described redundancy. Numbers that depend
+    /// on the load sharing among the redundant rows, however little, are not unique.
     pub of_kept: Vec<&'static str>,
-    /// The numbers of reactions on the kept rows, NaN where they are not unique.
+    /// The values of reactions on the independent rows, NaN if they are not unique.
     pub kept: Vec<f64>,
-    /// The same with exact numbers, NaN where they are not unique or where nothing can be said.
+    /// The values with exact numbers, NaN if they are not unique or unknown.
     pub exact: Vec<f64>,
-    /// What each dropped holonomic row misses (m or rad).
+    /// Violation of each redundant holonomic row (m or rad).
     pub misfits: Vec<f64>,
-    /// How far the frame of each body has moved (m) and turned (rad).
+    /// Displacement (m) and rotation (rad) of the frame of each body.
     pub moved: Vec<[f64; 2]>,
-    /// Places of markers (m).
+    /// Positions of markers (m).
     pub markers: Vec<[f64; 3]>,
-    /// Values of measures.
+    /// Values of joint coordinates (measures).
     pub measures: Vec<f64>,
 }
 
 impl Nominal {
-    /// Makes a sample; the result depends on the seed and the number only.
+    /// Computes a sample; the result depends only on the seed and the number.
     pub(super) fn sample(&self, vary: Option<&VariedText<'_>>, seed: u64, number: u64) -> Sample {
         let shares = vary
             .map(|vary| vary.shares(seed, number))
@@ -102,7 +106,7 @@ impl Nominal {
         }
     }
 
-    /// What a mechanism with these data is and carries.
+    /// Analyses a mechanism with these data.
     pub(super) fn assembled(
         &self,
         mechanism: &Mechanism,
@@ -116,7 +120,7 @@ impl Nominal {
         mechanism.b(&mut s);
         let Instant { v, lambda } = self.instant(mechanism, base, &mut s)?;
         let misfits = self.missing.iter().map(|row| s.phi[*row]).collect();
-        // What redundant rows miss is no error of C, which is known to rounding here.
+        // Violations of redundant rows are not errors of C, which is accurate to rounding here.
         s.phi.fill(0.0);
         let decision = solvability::decide(mechanism, &s, &q)
             .map_err(|e| SampleFailure::new("the rank cannot be decided", e))?;
@@ -148,7 +152,7 @@ impl Nominal {
         })
     }
 
-    /// The pose nearest to the described one on the kept rows.
+    /// Returns the configuration nearest to the described one on the independent rows.
     fn pose_of(&self, mechanism: &Mechanism, base: &Base) -> Result<Vec<f64>, SampleFailure> {
         let q = self.closest(mechanism, &base.q)?;
         requirement(mechanism, &q)
@@ -170,9 +174,9 @@ impl Nominal {
         ))
     }
 
-    /// The configuration on the kept rows that is closest to the described one, in lengths, with
-    /// angles times the size: `q = q₀ + argmin ‖δ‖` under the rows linearised at q, repeated.
-    /// Coordinates that the start keeps do not move.
+    /// Returns the configuration on the independent rows that is closest to the described one,
+    /// measured in lengths, with angles times the size: `q = q₀ + argmin ‖δ‖` under the rows
+    /// linearised at q, repeated. Coordinates that the start keeps fixed do not change.
     fn closest(&self, mechanism: &Mechanism, base: &[f64]) -> Result<Vec<f64>, SampleFailure> {
         let (space, rows) = (mechanism.space(), &self.position_kept);
         let n = mechanism.layout().n_v;
@@ -193,7 +197,8 @@ impl Nominal {
                 phi => phi.abs() / mechanism.scales(&s).position(i),
             };
             let residual = rows.iter().map(misses).fold(0.0, f64::max);
-            // Rounding may leave a little more than the first bound: then it comes no nearer.
+            // Rounding may leave slightly more than the first bound: then the iteration no longer
+            // improves.
             let is_still = residual >= best && residual <= STILL * f64::EPSILON;
             if residual <= ROUNDINGS * f64::EPSILON || is_still {
                 return Ok(q);
@@ -235,8 +240,8 @@ impl Nominal {
         Err(SampleFailure::new(NO_POSE, detail))
     }
 
-    /// Velocities nearest to the described ones on the kept rows, in the mass metric, and the
-    /// multipliers there.
+    /// Computes the velocities nearest to the described ones on the independent rows, in the mass
+    /// metric, and the multipliers at these velocities.
     fn instant(
         &self,
         mechanism: &Mechanism,
@@ -284,9 +289,10 @@ impl Nominal {
         Ok(Instant { v, lambda })
     }
 
-    /// The verdicts on the numbers with the redundancy as it is described. What dropped rows miss
-    /// does not make them independent, and what they share in is not determined: a component that
-    /// is zero as described, and that of one of them where it is askew, is theirs alone.
+    /// Returns the verdicts on the numbers with the described redundancy. Violations of redundant
+    /// rows do not make these rows independent, and the loads that they share are not determined.
+    /// In a misaligned mechanism each component is analysed separately, also a component that is
+    /// zero as described.
     fn on_kept_rows(&self, mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Vec<&'static str> {
         let rows = mechanism.layout().rows();
         if self.kept.len() == rows {
@@ -305,7 +311,8 @@ impl Nominal {
         self.quantities.iter().map(verdict).collect()
     }
 
-    /// The verdicts with exact numbers at this pose, and the numbers that are unique with them.
+    /// Returns the verdicts with exact numbers at this configuration, and the numbers that are
+    /// unique with them.
     fn with_exact_numbers(
         &self,
         mechanism: &Mechanism,
@@ -342,9 +349,9 @@ impl Nominal {
         (verdicts, values)
     }
 
-    /// The multipliers of all rows with exact numbers, zeros on redundant ones. `None` if the
-    /// velocities violate a row that is independent now, or if redundant rows contradict each
-    /// other: then the mechanism cannot move as it does without play.
+    /// Returns the multipliers of all rows with exact numbers, zeros on redundant rows. Returns
+    /// `None` if the velocities violate a row that is now independent, or if redundant rows
+    /// contradict each other: then the mechanism cannot perform this motion without clearance.
     fn exact_multipliers(
         &self,
         mechanism: &Mechanism,
@@ -375,7 +382,7 @@ impl Nominal {
         Some(found.as_chosen().to_vec())
     }
 
-    /// The numbers of all reactions for these multipliers.
+    /// Returns the values of all reactions for these multipliers.
     fn numbers_of(&self, mechanism: &Mechanism, s: &Scratch, lambda: &[f64]) -> Vec<f64> {
         let (reactions, space) = (mechanism.reactions(s), mechanism.space());
         let mut block = Vec::new();
@@ -387,7 +394,7 @@ impl Nominal {
         self.quantities.iter().map(value).collect()
     }
 
-    /// How far the frame of each body is from the described pose.
+    /// Returns the distance of the frame of each body from the described configuration.
     fn moved(&self, mechanism: &Mechanism, q: &[f64]) -> Vec<[f64; 2]> {
         let still = vec![0.0; mechanism.layout().n_v];
         let (frames, space) = (mechanism.frames(), mechanism.space());
@@ -403,7 +410,7 @@ impl Nominal {
     }
 }
 
-/// The numbers of the constraints of a sample.
+/// Returns the numbers of the constraints of a sample.
 fn displaced_numbers(
     mechanism: &Mechanism,
     data: &[DisplacedDatum],
@@ -423,7 +430,7 @@ fn displaced_numbers(
     numbers
 }
 
-/// Velocities, and the multipliers of the kept rows.
+/// Velocities, and the multipliers of the independent rows.
 struct Instant {
     v: Vec<f64>,
     lambda: Vec<f64>,

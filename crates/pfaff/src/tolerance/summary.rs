@@ -1,4 +1,4 @@
-//! What all samples say together, as a document, and each of them as a row of a table.
+//! The combined results of all samples as a document, and each sample as a row of a table.
 
 use std::cmp::Reverse;
 
@@ -17,10 +17,11 @@ use super::quantity::{Quantity, worse};
 use super::sample::{AssembledSample, Sample};
 use super::vary::Variation;
 
-/// A number below this share of the largest one of its kind is nothing to relate a range to.
+/// A number below this fraction of the largest number of its kind is too small for a relative
+/// range.
 const NOTHING: f64 = 0.1;
 
-/// A number below this share of the largest one of its kind is rounding.
+/// A number below this fraction of the largest number of its kind is rounding.
 const ROUNDING: f64 = 1e-12;
 
 impl Nominal {
@@ -41,7 +42,7 @@ impl Nominal {
         };
         let mut reactions = self.reactions(&good, described.as_ref(), &told);
         let width = |r: &ReactionRangeDocument| r.relative.unwrap_or(-1.0);
-        // Equal widths stay in the order of the scene.
+        // Entries with equal widths remain in the order of the scene.
         reactions.sort_by(|a, b| width(b).total_cmp(&width(a)));
         ToleranceDocument {
             scene: self.scene.clone(),
@@ -76,7 +77,7 @@ impl Nominal {
         }
     }
 
-    /// The tolerances in words.
+    /// Returns the tolerances as text.
     fn within(&self) -> String {
         let told = |range: Option<[f64; 2]>, words: &dyn Fn(f64) -> String| {
             range.map(|[least, greatest]| {
@@ -170,7 +171,7 @@ impl Nominal {
         let first = |id: usize| self.quantities.iter().position(|q| q.id.0 == id);
         let told = (0..self.reactions.len()).filter_map(first);
         let value = |k: usize| described.map_or(0.0, |d| d.kept[k].abs());
-        // What ranges are related to, and what is rounding, of forces and of torques.
+        // Reference values of ranges, and limits of rounding, for forces and torques.
         let largest = |unit: &str| {
             let own = told.clone().filter(|k| self.quantities[*k].unit == unit);
             own.map(value).filter(|x| x.is_finite()).fold(0.0, f64::max)
@@ -223,7 +224,7 @@ impl Nominal {
             .collect()
     }
 
-    /// The value of a number in a sample, NaN if the sample does not determine it.
+    /// Returns the value of a number in a sample, NaN if the sample does not determine it.
     fn value(&self, k: usize, sample: &AssembledSample) -> f64 {
         if self.is_unique(k) {
             sample.kept[k]
@@ -232,7 +233,7 @@ impl Nominal {
         }
     }
 
-    /// A number of a reaction in all samples.
+    /// Summarises a number of a reaction over all samples.
     fn quantity(
         &self,
         k: usize,
@@ -241,14 +242,14 @@ impl Nominal {
         rounding: f64,
     ) -> QuantityRangeDocument {
         let unique = self.is_unique(k);
-        // A sum that cancels is zero, not its rounding.
+        // A sum that cancels is zero, and its rounding error is removed.
         let clean = |x: f64| if x.abs() <= rounding { 0.0 } else { x };
         let value = |s: &AssembledSample| clean(self.value(k, s));
         let told = described.filter(|_| unique || !self.is_decided());
         let told = told.map(value).filter(|x| x.is_finite());
         let values: Vec<f64> = good.iter().map(|(_, s)| value(s)).collect();
         let determined = values.iter().filter(|x| x.is_finite()).count();
-        // A range of some samples is that of a choice among them.
+        // A range of only some samples would depend on their selection.
         let is_whole = determined == values.len();
         let range = is_whole.then(|| RangeDocument::of(values, told)).flatten();
         let of_samples = good.iter().map(|(_, s)| s.of_kept[k]);
@@ -351,7 +352,7 @@ impl Nominal {
         ByName(measures.enumerate().filter_map(of_measure).collect())
     }
 
-    /// The columns of the table of samples.
+    /// Returns the columns of the table of samples.
     pub(super) fn columns(&self, vary: &[Variation]) -> Vec<String> {
         let fixed = ["sample", "status", "rank", "redundancy", "mobility"];
         let mut columns: Vec<String> = fixed.map(str::to_owned).to_vec();
@@ -380,7 +381,7 @@ impl Nominal {
         columns
     }
 
-    /// A row of the table of samples; what does not exist is NaN.
+    /// Returns a row of the table of samples; missing values are NaN.
     pub(super) fn row(&self, vary: &[Variation], sample: &Sample) -> Vec<String> {
         let layout = self.mechanism.layout();
         let mut row = vec![sample.number.to_string()];
@@ -418,7 +419,7 @@ impl Nominal {
         row
     }
 
-    /// Names and places of markers, the described one first.
+    /// Returns names and positions of markers, the described position first.
     pub(super) fn clouds(&self, samples: &[Sample]) -> Vec<(String, Vec<[f64; 3]>)> {
         let Ok(described) = self.assembled(&self.mechanism, &self.base) else {
             return Vec::new();
@@ -433,7 +434,7 @@ impl Nominal {
     }
 }
 
-/// Reasons of samples that could not be assembled, the most frequent one first.
+/// Counts the reasons of samples that could not be assembled, the most frequent one first.
 fn failures(samples: &[Sample]) -> Vec<FailureDocument> {
     let mut all: Vec<FailureDocument> = Vec::new();
     for sample in samples {
@@ -450,12 +451,12 @@ fn failures(samples: &[Sample]) -> Vec<FailureDocument> {
             }),
         }
     }
-    // Equal numbers stay in the order of their first samples.
+    // Entries with equal numbers remain in the order of their first samples.
     all.sort_by_key(|own| Reverse(own.samples));
     all
 }
 
-/// Why a number has no range.
+/// Reason why a number has no range.
 const NO_SAMPLE: &str = "no sample was assembled";
 const NEVER: &str = "not unique in any sample";
 const SOME_SAMPLES: &str = "exact numbers determine it in some samples only";
@@ -463,7 +464,7 @@ const SHARED_IN_SAMPLES: &str =
     "unique as described, but in samples it depends on how redundant rows share loads";
 const CANNOT_MOVE: &str = "rigid and without play or slip the mechanism could not move as it does";
 
-/// What the sentence about a reaction needs besides its range.
+/// Data of the sentence about a reaction in addition to its range.
 struct RangeContext<'a> {
     name: &'a str,
     verdict: &'a str,
@@ -472,7 +473,7 @@ struct RangeContext<'a> {
 }
 
 impl RangeContext<'_> {
-    /// The range of the reaction in words.
+    /// Describes the range of the reaction.
     fn sentence(&self, first: Option<&QuantityRangeDocument>) -> String {
         let (name, samples, within) = (self.name, self.samples, self.within);
         let Some(value) = first else {
@@ -512,7 +513,7 @@ impl RangeContext<'_> {
     }
 }
 
-/// A number with four significant digits.
+/// Formats a number with four significant digits.
 fn digits(x: f64) -> String {
     let short: f64 = format!("{x:.3e}").parse().unwrap_or(x);
     rounded(short + 0.0)

@@ -1,4 +1,4 @@
-//! Samples against closed forms: a beam, cranks that are nearly parallel, hinges on one axis.
+//! Compares samples with closed forms: a beam, nearly parallel cranks, and coaxial hinges.
 
 use crate::documents::{RangeDocument, ReactionRangeDocument, ToleranceDocument};
 use model::{Registry, Tolerance};
@@ -36,8 +36,8 @@ fn range<'d>(d: &'d ToleranceDocument, name: &str, value: &str) -> &'d RangeDocu
     range.unwrap_or_else(|| panic!("`{name}` has no {value}: {values:?}"))
 }
 
-/// A beam of 20 N whose centre of mass is 1 m from the hinge, on a roller 2 m from it; `of_roller`
-/// goes into the table of the roller.
+/// The scene has a beam of 20 N whose centre of mass is 1 m from the hinge, on a roller 2 m from
+/// it. The text `of_roller` is inserted into the table of the roller.
 fn beam(of_scene: &str, of_roller: &str) -> String {
     format!(
         r#"
@@ -51,15 +51,15 @@ joint = [
     )
 }
 
-/// What tilts of the beam and of the slot change, which are of the size of the tolerance: their
-/// squares, times a few.
+/// Bound on the effect of rotations of the beam and of the slot. The rotations have the size of the
+/// tolerance, and their effect is a few times their squares.
 fn of_second_order(tolerance: f64) -> f64 {
     20.0 * 4.0 * tolerance * tolerance
 }
 
-/// Only the distance L of the roller from the hinge varies: N = 20·1/L, and L is in 2 ± τ. Of the
-/// points of a disk 1.9 % have an x of more than 0.9 of the radius: among 1000 some do, on each
-/// side.
+/// Only the distance L of the roller from the hinge varies: N = 20·1/L, and L is in 2 ± τ. For 1.9
+/// % of the points of a disk, x is more than 0.9 of the radius: among 1000 points there are some on
+/// each side.
 #[test]
 fn a_beam_on_a_roller_that_is_somewhere_carries_what_its_lever_says() {
     let tolerance = 2e-3;
@@ -79,12 +79,12 @@ fn a_beam_on_a_roller_that_is_somewhere_carries_what_its_lever_says() {
         roller.greatest >= 10.0 + 0.9 * (greatest - 10.0) - slack,
         "{roller:?}"
     );
-    // The mean of 1/L is 1/2, and the deviation of x in a disk is half of its radius.
+    // The mean of 1/L is 1/2, and the standard deviation of x in a disk is half of its radius.
     let per_metre = 20.0 / 4.0;
     assert!((roller.mean - 10.0).abs() < 5.0 * per_metre * tolerance / 2.0 / 1000f64.sqrt());
     let deviation = roller.deviation / (per_metre * tolerance / 2.0);
     assert!((deviation - 1.0).abs() < 0.1, "{deviation}");
-    // What the roller carries, the hinge does not; its reaction is that on the ground.
+    // The hinge carries the load that the roller does not carry; its reaction acts on the ground.
     let hinge = range(d, "hinge", "Fy");
     assert!(
         (roller.greatest - hinge.greatest - 20.0).abs() < slack,
@@ -97,7 +97,7 @@ fn a_beam_on_a_roller_that_is_somewhere_carries_what_its_lever_says() {
     );
 }
 
-/// Hinge points vary, too: dN = −20·(h + r)/4 with h and r in ± τ each, so N stays in 10 ± 10·τ.
+/// Hinge points also vary: dN = −20·(h + r)/4 with h and r in ± τ each, so N is in 10 ± 10·τ.
 #[test]
 fn all_points_of_a_beam_together_stay_within_the_sum() {
     let found = sampled(&study(&beam(", tolerance = 1e-3", "")), 1000);
@@ -113,8 +113,8 @@ fn all_points_of_a_beam_together_stay_within_the_sum() {
     assert!(d.misfits.is_empty() && d.undecided == 0);
 }
 
-/// Three cranks of half a metre at 0.7 rad, 6 kg in all; the third is pinned `off` beside its
-/// place.
+/// Three cranks of half a metre are inclined by 0.7 rad and carry 6 kg in total; the pin of the
+/// third one is displaced by `off`.
 fn three_cranks(off: f64, tolerance: f64) -> String {
     let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
     let (mut bodies, mut joints) = (String::new(), String::new());
@@ -141,8 +141,8 @@ fn three_cranks(off: f64, tolerance: f64) -> String {
 }
 
 /// The coupler can only translate, across the cranks, with the force G = 2.25 kg·m·g·cos 0.7/0.5 m
-/// there. The third crank is not parallel to that: along it, N·sin ε = G. The crank itself hangs
-/// across its pin with some newtons.
+/// in this direction. The third crank is not parallel to the others: the force N along it satisfies
+/// N·sin ε = G. The weight of the crank itself loads its pin transversely with some newtons.
 fn of_third_crank(off: f64) -> f64 {
     let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
     let across = 2.25 * 9.81 * 0.7_f64.cos() / 0.5;
@@ -179,9 +179,10 @@ fn a_third_crank_beside_its_place_carries_kilonewtons_somewhere_in_a_wide_range(
         assert!(range.least < described && described < range.greatest);
         range
     };
-    // The same seed displaces the same points tenfold: as long as that is little, the range is ten
-    // times as wide. Sixteen shares of 1e-7 m are 0.6 % of the misfit, off·sin 0.7; by as many
-    // radians the cranks turn to close it, which changes G by its tangent and ε by its cotangent.
+    // The same seed displaces the same points ten times as far: for small displacements the range
+    // is ten times as wide. Sixteen displacements of 1e-7 m are 0.6 % of the misalignment off·sin
+    // 0.7. The cranks rotate by the corresponding angle to close the gap, which changes G by its
+    // tangent and ε by its cotangent.
     let (fine, coarse) = (sample(1e-8), sample(1e-7));
     let ratio = coarse.width() / fine.width();
     assert!((ratio - 10.0).abs() < 0.1, "{ratio}");
@@ -192,7 +193,7 @@ fn a_third_crank_beside_its_place_carries_kilonewtons_somewhere_in_a_wide_range(
         (0.1 * share..2.0 * share * (1.0 + turned)).contains(&relative),
         "{relative}"
     );
-    // At some micrometres it is anything.
+    // At some micrometres the range is arbitrarily wide.
     let wide = sample(5e-6);
     assert!(wide.greatest > 1.5 * wide.least, "{wide:?}");
 }
@@ -231,9 +232,10 @@ fn exact_cranks_lock_in_every_sample_and_their_misfit_has_a_bound() {
     assert_eq!((locked.mobility, locked.redundancy), (0, 0));
     assert_eq!(locked.samples + d.undecided, 1000);
     assert!(locked.samples > 980, "{d:?}");
-    // The self-stress 1 : −2 : 1 along the cranks has the misfit of twelve points: two on each of
-    // six pins, which count once on the outer cranks and twice on the middle one, relative to the
-    // row that is dropped, which has a share of at least one half of its pin.
+    // The self-stress 1 : −2 : 1 along the cranks has the violation of twelve points. There are two
+    // points on each of six pins, which count once on the outer cranks and twice on the middle one.
+    // The violation is relative to the redundant row, which has a share of at least one half of its
+    // pin.
     let [misfit] = &d.misfits[..] else {
         panic!("{:?}", d.misfits)
     };
@@ -245,7 +247,7 @@ fn exact_cranks_lock_in_every_sample_and_their_misfit_has_a_bound() {
     assert!(misfit.mean < misfit.greatest && misfit.mean > 0.1 * tolerance);
     let third = reaction(d, "P3");
     assert_eq!((third.verdict, third.fragile), ("not_unique", false));
-    // A range is of all samples: one whose rank is undecided leaves none.
+    // A range covers all samples: one sample with an undecided rank leaves no range.
     assert!(d.undecided > 0);
     assert_eq!(third.values[0].reading, "none");
     assert!(third.values[0].range.is_none());
@@ -264,12 +266,12 @@ fn exact_cranks_lock_in_every_sample_and_their_misfit_has_a_bound() {
         range.described.is_none() && range.greatest > 1e5,
         "{range:?}"
     );
-    // Nothing is sure to be below: the sine of the angle can be as large as the points allow.
+    // No smaller bound is certain: the sine of the angle can be as large as the points allow.
     let sine = 16.0 * tolerance / 0.5;
     assert!(range.least > 0.5 * of_third_crank(4e-4) * 4e-4 * 0.7_f64.sin() / 0.5 / sine);
 }
 
-/// A door on two hinges in space, hung at rest.
+/// A door hangs at rest on two hinges in space.
 const DOOR: &str = r#"
 scene = { name = "door", space = "spatial", gravity = [0.0, 0.0, -10.0], tolerance = 1e-4, angle_tolerance = 1e-4 }
 body = [{ name = "leaf", mass = 20.0, inertia = [6.0, 8.0, 2.0], position = [0.5, 0.0, 1.0] }]
@@ -297,7 +299,7 @@ fn two_hinges_never_share_an_axis_exactly_and_it_is_said() {
     };
     assert_eq!((all.rank, all.mobility, all.samples), (6, 0, 300));
     assert_eq!(d.misfits.len(), 5);
-    // Four points of 0.1 mm along the vertical, and turned arms.
+    // The bound contains four points of 0.1 mm along the vertical, and rotated arms.
     assert!(
         d.misfits
             .iter()
@@ -307,16 +309,16 @@ fn two_hinges_never_share_an_axis_exactly_and_it_is_said() {
     );
     let said = d.sentences().join(" ");
     for words in [
-        "with exact numbers the rank is 6 (redundancy 4, mobility 0) in 300 of 300 samples",
+        "the rank without tolerance is 6 (redundancy 4, mobility 0) in 300 of 300 samples",
         "without play or slip one free motion is lost",
-        "the redundant rows do not fit exactly: row ",
+        "the redundant rows are violated: row ",
     ] {
         assert!(said.contains(words), "{words}: {said}");
     }
     let without = d.without_range();
     assert_eq!(
         without,
-        ["not unique in any sample, so no range: `bottom`, `top`"]
+        ["no range, because not unique in any sample: `bottom`, `top`"]
     );
     for name in ["bottom", "top"] {
         assert_eq!(reaction(d, name).verdicts.not_unique, 300);
@@ -394,8 +396,8 @@ body = [{ name = "stone", mass = 1.0, inertia = 1.0 }]
     }
 }
 
-/// A crank that is driven: its drive and its joint have the same points, so nothing but the points
-/// and the zero of the drive vary.
+/// A crank is driven: its drive and its joint have the same points, so only the points and the zero
+/// of the drive vary.
 #[test]
 fn a_drive_has_the_points_of_its_joint() {
     let text = r#"
@@ -423,7 +425,8 @@ drive = [{ name = "motor", joint = "guide", type = "displacement", motion = { ty
     assert!(kept.count() >= 1);
 }
 
-/// Half of the weight of a beam that is known to 1 %, and of one whose weight is a parameter.
+/// The reaction is half of the weight of a beam whose mass is accurate to 1 %, and of a beam whose
+/// weight is a parameter.
 #[test]
 fn varied_numbers_move_reactions_by_their_interval() {
     let registry = Registry::standard();
@@ -439,12 +442,13 @@ fn varied_numbers_move_reactions_by_their_interval() {
         let found = sampled(&study, 300);
         let roller = range(&found.document, "roller", "|F|");
         assert!(roller.least >= 9.9 - 1e-12 && roller.greatest <= 10.1 + 1e-12);
-        // Of 300 uniform numbers one is within 2 % of each end, but for exp(−300·0.02/2) = 5 %.
+        // Of 300 uniform numbers at least one is within 2 % of each end, with an error probability
+        // of exp(−300·0.02/2) = 5 %.
         assert!(
             roller.least < 9.904 && roller.greatest > 10.096,
             "{roller:?}"
         );
-        // The force is that of the mass that was drawn.
+        // The force belongs to the random mass of the sample.
         let own = found.samples[4].outcome.as_ref().expect("assembled");
         let mass = 2.0 * (1.0 + 0.01 * found.samples[4].varied[0]);
         assert!(

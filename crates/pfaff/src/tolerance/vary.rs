@@ -1,4 +1,4 @@
-//! Numbers of a scene that vary besides its tolerances: masses, stiffnesses, parameters.
+//! Numbers of a scene that vary in addition to its tolerances: masses, stiffnesses, parameters.
 
 use std::fmt;
 use std::str::FromStr;
@@ -13,14 +13,14 @@ use super::failed::SampleFailure;
 use super::nominal::{Base, DisplacedDatum, Nominal, displaced};
 use crate::assembled::AssembledScene;
 
-/// Streams of random numbers from here on belong to varied numbers.
+/// Streams of random numbers from this number on belong to varied numbers.
 const FIRST: u64 = 1 << 32;
 
-/// The reason of samples whose varied numbers make no scene.
+/// The reason for samples whose varied numbers give no valid scene.
 const UNREADABLE: &str = "the scene with varied numbers cannot be assembled";
 
-/// A number of a scene that is uniform in an interval around its value, as `KEY=±VALUE` or
-/// `KEY=±P%`. The sign may be written as `+-`; a value may have a unit.
+/// A number of a scene that is uniformly distributed in an interval around its value, such as
+/// `KEY=±VALUE` or `KEY=±P%`. The sign may be written as `+-`; a value may have a unit.
 ///
 /// ```
 /// use pfaff::tolerance::Variation;
@@ -34,25 +34,25 @@ const UNREADABLE: &str = "the scene with varied numbers cannot be assembled";
 #[serde(try_from = "String")]
 pub struct Variation {
     key: String,
-    /// What is written after the sign.
+    /// The text after the sign.
     text: String,
     /// The largest change.
     most: Shift,
 }
 
 impl Variation {
-    /// The key of its number; see [`scene::Template`].
+    /// Returns the key of the number; see [`scene::Template`].
     #[must_use]
     pub fn key(&self) -> &str {
         &self.key
     }
 
-    /// What is written for its largest change.
+    /// Returns the text of the largest change.
     pub(super) fn by(&self) -> String {
         format!("± {}", self.text)
     }
 
-    /// A share of the largest change, from −1 to 1.
+    /// Returns a fraction, from −1 to 1, of the largest change.
     fn share(&self, share: f64) -> Shift {
         match &self.most {
             Shift::By(most) => Shift::By(share * most),
@@ -115,14 +115,14 @@ pub struct VariedText<'r> {
     name: String,
     template: Template,
     pub(super) list: Vec<Variation>,
-    /// What is stated in place of the tolerances of the scene.
+    /// Tolerance that replaces the tolerances of the scene.
     tolerance: Tolerance,
     registry: &'r Registry,
 }
 
 impl<'r> VariedText<'r> {
-    /// Finds the numbers in a text; `name` is the file name in messages, `tolerance` goes before
-    /// that of the scene.
+    /// Finds the numbers in a text; `name` is the file name in messages, `tolerance` takes
+    /// precedence over the tolerance of the scene.
     ///
     /// # Errors
     /// - [`ToleranceError::Key`]: a key does not refer to a number of the scene.
@@ -141,7 +141,7 @@ impl<'r> VariedText<'r> {
             tolerance,
             registry,
         };
-        // Each end by itself: which number is wrong can be said then.
+        // Each end is tested separately, so that the error can name the invalid number.
         for k in 0..varied.list.len() {
             for end in [-1.0, 1.0] {
                 let share = |other: usize| if other == k { end } else { 0.0 };
@@ -157,7 +157,7 @@ impl<'r> VariedText<'r> {
         Ok(varied)
     }
 
-    /// The mechanism with these shares of the largest changes, and its start.
+    /// Returns the mechanism for these fractions of the largest changes, and its start.
     fn mechanism(&self, shares: &[f64]) -> Result<(Mechanism, Vec<f64>), String> {
         let all = self.list.iter().zip(shares);
         let shifts: Vec<Shift> = all
@@ -172,15 +172,15 @@ impl<'r> VariedText<'r> {
         Ok((assembled.mechanism, assembly.q))
     }
 
-    /// The shares of the largest changes in a sample.
+    /// Returns the fractions of the largest changes in a sample.
     pub(super) fn shares(&self, seed: u64, number: u64) -> Vec<f64> {
         (0..self.list.len() as u64)
             .map(|k| Stream::new(seed, number, FIRST + k).uniform())
             .collect()
     }
 
-    /// The described mechanism of a sample, from where it is assembled, and the data that are
-    /// displaced in it.
+    /// Returns the described mechanism of a sample, the state from which it is assembled, and its
+    /// displaced data.
     pub(super) fn described(
         &self,
         nominal: &Nominal,

@@ -1,4 +1,4 @@
-//! Runs for errors, and runs for times.
+//! Runs that measure errors, and runs that measure times.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -9,7 +9,7 @@ use super::observation::Observation;
 use super::plan::{ComparisonPlan, Curve};
 use crate::study::Study;
 
-/// Smallest number of rows of a run with a budget; it can be given up between two rows.
+/// Smallest number of rows of a run with a time limit; the run can be abandoned between two rows.
 const ROWS: f64 = 1000.0;
 
 /// The times of a run at which rows are evaluated.
@@ -17,17 +17,17 @@ const ROWS: f64 = 1000.0;
 pub(super) struct Times {
     /// Time between rows (s); all requested times are multiples of it.
     step: f64,
-    /// The requested times.
+    /// The requested times (s).
     pub(super) wanted: Vec<f64>,
 }
 
 impl Times {
-    /// Times that are multiples of `step`.
+    /// Creates times that are multiples of `step`.
     pub(super) fn multiples(wanted: Vec<f64>, step: f64) -> Self {
         Self { step, wanted }
     }
 
-    /// `count` evenly spaced times, and the end.
+    /// Creates `count` evenly spaced times, and the end.
     pub(super) fn evenly(count: u32, t_end: f64) -> Self {
         let step = t_end / f64::from(count);
         let wanted = (1..=count).map(|k| step * f64::from(k)).collect();
@@ -39,7 +39,7 @@ impl Times {
         self.wanted.iter().any(|w| (w - t).abs() < near)
     }
 
-    /// Time between the rows of a run that can be given up (s).
+    /// Returns the time between the rows of a run with a time limit (s).
     fn step(&self, t_end: f64, budget: f64) -> f64 {
         if budget.is_finite() {
             self.step / (ROWS * self.step / t_end).ceil().max(1.0)
@@ -53,14 +53,14 @@ impl Times {
 #[derive(Debug)]
 pub(super) enum RunEnding {
     Reached,
-    /// The run took too long; the last time (s).
+    /// The run took too long; the value is the last time reached (s).
     GivenUp(f64),
     /// The comparison was interrupted.
     Interrupted,
     Failed(MotionError),
 }
 
-/// A run with its rows.
+/// A run with its recorded rows.
 #[derive(Debug)]
 pub(super) struct Look {
     pub(super) observations: Vec<Observation>,
@@ -68,7 +68,7 @@ pub(super) struct Look {
     pub(super) ending: RunEnding,
 }
 
-/// The options of a run for a curve at a tolerance.
+/// Returns the options of a run for a curve at a tolerance.
 pub(super) fn options(base: &MotionOptions, curve: Curve, tolerance: f64) -> MotionOptions {
     MotionOptions {
         rtol: tolerance,
@@ -117,7 +117,7 @@ pub(super) fn look(
 }
 
 /// Runs without output and measures the time: the summary of the fastest run, and the number of
-/// runs. Returns `None` if a run did not reach its end, or if interrupted.
+/// runs. Returns `None` if a run did not reach its end, or if the measurement was interrupted.
 pub(super) fn clock(
     study: &Study,
     options: &MotionOptions,

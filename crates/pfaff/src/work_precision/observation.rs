@@ -7,11 +7,11 @@ use model::{ColumnKind, Mechanism, Reaction, SpaceKind, System};
 /// Kinds of quantities: values of the same kind are compared with each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Coordinates.
+    /// Coordinates of the mechanism.
     Position,
-    /// Their rates.
+    /// Time derivatives of the coordinates.
     Velocity,
-    /// Rates of the rates.
+    /// Second time derivatives of the coordinates.
     Acceleration,
     /// Forces and torques of joints and drives.
     Reaction,
@@ -21,9 +21,9 @@ impl Kind {
     /// Number of kinds.
     pub const COUNT: usize = 4;
 
-    /// Index of the quantity `name` of `of` in an [`Observation`] of planar bodies: for a body `x`,
-    /// `y` or `angle`, for a joint or drive `Fx`, `Fy`, `T`, or the name of its one component.
-    /// Returns `None` if the mechanism has nothing of that name.
+    /// Returns the index of the quantity `name` of `of` in an [`Observation`] of planar bodies. A
+    /// body has `x`, `y` or `angle`; a joint or drive has `Fx`, `Fy`, `T`, or the name of its only
+    /// component. Returns `None` if the mechanism has no quantity with this name.
     #[must_use]
     pub fn place(self, of: &str, name: &str, mechanism: &Mechanism) -> Option<usize> {
         if self != Self::Reaction {
@@ -47,15 +47,15 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// Takes the quantities of a row of output.
+    /// Reads the quantities of an output row.
     pub(super) fn of(sample: &mut Sample<'_, '_>, space: SpaceKind) -> Result<Self, MotionFault> {
         let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
         let [q, v] = [sample.q.to_vec(), sample.v.to_vec()];
         Ok(Self::new(space, sample.t, [q, v, a], reactions.as_chosen()))
     }
 
-    /// Coordinates, velocities and accelerations at a time, with the reactions of all joints and
-    /// drives.
+    /// Stores coordinates, velocities and accelerations at a time, with the reactions of all joints
+    /// and drives.
     #[must_use]
     pub fn new(space: SpaceKind, t: f64, [q, v, a]: [Vec<f64>; 3], reactions: &[Reaction]) -> Self {
         let numbers = reactions.iter().flat_map(|r| {
@@ -63,7 +63,7 @@ impl Observation {
             r.components(space).chain([component])
         });
         let reactions = numbers.collect();
-        // Behind the bodies q counts turns.
+        // After the bodies, q contains unwrapped angles.
         let bodies = &q[..(v.len() / space.n_v() * space.n_q()).min(q.len())];
         Self {
             t,
@@ -72,14 +72,15 @@ impl Observation {
     }
 }
 
-/// Index of a component of a reaction: for each joint or drive there are force, torque, and the
+/// Returns the index of a component of a reaction: each joint or drive has force, torque, and the
 /// named component, if it has one.
 pub(super) fn reaction_place(mechanism: &Mechanism, group: usize, component: usize) -> usize {
     (mechanism.space().n_v() + 1) * group + component
 }
 
-/// Units by which the values of each kind are divided so that they can be compared with each other:
-/// for lengths and torques the size of the mechanism (m), for angles and forces 1.
+/// Returns the units by which the values of each kind are divided, so that they can be compared
+/// with each other. The unit of lengths and torques is the size of the mechanism (m), and the unit
+/// of angles and forces is 1.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
     let kinds = mechanism.layout().column_kinds();
     let columns: Vec<f64> = kinds
@@ -94,7 +95,7 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
     let mut of_reaction = vec![1.0; space.n_v() + 1];
     of_reaction[space.torques()].fill(size);
     let reactions = of_reaction.repeat(groups);
-    // Those of poses: a length each of the translations, and directions.
+    // Units of poses: a length for each of the translations, and directions.
     let of_pose = |body: &[f64]| match space {
         SpaceKind::Space3 => [&body[..3], &[1.0; 9]].concat(),
         _ => body.to_vec(),
@@ -107,8 +108,8 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
 mod tests {
     use super::*;
 
-    /// Behind a body stand ten angles that count their turns, as many as a body has coordinates and
-    /// more: they belong to no pose.
+    /// After a body there are ten unwrapped angles, which are more than the coordinates of a body:
+    /// they do not belong to a pose.
     #[test]
     fn turns_are_no_poses() {
         let pose = [1.0, 2.0, 3.0, 1.0, 0.0, 0.0, 0.0];

@@ -2,25 +2,26 @@
 
 use report::{Place, WorkPrecisionRow, WorkPrecisionScene};
 
-/// Methods within this factor of the fastest have the same rank: repeated runs differ by as much.
+/// Methods within this factor of the fastest have the same rank: repeated runs differ by this
+/// factor.
 const EQUAL: f64 = 1.1;
 
-/// A finished run with an error above this limit at a tolerance of at most [`TIGHT`] is wrong, not
-/// only inaccurate.
+/// A finished run with an error above this limit at a tolerance of at most [`TIGHT`] is wrong, and
+/// not only inaccurate.
 const WRONG: f64 = 1e-2;
 
-/// See [`WRONG`].
+/// See the limit [`WRONG`].
 const TIGHT: f64 = 1e-6;
 
-/// How often each method wins, how many runs did not reach their end, and which finished runs are
-/// wrong.
+/// Counts how often each method wins and how many runs did not reach their end, and lists the
+/// finished runs that are wrong.
 #[must_use]
 pub fn overview(scenes: &[WorkPrecisionScene]) -> Vec<String> {
     let mut sentences: Vec<String> = wins(scenes).into_iter().chain(losses(scenes)).collect();
     let rows: Vec<&WorkPrecisionRow> = scenes.iter().flat_map(|s| &s.rows).collect();
     let unfinished = rows.iter().filter(|row| row.status != "done").count();
     sentences.push(format!(
-        "{} runs; {unfinished} did not reach their end, each with its reason in the table.",
+        "Of {} runs, {unfinished} did not reach their end. The table states the reason for each of them.",
         rows.len()
     ));
     let is_wrong = |row: &&WorkPrecisionRow| {
@@ -28,9 +29,9 @@ pub fn overview(scenes: &[WorkPrecisionScene]) -> Vec<String> {
     };
     let wrong: Vec<String> = rows.into_iter().filter(is_wrong).map(name).collect();
     sentences.push(match wrong.len() {
-        0 => format!("No finished run at a tolerance of {TIGHT:.0e} or tighter is off by more than {WRONG:.0e}."),
+        0 => format!("No finished run at a tolerance of {TIGHT:.0e} or tighter has an error above {WRONG:.0e}."),
         n => format!(
-            "{n} finished runs at a tolerance of {TIGHT:.0e} or tighter are off by more than {WRONG:.0e}: {}.",
+            "{n} finished runs at a tolerance of {TIGHT:.0e} or tighter have an error above {WRONG:.0e}: {}.",
             wrong.join("; ")
         ),
     });
@@ -40,12 +41,13 @@ pub fn overview(scenes: &[WorkPrecisionScene]) -> Vec<String> {
 fn name(row: &WorkPrecisionRow) -> String {
     let curve = &row.curve;
     format!(
-        "{} with {}, {}, {} at {:.0e}",
+        "{} with {}, {}, {} at tolerance {:.0e}",
         row.scene, curve.method, curve.formulation, curve.stabilisation, row.tolerance
     )
 }
 
-/// The ranks of methods with the usual stabilisation, the fastest first, for each scene and error.
+/// Returns the ranks of methods with the usual stabilisation, the fastest first, for each scene and
+/// error.
 fn methods(
     scenes: &[WorkPrecisionScene],
 ) -> impl Iterator<Item = (&WorkPrecisionScene, f64, Vec<&Place>)> {
@@ -72,8 +74,8 @@ fn methods(
     places.filter(|(_, _, places): &(_, _, Vec<_>)| !places.is_empty())
 }
 
-/// Cases in which the automatically chosen method is not the fastest, with the worst factor of each
-/// scene.
+/// Lists cases in which the automatically chosen method is not the fastest, with the worst factor
+/// of each scene.
 fn losses(scenes: &[WorkPrecisionScene]) -> Option<String> {
     let mut worst: Vec<(&WorkPrecisionScene, f64, &str, f64)> = Vec::new();
     let mut unreached: Vec<&str> = Vec::new();
@@ -98,27 +100,29 @@ fn losses(scenes: &[WorkPrecisionScene]) -> Option<String> {
     }
     let lost = worst.iter().map(|(scene, error, method, factor)| {
         let (name, own) = (&scene.name, scene.automatic);
-        format!("{name} ({own} takes {factor:.1} times as long as {method} at {error:.0e})")
+        format!(
+            "{name} ({own} takes {factor:.1} times as long as {method} for an error of {error:.0e})"
+        )
     });
     let lost: Vec<String> = lost.collect();
     let mut words = match lost.len() {
-        0 => "The method that is chosen by itself loses nowhere by more than a tenth".to_owned(),
+        0 => "The automatically chosen method never takes more than 1.1 times as long as the fastest method".to_owned(),
         _ => format!(
-            "The method that is chosen by itself loses, at worst, in {}",
+            "The automatically chosen method takes at least 1.1 times as long as the fastest method in these scenes, each with its largest factor: {}",
             lost.join(", ")
         ),
     };
     if !unreached.is_empty() {
         let names = unreached.join(", ");
         words.push_str(&format!(
-            "; it does not reach all errors that others reach in {names}"
+            "; it does not reach all errors that other methods reach in {names}"
         ));
     }
     words.push('.');
     scenes.first().map(|_| words)
 }
 
-/// How often each method is the fastest, over all scenes and errors.
+/// Counts how often each method is the fastest, over all scenes and errors.
 fn wins(scenes: &[WorkPrecisionScene]) -> Option<String> {
     let (mut total, mut counts) = (0, Vec::<(&str, usize)>::new());
     for (_, _, places) in methods(scenes) {
@@ -145,7 +149,7 @@ fn wins(scenes: &[WorkPrecisionScene]) -> Option<String> {
         .map(|(method, n)| format!("{method} {n}"))
         .collect();
     Some(format!(
-        "Of {total} pairs of a scene and an error that some method reaches, the fastest or within a tenth of it: {}.",
+        "There are {total} pairs of a scene and an error that at least one method reaches. Number of pairs in which a method is the fastest or takes at most 1.1 times as long as the fastest: {}.",
         words.join(", ")
     ))
 }

@@ -3,17 +3,17 @@
 use dynamics::{FORMULATION, Method, Stabilisation};
 use report::CurveName;
 
-/// A way to move a mechanism; over all tolerances it gives a curve of error against time.
+/// A way to simulate a mechanism; over all tolerances it gives a curve of error against time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     /// Integrator.
     pub method: Method,
-    /// Treatment of drift.
+    /// Method against constraint drift.
     pub stabilisation: Stabilisation,
 }
 
 impl Curve {
-    /// Its names in tables.
+    /// Returns the names of the curve in tables.
     #[must_use]
     pub fn name(&self) -> CurveName {
         CurveName {
@@ -35,7 +35,7 @@ const EXPLICIT: Method = Method::Dop853;
 /// Stabilisation in the comparison of methods.
 const STABILISATION: Stabilisation = Stabilisation::Projection;
 
-/// Powers of ten, exactly.
+/// Exact powers of ten.
 const TOLERANCES: [f64; 11] = [
     1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13,
 ];
@@ -59,14 +59,14 @@ pub struct ComparisonPlan {
     pub repetitions: u32,
     /// Smallest total time of these runs (s).
     pub seconds: f64,
-    /// A run that takes longer (s) is given up, and so are runs of its curve with tighter
+    /// A run that takes longer (s) is abandoned, and so are runs of its curve with tighter
     /// tolerances.
     pub budget: f64,
 }
 
 impl ComparisonPlan {
-    /// Every method with projection, one explicit method with every stabilisation; tolerances 1e-3,
-    /// 1e-4, … 1e-13.
+    /// The plan has every method with projection, and one explicit method with every stabilisation;
+    /// its tolerances are 1e-3, 1e-4, … 1e-13.
     #[must_use]
     pub fn standard() -> Self {
         let curves = everything()
@@ -81,7 +81,7 @@ impl ComparisonPlan {
         }
     }
 
-    /// The same curves at three tolerances, for a first impression.
+    /// The plan has the same curves at three tolerances, for a first impression.
     #[must_use]
     pub fn quick() -> Self {
         Self {
@@ -92,7 +92,7 @@ impl ComparisonPlan {
         }
     }
 
-    /// Every method with every stabilisation.
+    /// The plan has every method with every stabilisation.
     #[must_use]
     pub fn everything() -> Self {
         Self {
@@ -101,13 +101,13 @@ impl ComparisonPlan {
         }
     }
 
-    /// Number of runs for each scene.
+    /// Returns the number of runs for each scene.
     #[must_use]
     pub fn runs(&self) -> usize {
         self.curves.len() * self.tolerances.len()
     }
 
-    /// The curve of a method in the comparison of methods.
+    /// Returns the curve of a method in the comparison of methods.
     pub(super) fn usual(method: Method) -> Curve {
         Curve {
             method,
@@ -116,7 +116,7 @@ impl ComparisonPlan {
     }
 }
 
-/// All curves: methods first, then the stabilisations compared with one method.
+/// Returns all curves: methods first, then the stabilisations compared with one method.
 fn everything() -> Vec<Curve> {
     let mut curves: Vec<Curve> = methods().map(ComparisonPlan::usual).collect();
     for method in methods() {

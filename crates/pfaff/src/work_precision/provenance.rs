@@ -5,7 +5,7 @@ use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 use std::{env, fs};
 
-/// Processor, number of available cores, operating system.
+/// Returns processor, number of available cores and operating system.
 #[must_use]
 pub fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -17,8 +17,8 @@ pub fn machine() -> String {
     )
 }
 
-/// The name of the processor, as far as the system tells it without being linked: in a file, in a
-/// variable, or by a program.
+/// Returns the name of the processor, if the system provides it without a linked library: in a
+/// file, in a variable, or by a program.
 fn processor() -> Option<String> {
     let name = match OS {
         "windows" => env::var("PROCESSOR_IDENTIFIER").ok()?,
@@ -39,7 +39,7 @@ fn processor() -> Option<String> {
     Some(name.trim().to_owned()).filter(|name| !name.is_empty())
 }
 
-/// Present date and time in UTC, in the form `2026-11-21 16:20 UTC`.
+/// Returns the present date and time in UTC, in the form `2026-11-21 16:20 UTC`.
 #[must_use]
 pub fn date() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);
@@ -53,8 +53,8 @@ pub fn date() -> String {
     )
 }
 
-/// Year, month and day of a number of days after 1970-01-01, in the Gregorian calendar. Years begin
-/// in March here, so that the leap day is their last day; an era has 400 years.
+/// Converts a number of days after 1970-01-01 to year, month and day, in the Gregorian calendar.
+/// Years begin in March here, so that the leap day is their last day; an era has 400 years.
 fn civil(days: u64) -> [u64; 3] {
     let days = days + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);
@@ -76,8 +76,8 @@ mod tests {
 
     #[test]
     fn days_have_their_dates() {
-        // From the calendar: the first day, the leap days of 1972 and 2000, and the first of March
-        // after each.
+        // The dates come from the calendar: the first day, the leap days of 1972 and 2000, and the
+        // first of March after each.
         assert_eq!(civil(0), [1970, 1, 1]);
         assert_eq!(civil(789), [1972, 2, 29]);
         assert_eq!(civil(790), [1972, 3, 1]);

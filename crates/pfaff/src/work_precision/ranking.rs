@@ -10,17 +10,17 @@ const LEVELS: [f64; 10] = [
     1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12,
 ];
 
-/// A run counts as reaching an error if no run with a tighter tolerance exceeds it by more than
-/// this factor: near singular configurations a loose run may be accurate by chance.
+/// A run reaches an error if no run with a tighter tolerance exceeds the error by more than this
+/// factor: near singular configurations a loose run may be accurate by chance.
 const LUCK: f64 = 10.0;
 
 /// Errors are reported down to this multiple of the error of the reference.
 const RESOLVED: f64 = 3.0;
 
-/// Methods within this factor are called equal: repeated runs differ by as much.
+/// Methods within this factor count as equal: repeated runs differ by this factor.
 const EQUAL: f64 = 1.1;
 
-/// Curves ordered by time at each error, the fastest first.
+/// Orders curves by time at each error, the fastest first.
 pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine> {
     let mut curves: Vec<&CurveName> = Vec::new();
     for row in rows {
@@ -54,9 +54,9 @@ pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine>
         .collect()
 }
 
-/// Time (s) and evaluations for an error, from the runs of a curve, the loosest tolerance first:
-/// interpolated linearly in logarithms between the last run above the error and the first one that
-/// reaches it.
+/// Returns time (s) and evaluations for an error, from the runs of a curve, the loosest tolerance
+/// first. The values are interpolated linearly in logarithms between the last run above the error
+/// and the first one that reaches it.
 fn cost(runs: &[&WorkPrecisionRow], level: f64) -> Option<(f64, f64)> {
     let error = |row: &WorkPrecisionRow| row.motion_error().unwrap_or(f64::INFINITY);
     let finished: Vec<(&WorkPrecisionRow, f64)> = runs.iter().map(|r| (*r, error(r))).collect();
@@ -79,7 +79,7 @@ fn cost(runs: &[&WorkPrecisionRow], level: f64) -> Option<(f64, f64)> {
     Some((between(looser.seconds, own.0), evaluations))
 }
 
-/// One sentence for each range of errors with the fastest method; then a comparison of the
+/// Writes one sentence for each range of errors with the fastest method, then a comparison of the
 /// stabilisations of one method.
 pub(super) fn words(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Vec<String> {
     let Some(usual) = rows.first().map(|row| &row.curve) else {
@@ -116,26 +116,32 @@ pub(super) fn words(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Vec<Str
 
 fn range(levels: &[f64], places: &[&Place], factors: &[f64]) -> String {
     let span = match levels {
-        [first, .., last] => format!("Errors of {first:.0e} … {last:.0e}"),
-        [only] => format!("An error of {only:.0e}"),
+        [first, .., last] => format!("For errors of {first:.0e} … {last:.0e}"),
+        [only] => format!("For an error of {only:.0e}"),
         [] => String::new(),
     };
     let winner = places[0].curve.method;
     let fold = |(low, high): (f64, f64), f: &f64| (low.min(*f), high.max(*f));
     let (low, high) = factors.iter().fold((f64::INFINITY, 0.0), fold);
     let Some(next) = places.get(1).map(|place| place.curve.method) else {
-        return format!("{span}: {winner}, at the tight end alone.");
+        return format!(
+            "{span}, {winner} is the fastest method, and no other method reaches the smallest error."
+        );
     };
     if high < EQUAL {
-        format!("{span}: {winner}, and {next} as fast.")
+        format!(
+            "{span}, {winner} is the fastest method, and {next} takes less than 1.1 times as long."
+        )
     } else {
         let factor = span_of(low, high);
         let which = if levels.len() > 1 {
-            ", at the tight end"
+            " (at the smallest error: "
         } else {
-            ","
+            " ("
         };
-        format!("{span}: {winner}; the next{which} {next}, takes {factor} times as long.")
+        format!(
+            "{span}, {winner} is the fastest method. The second-fastest method{which}{next}) takes {factor} times as long."
+        )
     }
 }
 
@@ -148,7 +154,7 @@ fn span_of(low: f64, high: f64) -> String {
     }
 }
 
-/// Other stabilisations compared with the usual one of the same method.
+/// Compares other stabilisations with the usual one of the same method.
 fn treatments(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Option<String> {
     let usual = &rows.first()?.curve;
     let mut others: Vec<&CurveName> = Vec::new();
@@ -177,11 +183,11 @@ fn treatments(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Option<String
                 curve.stabilisation.to_owned()
             };
             match ratios.last() {
-                None => format!("{name} reaches no error of the table"),
+                None => format!("{name} does not reach any error of the table"),
                 Some((best, _)) => {
                     let mean = ratios.iter().map(|r| r.1.ln()).sum::<f64>() / ratios.len() as f64;
                     format!(
-                        "{name} {:.1} times as long (down to {best:.0e})",
+                        "{name} takes {:.1} times as long (for errors down to {best:.0e})",
                         mean.exp()
                     )
                 }
@@ -190,7 +196,7 @@ fn treatments(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Option<String
         .collect();
     let method = others.first()?.method;
     Some(format!(
-        "{method} takes, compared with {} and {}: {}.",
+        "Run times of {method} relative to its runs with {} and {}: {}.",
         usual.formulation,
         usual.stabilisation,
         compared.join("; ")

@@ -1,4 +1,4 @@
-//! Ways to move a mechanism that are not part of the product, in rows of the same table.
+//! Ways to simulate a mechanism that are not part of this program, in rows of the same table.
 
 use std::time::Duration;
 
@@ -10,16 +10,17 @@ use super::plan::ComparisonPlan;
 use super::standard::{Errors, Standard};
 use super::{GIVEN_UP, Subject};
 
-/// A way to move a mechanism that is not part of the product.
+/// A way to simulate a mechanism that is not part of this program.
 pub trait Rival {
-    /// Its name in tables.
+    /// Returns the name of the method in tables.
     fn name(&self) -> CurveName;
 
-    /// One run from the start through all instants (s, ascending), with equal relative and absolute
-    /// tolerance. It gives up after the budget of computing time.
+    /// Performs one run from the start through all instants (s, ascending), with equal relative and
+    /// absolute tolerance. The run stops after its limit of computing time.
     ///
     /// # Errors
-    /// The reason why it did not reach the last instant, as text: given up or stopped.
+    /// Returns the reason, as text, why the run did not reach the last instant: abandoned or
+    /// stopped.
     fn run(
         &self,
         start: &PreparedMechanism,
@@ -32,7 +33,7 @@ pub trait Rival {
 /// Reason why a rival did not reach its last instant, as text.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RivalFault {
-    /// It used up its budget of computing time.
+    /// The run used up its limit of computing time.
     GivenUp(String),
     /// Any other reason.
     Stopped(String),
@@ -55,7 +56,7 @@ pub struct RivalRun {
     pub seconds: f64,
 }
 
-/// Runs of a rival at one tolerance: a row, or `None` if interrupted.
+/// Performs runs of a rival at one tolerance and returns a row, or `None` if interrupted.
 pub(super) fn row(
     subject: &Subject,
     rival: &dyn Rival,

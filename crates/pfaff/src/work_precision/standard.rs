@@ -13,10 +13,10 @@ const SAME_TIME: f64 = 1e-9;
 /// Errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Error of each kind in the order of [`Kind`](super::Kind): the largest over components and
-    /// instants, with lengths and torques divided by the size of the mechanism, relative to the
-    /// largest value of the kind (to 1 for positions that stay smaller, and if all values are
-    /// zero). NaN without a reference.
+    /// Error of each kind in the order of [`Kind`](super::Kind): the largest error over components
+    /// and instants, with lengths and torques divided by the size of the mechanism. It is relative
+    /// to the largest value of the kind, or to 1 for positions with smaller values and if all
+    /// values are zero. The value is NaN without a reference.
     pub scaled: [f64; 4],
     /// The largest difference of a coordinate or velocity, in SI units.
     pub state: f64,
@@ -29,7 +29,7 @@ impl Errors {
         state: f64::NAN,
     };
 
-    /// The larger of the errors of position and velocity.
+    /// Returns the larger of the errors of position and velocity.
     #[must_use]
     pub fn motion(&self) -> f64 {
         self.scaled[0].max(self.scaled[1])
@@ -68,19 +68,19 @@ pub struct ReferenceInstant {
 }
 
 impl Standard {
-    /// Bound on the error of the motion: the larger bound of position and velocity.
+    /// Returns the bound on the error of the motion: the larger bound of position and velocity.
     pub(super) fn motion_limit(&self) -> f64 {
         self.limits[0].max(self.limits[1])
     }
 
-    /// The values of a reference.
+    /// Returns the values of a reference.
     pub(super) fn known(reference: &Reference, mechanism: &Mechanism, size: f64) -> Self {
         let units = units(mechanism, size);
         Self::new(reference.instants.clone(), reference.limits, units)
     }
 
-    /// The mean of two runs at their common times, with their difference as the bound on its error.
-    /// Only the reactions with the indices `unique` are used.
+    /// Returns the mean of two runs at their common times, with their difference as the bound on
+    /// its error. Only the reactions with the indices `unique` are used.
     pub(super) fn mean(
         [a, b]: [&[Observation]; 2],
         unique: &[usize],
@@ -98,7 +98,7 @@ impl Standard {
         let instants = a.iter().zip(b).map(mean).collect();
         let mut standard = Self::new(instants, [0.0; 4], units(mechanism, size));
         if let Some(errors) = standard.errors(a) {
-            // Both runs differ from the mean by half of their difference.
+            // Each run differs from the mean by half of their difference.
             standard.limits = errors.scaled.map(|e| 2.0 * e);
         }
         standard
@@ -126,7 +126,7 @@ impl Standard {
         }
     }
 
-    /// Takes the kinds without a reference from another one.
+    /// Adds the kinds without a reference from another instance.
     pub(super) fn completed_by(mut self, other: &Self) -> Self {
         for kind in 0..4 {
             if !self.limits[kind].is_nan() {
@@ -148,7 +148,7 @@ impl Standard {
         self
     }
 
-    /// Errors of a run; `None` if it has no row at one of the instants.
+    /// Returns the errors of a run; `None` if it has no row at one of the instants.
     pub(super) fn errors(&self, run: &[Observation]) -> Option<Errors> {
         let mut errors = Errors {
             scaled: [0.0; 4],
@@ -177,7 +177,7 @@ impl Standard {
     }
 }
 
-/// The larger one; a value that is not finite counts as the largest.
+/// Returns the larger value; a value that is not finite counts as the largest.
 fn worse(a: f64, b: f64) -> f64 {
     if b.is_nan() { f64::INFINITY } else { a.max(b) }
 }
@@ -186,8 +186,8 @@ fn is_same_time(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME_TIME * a.abs().max(b.abs())
 }
 
-/// Indices of the components of reactions that are unique on all stretches of a run, also of the
-/// named components of definitions.
+/// Returns the indices of the components of reactions that are unique on all stretches of a run,
+/// including the named components of definitions.
 pub(super) fn unique_reactions(verdicts: &Stretches, mechanism: &Mechanism) -> Vec<usize> {
     let space = mechanism.space();
     let of_reaction = |found: &ReactionStretches| -> Vec<usize> {
@@ -208,7 +208,8 @@ mod tests {
     use super::*;
     use crate::Study;
 
-    /// A number is compared if it is unique on the whole run, whatever holds at its start.
+    /// A number is compared if it is unique on the whole run, even if it is not unique at its
+    /// start.
     #[test]
     fn only_what_is_unique_on_the_run_is_compared() {
         let mut d = model::Description::new("sleigh");
@@ -221,7 +222,7 @@ mod tests {
         let study = Study::build(d).expect("a study");
         let mechanism = &study.prepared.mechanism;
         let mut verdicts = Stretches::unique(mechanism, [0.0, 1.0], &[]);
-        // Fx, Fy and N of a blade; it has no torque.
+        // The components are Fx, Fy and N of a blade; a blade has no torque.
         assert_eq!(unique_reactions(&verdicts, mechanism), [0, 1, 3]);
         verdicts.reactions[0].components[1].1 =
             VerdictTrack::constant([0.0, 1.0], Verdict::NotUnique);

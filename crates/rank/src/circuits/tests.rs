@@ -1,5 +1,5 @@
-//! Circuits against brute force over all subsets of rows of small integer matrices, in exact
-//! arithmetic.
+//! Compares circuits with a brute-force search over all subsets of rows of small integer matrices,
+//! in exact arithmetic.
 
 use super::*;
 use crate::decide;
@@ -108,8 +108,8 @@ fn short_circuits_are_the_shortest_basis_of_all_circuits() {
             decision.redundancy,
             "seed {seed}"
         );
-        // No independent set of circuits is shorter: the greedy choice over the exact list, ranks
-        // from the exact rows.
+        // No independent set of circuits is shorter. The test makes the greedy choice from the
+        // exact list, with ranks of the exact rows.
         let total: usize = found.iter().map(|c| c.rows.len()).sum();
         assert_eq!(
             total,
@@ -192,7 +192,7 @@ fn a_component_with_too_many_circuits_falls_back() {
     assert!(found.iter().all(|c| c.rows.len() == 16));
 }
 
-/// Two vectors that span a plane by 1e-3 say where it lies; by 1e-5 they do not.
+/// Two vectors with a spread of 1e-3 determine the plane that they span; with 1e-5 they do not.
 #[test]
 fn vectors_have_to_span_what_a_circuit_vanishes_on() {
     let rows = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [2.0, 1.0]];

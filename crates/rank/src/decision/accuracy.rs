@@ -1,10 +1,10 @@
-//! What the entries of a matrix are known to, and the equilibration that uses it.
+//! The accuracy of the entries of a matrix, and the equilibration that uses it.
 
 use super::outcome::RankError;
 use crate::limits::SIGNIFICANT;
 use linalg::{Matrix, Scaling, equilibrate};
 
-/// What the entries of a matrix are known to.
+/// Accuracy of the entries of a matrix.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -21,17 +21,17 @@ use linalg::{Matrix, Scaling, equilibrate};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Accuracy<'a> {
-    /// To their last digits: each entry is as significant as any other, and a computation with
-    /// them rounds.
+    /// The entries are accurate to their last digits: each entry is as significant as any other,
+    /// and computations with them have rounding errors.
     Rounding,
-    /// They are the rational numbers that they stand for, and nothing is rounded: the rank is that
-    /// of [`certify_exact`](crate::certify_exact). Where the rank or the rows are given, it is the
-    /// same as [`Accuracy::Rounding`].
+    /// The entries are exact rational numbers, and no rounding occurs: the rank is that of
+    /// [`certify_exact`](crate::certify_exact). If the rank or the rows are given, this variant is
+    /// equivalent to [`Accuracy::Rounding`].
     Exact,
-    /// To an absolute uncertainty that is the same for all entries of the equilibrated matrix.
+    /// An absolute uncertainty that is the same for all entries of the equilibrated matrix.
     Absolute(f64),
-    /// Absolute, entry by entry, in the units of the matrix. Entries below their uncertainty do not
-    /// affect the scale of a row or column.
+    /// An absolute uncertainty for each entry, in the units of the matrix. Entries below their
+    /// uncertainty do not affect the scale of a row or column.
     Entries(&'a Matrix),
 }
 
@@ -51,11 +51,12 @@ pub(crate) struct Spread {
 }
 
 impl Accuracy<'_> {
-    /// The equilibration of the significant entries of `c`. What rounding left of an entry is not
-    /// scaled up to size one.
+    /// Returns the equilibration of the significant entries of `c`. Entries that are only rounding
+    /// are not scaled up to size one.
     ///
     /// # Errors
-    /// If the uncertainty has another shape than `c`, or is negative or not finite.
+    /// Returns an error if the uncertainty has another shape than `c`, or is negative or not
+    /// finite.
     pub fn equilibration(self, c: &Matrix) -> Result<Scaling, RankError> {
         let Self::Entries(u) = self else {
             return Ok(equilibrate(c));
@@ -69,14 +70,14 @@ impl Accuracy<'_> {
         Ok(equilibrate(&significant))
     }
 
-    /// [`Self::equilibration`], and the uncertainty of the equilibrated matrix.
+    /// Returns [`Self::equilibration`], and the uncertainty of the equilibrated matrix.
     pub(crate) fn equilibrate(self, c: &Matrix) -> Result<(Scaling, Spread), RankError> {
         let scaling = self.equilibration(c)?;
         let spread = self.equilibrated(c, &scaling)?;
         Ok((scaling, spread))
     }
 
-    /// The uncertainty of `c` in a given equilibration.
+    /// Returns the uncertainty of `c` in a given equilibration.
     pub(crate) fn equilibrated(self, c: &Matrix, scaling: &Scaling) -> Result<Spread, RankError> {
         let spread = match self {
             Self::Rounding | Self::Exact => Spread {
@@ -105,7 +106,7 @@ impl Accuracy<'_> {
         }
     }
 
-    /// The uncertainty of each entry in an equilibration computed by [`Self::equilibrate`].
+    /// Returns the uncertainty of each entry in an equilibration computed by [`Self::equilibrate`].
     pub(crate) fn of_entries(self, scaling: &Scaling) -> Matrix {
         let all =
             |value: f64| Matrix::from_fn(scaling.rows.len(), scaling.cols.len(), |_, _| value);
@@ -139,7 +140,7 @@ impl Accuracy<'_> {
 mod tests {
     use super::*;
 
-    /// What several roundings left of larger terms is not scaled up to size one.
+    /// Entries that consist of several roundings of larger terms are not scaled up to size one.
     #[test]
     fn an_entry_near_its_uncertainty_does_not_set_the_scale() {
         let known = Matrix::from_rows(&[[0.0, 0.0], [0.0, 1e-12]]);

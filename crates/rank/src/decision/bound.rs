@@ -1,8 +1,8 @@
 //! A lower bound on the smallest singular value, proved in floating point.
 //!
 //! With an approximate right inverse X of A (r×n) and `E = I − A·X`, `‖E‖ < 1` gives
-//! `σ_r(A) ≥ (1 − ‖E‖)/‖X‖`. X may be any matrix; only E has to be bounded, and a product in
-//! floating point is wrong by at most `γ_n·|A|·|X|`.
+//! `σ_r(A) ≥ (1 − ‖E‖)/‖X‖`. X may be any matrix; only E needs a bound, and the error of a product
+//! in floating point is at most `γ_n·|A|·|X|`.
 //!
 //! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section
 //! 3.1 for γ_n.
@@ -10,8 +10,8 @@
 use crate::limits::BOUND_SLACK;
 use linalg::{Matrix, kernels};
 
-/// Lower bound on σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n matrix `a`,
-/// for a right inverse X that is given as its r columns; 0 if nothing can be proved with it.
+/// Returns a lower bound on σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n
+/// matrix `a`. The right inverse X is given by its r columns. The bound is 0 if X proves nothing.
 pub(super) fn smallest_singular_value(a: &Matrix, x: &Matrix, perturbation: f64) -> f64 {
     let (r, n) = (a.nrows(), a.ncols());
     if r == 0 {
@@ -23,7 +23,7 @@ pub(super) fn smallest_singular_value(a: &Matrix, x: &Matrix, perturbation: f64)
     let e = Matrix::from_fn(r, r, |i, l| {
         f64::from(u8::from(i == l)) - kernels::dot(a.row(i), x.row(l))
     });
-    // Norms ignore NaN, so test for it.
+    // Norms ignore NaN, so NaN is tested separately.
     if x.first_non_finite().is_some() || e.first_non_finite().is_some() {
         return 0.0;
     }
@@ -49,7 +49,7 @@ mod tests {
 
     #[test]
     fn bounds_are_below_and_near_the_truth() {
-        // diag(1, s)·rotation: σ₂ = s.
+        // For diag(1, s)·rotation, σ₂ = s.
         let (sin, cos) = 0.7_f64.sin_cos();
         for s in [0.5, 1e-3, 1e-8, 1e-12] {
             let a = Matrix::from_rows(&[[cos, sin, 0.0], [-s * sin, s * cos, 0.0]]);
@@ -59,7 +59,7 @@ mod tests {
                 "{s:e}: {bound:e}"
             );
             assert!(smallest_singular_value(&a, 0.1 * s) < 0.9 * s);
-            // 1/‖A⁺‖ = 1/√(1 + 1/s²) is what the bound is without rounding.
+            // Without rounding, the bound would be 1/‖A⁺‖ = 1/√(1 + 1/s²).
             let exact = s.recip().hypot(1.0).recip();
             assert!(s < 1e-9 || bound > (1.0 - 1e-5) * exact, "{s:e}: {bound:e}");
         }
@@ -81,7 +81,7 @@ mod tests {
             smallest_singular_value(&Matrix::from_rows(&[[1.0], [1.0]]), 0.0),
             0.0
         );
-        // Third decimals of 1/3: independent by the last bit only, beyond what f64 can prove.
+        // The rows contain 1/3: they are independent only by the last bit, which f64 cannot prove.
         let a = Matrix::from_rows(&[[1.0, 1.0 / 3.0], [3.0, 1.0]]);
         assert_eq!(smallest_singular_value(&a, 0.0), 0.0);
     }

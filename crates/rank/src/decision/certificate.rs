@@ -1,7 +1,7 @@
 //! The certificate of a rank: a proof that the rank is at least r, and the reason why it is not
 //! larger.
 
-/// The proof behind a rank, in addition to the numbers in [`Evidence`](crate::Evidence).
+/// The proof of a rank, in addition to the numbers in [`Evidence`](crate::Evidence).
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Certificate {
@@ -10,7 +10,8 @@ pub struct Certificate {
     /// Proved lower bound of σ_r of the equilibrated matrix; 0 if only arithmetic modulo primes
     /// proves the rank.
     pub sigma_bound: f64,
-    /// σ_{r+1} in double-double precision: the residual of the dependencies (0 if there are none).
+    /// σ_{r+1} in double-double precision: the residual of the dependencies (0 if no row is
+    /// dependent).
     pub sigma_next: f64,
     /// The reason why the rank is not larger.
     pub grounds: Grounds,
@@ -27,11 +28,12 @@ pub struct Certificate {
     /// The displacement (m; angles times the size of the mechanism) of the most changed point that
     /// is necessary for a lower rank at this configuration. Present only if the change is small.
     pub lower_rank_here: Option<f64>,
-    /// The same for one change of the data that lowers the rank at all configurations near this
-    /// one: from this change on a row is redundant. `None` if no such change exists or it is not
-    /// small.
+    /// The displacement for one change of the data that lowers the rank at all configurations near
+    /// this one: above this change, a row is redundant. `None` if no such change exists or it is
+    /// not small.
     pub lower_rank_from: Option<f64>,
-    /// Whether these two changes are of angles only, because a tolerance is stated for angles only.
+    /// Whether these two changes are changes of angles only, because a tolerance is stated only for
+    /// angles.
     pub lower_rank_by_angles: bool,
     /// The change of each row of the left null space within the uncertainty of the data, m values;
     /// `None` if not requested.
@@ -41,8 +43,7 @@ pub struct Certificate {
     /// The angle (rad) by which the force of each row rotates within that tolerance, and the length
     /// (m) by which it shifts, m values; `None` without a tolerance.
     pub row_turn: Option<Vec<[f64; 2]>>,
-    /// Rows of dependencies for which that tolerance leaves open which rows belong to them,
-    /// ascending.
+    /// Rows for which that tolerance leaves undecided which dependencies contain them, ascending.
     pub open_rows: Vec<usize>,
 }
 
@@ -56,15 +57,15 @@ pub enum Grounds {
     /// Proved for exact entries: all larger minors vanish modulo primes whose product exceeds
     /// Hadamard's bound.
     Exact,
-    /// σ_{r+1} decreases with the precision of the arithmetic, to 1e-26 and below.
+    /// σ_{r+1} decreases with the precision of the arithmetic, to 1e-26 or less.
     Vanishes,
     /// σ_{r+1} does not decrease, but is below the uncertainty of the data.
     WithinData,
-    /// Redundant within the tolerance that the scene states.
+    /// The rows are redundant within the tolerance that the scene states.
     WithinTolerance,
 }
 
-/// Rows that are independent by a small margin only.
+/// Rows that are nearly dependent.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NearlyRedundant {

@@ -1,5 +1,6 @@
-//! Zero or not zero, with a clear gap between: the rule of rank decisions for single numbers, and
-//! for a few rows of a matrix that has already been equilibrated.
+//! Decides whether numbers are zero or nonzero with a clear gap between them. It applies the rule
+//! of rank decisions to single numbers, and to a few rows of a matrix that has already been
+//! equilibrated.
 
 use super::{required, tolerance};
 use crate::limits::{CLEARANCE, NOISE_MAX};
@@ -8,11 +9,11 @@ use linalg::{Matrix, singular_values};
 /// Result of comparing a number with its noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Size {
-    /// At most the noise, and the noise at most 1e-4.
+    /// The number is at most the noise, and the noise is at most 1e-4.
     Zero,
-    /// Between the two limits: undecided.
+    /// The number is between the two limits: undecided.
     Unclear,
-    /// Above the noise by the clearance of rank decisions, 10³.
+    /// The number exceeds the noise by the clearance of rank decisions, 10³.
     NonZero,
 }
 
@@ -24,9 +25,9 @@ pub(crate) fn size(x: f64, noise: f64) -> Size {
     }
 }
 
-/// Whether rows of an equilibrated matrix are certainly independent: `σ_min ≥ max(10³·τ, 10⁻⁷)`.
-/// They are not equilibrated again, because that would enlarge entries that are only rounding
-/// relative to the rest of their row or column.
+/// Returns whether rows of an equilibrated matrix are certainly independent:
+/// `σ_min ≥ max(10³·τ, 10⁻⁷)`. They are not equilibrated again, because that would enlarge entries
+/// that are only rounding relative to the rest of their row or column.
 pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
     let tolerance = tolerance(rows.nrows(), rows.ncols(), uncertainty);
     rows.nrows() <= rows.ncols()
@@ -39,7 +40,8 @@ pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// Only what clears its noise by 10³ counts, and noise above 1e-4 says nothing is zero.
+    /// A number counts only if it exceeds its noise by 10³, and noise above 1e-4 makes no number
+    /// zero.
     #[test]
     fn a_number_counts_a_thousand_times_above_its_noise() {
         assert_eq!(size(1.2e-6, 1e-9), Size::NonZero);

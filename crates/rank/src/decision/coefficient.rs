@@ -1,5 +1,5 @@
-//! Whether a coefficient of the dependencies is zero: the tolerance for T, Z and numbers computed
-//! from them, derived from the evidence of the rank.
+//! Decides whether a coefficient of the dependencies is zero. The tolerance for T, Z and derived
+//! numbers follows from the evidence of the rank.
 
 use super::Grounds;
 use super::outcome::RankDecision;
@@ -42,41 +42,42 @@ impl CoefficientReading {
     }
 }
 
-/// Bound on the error of a coefficient if singular values are accurate to `tolerance`: `10·τ/σ_r`.
+/// Returns a bound on the error of a coefficient if singular values are accurate to `tolerance`:
+/// `10·τ/σ_r`.
 pub(crate) fn coefficient_noise(tolerance: f64, sigma_r: f64) -> f64 {
     SOLVE_FACTOR * tolerance / sigma_r.min(1.0)
 }
 
 impl RankDecision {
-    /// Whether coefficients are compared with a tolerance that the scene states.
+    /// Returns whether coefficients are compared with a tolerance that the scene states.
     #[must_use]
     pub fn has_tolerance(&self) -> bool {
         let certificate = self.evidence.certificate.as_ref();
         certificate.is_some_and(|c| c.has_tolerance)
     }
 
-    /// Whether rows are redundant within a stated tolerance only: other data within it have a
-    /// higher rank.
+    /// Returns whether rows are redundant only within a stated tolerance: other data within it have
+    /// a higher rank.
     #[must_use]
     pub fn is_within_tolerance(&self) -> bool {
         let certificate = self.evidence.certificate.as_ref();
         certificate.is_some_and(|c| c.grounds == Grounds::WithinTolerance)
     }
 
-    /// Whether the entries of the matrix are exact, so that zeros of T are exact as well. They are
-    /// not if the rank is that of other data within what these are known to.
+    /// Returns whether the entries of the matrix are exact, so that zeros of T are exact as well.
+    /// They are not exact if the rank is that of other data within the accuracy of the given data.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         let certificate = self.evidence.certificate.as_ref();
         certificate.is_some_and(|c| c.uncertainty == 0.0 && c.grounds != Grounds::WithinData)
     }
 
-    /// Bound on the absolute error of a coefficient of T̃ or Z: `10·τ/σ_r`, or `s/σ_r` for a
-    /// certified rank of a matrix with uncertainty s (Frobenius norm).
+    /// Returns a bound on the absolute error of a coefficient of T̃ or Z: `10·τ/σ_r`, or `s/σ_r`
+    /// for a certified rank of a matrix with uncertainty s (Frobenius norm).
     ///
-    /// For exact entries it is rounding alone. For a nearly redundant matrix it is the error for
-    /// the matrix as it was read, `10·‖C_D − T·C_K‖/σ_r`; the effect of the uncertainty of the data
-    /// is reported by [`RankDecision::nearly_redundant`] instead.
+    /// For exact entries it is only rounding. For a nearly redundant matrix it is the error for the
+    /// stored matrix, `10·‖C_D − T·C_K‖/σ_r`; the effect of the uncertainty of the data is reported
+    /// by [`RankDecision::nearly_redundant`] instead.
     #[must_use]
     pub fn coefficient_tolerance(&self) -> f64 {
         let e = &self.evidence;
@@ -89,8 +90,9 @@ impl RankDecision {
             Some(_) if e.sigma_r < AS_READ => {
                 rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
             }
-            // T is right to double-double; what remains is the data: ‖δT‖ ≤ ‖δC‖·‖[T, I]‖/σ_r. If
-            // the rank holds only for data within their uncertainty, σ_{r+1} remains as a residual.
+            // T is accurate to double-double; the remaining error comes from the data: ‖δT‖ ≤
+            // ‖δC‖·‖[T, I]‖/σ_r. If the rank is valid only for data within their uncertainty,
+            // σ_{r+1} remains as a residual.
             Some(certificate) => {
                 let by_data = certificate.row_data.iter().flatten().copied();
                 by_data
@@ -101,11 +103,11 @@ impl RankDecision {
         }
     }
 
-    /// Bound on the error (norm) of row i of `[−T̃, I]`: the sum of the uncertainty of the entries
-    /// on which it depends, of the residual of dependencies that hold only within the data,
-    /// `10·‖C_D − T·C_K‖/σ_r`, and of rounding; or the effect of the data, if it is known and
-    /// larger. At most about [`RankDecision::coefficient_tolerance`], and much less in a matrix of
-    /// mixed sizes.
+    /// Returns a bound on the error (norm) of row i of `[−T̃, I]`. It is the sum of three parts:
+    /// the uncertainty of the entries on which the row depends, the residual `10·‖C_D − T·C_K‖/σ_r`
+    /// of dependencies that exist only within the data, and rounding. If the effect of the data is
+    /// known and larger, it is returned instead. The bound is at most about
+    /// [`RankDecision::coefficient_tolerance`], and much smaller in a matrix of mixed sizes.
     #[must_use]
     pub fn row_noise(&self, i: usize) -> f64 {
         let tolerance = self.coefficient_tolerance();
@@ -123,8 +125,8 @@ impl RankDecision {
         by_entries.max(by_data)
     }
 
-    /// The part of [`RankDecision::row_noise`] that does not come from a stated tolerance: a
-    /// shorter row is zero in any case, a longer one only within the tolerance.
+    /// Returns the part of [`RankDecision::row_noise`] that does not come from a stated tolerance.
+    /// A smaller row is zero for all data; a larger row is zero only within the tolerance.
     #[must_use]
     pub fn row_rounding(&self, i: usize) -> f64 {
         let certificate = self.evidence.certificate.as_ref();
@@ -138,7 +140,7 @@ impl RankDecision {
         self.readings().read(size, noise)
     }
 
-    /// Largest coefficient with this noise that is left out of a dependency.
+    /// Returns the largest coefficient with this noise that is omitted from a dependency.
     pub(crate) fn largest_zero(&self, noise: f64) -> f64 {
         if self.has_tolerance() {
             noise.min(STATED_ZERO)
@@ -147,7 +149,7 @@ impl RankDecision {
         }
     }
 
-    /// Rules by which its coefficients are classified.
+    /// Returns the rules by which its coefficients are classified.
     #[must_use]
     pub fn readings(&self) -> Readings {
         Readings {
@@ -163,7 +165,7 @@ impl RankDecision {
 pub struct Readings {
     /// Whether the coefficients were computed in double-double.
     pub(crate) is_certified: bool,
-    /// Whether the noise includes a stated tolerance, however large that is.
+    /// Whether the noise includes a stated tolerance of any size.
     pub(crate) has_tolerance: bool,
     /// The smallest coefficient that is not zero, if the noise is estimated from it; otherwise
     /// infinite.
@@ -207,7 +209,7 @@ impl Readings {
 mod tests {
     use super::*;
 
-    /// A tenth of a reaction is not treated as zero only because data within the tolerance could
+    /// A tenth of a reaction does not count as zero only because data within the tolerance could
     /// make it zero.
     #[test]
     fn within_a_tolerance_only_what_is_small_is_zero() {
@@ -229,8 +231,8 @@ mod tests {
         matches!(reading, CoefficientReading::Unclear { .. })
     }
 
-    /// Not zero is what exceeds ten times its tolerance and a billionth; nothing is zero where the
-    /// tolerance is above 1e-5.
+    /// A coefficient is nonzero if it exceeds ten times its tolerance and a billionth. No
+    /// coefficient is zero if the tolerance is above 1e-5.
     #[test]
     fn a_coefficient_has_to_clear_its_tolerance() {
         use CoefficientReading::{NonZero, Zero};
@@ -242,8 +244,8 @@ mod tests {
         assert!(is_unclear(CoefficientReading::of(1e-7, 1.2e-5)));
     }
 
-    /// In double-double a zero comes out as 1e-13 and less, whatever the data are known to; what
-    /// random combinations call zero is ten thousand times smaller than what they do not.
+    /// In double-double, a zero appears as 1e-13 or less, for any accuracy of the data. Zeros of
+    /// random combinations are ten thousand times smaller than nonzero values.
     #[test]
     fn what_vanishes_is_zero_and_what_is_near_the_smallest_is_not() {
         let mut readings = Readings {

@@ -1,15 +1,15 @@
-//! The usual decision: the rank, rows to keep, and the others in terms of them.
+//! The standard decision: the rank, the rows to keep, and the other rows in terms of them.
 
 use super::exact::certify_exact;
 use super::{Accuracy, RankDecision, RankError, read};
 use linalg::Matrix;
 
-/// Decides the rank of C, chooses the rows to keep, and expresses the others in terms of them.
+/// Decides the rank of C, chooses the rows to keep, and expresses the other rows in terms of them.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
 /// | `c` | m×n | constraint matrix; `0×n` and `m×0` have rank 0 |
-/// | `accuracy` | – or m×n | what the entries are known to; see [`Accuracy`] |
+/// | `accuracy` | – or m×n | accuracy of the entries; see [`Accuracy`] |
 ///
 /// ```
 /// use linalg::Matrix;

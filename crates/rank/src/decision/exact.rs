@@ -1,7 +1,7 @@
 //! The rank of a matrix whose entries are exact.
 //!
-//! Floating point proposes the rows, arithmetic modulo primes decides: there is no tolerance, and
-//! the result is never undecided.
+//! Floating point proposes the rows, and arithmetic modulo primes decides. There is no tolerance,
+//! and the result is always decided.
 
 use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::RowLevels;
@@ -13,12 +13,12 @@ use linalg::{Dd, DdMatrix, Matrix, equilibrate, kernels};
 
 /// Decides the rank of C (m×n) exactly; the entries are dyadic rationals, taken as exact.
 ///
-/// A minor that is not zero modulo a prime proves that the rank is at least r; all larger minors
-/// being zero modulo primes whose product exceeds Hadamard's bound proves that it is not larger.
-/// The dependencies T are rounded from their exact values, so its zeros are exactly the zeros. The
-/// time grows with the number of digits of the minors: a redundant 22×21 matrix takes less than a
-/// millisecond, a 200×200 one seconds. Use [`certify_within`](crate::certify_within) for entries
-/// that come from measured or rounded data.
+/// A minor that is not zero modulo a prime proves that the rank is at least r. If all larger minors
+/// are zero modulo primes whose product exceeds Hadamard's bound, the rank is not larger. The
+/// dependencies T are rounded from their exact values, so their zeros are exact. The time grows
+/// with the number of digits of the minors: a redundant 22×21 matrix takes less than a millisecond,
+/// a 200×200 one seconds. Use [`certify_within`](crate::certify_within) for entries that come from
+/// measured or rounded data.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -43,7 +43,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
     let (m, n) = (c.nrows(), c.ncols());
     let scaling = equilibrate(c);
     let scaled = scaling.apply(c);
-    // Below this limit the singular values are noise of double-double; there only the primes
+    // Below this limit, the singular values are noise of double-double. There only the primes
     // decide, and a proposal is not needed.
     let floor = 16.0 * (m.max(1) as f64) * (n.max(1) as f64) * Dd::EPSILON;
     let graded = RowLevels::new(&DdMatrix::from(&scaled), floor);
@@ -71,7 +71,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
 
     let mut sigma = graded.singular_values(m.min(n));
     for sigma in &mut sigma[..rank] {
-        // Not zero, whatever double-double shows.
+        // The value is not zero, even if double-double shows zero.
         *sigma = sigma.max(f64::MIN_POSITIVE);
     }
     let sigma_r = rank.checked_sub(1).map_or(f64::INFINITY, |r| sigma[r]);
@@ -101,7 +101,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
         status: RankStatus::Decided,
     };
     let nearly_redundant = (sigma_r < NEARLY_REDUNDANT).then(|| {
-        // Rows whose independence only the primes show.
+        // Rows whose independence is visible only modulo primes.
         let hidden = graded.left.iter().position(|i| decision.kept.contains(i));
         let direction = match hidden {
             Some(j) => graded.left_direction(j),
@@ -136,7 +136,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
     Ok(decision)
 }
 
-/// Largest `‖row of C_D − T·C_K‖₂`; here it contains only the rounding of T.
+/// Returns the largest `‖row of C_D − T·C_K‖₂`, which here contains only the rounding of T.
 fn largest_residual(c: &Matrix, kept: &[usize], dropped: &[usize], t: &Matrix) -> f64 {
     let mut largest = 0.0_f64;
     for (j, &row) in dropped.iter().enumerate() {

@@ -1,7 +1,7 @@
-//! Rows dropped or kept as requested, with a check that the choice is admissible.
+//! Decisions with given dropped or kept rows, after a check that the choice is admissible.
 //!
-//! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r;
-//! equivalently the rows D of a left null space basis Z form a nonsingular block.
+//! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r.
+//! Equivalently, the rows D of a left null space basis Z form a nonsingular block.
 
 use super::{Accuracy, RankDecision, RankError, Reading, read, required};
 use crate::strong_basis::{Basis, complement};
@@ -14,7 +14,7 @@ pub enum KeptRowsError {
     /// The matrix itself is invalid.
     #[error(transparent)]
     Rank(#[from] RankError),
-    /// Too many or too few rows.
+    /// The number of rows does not match the rank.
     #[error(
         "{dropped} rows dropped and {kept} kept, but the rank is {rank} of {rows} rows: drop exactly {}",
         rows - rank
@@ -43,7 +43,7 @@ pub enum KeptRowsError {
         /// The row.
         row: usize,
     },
-    /// The kept rows depend on each other, so at least one dropped row is needed.
+    /// The kept rows depend on each other, so at least one of the dropped rows is needed.
     #[error(
         "the kept rows are dependent: smallest singular value {smallest_singular_value:.3e}, need \
          {required:.3e}; a row in no dependency must not be dropped"
@@ -56,7 +56,8 @@ pub enum KeptRowsError {
     },
 }
 
-/// Like [`decide`](super::decide), with given dropped rows; `|T̃_ji| ≤ 2` is then not guaranteed.
+/// Works like [`decide`](super::decide), with given dropped rows. In this case `|T̃_ji| ≤ 2` is not
+/// guaranteed.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -84,11 +85,11 @@ pub fn decide_dropping<'a>(
     decide_partition(c, uncertainty.into(), complement(c.nrows(), &dropped), None)
 }
 
-/// Like [`decide_dropping`], if the rank is known otherwise: data within a stated tolerance may
-/// have a lower rank than the matrix. Dropped rows then depend on the kept ones only nearly.
+/// Works like [`decide_dropping`], with a given rank: data within a stated tolerance may have a
+/// lower rank than the matrix. The dropped rows then depend on the kept rows only approximately.
 ///
 /// # Errors
-/// As [`decide_dropping`].
+/// Same errors as [`decide_dropping`].
 pub fn dropping_of_rank<'a>(
     c: &Matrix,
     uncertainty: impl Into<Accuracy<'a>>,
@@ -100,8 +101,8 @@ pub fn dropping_of_rank<'a>(
     decide_partition(c, uncertainty.into(), kept, Some(rank))
 }
 
-/// A decision on C with other dropped rows: rank, scaling and evidence stay, and `|T̃_ji| ≤ 2` is
-/// not guaranteed.
+/// Returns a decision on C with other dropped rows. Rank, scaling and evidence do not change, and
+/// `|T̃_ji| ≤ 2` is not guaranteed.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -114,7 +115,7 @@ pub fn dropping_of_rank<'a>(
 /// ```
 ///
 /// # Errors
-/// As [`decide_dropping`], with the rank of the decision.
+/// Same errors as [`decide_dropping`], with the rank of the decision.
 pub fn with_dropped(
     decision: &RankDecision,
     c: &Matrix,
@@ -131,10 +132,11 @@ pub fn with_dropped(
     on_rows((decision.scaling.clone(), &scaled, reading), kept)
 }
 
-/// Like [`decide`](super::decide), with given kept rows; `|T̃_ji| ≤ 2` is then not guaranteed.
+/// Works like [`decide`](super::decide), with given kept rows. In this case `|T̃_ji| ≤ 2` is not
+/// guaranteed.
 ///
 /// # Errors
-/// As [`decide_dropping`].
+/// Same errors as [`decide_dropping`].
 pub fn decide_keeping<'a>(
     c: &Matrix,
     uncertainty: impl Into<Accuracy<'a>>,
@@ -158,7 +160,7 @@ fn decide_partition(
     on_rows((scaling, &scaled, reading), kept)
 }
 
-/// The decision on these kept rows of an equilibrated matrix.
+/// Returns the decision on these kept rows of an equilibrated matrix.
 fn on_rows(
     (scaling, scaled, reading): (Scaling, &Matrix, Reading),
     kept: Vec<usize>,
@@ -189,7 +191,7 @@ fn on_rows(
     Ok(reading.with_basis(scaling, basis))
 }
 
-/// The list in ascending order, checked for rows that are repeated or out of range.
+/// Returns the list in ascending order, after a check for rows that are repeated or out of range.
 fn ascending(rows: &[usize], m: usize) -> Result<Vec<usize>, KeptRowsError> {
     let mut sorted = rows.to_vec();
     sorted.sort_unstable();

@@ -1,11 +1,11 @@
-//! Rows chosen level by level, from large singular values to small ones, with double-double
+//! Chooses rows level by level, from large singular values to small ones, with double-double
 //! residuals.
 //!
-//! On each level the rows with singular values within 1e-6 of the largest are expressed as usual;
-//! the component of the other rows outside their span, `S_D = C_D − T·C_K` in double-double, is the
-//! matrix of the next level. Singular values from 1 down to 1e-28 are read this way, each from a
-//! well-conditioned problem in `f64`. The levels end when S is below a floor, whose meaning is up
-//! to the caller.
+//! On each level, the usual decision expresses the rows with singular values within 1e-6 of the
+//! largest. The component of the other rows outside their span, `S_D = C_D − T·C_K` in
+//! double-double, is the matrix of the next level. In this way, singular values from 1 down to
+//! 1e-28 are each computed from a well-conditioned problem in `f64`. The levels end when S is below
+//! a floor that the caller chooses.
 
 use super::bound;
 use super::spectrum::Spectrum;
@@ -17,7 +17,7 @@ use linalg::{Dd, DdMatrix, Matrix, PivotedQr, RowBasis, kernels, powers, singula
 struct Level {
     /// Independent rows, numbered in the whole matrix.
     kept: Vec<usize>,
-    /// S of these rows times 2^exponent, of size one, and their factors.
+    /// S of these rows times 2^exponent (of size one), and its factors.
     rows: Matrix,
     factored: PivotedQr,
     exponent: i32,
@@ -42,9 +42,9 @@ pub(super) struct RowLevels {
     pub(super) left: Vec<usize>,
     /// Kept rows in the order of the levels.
     pub(super) kept: Vec<usize>,
-    /// T (double-double) of the remaining rows in terms of the kept ones.
+    /// T (double-double) of the remaining rows in terms of the kept rows.
     coefficients: DdMatrix,
-    /// Component of the remaining rows outside the span of the kept ones: `C_left − T·C_K`.
+    /// Component of the remaining rows outside the span of the kept rows: `C_left − T·C_K`.
     outside: DdMatrix,
     /// Singular values that belong to the remaining rows.
     left_sigma: Vec<f64>,
@@ -56,8 +56,9 @@ impl RowLevels {
         Self::up_to(c, floor, c.ncols(), None)
     }
 
-    /// Removes levels until `rank` rows are kept, however small they are; fewer if no non-zero row
-    /// remains. `read` is the matrix in `f64` from which the rank was read, or one near it.
+    /// Removes levels until `rank` rows are kept, even if they are very small; fewer if no non-zero
+    /// row remains. `read` is the matrix in `f64` from which the rank was decided, or a nearby
+    /// matrix.
     pub(super) fn of_rank(c: &DdMatrix, rank: usize, read: &Spectrum) -> Self {
         let first = read.of_neighbour(&c.hi());
         Self::up_to(c, 0.0, rank.min(c.ncols()), first)
@@ -117,8 +118,8 @@ impl RowLevels {
         }
     }
 
-    /// Singular values of C that belong to the remainder: those of S in an orthonormal basis of the
-    /// combinations `[−T, I]` that produced it.
+    /// Returns the singular values of C that belong to the remainder: those of S in an orthonormal
+    /// basis of the combinations `[−T, I]` that produced it.
     fn readings(&self, exponent: i32) -> Vec<f64> {
         let mut s = self.outside.times_power(exponent).hi();
         let count = s.nrows().min(s.ncols().saturating_sub(self.kept.len()));
@@ -155,12 +156,12 @@ impl RowLevels {
         sigma
     }
 
-    /// T of the remaining rows in terms of the kept rows, in the order of the levels.
+    /// Returns T of the remaining rows in terms of the kept rows, in the order of the levels.
     pub(super) fn dependence(&self) -> Matrix {
         self.coefficients.hi()
     }
 
-    /// Largest norm of a row of `C_left − T·C_K`.
+    /// Returns the largest norm of a row of `C_left − T·C_K`.
     pub(super) fn residual(&self) -> f64 {
         let outside = self.outside.hi();
         (0..outside.nrows())
@@ -168,7 +169,7 @@ impl RowLevels {
             .fold(0.0, f64::max)
     }
 
-    /// The rows of all levels so far and of one more, each of size one.
+    /// Returns the rows of all levels so far and of one more, each of size one.
     fn stacked(&self, levels: usize, last: &Matrix) -> Matrix {
         let before = self.levels[..levels].iter().map(|level| &level.rows);
         let all: Vec<&Matrix> = before.chain([last]).collect();
@@ -179,7 +180,7 @@ impl RowLevels {
         Matrix::from_fn(rows.len(), last.ncols(), |i, j| rows[i][j])
     }
 
-    /// `(A⁺)ᵀ` of the rows A of all levels so far and of one more, which has been factored.
+    /// Returns `(A⁺)ᵀ` of the rows A of all levels so far and of one more, which has been factored.
     fn inverse_with(&self, rows: &Matrix, factored: &PivotedQr) -> Matrix {
         match self.levels.len() {
             0 => factored.transposed_pseudo_inverse(),
@@ -187,7 +188,8 @@ impl RowLevels {
         }
     }
 
-    /// `(C_K⁺)ᵀ` of the rows `kept` of C, ascending, if they are those of a single level.
+    /// Returns `(C_K⁺)ᵀ` of the rows `kept` of C (ascending), if they are the rows of a single
+    /// level.
     pub(super) fn inverse_of(&self, kept: &[usize]) -> Option<Matrix> {
         let [level] = &self.levels[..] else {
             return None;
@@ -202,8 +204,8 @@ impl RowLevels {
         Some(inverse)
     }
 
-    /// Proved lower bounds, one for each level: on σ_r of C for the number r of rows kept up to
-    /// this level.
+    /// Returns a proved lower bound for each level: on σ_r of C, where r is the number of rows kept
+    /// up to this level.
     pub(super) fn bounds(&self) -> Vec<(usize, f64)> {
         let (mut count, mut perturbation, mut smallest) = (0, 0.0_f64, f64::INFINITY);
         let mut found = Vec::new();
@@ -220,7 +222,7 @@ impl RowLevels {
         found
     }
 
-    /// Unit weights of the rows of C (length m) whose combination has about the norm of the
+    /// Returns unit weights of the rows of C (length m) whose combination has about the norm of the
     /// smallest σ of the smallest level. This is a left singular vector except for a component in
     /// the left null space, which the caller removes.
     pub(super) fn smallest_direction(&self) -> Option<Vec<f64>> {
@@ -247,8 +249,8 @@ impl RowLevels {
         Some(direction)
     }
 
-    /// Weights of the rows of C whose combination is the component of row `left[j]` outside the
-    /// span of the kept rows.
+    /// Returns the weights of the rows of C whose combination is the component of row `left[j]`
+    /// outside the span of the kept rows.
     pub(super) fn left_direction(&self, j: usize) -> Vec<f64> {
         let mut direction = vec![0.0; self.kept.len() + self.left.len()];
         direction[self.left[j]] = 1.0;
@@ -264,7 +266,7 @@ impl RowLevels {
 struct LevelReduction {
     kept: Vec<usize>,
     dropped: Vec<usize>,
-    /// `S_K`
+    /// Factors of `S_K`.
     factored: PivotedQr,
     t: DdMatrix,
     /// `S_D − T·S_K`.
@@ -310,7 +312,7 @@ impl LevelReduction {
         }
     }
 
-    /// T of the dropped rows in terms of the kept rows of earlier levels and of this level.
+    /// Returns T of the dropped rows in terms of the kept rows of earlier levels and of this level.
     fn coefficients(&self, before: &DdMatrix) -> DdMatrix {
         let r = before.ncols();
         let (kept, dropped) = (
@@ -327,7 +329,7 @@ impl LevelReduction {
     }
 }
 
-/// A − T·B.
+/// Returns A − T·B.
 fn residual(a: &DdMatrix, t: &DdMatrix, b: &DdMatrix) -> DdMatrix {
     let mut out = a.clone();
     for j in 0..a.nrows() {

@@ -3,10 +3,10 @@
 //!
 //! The matrix is scaled by powers of two to integers A (exact). For a row basis K with pivot
 //! columns J every coefficient of `A_D = T·A_K` is a quotient of minors of order r,
-//! `T_ji = N_ji/det A_KJ`. Minors are known modulo each prime; with primes whose product exceeds
-//! twice Hadamard's bound they are known, and the quotients follow to full precision. The same
-//! primes prove that all minors of order r + 1 vanish. The order in which rows are preferred comes
-//! from `graded`.
+//! `T_ji = N_ji/det A_KJ`. Minors are computed modulo each prime. Primes whose product exceeds
+//! twice Hadamard's bound determine the minors completely, and the quotients follow to full
+//! precision. The same primes prove that all minors of order r + 1 vanish. The module `graded`
+//! determines the order of preference of the rows.
 //!
 //! Source: mixed radix digits after H. L. Garner, The residue number system, IRE Trans. Electron.
 //! Comput. EC-8 (1959) 140–147.
@@ -19,7 +19,7 @@ use crate::strong_basis::complement;
 use linalg::powers::scale;
 use linalg::{Matrix, Scaling};
 
-/// `A = D·C·D_c` with integer entries: mantissa·2^shift, and the exponents of D.
+/// The matrix `A = D·C·D_c` with integer entries: mantissa·2^shift, and the exponents of D.
 pub(super) struct Integers {
     ncols: usize,
     entries: Vec<(i64, u32)>,
@@ -91,7 +91,7 @@ impl Integers {
     }
 }
 
-/// `x = mantissa·2^e` with an odd mantissa; (0, 0) for zero.
+/// Returns `x = mantissa·2^e` with an odd mantissa; (0, 0) for zero.
 fn odd_mantissa(x: f64) -> (i64, i32) {
     const FRACTION: u32 = 52;
     if x == 0.0 {
@@ -114,7 +114,7 @@ fn signed(field: PrimeField, mantissa: i64, power: Residue) -> Residue {
     if mantissa < 0 { field.negative(x) } else { x }
 }
 
-/// The number `x·2^e` modulo a prime.
+/// Returns the number `x·2^e` modulo a prime.
 fn dyadic(field: PrimeField, x: f64, e: i32) -> Residue {
     let (mantissa, e_x) = odd_mantissa(x);
     let e = e + e_x;
@@ -131,21 +131,22 @@ fn dyadic(field: PrimeField, x: f64, e: i32) -> Residue {
 struct Reduction {
     /// Independent rows K, in the given order.
     kept: Vec<usize>,
-    /// Their pivot columns J.
+    /// Pivot columns J of the rows.
     pivots: Vec<usize>,
-    /// ± det A_KJ.
+    /// The determinant ± det A_KJ.
     determinant: Residue,
     /// T for the other rows in ascending order, p×r row by row.
     t: Vec<Residue>,
 }
 
-/// Eliminates the rows of `a` (n columns) in the given order and keeps the rows that are
-/// independent of those before them.
+/// Eliminates the rows of `a` (n columns) in the given order and keeps each row that is independent
+/// of the previous ones.
 fn reduce(field: PrimeField, a: &[Residue], n: usize, order: &[usize]) -> Reduction {
     let mut kept = Vec::new();
     let mut pivots: Vec<usize> = Vec::new();
     let mut determinant = field.integer(1);
-    // Rows of U, inverse pivots, and the strictly lower part of L: row kept[k] = U_k + Σ L_kl·U_l.
+    // Rows of U, inverse pivots, and the strictly lower part of L, with row kept[k] = U_k + Σ
+    // L_kl·U_l.
     let (mut upper, mut inverses, mut lower) = (Vec::<Residue>::new(), Vec::new(), Vec::new());
     let mut multipliers = vec![Vec::new(); order.len()];
     for &i in order {
@@ -170,7 +171,8 @@ fn reduce(field: PrimeField, a: &[Residue], n: usize, order: &[usize]) -> Reduct
             None => multipliers[i] = y,
         }
     }
-    // y·U = T·L·U, hence T = y·L⁻¹ from the last column on. Later rows of K have coefficient zero.
+    // From y·U = T·L·U follows T = y·L⁻¹, solved from the last column. Later rows of K have
+    // coefficient zero.
     let mut in_order = kept.clone();
     in_order.sort_unstable();
     let mut t = Vec::with_capacity((order.len() - kept.len()) * kept.len());
@@ -204,8 +206,8 @@ pub(super) struct ExactBasis {
     pub(super) t: Matrix,
 }
 
-/// The rank and a row basis that prefers rows earlier in `order`, with exact dependencies of the
-/// others.
+/// Returns the rank and a row basis that prefers rows earlier in `order`, with exact dependencies
+/// of the other rows.
 pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> ExactBasis {
     let (m, n) = (order.len(), a.ncols);
     let mut position = vec![0; m];
@@ -244,7 +246,7 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
             .collect();
         digits.extend(field, &minors);
         reference = Some(now);
-        // Two more bits, for the sign and for "less than half".
+        // Two additional bits are needed, for the sign and for "less than half".
         if digits.bits() >= a.minor_bits(rank + 1) + 2 {
             break;
         }
@@ -299,7 +301,7 @@ struct Number {
 }
 
 impl MixedRadix {
-    /// log₂ of the product of the primes, rounded down.
+    /// Returns log₂ of the product of the primes, rounded down.
     fn bits(&self) -> u64 {
         u64::from(PRIME_BITS) * self.fields.len() as u64
     }
@@ -339,7 +341,8 @@ impl MixedRadix {
         self.digits.push(digits);
     }
 
-    /// Number `l`, rounded; its absolute value is below a quarter of the product of the primes.
+    /// Returns number `l`, rounded; its absolute value is below a quarter of the product of the
+    /// primes.
     fn number(&self, l: usize) -> Number {
         let (Some(last), Some(p_last)) = (self.digits.last(), self.fields.last()) else {
             return Number {
@@ -372,8 +375,8 @@ impl MixedRadix {
     }
 }
 
-/// The left null space of a matrix modulo a few primes: tests without a tolerance whether something
-/// vanishes on it.
+/// The left null space of a matrix modulo a few primes. It tests without a tolerance whether a
+/// combination of rows vanishes on this space.
 ///
 /// "Not zero" is proved. "Zero" is wrong with probability below 2⁻¹³⁰ for data that were not
 /// constructed against the primes.
@@ -453,18 +456,20 @@ impl ExactNullSpace {
         }
     }
 
-    /// Whether `ℓᵀ·Z = 0` for the combination of rows of C with these coefficients (row, ℓ_row).
+    /// Returns whether `ℓᵀ·Z = 0` for the combination of rows of C with these coefficients (row,
+    /// ℓ_row).
     ///
     /// # Panics
-    /// If a row does not exist.
+    /// Panics if a row does not exist.
     pub fn annihilates(&self, combination: impl IntoIterator<Item = (usize, f64)>) -> bool {
         self.rank_of(&[combination.into_iter().collect()]) == 0
     }
 
-    /// Rank of `W·Z` for combinations W of the rows of C, one list of (row, coefficient) each.
+    /// Returns the rank of `W·Z` for combinations W of the rows of C, each given as a list of (row,
+    /// coefficient).
     ///
     /// # Panics
-    /// If a row does not exist.
+    /// Panics if a row does not exist.
     #[must_use]
     pub fn rank_of(&self, combinations: &[Vec<(usize, f64)>]) -> usize {
         let order: Vec<usize> = (0..combinations.len()).collect();
@@ -492,10 +497,10 @@ impl ExactNullSpace {
         image
     }
 
-    /// Whether `B_X = C_Xᵀ·Z_X = 0` for the rows X, each listed once.
+    /// Returns whether `B_X = C_Xᵀ·Z_X = 0` for the rows X, each listed once.
     ///
     /// # Panics
-    /// If a row does not exist.
+    /// Panics if a row does not exist.
     #[must_use]
     pub fn wrench_vanishes(&self, rows: &[usize]) -> bool {
         self.witnesses.iter().all(|w| {

@@ -1,5 +1,5 @@
-//! Results of a rank decision: the rank, the rows to keep, the numbers behind both, and the reasons
-//! why a rank is undecided or cannot be decided.
+//! Results of a rank decision: the rank, the rows to keep, the numbers that justify them, and the
+//! reasons why a rank is undecided or cannot be decided.
 
 use super::certificate::{Certificate, NearlyRedundant};
 use linalg::{Matrix, Scaling, powers::scale};
@@ -12,22 +12,22 @@ pub struct RankDecision {
     pub rank: usize,
     /// Degree of redundancy p = m − r.
     pub redundancy: usize,
-    /// r independent rows K, ascending.
+    /// Independent rows K, ascending; their number is r.
     pub kept: Vec<usize>,
-    /// The other p rows D, ascending.
+    /// The other rows D, ascending; their number is p.
     pub dropped: Vec<usize>,
     /// T̃ = C̃_D·C̃_K⁺ (p×r) between the equilibrated rows: row `dropped[j]` = Σ T̃_ji · row
     /// `kept[i]`. Its entries are at most 2 unless the caller chose the rows.
     pub coefficients: Matrix,
     /// The scaling under which the rank was decided.
     pub scaling: Scaling,
-    /// The numbers behind the decision.
+    /// The numbers that justify the decision.
     pub evidence: Evidence,
-    /// Whether the rank is decided, or why it is not.
+    /// Whether the rank is decided, or otherwise the reason.
     pub status: RankStatus,
 }
 
-/// The numbers behind a rank decision; all of them belong to the equilibrated matrix.
+/// The numbers that justify a rank decision; all of them refer to the equilibrated matrix.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Evidence {
@@ -39,7 +39,7 @@ pub struct Evidence {
     pub sigma_next: f64,
     /// σ_r / σ_{r+1}, infinite if σ_{r+1} = 0.
     pub gap: f64,
-    /// τ: below it a singular value counts as zero.
+    /// Tolerance τ: a smaller singular value counts as zero.
     pub tolerance: f64,
     /// The largest uncertainty of an equilibrated entry that the caller stated; 0 for exact
     /// entries.
@@ -79,16 +79,15 @@ pub enum Doubt {
         upper: usize,
         /// The smallest singular value above the tolerance.
         sigma: f64,
-        /// τ.
+        /// Tolerance τ.
         tolerance: f64,
-        /// max(10³·τ, 10⁻⁷).
+        /// Required size max(10³·τ, 10⁻⁷).
         required: f64,
     },
     /// A singular value is the same at every precision and about as large as the uncertainty of the
     /// data.
     #[error(
-        "singular value {sigma:.3e} is the same at every precision and lies between {tolerance:.3e} and {required:.3e}, what \
-         the uncertainty of the data explains: rank {lower} or {upper}; know the data better, or change them by more than that"
+        "singular value {sigma:.3e} is the same at every precision and lies between {tolerance:.3e} and {required:.3e}, the limits set by the uncertainty of the data: rank {lower} or {upper}; use more accurate data, or change them by more than their uncertainty"
     )]
     NearUncertainty {
         /// Number of singular values larger than the uncertainty of the data.
@@ -97,15 +96,14 @@ pub enum Doubt {
         upper: usize,
         /// The smallest singular value above the tolerance.
         sigma: f64,
-        /// τ.
+        /// Tolerance τ.
         tolerance: f64,
-        /// 4·τ.
+        /// Required size 4·τ.
         required: f64,
     },
     /// The rank would be lower if the data were wrong by about their rounding.
     #[error(
-        "singular value {sigma:.3e}: if the data were wrong by {share:.2} times their rounding, the rank would be {lower} instead of {upper}; \
-         give the data with more digits, or place the mechanism nearer to the origin"
+        "singular value {sigma:.3e}: an error of the data of {share:.2} times their rounding would change the rank from {upper} to {lower}; give the data with more digits, or place the mechanism nearer to the origin"
     )]
     WithinRounding {
         /// The rank for other data within the rounding.
@@ -117,10 +115,9 @@ pub enum Doubt {
         /// Largest change of a datum, as a fraction of its rounding.
         share: f64,
     },
-    /// The rank depends on where within the tolerance the data are.
+    /// The rank depends on the exact values of the data within the tolerance.
     #[error(
-        "with data known to {tolerance:.1e} {unit} the rank is {lower} or {upper}: one row is redundant from about {from:.1e} {unit} on; \
-         state a tolerance below {:.1e} {unit} or above {:.1e} {unit}",
+        "with data accurate to {tolerance:.1e} {unit} the rank is {lower} or {upper}: one row is redundant above about {from:.1e} {unit}; state a tolerance below {:.1e} {unit} or above {:.1e} {unit}",
         from / 3.0,
         3.0 * from
     )]
@@ -136,31 +133,29 @@ pub enum Doubt {
         /// The unit of both: `m`, or `rad` if a tolerance is stated for angles only.
         unit: &'static str,
     },
-    /// At this pose, data within the tolerance have a lower rank; too few other poses could be
-    /// examined to decide whether they have it there as well.
+    /// At this configuration, data within the tolerance have a lower rank. Too few other
+    /// configurations could be examined to decide whether the rank is also lower there.
     #[error(
-        "with data known to {tolerance:.1e} {unit} the rank at this pose is {lower}; whether it is {lower} or {upper} at others is open, \
-         because on the rows that are left too few of them are reached, or none that is known well enough; move the start, or know the data better"
+        "with data accurate to {tolerance:.1e} {unit} the rank at this pose is {lower}; at other poses it may be {lower} or {upper}: too few poses can be reached on the remaining rows with sufficient accuracy; move the start, or use more accurate data"
     )]
     OtherPoses {
-        /// The rank of data within the tolerance at this pose.
+        /// The rank of data within the tolerance at this configuration.
         lower: usize,
-        /// The rank that they may have at other poses.
+        /// The possible rank of these data at other configurations.
         upper: usize,
         /// The stated tolerance.
         tolerance: f64,
-        /// Its unit: `m`, or `rad` if a tolerance is stated for angles only.
+        /// Unit of the tolerance: `m`, or `rad` if a tolerance is stated for angles only.
         unit: &'static str,
     },
     /// The uncertainty of the data hides rows that are not zero.
     #[error(
-        "singular value {sigma:.3e} is not rounding, and lies below {tolerance:.3e}, what the uncertainty of the data explains, \
-         in a matrix of size one: nothing is known of these rows; place the mechanism nearer to the origin, or know the data better"
+        "singular value {sigma:.3e} is above rounding but below {tolerance:.3e}, the limit set by the uncertainty of the data (matrix of size one): these rows are undecided; place the mechanism nearer to the origin, or use more accurate data"
     )]
     Hidden {
         /// The largest singular value below the tolerance.
         sigma: f64,
-        /// τ.
+        /// Tolerance τ.
         tolerance: f64,
     },
     /// The tolerance exceeds every singular value of a matrix that is not zero.
@@ -169,9 +164,9 @@ pub enum Doubt {
          matrix: the constraint residual is too large to decide anything, polish the point first"
     )]
     NotPolished {
-        /// σ₁.
+        /// Largest singular value σ₁.
         sigma_max: f64,
-        /// τ.
+        /// Tolerance τ.
         tolerance: f64,
     },
 }
@@ -200,9 +195,9 @@ pub enum RankError {
     /// The stated uncertainty has another shape than the matrix.
     #[error("uncertainty of {rows}×{cols} entries for a matrix of {expected_rows}×{expected_cols}")]
     UncertaintyShape {
-        /// Number of rows given.
+        /// Number of given rows.
         rows: usize,
-        /// Number of columns given.
+        /// Number of given columns.
         cols: usize,
         /// Number of rows of the matrix.
         expected_rows: usize,
@@ -212,9 +207,9 @@ pub enum RankError {
 }
 
 impl RankDecision {
-    /// T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row `kept[i]`.
-    /// Overflows if the rows differ by more than the range of `f64`; [`RankDecision::coefficients`]
-    /// does not.
+    /// Returns T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row
+    /// `kept[i]`. The result overflows if the rows differ by more than the range of `f64`;
+    /// [`RankDecision::coefficients`] does not overflow.
     pub fn dependence(&self) -> Matrix {
         // D_r,D·C_D = T̃·D_r,K·C_K, hence T = D_r,D⁻¹·T̃·D_r,K.
         let rows = &self.scaling.rows;
@@ -226,18 +221,20 @@ impl RankDecision {
         })
     }
 
-    /// T̃, the dependence between equilibrated rows; copies [`RankDecision::coefficients`].
+    /// Returns T̃, the dependence between equilibrated rows, as a copy of
+    /// [`RankDecision::coefficients`].
     pub fn equilibrated_dependence(&self) -> Matrix {
         self.coefficients.clone()
     }
 
-    /// Whether the rank is decided.
+    /// Returns whether the rank is decided.
     pub fn is_decided(&self) -> bool {
         self.status == RankStatus::Decided
     }
 
-    /// The warning for a decided rank with σ_r below 1e-3: the rank is r and the verdicts hold for
-    /// the data as read, but reactions are of size 1/σ_r. Available for certified ranks only.
+    /// Returns the warning for a decided rank with σ_r below 1e-3. The rank is r and the verdicts
+    /// are valid for the stored data, but reactions are of size 1/σ_r. The warning exists only for
+    /// certified ranks.
     #[must_use]
     pub fn nearly_redundant(&self) -> Option<&NearlyRedundant> {
         self.evidence

@@ -1,4 +1,4 @@
-//! A matrix with its singular values, and the other matrices that have the same ones.
+//! A matrix with its singular values, which also apply to matrices that differ only by rounding.
 
 use linalg::{Matrix, singular_values};
 
@@ -20,21 +20,21 @@ impl Spectrum {
         }
     }
 
-    /// The matrix.
+    /// Returns the matrix.
     #[must_use]
     pub fn matrix(&self) -> &Matrix {
         &self.matrix
     }
 
-    /// Its singular values, largest first.
+    /// Returns the singular values, largest first.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The singular values of another matrix, if it differs from this one by no more than the
-    /// rounding of a singular value, `‖A − B‖ ≤ eps·√(m·n)·σ₁`: by Weyl, `|σ_k(A) − σ_k(B)| ≤
-    /// ‖A − B‖`.
+    /// Returns the singular values of another matrix, if it differs from this one by no more than
+    /// the rounding of a singular value, `‖A − B‖ ≤ eps·√(m·n)·σ₁`: by Weyl,
+    /// `|σ_k(A) − σ_k(B)| ≤ ‖A − B‖`.
     #[must_use]
     pub fn of_neighbour(&self, other: &Matrix) -> Option<&[f64]> {
         let (m, n) = (self.matrix.nrows(), self.matrix.ncols());

@@ -1,5 +1,6 @@
-//! Planted ranks, published counterexamples, invariances, and admissible choices of rows. Oracles:
-//! the SVD of nalgebra, and brute force over all choices.
+//! Tests with planted ranks, published counterexamples, invariances, and admissible choices of
+//! rows. The reference results come from the SVD of nalgebra, and from brute force over all
+//! choices.
 
 use nalgebra::DMatrix;
 use proptest::prelude::*;
@@ -41,8 +42,8 @@ fn planted(numbers: &mut Numbers, m: usize, n: usize, r: usize) -> Matrix {
     Matrix::from_fn(m, n, |i, j| rows[i] * product[(i, j)] * cols[j])
 }
 
-/// Three parallel cranks of length `l`, pitch `l`, angle θ on one coupler: 12×12, rank 11 unless
-/// flat.
+/// Three parallel cranks of length `l`, pitch `l` and angle θ on one coupler. The matrix is 12×12,
+/// of rank 11 unless the linkage is flat.
 pub(super) fn parallel_cranks(l: f64, theta: f64) -> Matrix {
     let (s, c) = theta.sin_cos();
     let half = 0.5 * l;
@@ -75,7 +76,7 @@ fn nalgebra_rank(c: &Matrix, relative: f64) -> usize {
 
 #[test]
 fn planted_ranks_are_never_wrong_and_seldom_undecided() {
-    // Target of the design: wrong 0, undecided below 0.1 % of cases.
+    // Design target: no wrong result, and fewer than 0.1 % undecided cases.
     const CASES: usize = 3000;
     let mut numbers = Numbers(1);
     let mut undecided = 0;
@@ -300,7 +301,7 @@ fn residual_sets_the_tolerance() {
     ));
 }
 
-/// Noise above a hundredth hides what is above √eps, and no more than rounding below it.
+/// Noise above a hundredth hides singular values above √eps; below, it hides only rounding.
 #[test]
 fn coarse_data_hide_what_is_no_rounding() {
     for (sigma, tolerance, is_hidden) in [
@@ -327,7 +328,8 @@ fn empty_and_zero_matrices_have_rank_zero() {
 }
 
 proptest! {
-    /// Any bit pattern gives an answer of the right shape or a named error, never a panic.
+    /// For any bit pattern, the function returns a result of the right shape or a named error, and
+    /// does not panic.
     #[test]
     fn arbitrary_input_is_survived(
         m in 0..6_usize, n in 0..6_usize, residual in any::<f64>(),
@@ -350,7 +352,8 @@ proptest! {
                     prop_assert!(!c[(row, col)].is_finite());
                 }
                 Err(RankError::Uncertainty { value }) => {
-                    // Or so large that the norm of the whole matrix overflows.
+                    // The other case is an entry so large that the norm of the whole matrix
+                    // overflows.
                     prop_assert!(!((36.0 * value).is_finite() && value >= 0.0));
                 }
                 Err(error) => prop_assert!(false, "{}", error),

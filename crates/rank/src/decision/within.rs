@@ -1,9 +1,9 @@
 //! The rank of a matrix that comes from a model: entries in double-double, data with an
 //! uncertainty.
 //!
-//! A singular value that is exactly zero falls from 1e-16 to 1e-32 when the precision is doubled;
-//! one that is merely small does not change. If it does not change, it is compared with the
-//! uncertainty of the data, never with the rounding of `f64`.
+//! If the precision is doubled, a singular value that is exactly zero decreases from 1e-16 to
+//! 1e-32. A small nonzero value does not change. Such a value is compared with the uncertainty of
+//! the data, not with the rounding of `f64`.
 
 use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::RowLevels;
@@ -16,20 +16,21 @@ use crate::limits::{CLEAR_OF_DATA, HIDDEN, NEARLY_REDUNDANT, NOISE_FACTOR, VANIS
 use crate::strong_basis::{self, Basis};
 use linalg::{Dd, DdMatrix, Scaling};
 
-/// Decides the rank of C (m×n), evaluated in double-double at a polished point, for a model whose
-/// data have the given uncertainty.
+/// Decides the rank of C (m×n), evaluated in double-double at a refined configuration, for a model
+/// whose data have the given uncertainty.
 ///
 /// | argument | meaning |
 /// | --- | --- |
 /// | `c` | constraint matrix; its entries have errors of double-double only |
 /// | `uncertainty` | distance of the entries from those of the intended model; see [`Accuracy`]. Near a singular configuration they change with the square root of the data |
 ///
-/// With u, the largest uncertainty of an equilibrated entry, s, the Frobenius norm of all, and
-/// `τ = max(10·u, s)`: a singular value below τ is zero for some matrix within the uncertainty, one
-/// above 4·τ is not zero for any. Then: redundant exactly (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]);
-/// redundant within the data ([`Grounds::WithinData`]); of full rank although [nearly
-/// redundant](RankDecision::nearly_redundant); or undecided, between τ and 4·τ or if τ is above
-/// 0.01, because entries of size one would be hidden.
+/// Let u be the largest uncertainty of an equilibrated entry, s the Frobenius norm of all
+/// uncertainties, and `τ = max(10·u, s)`. A singular value below τ is zero for some matrix within
+/// the uncertainty. A singular value above 4·τ is not zero for any such matrix. There are four
+/// results: exactly redundant (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]); redundant within the data
+/// ([`Grounds::WithinData`]); of full rank although [nearly
+/// redundant](RankDecision::nearly_redundant); or undecided. The result is undecided between τ and
+/// 4·τ, and if τ is above 0.01, because entries of size one would be hidden.
 ///
 /// ```
 /// use linalg::{Dd, DdMatrix, Matrix};
@@ -59,7 +60,8 @@ pub fn certify_within<'a>(
     let known = uncertainty.into();
     let (scaling, spread) = known.equilibrate(&leading)?;
     let root = (m as f64 * n as f64).sqrt();
-    // Entries in double-double are not more accurate than this, whatever the caller states.
+    // Entries in double-double are not more accurate than this, even if the caller states a
+    // higher accuracy.
     let rounding = 4.0 * root.max(1.0) * Dd::EPSILON;
     let (uncertainty, spread) = (
         spread.largest.max(rounding),
@@ -112,34 +114,34 @@ pub fn certify_within<'a>(
     Ok(rule.decision(&graded, &leading, known))
 }
 
-/// A rank that has been read from f64, with its evidence; see [`certify_rank`].
+/// A rank that was decided in f64, with its evidence; see [`certify_rank`].
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RankReading {
     /// Rank r.
     pub rank: usize,
-    /// Whether the rank is decided, or why it is not.
+    /// Whether the rank is decided, or otherwise the reason.
     pub status: RankStatus,
-    /// The scaling under which it was read.
+    /// The scaling of the decision.
     pub scaling: Scaling,
-    /// The equilibrated matrix from which it was read.
+    /// The equilibrated matrix of the decision.
     pub matrix: Spectrum,
     /// Uncertainty of all entries together: a singular value below it counts as zero.
     pub noise: f64,
-    /// Lower limit of the non-zero singular values; a matrix with one below it does not have this
-    /// rank.
+    /// Lower limit of the non-zero singular values. A matrix with a smaller nonzero value does not
+    /// have this rank.
     pub separation: f64,
     /// The reason why the other rows are redundant if they do not vanish when the precision is
     /// doubled.
     pub grounds: Grounds,
 }
 
-/// Chooses kept rows and computes dependencies and double-double evidence for a rank that has been
-/// read from data with the given uncertainty (m×n, in the units of C). Returns `None` if
-/// double-double shows another rank: then the reading does not belong to this matrix.
+/// Chooses kept rows and computes dependencies and double-double evidence for a rank that was
+/// decided from data with the given uncertainty (m×n, in the units of C). Returns `None` if
+/// double-double shows another rank, because the reading then belongs to another matrix.
 ///
 /// # Errors
-/// As [`certify_within`].
+/// Same errors as [`certify_within`].
 pub fn certify_rank(
     c: &DdMatrix,
     uncertainty: &linalg::Matrix,
@@ -183,7 +185,7 @@ struct RankEvidence {
 }
 
 impl RankEvidence {
-    /// The decision with its certificate, for rows chosen level by level.
+    /// Returns the decision with its certificate, for rows chosen level by level.
     fn decision(
         self,
         graded: &RowLevels,

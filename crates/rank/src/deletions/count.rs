@@ -6,11 +6,12 @@ use crate::RankDecision;
 use crate::dual::{Dual, Noise, Unclear, rank};
 use crate::limits::COUNT_STEPS;
 
-/// The number of admissible sets of p rows, as a product over all components (coupled rows).
+/// Returns the number of admissible sets of p rows, as a product over all components (coupled
+/// rows).
 ///
-/// Within a component it is exact: `b = w·b(contracted) + b(deleted)` for a class of w parallel
-/// vectors, with closed forms for redundancy 1 (the number of rows) and 2 (pairs of rows of
-/// different classes).
+/// Within a component the number is exact: `b = w·b(contracted) + b(deleted)` for a class of w
+/// parallel vectors, with closed forms for redundancy 1 (the number of rows) and 2 (pairs of rows
+/// of different classes).
 ///
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.
@@ -43,8 +44,8 @@ fn weighted(dual: &Dual) -> Vec<Class> {
     dual.vectors.iter().map(class).collect()
 }
 
-/// Σ over all bases of the product of weights. Returns `None` if the limit of steps is reached or
-/// 128 bits are too few.
+/// Returns Σ over all bases of the product of weights. Returns `None` if the limit of steps is
+/// reached or 128 bits are not sufficient.
 fn count(
     classes: Vec<Class>,
     noise: Noise,
@@ -106,7 +107,8 @@ fn merged(classes: Vec<Class>, noise: Noise) -> Result<Vec<Class>, Unclear> {
     Ok(distinct)
 }
 
-/// Σ w for p = 1, Σ w_a·w_b over pairs for p = 2, in which different classes are independent.
+/// Returns Σ w for p = 1, and Σ w_a·w_b over pairs for p = 2, in which different classes are
+/// independent.
 fn pairs_or_singles(classes: &[Class], p: usize) -> Option<u128> {
     let (mut singles, mut pairs) = (0_u128, 0_u128);
     for class in classes {
@@ -116,7 +118,7 @@ fn pairs_or_singles(classes: &[Class], p: usize) -> Option<u128> {
     Some(if p == 1 { singles } else { pairs })
 }
 
-/// The vectors modulo `taken`: its largest coordinate is eliminated and removed.
+/// Returns the vectors modulo `taken`, whose largest coordinate is eliminated and removed.
 fn contracted(classes: &[Class], taken: &[f64]) -> Vec<Class> {
     let largest = |a: usize, b: usize| {
         if taken[b].abs() > taken[a].abs() {

@@ -16,7 +16,7 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// A thousand sets, a hundred thousand trials.
+    /// Returns the default limits: a thousand sets, a hundred thousand trials.
     fn default() -> Self {
         Self {
             sets: 1_000,
@@ -29,25 +29,25 @@ impl Default for Limits {
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Substitutes {
-    /// Each set lists the indices of candidates, ascending; all sets have the same, smallest number
-    /// of candidates. One empty set if the target is already unique; no set if no deletion of
-    /// candidates makes it unique.
+    /// The sets. Each set lists the indices of candidates, ascending. All sets have the same,
+    /// smallest number of candidates. There is one empty set if the target is already unique, and
+    /// no set if no deletion of candidates makes it unique.
     pub sets: Vec<Vec<usize>>,
     /// Whether all sets of that size are listed. If not, a limit was reached.
     pub complete: bool,
 }
 
-/// Smallest sets of candidates that can be deleted without a change of motion and make all
-/// combinations `ℓᵀ·λ`, the rows of `target`, unique.
+/// Returns the smallest sets of candidates that can be deleted without a change of motion and make
+/// all combinations `ℓᵀ·λ`, the rows of `target`, unique.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
 /// | `target` | k×m | combinations of the multipliers of C as given: a unit row for one multiplier, `C_Xᵀ` for the reaction of a group X |
 /// | `candidates` | – | rows that are deleted together; candidates that share a row with the target, or cannot be deleted, are skipped |
-/// | `admits` | – | called with all rows of a set, ascending; `false` refuses the set. If a set is refused, all larger sets that contain it should be refused as well |
+/// | `admits` | – | called with all rows of a set, ascending; `false` rejects the set. If a set is rejected, all larger sets that contain it should be rejected as well |
 ///
 /// A set D is a solution iff its rows of Z are independent and span the rows `ℓᵀ·Z`. No smaller set
-/// is, so no part of a set is sufficient.
+/// is a solution, so no part of a set is sufficient.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -154,7 +154,7 @@ fn check(
     }
 }
 
-/// All rows that take part in a dependency, with all p coordinates.
+/// Returns all rows that belong to a dependency, with all p coordinates.
 fn whole(decision: &RankDecision) -> Dual {
     let mut rows = components(decision).coupled.concat();
     rows.sort_unstable();
@@ -199,8 +199,8 @@ struct Unit {
     places: Vec<usize>,
 }
 
-/// Candidates in the components that the target involves, without those that share a row with it or
-/// cannot be deleted.
+/// Returns candidates in the components that the target involves, without those that share a row
+/// with it or cannot be deleted.
 fn units(
     decision: &RankDecision,
     target: &Matrix,
@@ -236,8 +236,8 @@ fn units(
     Ok(units)
 }
 
-/// Units of one row each with parallel vectors can replace each other; every other unit forms a
-/// class of its own.
+/// Groups units that can replace each other: units of one row each with parallel vectors. Every
+/// other unit forms a separate class.
 fn replaceable(units: &[Unit], dual: &Dual) -> Result<Vec<Vec<usize>>, Unclear> {
     let mut classes: Vec<Vec<usize>> = Vec::new();
     'units: for (u, unit) in units.iter().enumerate() {
@@ -256,7 +256,7 @@ fn replaceable(units: &[Unit], dual: &Dual) -> Result<Vec<Vec<usize>>, Unclear> 
     Ok(classes)
 }
 
-/// Whether deleting these rows keeps the motion and makes the directions unique.
+/// Returns whether deleting these rows keeps the motion unchanged and makes the directions unique.
 fn suffices(places: &[usize], dual: &Dual, directions: &Directions) -> Result<bool, Unclear> {
     if dual.rank(places)? < places.len() {
         return Ok(false);
@@ -266,7 +266,8 @@ fn suffices(places: &[usize], dual: &Dual, directions: &Directions) -> Result<bo
     Ok(rank(vectors, directions.noise)? == places.len())
 }
 
-/// All combinations with one unit of each chosen class, counted like the digits of a number.
+/// Returns all combinations with one unit of each chosen class, counted like the digits of a
+/// number.
 fn products(chosen: &[usize], classes: &[Vec<usize>]) -> impl Iterator<Item = Vec<usize>> {
     let digits: Vec<&[usize]> = chosen.iter().map(|&k| classes[k].as_slice()).collect();
     let total = digits

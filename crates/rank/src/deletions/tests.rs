@@ -1,4 +1,5 @@
-//! Deletions against brute force: every set of rows is tested by ranks of small integer matrices.
+//! Compares deletions with brute force: every set of rows is tested by ranks of small integer
+//! matrices.
 
 use super::*;
 use crate::decide;
@@ -90,8 +91,8 @@ fn smallest_sets_that_make_a_multiplier_or_a_group_unique() {
     assert!(sizes[0] > 20 && sizes[1] > 20 && sizes[2] > 5, "{sizes:?}");
 }
 
-/// From the definition: after deleting D the rank is the same, and rank C = rank C_X + the rank of
-/// the other remaining rows.
+/// Result by definition: after deleting D the rank is unchanged, and rank C = rank C_X + the rank
+/// of the other remaining rows.
 fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
     let m = c.nrows();
     let zero = |i: &usize| c.row(*i).iter().all(|x| *x == 0.0);
@@ -105,7 +106,7 @@ fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
                     .filter(|i| !group.contains(i))
                     .collect();
                 // A row of zeros in the group has no coefficient in the target, so it may be
-                // deleted like the others.
+                // deleted like the other rows.
                 set.iter().all(|i| !group.contains(i) || zero(i))
                     && rank_of(c, &left) == rank
                     && rank_of(c, group) + rank_of(c, &rest) == rank
@@ -118,8 +119,8 @@ fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
     Vec::new()
 }
 
-/// Two sources of redundancy in chains: 2³⁰ sets are counted by components, a uniform matroid by
-/// contraction.
+/// Two sources of redundancy in chains: the components are counted to give 2³⁰ sets, and a uniform
+/// matroid is counted by contraction.
 #[test]
 fn large_redundancies_are_counted() {
     let pairs = Matrix::from_fn(60, 30, |i, j| f64::from(u8::from(i / 2 == j)));
@@ -127,7 +128,7 @@ fn large_redundancies_are_counted() {
         count_deletions(&decide(&pairs, crate::Accuracy::Rounding).unwrap()),
         Ok(1 << 30)
     );
-    // Any 4 of 10 generic rows in four columns are independent: 10 over 6.
+    // Any 4 of 10 generic rows in four columns are independent, so the number is 10 over 6.
     let generic = Matrix::from_fn(10, 4, |i, j| ((i * i + 7 * j * j + i * j) as f64).sin());
     assert_eq!(
         count_deletions(&decide(&generic, crate::Accuracy::Rounding).unwrap()),

@@ -1,13 +1,13 @@
-//! The factorisation C = Q·R, body by body, with the rank determined on the way.
+//! The factorisation C = Q·R, body by body, which also determines the rank.
 //!
 //! Each front is triangularised by Householder reflections. A pivot column whose remaining norm is
 //! below the tolerance is *dead* and skipped (Heath's rule); columns are exchanged only among those
-//! of one body. The part of the front below its pivots is triangularised too, so that it has no
-//! more rows than columns when it is passed to the parent front; rows that become zero span the
-//! left null space. E collects all entries that are set to zero: `C + E = Q·R` up to rounding,
-//! hence `σ_{r+1}(C) ≤ ‖E‖`. The live columns are not changed by dropping dead ones.
-//! Whether this rank is reliable is decided elsewhere: the live columns may be nearly dependent
-//! although no single column shows it.
+//! of one body. The part of the front below its pivots is also triangularised, so that it has at
+//! most as many rows as columns when it is passed to the parent front. Rows that become zero span
+//! the left null space. E collects all entries that are set to zero: `C + E = Q·R` up to rounding,
+//! hence `σ_{r+1}(C) ≤ ‖E‖`. The live columns are not changed by dropping dead ones. Another module
+//! decides whether this rank is reliable: the live columns may be nearly dependent although no
+//! single column shows it.
 //!
 //! Source: M. T. Heath, Some extensions of an algorithm for sparse linear least squares problems,
 //! SIAM J. Sci. Stat. Comput. 3 (1982) 223–237; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM
@@ -28,9 +28,9 @@ mod tests;
 /// Limits below which remainders count as zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tolerances {
-    /// For the remaining norm of a column when its body is eliminated.
+    /// Limit for the remaining norm of a column when its body is eliminated.
     pub(super) dead: f64,
-    /// For the remaining norm of a column in the lower part of a front.
+    /// Limit for the remaining norm of a column in the lower part of a front.
     pub(super) rest: f64,
 }
 
@@ -40,16 +40,16 @@ pub(super) struct SparseQr {
     pub(super) q: Reflectors,
     pub(super) r: Trapezoid,
     pub(super) rank: usize,
-    /// Which rows of QᵀC are rows of R; the other rows are zero.
+    /// Whether each row of QᵀC is a row of R; the other rows are zero.
     pub(super) is_live: Vec<bool>,
     /// ‖E‖, the Frobenius norm of the entries set to zero.
     pub(super) dropped: f64,
-    /// The norm of the part of E in columns that were not dead at that time.
+    /// The norm of the part of E in columns that were not dead when it was set to zero.
     pub(super) dropped_from_rest: f64,
 }
 
 impl SparseQr {
-    /// Memory of the factors (bytes).
+    /// Returns the memory of the factors (bytes).
     pub(super) fn bytes(&self) -> usize {
         self.q.bytes() + self.r.bytes()
     }
@@ -102,8 +102,8 @@ struct Householder {
     /// The vector v of the current reflection: (row of the front, value).
     v: Vec<(usize, f64)>,
     product: Vec<f64>,
-    /// The finished part. Until the end it contains squares instead of norms, and `dropped` does
-    /// not include the lower parts of fronts.
+    /// The finished part. During the factorisation it contains squares in place of norms, and
+    /// `dropped` does not include the lower parts of fronts.
     found: SparseQr,
 }
 
@@ -139,8 +139,8 @@ impl Householder {
         self.front.leave(pivots, first..top);
     }
 
-    /// Moves the column among `at..end` with the largest norm from row `top` on to `at`; returns
-    /// its norm, and the square of the norm of all these columns.
+    /// Moves the column among `at..end` with the largest norm from row `top` onwards to `at`.
+    /// Returns its norm, and the square of the norm of all these columns.
     fn largest_first(&mut self, top: usize, at: usize, end: usize) -> (f64, f64) {
         let width = self.front.width();
         let (mut square, mut largest, mut total) = (0.0, at, 0.0);
@@ -159,7 +159,7 @@ impl Householder {
         (square.sqrt(), total)
     }
 
-    /// Sets these columns to zero from row `top` on.
+    /// Sets these columns to zero from row `top` onwards.
     fn clear(&mut self, top: usize, columns: Range<usize>) {
         let width = self.front.width();
         for row in self.front.values[top * width..].chunks_exact_mut(width) {
@@ -167,8 +167,8 @@ impl Householder {
         }
     }
 
-    /// Reflects column `at`, whose norm from row `top` on is `norm`, into that row; rows in which
-    /// the column is zero stay unchanged.
+    /// Reflects column `at`, whose norm from row `top` onwards is `norm`, into that row. Rows in
+    /// which the column is zero do not change.
     fn reflect(&mut self, top: usize, at: usize, norm: f64) {
         let width = self.front.width();
         let entry = |i: usize| (i, self.front.values[i * width + at]);

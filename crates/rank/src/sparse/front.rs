@@ -1,12 +1,12 @@
-//! One front at a time: assembled from rows of C and the remainders of the fronts below; its own
-//! remainder is passed to the front above.
+//! Assembles one front at a time from rows of C and the remainders of the fronts below. The
+//! remainder of the front is passed to the front above.
 //!
-//! The operations on a front are in `factor`.
+//! The module `factor` performs the operations on a front.
 
 use super::symbolic::{Front, Symbolic};
 use linalg::SparseMatrix;
 
-/// Marks a column that is not in the front.
+/// Marks a column outside the front.
 const OUTSIDE: usize = usize::MAX;
 
 /// The current front, and the remainders that have not been used yet.
@@ -19,7 +19,7 @@ pub(super) struct Assembly {
     pub(super) values: Vec<f64>,
     /// Index in the front of each column of C.
     position: Vec<usize>,
-    /// Remainders of fronts that have not been used yet, the latest last.
+    /// Remainders of fronts that have not been used yet, the latest at the end.
     waiting: Vec<Rest>,
     waiting_rows: Vec<usize>,
     waiting_columns: Vec<usize>,
@@ -32,7 +32,7 @@ struct Rest {
     columns: usize,
 }
 
-/// An entry outside the pattern.
+/// The matrix has an entry outside the pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct OutsidePattern {
     pub(super) row: usize,
@@ -114,8 +114,8 @@ impl Assembly {
         self.waiting_values.truncate(values);
     }
 
-    /// Passes these rows, without the pivots, to the front above; if there is one, it expects a
-    /// remainder even if it is empty.
+    /// Passes these rows, without the pivots, to the front above. If there is a front above, it
+    /// also expects an empty remainder.
     pub(super) fn leave(&mut self, pivots: usize, rows: impl Iterator<Item = usize>) {
         let width = self.width();
         if pivots == width {
@@ -145,7 +145,7 @@ impl Assembly {
         }
     }
 
-    /// Exchanges columns from row `top` on.
+    /// Exchanges columns from row `top` onwards.
     pub(super) fn swap_columns(&mut self, top: usize, at: usize, j: usize) {
         if j != at {
             let width = self.width();

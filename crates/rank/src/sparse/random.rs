@@ -1,10 +1,11 @@
 //! Pseudo-random numbers from a counter: the same seed and index give the same bits on every
 //! platform.
 //!
-//! Uniform instead of normal: this avoids logarithms and cosines, whose last bits differ between
-//! platforms. The required properties hold for both: the mean is zero and the variance one, so that
-//! `E (zᵀx)² = ‖z‖²`; and `zᵀx` is rarely much smaller than that: for ‖z‖ = 1 its density is at
-//! most `√2/(2·√3) < 0.41` (normal: 0.40), because no section of the unit cube is larger than √2.
+//! The numbers are uniform, not normal. This avoids logarithms and cosines, whose last bits differ
+//! between platforms. Both distributions have the required properties. The mean is zero and the
+//! variance one, so that `E (zᵀx)² = ‖z‖²`. The product `zᵀx` is rarely much smaller: for ‖z‖ = 1
+//! its density is at most `√2/(2·√3) < 0.41` (normal: 0.40), because no section of the unit cube is
+//! larger than √2.
 //!
 //! Source: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators,
 //! OOPSLA (2014), for SplitMix64; K. Ball, Cube slicing in Rⁿ, Proc. Amer. Math. Soc. 97 (1986)
@@ -12,10 +13,10 @@
 
 use super::reflectors::Lanes;
 
-/// `P(|zᵀx| < ε) ≤ DENSITY·ε` for ‖z‖ = 1: twice the largest density.
+/// Factor in `P(|zᵀx| < ε) ≤ DENSITY·ε` for ‖z‖ = 1: twice the largest density.
 pub(super) const DENSITY: f64 = 0.82;
 
-/// `n` rows of numbers between −√3 and √3; different streams have different numbers.
+/// Returns `n` rows of numbers between −√3 and √3; different streams have different numbers.
 pub(super) fn uniform(n: usize, seed: u64, stream: u64) -> Vec<Lanes> {
     let key = mix(seed ^ mix(stream));
     let lane = |i: usize, l: usize| {
@@ -29,13 +30,13 @@ pub(super) fn uniform(n: usize, seed: u64, stream: u64) -> Vec<Lanes> {
         .collect()
 }
 
-/// 2⁶⁴ over the golden ratio.
+/// The constant 2⁶⁴ divided by the golden ratio.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// 2⁵².
+/// The constant 2⁵².
 const HALF: f64 = 4_503_599_627_370_496.0;
 
-/// The output function of SplitMix64.
+/// Returns the output function of SplitMix64.
 fn mix(z: u64) -> u64 {
     let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -53,7 +54,7 @@ mod tests {
         let n = all.len() as f64;
         let mean = all.iter().sum::<f64>() / n;
         let square = all.iter().map(|x| x * x).sum::<f64>() / n;
-        // Four standard deviations: 4/√n, and 4·√(4/5)/√n.
+        // The limits are four standard deviations: 4/√n, and 4·√(4/5)/√n.
         assert!(mean.abs() < 4.0 / n.sqrt(), "{mean}");
         assert!((square - 1.0).abs() < 3.6 / n.sqrt(), "{square}");
         assert!(all.iter().all(|x| x.abs() <= 3f64.sqrt()));

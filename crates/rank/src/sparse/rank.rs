@@ -8,13 +8,13 @@
 //! - `C̃ᵀ = Q'·R'` by rows gives the kept rows K as its live columns. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so
 //!   its smallest singular value is that of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
 //!
-//! The live columns of R are not used for this: if a mechanism has many degrees of freedom,
-//! coordinates chosen body by body may depend on each other exponentially, and well independent
-//! rows would appear dependent.
+//! The live columns of R are not used for this. If a mechanism has many degrees of freedom,
+//! coordinates chosen body by body may be exponentially close to dependent. Rows that are clearly
+//! independent would then appear dependent.
 //!
-//! The ranks follow Heath's rule, which may be wrong. A rank that is too large shows in σ_min(C̃_K)
-//! or as a different rank of the other factorisation; one that is too small shows in ‖C̃ᵀ·W‖. Then
-//! the rank is undecided, never silently wrong.
+//! The ranks follow Heath's rule, which may be wrong. A rank that is too large is visible in
+//! σ_min(C̃_K) or as a different rank of the other factorisation. A rank that is too small is
+//! visible in ‖C̃ᵀ·W‖. In both cases the result is undecided, and not a wrong rank.
 //!
 //! Source: L. V. Foster, T. A. Davis, Algorithm 933: Reliable calculation of numerical rank, null
 //! space bases, pseudoinverse solutions, and basic solutions using SuiteSparseQR, ACM Trans. Math.
@@ -47,7 +47,7 @@ pub struct SparseRank {
     pub rank: usize,
     /// Degree of redundancy p = m − r.
     pub redundancy: usize,
-    /// Independent rows K, ascending; r of them, unless the rank is undecided.
+    /// Independent rows K, ascending. Their number is r, unless the rank is undecided.
     pub kept: Vec<usize>,
     /// The other rows, ascending.
     pub dropped: Vec<usize>,
@@ -56,32 +56,32 @@ pub struct SparseRank {
     /// W (m×k): random combinations of an orthonormal basis of the left null space of the
     /// equilibrated rows. `D_r` times a column is a self-stress of C.
     pub sketch: Matrix,
-    /// The numbers behind the decision.
+    /// The numbers that justify the decision.
     pub evidence: SparseEvidence,
-    /// Whether the rank is decided, or why it is not.
+    /// Whether the rank is decided, or otherwise the reason.
     pub status: RankStatus,
 }
 
-/// The numbers behind a sparse rank decision; all of them belong to the equilibrated matrix.
+/// The numbers that justify a sparse rank decision; all of them refer to the equilibrated matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SparseEvidence {
-    /// Lower bound on the smallest singular value of the kept rows, and so on σ_r; at most about
-    /// four times too small. Infinite for rank 0.
+    /// Lower bound on the smallest singular value of the kept rows, and therefore on σ_r. It is at
+    /// most about four times too small, and infinite for rank 0.
     pub sigma_r: f64,
-    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. If all p dependencies hold only to the
-    /// stated uncertainty, it is up to √p times larger than σ_{r+1}; then the rank is undecided
-    /// rather than wrong.
+    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. If all p dependencies exist only
+    /// within the stated uncertainty, it is up to √p times larger than σ_{r+1}. The rank is then
+    /// undecided.
     pub sigma_next: f64,
-    /// τ: singular values below it count as zero.
+    /// Tolerance τ: smaller singular values count as zero.
     pub tolerance: f64,
     /// The stated uncertainty of the equilibrated entries.
     pub uncertainty: f64,
     /// ‖E‖ (Frobenius): the entries that the factorisation by columns set to zero.
     pub backward_error: f64,
-    /// Largest norm of a row of W that is within its noise, 0 if there is none.
+    /// Largest norm of a row of W that is within its noise; 0 if there is no such row.
     pub largest_zero: f64,
-    /// Smallest norm of a row of W that is above its noise, infinite if there is none.
+    /// Smallest norm of a row of W that is above its noise; infinite if there is no such row.
     pub smallest_margin: f64,
     /// Memory of the factors (bytes).
     pub bytes: usize,
@@ -102,13 +102,13 @@ pub enum SparseRankError {
         /// Column of the entry.
         column: usize,
     },
-    /// Too many bodies, or too many rows of one body, are connected to each other to be eliminated
-    /// one by one.
+    /// Too many bodies, or too many rows of one body, are connected to each other for a separate
+    /// elimination of each.
     #[error(
         "elimination needs about {work:.1e} operations, at most {limit:.1e} are made; bodies or rows are joined too closely"
     )]
     TooDense {
-        /// Number of operations, estimated, or counted until the limit was passed.
+        /// Number of operations, estimated or counted up to the limit.
         work: f64,
         /// The limit.
         limit: f64,
@@ -116,9 +116,9 @@ pub enum SparseRankError {
     /// The matrix has another shape than the pattern.
     #[error("matrix of {rows}×{columns} for a pattern of {expected_rows}×{expected_columns}")]
     Shape {
-        /// Number of rows given.
+        /// Number of given rows.
         rows: usize,
-        /// Number of columns given.
+        /// Number of given columns.
         columns: usize,
         /// Number of rows of the pattern.
         expected_rows: usize,
@@ -128,7 +128,7 @@ pub enum SparseRankError {
 }
 
 /// Decides the rank of a sparse C whose columns form blocks, one for the coordinates of each body.
-/// A range beyond the matrix is cut off, and a column in no block is a block of its own.
+/// A range beyond the matrix is truncated, and a column outside all blocks is a separate block.
 ///
 /// `uncertainty` is the uncertainty of the entries of the equilibrated matrix beyond rounding.
 ///
@@ -157,7 +157,7 @@ pub fn decide_sparse(
     SparsePattern::new(c, blocks)?.decide(c, uncertainty, wanted)
 }
 
-/// The places of the entries of matrices with one pattern, and the order of their factorisation,
+/// The positions of the entries of matrices with one pattern, and the order of their factorisation,
 /// for many decisions on matrices with different values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SparsePattern {
@@ -180,7 +180,7 @@ impl SparsePattern {
         })
     }
 
-    /// Estimated memory (bytes) of a decision with this number of random combinations.
+    /// Returns the estimated memory (bytes) of a decision with this number of random combinations.
     pub fn bytes(&self, wanted: Sketch) -> usize {
         let rows = self.by_columns.nrows;
         let q = self.by_columns.bytes(KeptFactor::Q);
@@ -191,7 +191,7 @@ impl SparsePattern {
         q + vectors + self.by_rows.bytes(KeptFactor::R)
     }
 
-    /// Like [`decide_sparse`], for a matrix with this pattern.
+    /// Works like [`decide_sparse`], for a matrix with this pattern.
     ///
     /// # Errors
     /// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN
@@ -248,8 +248,8 @@ impl SparsePattern {
         Ok(found)
     }
 
-    /// The factorisation of Cᵀ whose live columns are the kept rows; among sufficient rows, those
-    /// with the largest remaining norm are kept.
+    /// Returns the factorisation of Cᵀ whose live columns are the kept rows. From sufficiently
+    /// independent rows, it keeps those with the largest remaining norm.
     fn kept_rows(
         &self,
         transposed: &SparseMatrix,

@@ -1,7 +1,7 @@
 //! Q stored as a product of Householder reflections, each of a few rows.
 //!
 //! `Q = H₁·H₂⋯H_s` with `H = I − v·vᵀ`, `‖v‖² = 2`, and v sparse. Several vectors are reflected at
-//! once, because then the rows of v are looked up only once.
+//! the same time, because the rows of v are then looked up only once.
 
 use crate::limits::REFLECTORS_WIDTH;
 
@@ -27,7 +27,7 @@ impl Reflectors {
         self.end.push(self.row.len());
     }
 
-    /// `X ← Q·X`.
+    /// Computes `X ← Q·X`.
     pub(super) fn apply(&self, x: &mut [Lanes]) {
         (0..self.end.len()).rev().for_each(|k| self.reflect(k, x));
     }
@@ -48,7 +48,7 @@ impl Reflectors {
         }
     }
 
-    /// Memory (bytes).
+    /// Returns the memory (bytes).
     pub(super) fn bytes(&self) -> usize {
         size_of::<usize>() * (self.end.len() + self.row.len()) + size_of::<f64>() * self.value.len()
     }

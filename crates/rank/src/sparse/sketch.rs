@@ -1,8 +1,8 @@
-//! Random combinations of the left null space, W = Z·Ω, instead of the p columns of Z.
+//! Random combinations of the left null space, W = Z·Ω, in place of the p columns of Z.
 //!
 //! The rows of QᵀC that are zero give an orthonormal basis `Z = Q·[0; I]` of the left null space; Z
-//! is never formed. For k random columns Ω with mean zero and variance 1/k the rows of
-//! `W = Q·[0; Ω]` give the same answers for any group J of at most k rows, with probability one:
+//! is never formed. Let Ω have k random columns with mean zero and variance 1/k, and
+//! `W = Q·[0; Ω]`. For any group J of at most k rows, the following holds with probability one:
 //! `W_J = 0` iff `Z_J = 0`, `rank W_J = rank Z_J`, and both have the same left null space. The norm
 //! of a row of W estimates that of the row of Z.
 
@@ -16,15 +16,15 @@ use linalg::SparseMatrix;
 /// Parameters of the random combinations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sketch {
-    /// Number of combinations k: at least the number of rows of the largest group that is analysed,
-    /// and some more so that failures are improbable.
+    /// Number of combinations k: at least the number of rows of the largest analysed group, and a
+    /// few more so that failures are improbable.
     pub columns: usize,
     /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl Default for Sketch {
-    /// Eight combinations: joints of up to four rows.
+    /// The default is eight combinations, for joints of up to four rows.
     fn default() -> Self {
         Self {
             columns: REFLECTORS_WIDTH,
@@ -56,7 +56,7 @@ pub(super) fn sketch(qr: &SparseQr, c: &SparseMatrix, wanted: Sketch) -> (Matrix
     (w, residual.sqrt())
 }
 
-/// ‖Cᵀ·X‖².
+/// Returns ‖Cᵀ·X‖².
 fn square_of_product(c: &SparseMatrix, x: &[Lanes]) -> f64 {
     let mut product = vec![[0.0; REFLECTORS_WIDTH]; c.ncols()];
     for (i, x) in x.iter().enumerate() {

@@ -3,7 +3,7 @@
 //!
 //! With `A = (R₁₁ᵀ·R₁₁)⁻¹`, whose largest eigenvalue is `1/σ²` with unit eigenvector u, any x has
 //! `‖A^q·x‖ ≥ σ^(−2q)·|uᵀx|`, hence `σ ≥ (|uᵀx| / ‖A^q·x‖)^(1/2q)`. For a random x the product
-//! `uᵀx` is below ε with a probability of at most 0.82·ε; the probability that all vectors of a
+//! `uᵀx` is below ε with a probability of at most 0.82·ε. The probability that all vectors of a
 //! batch are below ε is the corresponding power, which determines ε.
 //!
 //! Source: J. D. Dixon, Estimating extremal eigenvalues and condition numbers of matrices, SIAM J.
@@ -17,8 +17,9 @@ use crate::limits::{FAILURE, REFLECTORS_WIDTH, SOLVES};
 /// A stream number that the sketch does not use.
 const STREAM: u64 = u64::MAX;
 
-/// A lower bound on σ_r of R₁₁, with a probability of failure of 10⁻⁹; infinite for rank 0, 0 if
-/// none is found. `n` is the number of columns of the factored matrix.
+/// Returns a lower bound on σ_r of R₁₁, with a probability of failure of 10⁻⁹. The bound is
+/// infinite for rank 0, and 0 if no bound is found. `n` is the number of columns of the factored
+/// matrix.
 pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64 {
     if r.rank() == 0 {
         return f64::INFINITY;
@@ -47,7 +48,7 @@ pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64
     }
 }
 
-/// The norm of each vector.
+/// Returns the norm of each vector.
 pub(super) fn norms(x: &[Lanes]) -> Lanes {
     let mut squares = [0.0; REFLECTORS_WIDTH];
     for x in x {

@@ -1,10 +1,11 @@
 //! The sequence of fronts of a factorisation, determined from the pattern alone.
 //!
-//! A *front* is the small dense matrix of everything that involves the bodies eliminated in it:
-//! rows of C that have not occurred before, and the remainders of the fronts below. Its columns are
-//! those of its own bodies, the *pivots*, followed by those of the bodies connected to them at that
-//! time. The first of these is eliminated in the front above, so fronts form a tree. A small front
-//! is merged into the one above it: a few zeros cost less than a separate front.
+//! A *front* is a small dense matrix of all entries that involve the bodies eliminated in it: rows
+//! of C that have not occurred before, and the remainders of the fronts below. Its columns are
+//! those of its own bodies, the *pivots*, followed by the columns of the bodies connected to them
+//! at that time. The first of these connected bodies is eliminated in the front above, so fronts
+//! form a tree. A small front is merged into the front above it, because a few zeros cost less than
+//! a separate front.
 //!
 //! Source: J. W. H. Liu, On general row merging schemes for sparse Givens transformations, SIAM J.
 //! Sci. Stat. Comput. 7 (1986) 1190–1211, for the tree; T. A. Davis, Algorithm 915: SuiteSparseQR,
@@ -16,14 +17,14 @@ use std::ops::Range;
 use crate::structure::{partition, within};
 use linalg::{EliminationTree, SparseMatrix};
 
-/// The factor that is kept; the other one is not stored.
+/// The stored factor; the other one is not stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum KeptFactor {
     Q,
     R,
 }
 
-/// Number of operations, counted or estimated, when the limit was passed.
+/// Number of operations, counted or estimated, when the limit was exceeded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct TooDense {
     pub(super) work: f64,
@@ -38,8 +39,8 @@ pub(super) struct Symbolic {
     pub(super) row_blocks: Vec<Range<usize>>,
     /// Rows without entries, which belong to no front.
     pub(super) empty_rows: Vec<usize>,
-    /// The fronts, each after all fronts below it; its children come directly before it, with their
-    /// descendants.
+    /// The fronts, each after all fronts below it. The children of a front come directly before it,
+    /// with their descendants.
     pub(super) fronts: Vec<Front>,
 }
 
@@ -48,7 +49,7 @@ pub(super) struct Symbolic {
 pub(super) struct Front {
     /// Index after the last column of each body among the pivots.
     pub(super) ends: Vec<usize>,
-    /// Columns of C: the pivots, and those that are eliminated later, in that order.
+    /// Columns of C: first the pivots, then the columns that are eliminated later.
     pub(super) columns: Vec<usize>,
     /// Rows of C that occur here first.
     pub(super) rows: Vec<usize>,
@@ -58,7 +59,7 @@ pub(super) struct Front {
 
 impl Symbolic {
     /// Determines the fronts of a matrix whose columns form blocks. Ranges beyond the matrix are
-    /// cut off; a column in no block is a block of its own.
+    /// truncated, and a column outside all blocks is a separate block.
     pub(super) fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, TooDense> {
         let blocks = partition(c.ncols(), within(c.ncols(), blocks));
         let touched = BlockSets::new(c, &blocks);
@@ -111,9 +112,9 @@ impl Symbolic {
 }
 
 impl Symbolic {
-    /// Upper bound (bytes) on the memory of a factorisation: the factor that is kept, and the
-    /// current front with the stored remainders. For fronts of full rank; dependent columns add
-    /// little.
+    /// Returns the upper bound (bytes) on the memory of a factorisation: the stored factor, and the
+    /// current front with the stored remainders. It assumes fronts of full rank; dependent columns
+    /// add little.
     pub(super) fn bytes(&self, wanted: KeptFactor) -> usize {
         let (mut factor, mut waiting, mut most) = (0, 0, 0);
         // Numbers of rows and columns of the stored remainders.
@@ -190,14 +191,14 @@ impl BlockSets {
 
 /// Nodes that are eliminated in one front.
 struct Supernode {
-    /// Ascending along every path to the root.
+    /// Pivot nodes, ascending along every path to the root.
     pivots: Vec<usize>,
-    /// The last of them.
+    /// The last pivot node.
     top: usize,
     children: usize,
 }
 
-/// Merges small fronts, and those that fit exactly, into their parents. Returns the fronts in an
+/// Merges small fronts, and fronts that fit exactly, into their parents. Returns the fronts in an
 /// order in which the children of each front come directly before it, with their descendants.
 fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supernode> {
     let n = tree.order.len();
@@ -239,7 +240,7 @@ fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supe
     reversed
 }
 
-/// A node, after all nodes that were merged into it.
+/// Returns a node, after all nodes that were merged into it.
 fn with_merged(top: usize, merged: &[Vec<usize>]) -> Vec<usize> {
     let mut reversed = Vec::new();
     let mut open = vec![top];

@@ -3,8 +3,9 @@
 use super::reflectors::Lanes;
 use crate::limits::REFLECTORS_WIDTH;
 
-/// The rows of R in order of elimination. The first entry of each is its pivot; the columns of the
-/// pivots are the *live* ones, R₁₁, and no row has an entry in the pivot column of an earlier one.
+/// The rows of R in order of elimination. The first entry of each row is its pivot. The columns of
+/// the pivots are the *live* columns, R₁₁, and no row has an entry in the pivot column of an
+/// earlier row.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Trapezoid {
     /// Index after the last entry of each row.
@@ -23,18 +24,18 @@ impl Trapezoid {
         self.end.push(self.column.len());
     }
 
-    /// Number of rows, which equals the number of live columns.
+    /// Returns the number of rows, which equals the number of live columns.
     pub(super) fn rank(&self) -> usize {
         self.end.len()
     }
 
-    /// The live columns, in order of elimination.
+    /// Returns the live columns, in order of elimination.
     pub(super) fn live(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.rank()).map(|i| self.row(i).0[0])
     }
 
-    /// Solves `R₁₁ᵀ·R₁₁·y = x` in place. `x` has a row for each column of C; those of dead columns
-    /// are zero.
+    /// Solves `R₁₁ᵀ·R₁₁·y = x` in place. `x` has a row for each column of C; the rows of dead
+    /// columns are zero.
     pub(super) fn solve_normal(&self, x: &mut [Lanes]) {
         for i in 0..self.rank() {
             let (columns, values) = self.row(i);
@@ -69,7 +70,7 @@ impl Trapezoid {
         }
     }
 
-    /// Entries (column, value) of row i.
+    /// Returns the entries (column, value) of row i.
     #[cfg(test)]
     pub(super) fn entries(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let (columns, values) = self.row(i);
@@ -81,7 +82,7 @@ impl Trapezoid {
         (&self.column[entries.clone()], &self.value[entries])
     }
 
-    /// Memory (bytes).
+    /// Returns the memory (bytes).
     pub(super) fn bytes(&self) -> usize {
         size_of::<usize>() * (self.end.len() + self.column.len())
             + size_of::<f64>() * self.value.len()

@@ -2,15 +2,16 @@
 
 use linalg::DisjointSets;
 
-/// Sets of groups that lie on common cycles of the graph in which each group joins its vertices;
-/// each set ascending, ordered by their first groups. A group on no cycle is a set of its own, and
-/// so is a group on a single vertex.
+/// Returns sets of groups on common cycles of the graph in which each group joins its vertices.
+/// Each set ascends, and the sets are ordered by their first groups. A group that is on no cycle,
+/// or on a single vertex, is a separate set.
 ///
 /// In mechanics the vertices are bodies and the ground, and the groups are joints whose rows vanish
 /// on the common rigid motions of their bodies. If two sides have only one body in common, the side
-/// without the ground is in equilibrium by itself, so its joints transmit no total wrench to that
-/// body: every `z` with `Cᵀ·z = 0` is the sum of such vectors on single sets. So each set can be
-/// analysed separately, and the redundancy is the sum of theirs.
+/// without the ground is in equilibrium by itself. Its joints transmit no total wrench to that
+/// body. Therefore every `z` with `Cᵀ·z = 0` is the sum of such vectors on single sets. Therefore
+/// each set can be analysed separately, and the redundancy is the sum of the redundancies of the
+/// sets.
 ///
 /// ```
 /// use pfaff_rank::cycles;
@@ -43,8 +44,8 @@ pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
     sets.sets()
 }
 
-/// Edges in compressed adjacency lists. A group on k vertices is a cycle through them: it keeps
-/// them connected whichever of them is removed.
+/// Edges in compressed adjacency lists. A group on k vertices is a cycle through them: they stay
+/// connected if any one of them is removed.
 struct Graph {
     /// Index of the first edge of each vertex (one more entry than vertices), and the edges.
     first: Vec<usize>,
@@ -88,7 +89,7 @@ impl Graph {
     }
 }
 
-/// Depth first, without recursion.
+/// Depth-first search without recursion.
 struct Search {
     /// Order in which each vertex was reached, from 1, and the earliest vertex that its subtree
     /// reaches.

@@ -47,14 +47,14 @@ pub(super) fn parts(incidence: &Incidence) -> Vec<Part> {
     parts
 }
 
-/// Half an edge.
+/// One end of an edge.
 #[derive(Clone, Copy)]
 struct End {
     vertex: usize,
     edge: usize,
 }
 
-/// Groups on exactly two vertices (blocks or the ground) that no other path connects.
+/// Returns groups on exactly two vertices (blocks or the ground) that no other path connects.
 ///
 /// Depth-first search with the earliest vertex that a subtree reaches: an edge is a bridge iff the
 /// part behind it reaches nothing earlier. A group on more vertices is a star around an additional
@@ -84,8 +84,7 @@ pub(super) fn bridges(incidence: &Incidence) -> Vec<usize> {
         if let [a, b] = vertices[..] {
             connect(a, b, Some(g));
         } else {
-            // Edges from the first vertex connect all of them as well as an additional vertex
-            // would.
+            // Edges from the first vertex connect all vertices, as an additional vertex would.
             vertices[1..]
                 .iter()
                 .for_each(|&v| connect(vertices[0], v, None));

@@ -7,13 +7,13 @@ use linalg::Matrix;
 /// Rows that belong together, such as those of a joint.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RowGroup {
-    /// Its rows of C.
+    /// Rows of C in this group.
     pub rows: Vec<usize>,
-    /// Whether it acts between its blocks and the ground, not only among its blocks.
+    /// Whether the group acts between its blocks and the ground, not only among its blocks.
     ///
-    /// `false` is a promise by the caller that its rows vanish on every common rigid motion of its
+    /// With `false`, the caller guarantees that the rows vanish on every common rigid motion of the
     /// blocks, and that a rigid motion of one block has as many freedoms as the block has columns.
-    /// Without this promise use `true`; then fewer bridges are found.
+    /// Without this guarantee the caller must use `true`; fewer bridges are then found.
     pub ground: bool,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Incidence {
     pub(super) c: Matrix,
     /// Columns of each block.
     pub(super) blocks: Vec<Vec<usize>>,
-    /// The given groups, followed by one for each row in no group.
+    /// The given groups, followed by one group for each row outside all groups.
     pub(super) groups: Vec<Group>,
     /// Blocks that each row touches, ascending.
     pub(super) touches: Vec<Vec<usize>>,
@@ -85,7 +85,7 @@ impl Incidence {
         }
     }
 
-    /// Rows of a group that are not settled yet.
+    /// Returns the rows of a group that are not settled yet.
     pub(super) fn remaining(&self, group: usize) -> Vec<usize> {
         let rows = self.groups[group].rows.iter().copied();
         rows.filter(|&row| self.active[row]).collect()
@@ -104,13 +104,13 @@ impl Incidence {
     }
 }
 
-/// Ranges cut off at `n`.
+/// Returns the ranges, truncated at `n`.
 pub(crate) fn within(n: usize, ranges: &[Range<usize>]) -> impl Iterator<Item = Range<usize>> {
     ranges.iter().map(move |r| r.start.min(n)..r.end.min(n))
 }
 
 /// Splits `0..n` by sets (a number belongs to the first set that contains it), followed by one set
-/// for each number in none.
+/// for each number outside all sets.
 pub(crate) fn partition(
     n: usize,
     given: impl Iterator<Item = impl IntoIterator<Item = usize>>,

@@ -1,5 +1,5 @@
-//! Results from the pattern must be true: compared with the null space of random matrices and of
-//! chains of bodies.
+//! Results from the pattern must be true. They are compared with the null space of random matrices
+//! and of chains of bodies.
 
 use super::*;
 use crate::{decide, orthonormal};
@@ -49,7 +49,7 @@ fn what_is_settled_is_true_and_parts_are_independent() {
                 j if j == n || j == i => None,
                 j => Some(j),
             };
-            // On a grid, so that pins sometimes coincide or lie in line.
+            // The points are on a grid, so that pins sometimes coincide or are collinear.
             let at = [next(4) as f64, next(3) as f64];
             groups.push(RowGroup {
                 rows: pin(&mut rows, n, [Some(i), j], at),
@@ -136,7 +136,7 @@ fn a_bridge_that_peeling_cannot_find() {
             .iter()
             .all(|s| *s == StructureVerdict::Open(0))
     );
-    // Without the promise that the loop acts only among its bars, the pin may transmit a load.
+    // Without the guarantee that the loop acts only among its bars, the pin may transmit a load.
     groups.iter_mut().for_each(|g| g.ground = true);
     let careful = structure(&matrix(&rows), crate::Accuracy::Rounding, &groups, &blocks).unwrap();
     assert_eq!(careful.groups[0], StructureVerdict::Open(0));
@@ -155,8 +155,8 @@ fn rounding_does_not_peel() {
     assert_eq!(found.rows, [StructureVerdict::Open(0); 3]);
 }
 
-/// Unusual input: a row of zeros is a dependency by itself, ranges are cut off, rows and columns in
-/// no range form sets of their own.
+/// Unusual input: a row of zeros is a dependency by itself, ranges are truncated, and rows and
+/// columns outside all ranges form separate sets.
 #[test]
 fn odd_input_has_an_answer() {
     let c = Matrix::from_rows(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
@@ -185,8 +185,8 @@ fn odd_input_has_an_answer() {
     assert!(empty.parts.is_empty());
 }
 
-/// From the definition, for every pair: two groups belong to one set iff, whichever vertex is
-/// removed, the rest of both stays connected, or they connect the same vertices.
+/// Test by definition, for every pair: two groups belong to one set iff the rest of both stays
+/// connected after removal of any vertex, or they connect the same vertices.
 #[test]
 fn cycles_are_what_no_single_vertex_separates() {
     let mut seed = 5_u64;
@@ -206,7 +206,7 @@ fn cycles_are_what_no_single_vertex_separates() {
             .collect();
         let found = super::cycles(vertices, &groups);
         let set_of = |g: usize| found.iter().position(|set| set.contains(&g));
-        // Two edges lie on a common cycle iff no vertex, and no single edge, separates them.
+        // Two edges are on a common cycle iff no vertex, and no single edge, separates them.
         let hang_together = |a: usize, b: usize, without: Option<usize>, edge: Option<usize>| {
             let mut label: Vec<usize> = (0..vertices).collect();
             for (g, pair) in groups.iter().enumerate() {

@@ -1,11 +1,11 @@
-//! Large mechanisms whose rank and unique rows are known without numerics; for tests and the
-//! example `large_rank`.
+//! Large mechanisms whose rank and unique rows are known without numerical computation; for tests
+//! and the example `large_rank`.
 
 use std::ops::Range;
 
 use linalg::SparseMatrix;
 
-/// A constraint matrix with results known without numerics.
+/// A constraint matrix with results known without numerical computation.
 pub(crate) struct Known {
     pub(crate) name: String,
     pub(crate) c: SparseMatrix,
@@ -18,8 +18,8 @@ pub(crate) struct Known {
 
 type Row = Vec<(usize, f64)>;
 
-/// The two rows of a revolute joint: equal velocities of the points at `arm` of each body; no body
-/// means the ground.
+/// Returns the two rows of a revolute joint: equal velocities of the points at `arm` of each body;
+/// no body means the ground.
 fn revolute(sides: [Option<(usize, [f64; 2])>; 2]) -> [Row; 2] {
     let mut rows = [Vec::new(), Vec::new()];
     for (side, sign) in sides.into_iter().zip([1.0, -1.0]) {
@@ -31,20 +31,21 @@ fn revolute(sides: [Option<(usize, [f64; 2])>; 2]) -> [Row; 2] {
     rows
 }
 
-/// A stack of couplers, each on parallel cranks on the one below: three cranks or, in every third
-/// cell, two.
+/// Returns a stack of couplers, each on parallel cranks on the one below: three cranks or, in every
+/// third cell, two.
 pub(crate) fn chain(cells: usize) -> Known {
     let cranks = (0..cells).map(|cell| if cell % 3 == 2 { 2 } else { 3 });
     parallelograms(format!("chain {cells}"), cranks)
 }
 
-/// One coupler on `legs` parallel grounded cranks: all joints of the upper side are on one body.
+/// Returns one coupler on `legs` parallel cranks on the ground: all joints of the upper side are on
+/// one body.
 pub(crate) fn table(legs: usize) -> Known {
     parallelograms(format!("table {legs}"), [legs])
 }
 
-/// Cells with the given numbers of cranks. Two cranks keep the coupler parallel; each further crank
-/// adds one redundancy, in which all multipliers of the cell take part.
+/// Returns cells with the given numbers of cranks. Two cranks keep the coupler parallel; each
+/// further crank adds one redundancy, in which all multipliers of the cell take part.
 fn parallelograms(name: String, cranks: impl IntoIterator<Item = usize>) -> Known {
     let (mut rows, mut is_unique) = (Vec::new(), Vec::new());
     let (mut bodies, mut redundancy) = (0, 0);
@@ -74,8 +75,8 @@ fn parallelograms(name: String, cranks: impl IntoIterator<Item = usize>) -> Know
     known(name, rows, bodies, redundancy, is_unique)
 }
 
-/// Free bodies in a square grid with welded neighbours: a circuit of three rows for every edge that
-/// is not in a spanning tree, and every edge in some circuit.
+/// Returns free bodies in a square grid with welded neighbours: a circuit of three rows for every
+/// edge that is not in a spanning tree, and every edge in some circuit.
 pub(crate) fn grid(side: usize) -> Known {
     let at = |x: usize, y: usize| side * y + x;
     let mut rows = Vec::new();

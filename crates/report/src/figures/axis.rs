@@ -1,4 +1,5 @@
-//! Axes: a range, round ticks, and labels with as few digits as distinguish them.
+//! Axes: a range, round ticks, and labels with the smallest number of digits that distinguishes
+//! them.
 
 /// An axis with its ticks.
 #[derive(Clone, Debug, PartialEq)]
@@ -6,24 +7,25 @@ pub(super) struct Axis {
     pub(super) min: f64,
     pub(super) max: f64,
     pub(super) ticks: Vec<Tick>,
-    /// Values are labels times ten to this power.
+    /// Values are labels times this power of ten.
     pub(super) exponent: i32,
 }
 
-/// A place on an axis.
+/// A tick of an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tick {
     pub(super) value: f64,
     pub(super) label: String,
 }
 
-/// Larger values cannot be drawn: differences of them would overflow.
+/// Larger values cannot be drawn, because differences of them would overflow.
 pub(super) const DRAWABLE: f64 = 1e300;
 
-/// A range narrower than this, relative to its values, shows rounding only.
+/// A range narrower than this, relative to its values, contains only rounding errors.
 const RESOLUTION: f64 = 1e-12;
 
-/// Labels keep to three digits before the point and two zeros behind it.
+/// In this range, labels have at most four digits before the decimal point and at most one zero
+/// after it before the first digit.
 const PLAIN: std::ops::Range<f64> = 1e-2..1e4;
 
 /// Whether a value can be drawn.
@@ -78,12 +80,12 @@ impl Axis {
         Self::over([min - margin, max + margin], count)
     }
 
-    /// Position of a value: 0 at the beginning, 1 at the end.
+    /// Position of a value: 0 at the start, 1 at the end.
     pub(super) fn position(&self, value: f64) -> f64 {
         (value - self.min) / (self.max - self.min)
     }
 
-    /// A unit with the power of ten of the labels.
+    /// A unit, with the power of ten of the labels.
     pub(super) fn unit(&self, unit: &str) -> String {
         if self.exponent == 0 {
             return unit.to_owned();
@@ -122,7 +124,7 @@ pub(super) fn round_step(at_least: f64) -> f64 {
 }
 
 fn with_minus(label: &str) -> String {
-    // −0.0 has no meaning for a reader.
+    // Labels do not contain −0.0, which has no meaning for a reader.
     match label.strip_prefix('-') {
         Some(rest) if rest.chars().all(|c| matches!(c, '0' | '.')) => rest.to_owned(),
         Some(rest) => format!("−{rest}"),

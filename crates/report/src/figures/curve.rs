@@ -24,11 +24,11 @@ impl Look {
         .colour()
     }
 
-    /// Outline of its marker around the origin.
+    /// Outline of the marker around the origin.
     fn marker(self) -> &'static [[f64; 2]] {
         const SHAPES: [&[[f64; 2]]; 7] = [
-            // circle (an octagon), square, triangle, diamond, triangle downwards, cross, star of
-            // three
+            // circle (an octagon), square, triangle, diamond, triangle pointing down, cross,
+            // three-pointed star
             &[
                 [1.0, 0.41],
                 [0.41, 1.0],
@@ -84,14 +84,14 @@ impl Look {
     }
 }
 
-/// A curve in logarithms, with a gap for each run that has no point.
+/// A curve in logarithms, with a gap for each run without a point.
 pub(super) struct Curve {
     pub(super) look: Look,
     pub(super) points: Vec<Option<[f64; 2]>>,
 }
 
 impl Curve {
-    /// The points that exist.
+    /// The existing points.
     pub(super) fn shown(&self) -> impl Iterator<Item = [f64; 2]> {
         self.points.iter().copied().flatten()
     }

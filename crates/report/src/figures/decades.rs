@@ -9,7 +9,7 @@ pub(super) enum Unit {
     Number,
     /// Times (s).
     Seconds,
-    /// The labels are shown on the neighbouring axis.
+    /// The neighbouring axis shows the labels.
     Untold,
 }
 

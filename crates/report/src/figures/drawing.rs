@@ -1,9 +1,9 @@
-//! The single drawing model: outlines of bodies, joints as symbols that move with a body, wheels
-//! and applied forces. A page draws it at any time of a run, an SVG figure at one time. Places that
-//! do not move with a body are given frame by frame.
+//! The common drawing model: outlines of bodies, joints as symbols that move with a body, wheels
+//! and applied forces. A page draws it at any time of a run, an SVG figure at one time. Positions
+//! that do not move with a body are given for each frame.
 //!
-//! Its points are points of the space of the mechanism, in the axes of the frames of bodies; its
-//! `Projection` makes them points of the picture.
+//! Its points are points in the space of the mechanism, in the axes of the frames of bodies; its
+//! `Projection` converts them to points of the picture.
 
 mod point;
 #[cfg(test)]
@@ -23,11 +23,11 @@ use crate::recording::Frame;
 pub(crate) use point::{Curves, Point};
 pub(crate) use wheel::DrawnWheel;
 
-/// Number of frames at which it is tested whether a place moves with a body.
+/// Number of frames at which the program tests whether a point moves with a body.
 const PROBES: usize = 9;
 
-/// A place moves with a body if its coordinates in the body change by no more than this fraction of
-/// the size of the picture.
+/// A point moves with a body if its coordinates in the body change by at most this fraction of the
+/// size of the picture.
 const FIXED: f64 = 1e-9;
 
 /// Index of the ground in lists of bodies.
@@ -40,35 +40,36 @@ type BodyPoint = (isize, Point);
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct DrawnBody {
     pub(crate) name: String,
-    /// Its centre and the points of joints and forces, in its frame (m): it is drawn as their
-    /// convex hull. In the plane the corners of that hull.
+    /// Centre of mass and the points of joints and forces, in the frame of the body (m): the body
+    /// is drawn as their convex hull. In the plane, the corners of this hull.
     pub(crate) outline: Vec<Point>,
-    /// Origin of the frame in which the scene describes it, if that is not its centre.
+    /// Origin of the frame in which the scene describes the body, if it differs from the centre of
+    /// mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     frame: Option<Point>,
-    /// Position of its centre, orientation and velocities, by the names of
+    /// Position of the centre of mass, orientation and velocities, with the names of
     /// [`SpaceKind::columns`].
     #[serde(flatten)]
     curves: Curves,
 }
 
-/// Position of something.
+/// Position of a drawn item.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Place {
     /// Fixed in the frame of a body.
     Of { b: isize, p: Point },
-    /// Given separately for each frame of the run.
+    /// A position that is given separately for each frame of the run.
     Free(Curves),
 }
 
-/// Direction of something.
+/// Direction of a drawn item.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Heading {
-    /// At this angle in a body (rad).
+    /// A direction at this angle in a body (rad).
     Of { b: isize, a: FewDigits },
-    /// Given separately for each frame of the run.
+    /// An angle that is given separately for each frame of the run.
     Free { a: Channel },
     /// In space: this direction, as a unit vector.
     Along(Place),
@@ -81,12 +82,12 @@ pub(crate) struct DrawnSite {
     pub(crate) place: Place,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) axis: Option<Heading>,
-    /// The other end of a rod, the block of a guide, or what slides on a plane.
+    /// The other end of a rod, the block of a guide, or the part that slides on a plane.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) end: Option<Place>,
     pub(crate) grounded: bool,
     pub(crate) bodies: Vec<isize>,
-    /// Circles that roll.
+    /// Rolling circles.
     pub(crate) wheels: Vec<DrawnWheel>,
 }
 
@@ -105,16 +106,16 @@ pub(crate) struct DrawnForce {
 pub(crate) struct DrawnMarker {
     pub(crate) name: String,
     pub(crate) b: isize,
-    /// Place relative to the centre of the body, in its axes (m).
+    /// Position relative to the centre of mass of the body, in its axes (m).
     pub(crate) p: Point,
-    /// Angle of its axes in the body (rad).
+    /// Angle of the marker's axes in the body (rad).
     a: FewDigits,
 }
 
 /// Everything that is drawn.
 #[derive(Clone, Debug, Serialize)]
 pub struct DrawingModel {
-    /// How space is seen; scripts need none for the plane.
+    /// The projection of space; scripts need no projection for the plane.
     #[serde(skip_serializing_if = "Projection::is_plane")]
     pub(crate) view: Projection,
     pub(crate) bodies: Vec<DrawnBody>,
@@ -131,12 +132,12 @@ pub struct DrawingModel {
 }
 
 impl DrawnSite {
-    /// Whether it slides on a rail.
+    /// Whether the item slides on a rail.
     pub(crate) fn is_guided(&self) -> bool {
         matches!(self.symbol, "block" | "slot")
     }
 
-    /// Position of its symbol; a block is drawn at the place to which it has moved.
+    /// Position of the symbol; a block is drawn at its present position.
     pub(crate) fn shown(&self) -> &Place {
         match &self.end {
             Some(end) if self.symbol != "rod" => end,
@@ -147,7 +148,7 @@ impl DrawnSite {
 
 /// Positions in the picture at the first frame (m and rad).
 impl DrawingModel {
-    /// The centre of a body; the origin for the ground.
+    /// The centre of mass of a body; the origin for the ground.
     pub(crate) fn centre(&self, body: isize) -> [f64; 2] {
         self.held(body, Point::default())
     }
@@ -161,7 +162,7 @@ impl DrawingModel {
         })
     }
 
-    /// A place.
+    /// The position of an item.
     pub(crate) fn at(&self, place: &Place) -> [f64; 2] {
         match place {
             Place::Of { b, p } => self.held(*b, *p),
@@ -169,8 +170,8 @@ impl DrawingModel {
         }
     }
 
-    /// The corners of the outline of a body relative to its centre, before they are turned by the
-    /// angle that is returned.
+    /// The corners of the outline of a body relative to its centre of mass, before the rotation by
+    /// the returned angle.
     pub(crate) fn silhouette(&self, body: usize) -> (Vec<[f64; 2]>, f64) {
         let points = self.bodies[body].outline.iter();
         if self.view.is_plane() {
@@ -181,7 +182,7 @@ impl DrawingModel {
         (hull(&flat.collect::<Vec<_>>()), 0.0)
     }
 
-    /// The axis of a symbol in space, shorter than one where it is seen from the side.
+    /// The axis of a symbol in space; it is shortened by the projection.
     pub(crate) fn axis(&self, site: &DrawnSite) -> Option<[f64; 2]> {
         let Some(Heading::Along(direction)) = &site.axis else {
             return None;
@@ -222,7 +223,7 @@ pub struct Stage<'a> {
 }
 
 impl Stage<'_> {
-    /// What is drawn of its bodies and joints, and of the forces and markers on them in `whole`.
+    /// The drawing of its bodies and joints, and of the forces and markers on them in `whole`.
     #[must_use]
     pub fn drawing(&self, whole: &Mechanism) -> DrawingModel {
         let forces = DrawnForce::all(whole, self.bodies);
@@ -287,17 +288,17 @@ impl Stage<'_> {
             .collect()
     }
 
-    /// A vector in the axes of the coordinates of a body in those of its frame.
+    /// Converts a vector from the axes of the coordinates of a body to the axes of its frame.
     fn told(&self, body: BodyRef, own: [f64; 3]) -> [f64; 3] {
         self.mechanism.frames().vector(body, own)
     }
 
-    /// Its coordinates in a frame, with the counted angles of its joints.
+    /// Coordinates of the drawn part in a frame, with the unwrapped angles of its joints.
     fn q(&self, frame: &Frame) -> Vec<f64> {
         self.coordinates.iter().map(|&k| frame.q[k]).collect()
     }
 
-    /// Velocities of its bodies in a frame.
+    /// Velocities of the drawn bodies in a frame.
     fn v(&self, frame: &Frame) -> Vec<f64> {
         let (own, space) = (self.bodies.iter(), self.mechanism.space());
         own.flat_map(|&k| frame.v[space.columns_of(k)].iter().copied())
@@ -325,7 +326,7 @@ impl Stage<'_> {
             .collect()
     }
 
-    /// Extent of all centres over the run (m).
+    /// Extent of all centres of mass over the run (m).
     fn size(&self) -> f64 {
         let space = self.mechanism.space();
         let mut range = vec![[f64::INFINITY, f64::NEG_INFINITY]; space.n_translations()];
@@ -414,8 +415,8 @@ impl Stage<'_> {
         }
     }
 
-    /// A point or a direction of a joint: in the axes of the first carrier in which it is fixed, to
-    /// `known`, or frame by frame.
+    /// A point or a direction of a joint: in the axes of the first body of `carriers` in which it
+    /// is constant to the accuracy `known`, or for each frame.
     fn place(
         &self,
         id: ConstraintId,
@@ -460,7 +461,7 @@ impl Stage<'_> {
         }
         let mut last: f64 = 0.0;
         let all = self.every(id, angle);
-        // An axis has no orientation, so each angle is the one nearest to the angle before.
+        // An axis has no orientation, so each angle is the one nearest to the previous angle.
         let unwound = all.into_iter().map(|a| {
             last = a + std::f64::consts::PI * ((last - a) / std::f64::consts::PI).round();
             last
@@ -543,10 +544,10 @@ fn index(body: BodyRef) -> isize {
 /// A point or a direction of a joint, in ground axes.
 type OfSite<'a> = dyn Fn(&Site) -> [f64; 3] + 'a;
 
-/// From ground axes to those of the coordinates of a body.
+/// Converts ground axes to the axes of the coordinates of a body.
 type Local = dyn Fn(BodyRef, [f64; 3], &Scratch) -> [f64; 3];
 
-/// A global point relative to the centre of a body, in the axes of its coordinates.
+/// A global point relative to the centre of mass of a body, in the axes of its coordinates.
 fn local(body: BodyRef, point: [f64; 3], s: &Scratch) -> [f64; 3] {
     body.moving().map_or(point, |k| s.bodies.to_local(k, point))
 }

@@ -21,7 +21,7 @@ const HEIGHT: f64 = 190.0;
 const TITLE: f64 = 26.0;
 /// Space below a panel for labels and the name of the axis (px).
 const BELOW: f64 = 46.0;
-/// Number of panels side by side.
+/// Number of panels in a row.
 const COLUMNS: usize = 2;
 
 /// Range of errors, as powers of ten; values outside, including zero, are drawn at the edge.
@@ -32,16 +32,17 @@ const SHOWN: [f64; 2] = [-17.0, 1.0];
 pub struct Extremes<'a> {
     /// The test.
     pub title: &'a str,
-    /// The number that was varied.
+    /// Name of the varied number.
     pub varied: &'a str,
     /// Names of curves with their points: the varied number and the error.
     pub series: Vec<(&'a str, Vec<[f64; 2]>)>,
-    /// The largest error that is accepted, if it is the same for all cases.
+    /// Largest accepted error, if it is the same for all cases.
     pub bound: Option<f64>,
 }
 
 /// Errors over varied numbers, panel by panel; an empty text if there are no panels. A dashed line
-/// is the bound. Of several errors at one number the largest has a point, NaN has none.
+/// is the bound. If there are several errors at one number, the largest one is drawn; NaN is not
+/// drawn.
 #[must_use]
 pub fn extremes(panels: &[Extremes<'_>]) -> String {
     let plots: Vec<Plot<'_>> = panels.iter().map(Plot::of).collect();
@@ -56,7 +57,7 @@ pub fn extremes(panels: &[Extremes<'_>]) -> String {
     let mut svg = Svg::new(
         WIDTH,
         2.0 * MARGIN + row * lines,
-        "Error over what is made extreme",
+        "Error against the varied parameter",
     );
     svg.element("style").text(&dark_scheme());
     for (k, plot) in plots.iter().enumerate() {
@@ -93,7 +94,7 @@ impl<'a> Plot<'a> {
             .with("font-weight", "bold")
             .with("fill", INK)
             .text(&format!(
-                "{}: error over {}",
+                "{}: error against {}",
                 self.panel.title, self.panel.varied
             ));
         legend(svg, [left, top + TITLE], width, &self.looks());
@@ -129,7 +130,7 @@ impl<'a> Plot<'a> {
             curve.draw(svg, &frame);
         }
         if points().next().is_none() {
-            frame.note(svg, "all cases were refused");
+            frame.note(svg, "all cases were rejected");
         }
     }
 }

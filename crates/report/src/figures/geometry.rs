@@ -1,5 +1,5 @@
-//! Positions of the joints of a mechanism and the kind of freedom they leave, derived from their
-//! rows, wrenches and places: no joint is known by name.
+//! Positions of the joints of a mechanism and the kind of freedom that they allow. Both are derived
+//! from rows, wrenches and reference points: no joint is identified by its name.
 
 mod space;
 #[cfg(test)]
@@ -14,7 +14,7 @@ use super::FigureError;
 use super::projection::unit;
 use super::symbol::Symbol;
 
-/// Larger coordinates cannot be drawn: their squares would overflow.
+/// Larger coordinates cannot be drawn, because their squares would overflow.
 const LIMIT: f64 = 1e150;
 
 /// Evaluates poses, if q is a configuration that can be drawn.
@@ -44,32 +44,34 @@ pub(crate) fn posed(
     Ok(())
 }
 
-/// A joint or drive at its place (global components, m).
+/// A joint or drive at its reference point (global components, m).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Site {
     pub(crate) place: [f64; 3],
     pub(crate) symbol: Symbol,
-    /// Point at which its only force acts on the other body; its place if there is no such point.
+    /// Point at which its only force acts on the other body; its reference point if there is no
+    /// such point.
     pub(crate) end: [f64; 3],
     /// Whether it connects a body to the ground.
     pub(crate) grounded: bool,
-    /// Circles that roll on each other, or one on the ground, at its place.
+    /// Circles that roll on each other, or one circle that rolls on the ground, at the reference
+    /// point.
     pub(crate) pitch: Vec<Pitch>,
 }
 
-/// A circle that rolls.
+/// A rolling circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pitch {
-    /// The body that carries it.
+    /// The body with the circle.
     pub(crate) body: BodyRef,
-    /// Its centre from the centre of mass (m), and the unit vector across it, in the axes of the
-    /// coordinates of the body.
+    /// Centre of the circle relative to the centre of mass (m), and unit vector normal to the
+    /// circle, in the axes of the coordinates of the body.
     pub(crate) centre: [f64; 3],
     pub(crate) axis: [f64; 3],
     pub(crate) radius: f64,
 }
 
-/// All joints and drives, in the order of the layout, at the poses of the scratch.
+/// All joints and drives, in the order of the layout, at the poses in the scratch memory.
 pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
     let ids = mechanism.layout().constraint_ids();
     let mut all: Vec<Site> = ids.map(|id| site(mechanism, id, s)).collect();
@@ -81,7 +83,7 @@ pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
     all
 }
 
-/// One of them.
+/// One joint or drive.
 pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site {
     let group = &mechanism.layout().groups[id.0];
     let spec = group.spec;
@@ -151,7 +153,7 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
     }
 }
 
-/// Ratios closer to one are drawn without wheels: equal rotations need none.
+/// Ratios closer to one are drawn without wheels, because equal rotations need no wheels.
 const LEAST_SLIP: f64 = 1e-2;
 
 /// The contact point of two wheels, if the second body rotates `ratio` times as fast as the first
@@ -190,8 +192,8 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 3], [
 /// Normal of the plane.
 const UPRIGHT: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// The pitch point of teeth on the line between the centres of two wheels, at a distance from the
-/// first one, and their pitch circles.
+/// The pitch point of a gear mesh on the line between the centres of two wheels, at a distance from
+/// the first centre, and the pitch circles.
 fn teeth_of(
     points: &[(BodyRef, [f64; 3])],
     first: [f64; 3],
@@ -220,9 +222,9 @@ fn teeth_of(
         .then_some((point, circles))
 }
 
-/// The circle of a wheel that rolls on the ground, from its centre, the point at which it touches
-/// and the forces of its rows, of which the last two are along its track and across it: the axis is
-/// across the track and the radius.
+/// The circle of a wheel that rolls on the ground, from its centre, its contact point and the
+/// forces of its rows. The last two rows are along its track and across it: the axis is
+/// perpendicular to the track and to the radius.
 fn rolling(
     points: &[(BodyRef, [f64; 3])],
     map: &Matrix,
@@ -245,7 +247,7 @@ fn rolling(
     })
 }
 
-/// The pitch circles of wheels that other joints bear: those joints tell the axes.
+/// The pitch circles of wheels that other joints support; these joints define the axes.
 fn borne(mechanism: &Mechanism, id: ConstraintId, all: &[Site], s: &Scratch) -> Vec<Pitch> {
     let points = mechanism.points(id);
     let touches = all[id.0].place;
@@ -279,7 +281,7 @@ pub(crate) fn turned_back(body: BodyRef, d: [f64; 3], s: &Scratch) -> [f64; 3] {
     body.moving().map_or(d, |k| s.bodies.axes(k).map(along))
 }
 
-/// Rows, classified by what they transmit.
+/// Rows, classified by the force or torque that they transmit.
 struct Rows {
     forces: Vec<usize>,
     /// Number of rows that transmit only a torque.
@@ -304,10 +306,10 @@ impl Rows {
     }
 }
 
-/// Shorter lever arms are rounding, relative to the distance of two points.
+/// Shorter lever arms are rounding errors, relative to the distance of two points.
 const LEAST_ARM: f64 = 1e-9;
 
-/// A force in the plane and its lever arm about the place.
+/// A force in the plane and its lever arm about the reference point.
 #[derive(Clone, Copy)]
 struct Force {
     direction: [f64; 3],
@@ -330,8 +332,8 @@ impl Force {
         }
     }
 
-    /// How far from the first of two points its line of action crosses the line between them (m);
-    /// `None` if it acts along that line.
+    /// Distance from the first of two points at which the line of action crosses the line between
+    /// the points (m); `None` if the force acts along this line.
     fn teeth(&self, first: [f64; 3], second: [f64; 3]) -> Option<f64> {
         let apart = difference(second, first);
         let length = norm(&apart);
@@ -345,7 +347,7 @@ impl Force {
         [-self.direction[1], self.direction[0], 0.0]
     }
 
-    /// The point of the line of action nearest to the place: offset × direction = arm.
+    /// The point of the line of action nearest to the reference point: offset × direction = arm.
     fn point_nearest(&self, place: [f64; 3]) -> [f64; 3] {
         let [x, y, _] = self.perpendicular();
         let [from_x, from_y, z] = place;

@@ -5,16 +5,16 @@ use super::plot::{Entry, Frame, Labels, legend, legend_height};
 use super::style::{GREY, INK, Style, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Svg, text_width};
 
-/// A curve over time. If the lengths differ, the longer one is cut off.
+/// A curve over time. If the lengths differ, the end of the longer one is omitted.
 #[derive(Clone, Copy, Debug)]
 pub struct Series<'a> {
-    /// Its name in the legend; empty: not in the legend.
+    /// Name in the legend; if empty, the curve is not in the legend.
     pub label: &'a str,
     /// Times (s).
     pub t: &'a [f64],
     /// Values; a value that is not finite is a gap.
     pub y: &'a [f64],
-    /// Its appearance.
+    /// Appearance of the curve.
     pub style: Style,
 }
 
@@ -28,11 +28,11 @@ impl Series<'_> {
 /// Curves of one quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct Panel<'a> {
-    /// The quantity.
+    /// Name of the quantity.
     pub title: &'a str,
-    /// Its unit.
+    /// Unit of the quantity.
     pub unit: &'a str,
-    /// Its curves.
+    /// Curves of the quantity.
     pub series: &'a [Series<'a>],
 }
 
@@ -58,7 +58,7 @@ const TITLE: f64 = 26.0;
 /// Space below the lowest frames (px).
 const BELOW: f64 = 40.0;
 
-/// One quantity over time.
+/// A figure of one quantity over time.
 ///
 /// ```
 /// use pfaff_report::figures::{Series, Style, history};
@@ -78,8 +78,8 @@ pub fn history(title: &str, unit: &str, series: &[Series<'_>]) -> String {
     draw(&[panel], 1, FRAME_ALONE)
 }
 
-/// Several quantities over the same time: small panels in rows of `columns`. If all panels have the
-/// same curves, one legend serves for all.
+/// A figure of several quantities over the same time: small panels in rows of `columns`. If all
+/// panels have the same curves, there is one legend for all.
 #[must_use]
 pub fn histories(panels: &[Panel<'_>], columns: usize) -> String {
     draw(panels, columns.clamp(1, panels.len().max(1)), FRAME)

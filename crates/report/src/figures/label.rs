@@ -1,5 +1,5 @@
-//! Places names so that none hides another: each takes the best of several places around its
-//! anchor, by the same rule as in the animation of a page.
+//! Positions names so that they do not overlap. Each name gets the best of several positions around
+//! its anchor, by the same rule as in the animation of a page.
 
 use super::svg::text_width;
 
@@ -26,7 +26,7 @@ impl Rect {
     }
 }
 
-/// A name that needs a place.
+/// A name that needs a position.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request<'a> {
     pub(super) text: &'a str,
@@ -36,7 +36,7 @@ pub(super) struct Request<'a> {
 
 /// Distances from the anchor (px).
 const DISTANCES: [f64; 4] = [14.0, 24.0, 36.0, 52.0];
-/// Directions: to the right, to the left, above, below; the upper right comes first among equals.
+/// Directions: right, left, above, below; the upper right is preferred if several are equally good.
 const DIRECTIONS: [[f64; 2]; 6] = [
     [1.0, -0.6],
     [-1.0, -0.6],
@@ -46,8 +46,8 @@ const DIRECTIONS: [[f64; 2]; 6] = [
     [0.0, 1.0],
 ];
 
-/// Places names in the given order; `None` if every place would hide another name or leave the
-/// page.
+/// Positions names in the given order; `None` if the name would overlap another name or leave the
+/// page at every position.
 pub(super) fn place(page: &Rect, symbols: &[Rect], requests: &[Request<'_>]) -> Vec<Option<Rect>> {
     let mut taken: Vec<Rect> = Vec::new();
     let mut places = Vec::with_capacity(requests.len());
@@ -68,7 +68,7 @@ pub(super) fn place(page: &Rect, symbols: &[Rect], requests: &[Request<'_>]) -> 
     places
 }
 
-/// Places around the anchor, the nearest first.
+/// Positions around the anchor, the nearest first.
 fn candidates(request: &Request<'_>) -> impl Iterator<Item = Rect> {
     let Request { text, size, anchor } = *request;
     let half = [0.5 * text_width(text, size) + 1.5, 0.5 * size + 1.0];

@@ -1,5 +1,5 @@
-//! The drawing of a mechanism as an SVG figure, to scale: it draws the [`DrawingModel`] at one
-//! time, with names and a legend.
+//! The drawing of a mechanism as an SVG figure, to scale: the [`DrawingModel`] at one time, with
+//! names and a legend.
 
 mod view;
 
@@ -17,7 +17,7 @@ use super::symbol::{SHAPES, SHORT, SPRING, Shape};
 use crate::recording::Frame;
 use view::View;
 
-/// How joints and drives are marked.
+/// Marking of joints and drives.
 #[derive(Clone, Copy, Debug)]
 pub enum Marking<'a> {
     /// All joints are marked in the same way.
@@ -29,9 +29,9 @@ pub enum Marking<'a> {
 /// The labels of joints and drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Labels {
-    /// Their names.
+    /// Names of joints and drives.
     Names,
-    /// Their names and the numbers of their rows of C, from 1, as `B 3–4`.
+    /// Names of joints and drives, with the numbers of their rows of C, from 1, such as `B 3–4`.
     NamesAndRows,
 }
 
@@ -46,25 +46,27 @@ const TITLE: f64 = 30.0;
 /// Sizes of text (px), as in the style sheet.
 const NAME_SIZE: f64 = 13.0;
 const BODY_SIZE: f64 = 12.0;
-/// With more names than this the drawing would be unreadable: then names are in the tool tips only.
+/// With more names than this, the drawing would be unreadable: then only the tool tips contain the
+/// names.
 const MAX_LABELS: usize = 300;
 /// Height of a line of the legend and width of a symbol in it (px).
 const LEGEND: [f64; 2] = [36.0, 50.0];
 /// Length of a rail beyond its block, and of half an axis seen from the side (px).
 const RAIL: f64 = 30.0;
 const AXIS: f64 = 36.0;
-/// Where the axes of space are, from the left and the lower edge of the drawing, and their largest
-/// length (px).
+/// Position of the axes of space, from the left and the lower edge of the drawing, and their
+/// largest length (px).
 const TRIAD: [f64; 2] = [46.0, 40.0];
 const LONGEST: f64 = 48.0;
 
-/// The style sheet of pages and figures; the first rule names the colours.
+/// The style sheet of pages and figures; the first rule defines the colours.
 pub const LOOKS: &str = include_str!("picture.css");
 
 /// Draws a mechanism at coordinates q and time t.
 ///
-/// Bodies are convex hulls of their centres of mass and of the points at which joints and forces
-/// act: their true shapes are unknown. Every symbol has its name, type and verdict as tool tip.
+/// Bodies are drawn as convex hulls of their centres of mass and of the points at which joints and
+/// forces act, because their true shapes are unknown. Every symbol has a tool tip with its name,
+/// type and verdict.
 ///
 /// # Errors
 /// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is not a configuration of the
@@ -82,7 +84,7 @@ pub fn mechanism(
 /// Like [`mechanism()`], with other labels.
 ///
 /// # Errors
-/// As [`mechanism()`].
+/// Returns the same errors as [`mechanism()`].
 pub fn labelled_mechanism(
     mechanism: &Mechanism,
     t: f64,
@@ -137,11 +139,11 @@ struct Entry {
     symbol: &'static str,
     mark: &'static str,
     words: String,
-    /// Distance from the left (px), and line.
+    /// Distance from the left (px), and index of the line.
     at: [f64; 2],
 }
 
-/// Marks of verdicts, then the symbols that occur, line by line.
+/// Marks of verdicts, followed by the symbols in the drawing, line by line.
 fn legend(mechanism: &Mechanism, model: &DrawingModel, marking: Marking<'_>) -> Vec<Entry> {
     let verdicts = match marking {
         Marking::Plain => &[][..],
@@ -260,7 +262,7 @@ impl Picture<'_> {
         }
     }
 
-    /// Opens a group at a place of the page, rotated by an angle (rad).
+    /// Opens a group at a position on the page, rotated by an angle (rad).
     fn group(&mut self, class: &str, [x, y]: [f64; 2], angle: f64) {
         let turn = -angle.to_degrees() + 0.0;
         let transform = format!(
@@ -284,7 +286,7 @@ impl Picture<'_> {
         }
     }
 
-    /// A symbol at a place of the page.
+    /// A symbol at a position on the page.
     fn symbol(&mut self, symbol: &str, class: &str, at: [f64; 2], angle: f64, title: &str) {
         self.group(class, at, angle);
         if !title.is_empty() {
@@ -357,7 +359,7 @@ impl Picture<'_> {
         self.svg.close();
     }
 
-    /// The axis about which a joint in space turns, as a short line.
+    /// The rotation axis of a joint in space, as a short line.
     fn axis(&mut self, site: &DrawnSite, [x, y]: [f64; 2]) {
         if let Some([right, up]) = self.model.axis(site) {
             let (dx, dy) = (AXIS * right, -AXIS * up);
@@ -411,7 +413,7 @@ impl Picture<'_> {
         self.svg.close();
     }
 
-    /// Names joints by the colours of their marks, then bodies and markers.
+    /// Writes the names of joints in the colours of their marks, followed by bodies and markers.
     fn names(&mut self, labels: Labels) {
         let (model, view) = (self.model, &self.view);
         let n = model.sites.len() + model.bodies.len() + model.markers.len();
@@ -491,8 +493,8 @@ impl Picture<'_> {
         }
     }
 
-    /// A bar of a round length, about a sixth of the page; in space the axes of the ground, each of
-    /// a round length.
+    /// A scale bar of a round length, about a sixth of the page; in space, the axes of the ground,
+    /// each of a round length.
     fn scale_bar(&mut self) {
         let view = self.model.view;
         if !view.is_plane() {
@@ -543,7 +545,7 @@ impl Picture<'_> {
     }
 }
 
-/// The style sheet with the colours of the light scheme instead of their names.
+/// The style sheet, in which the names of colours are replaced by the colours of the light scheme.
 fn looks() -> String {
     let root = LOOKS.split_once(":root {").map_or("", |(_, root)| root);
     let (colours, rules) = root.split_once('}').unwrap_or(("", root));
@@ -557,7 +559,7 @@ fn pair([x, y]: [f64; 2]) -> String {
     format!("{} {}", number(x), number(y))
 }
 
-/// A time without the last digits of rounding: 0.3, not 0.30000000000000004.
+/// A time without digits that are rounding errors: 0.3, not 0.30000000000000004.
 fn shortened(t: f64) -> String {
     let rounded = (t * 1e6).round() / 1e6;
     if rounded.is_finite() && (rounded - t).abs() <= 1e-9 * t.abs() {
@@ -569,7 +571,7 @@ fn shortened(t: f64) -> String {
 
 fn metres(length: f64) -> String {
     if (1e-3..1e4).contains(&length) {
-        // One digit, however the power of ten was rounded.
+        // One digit, whatever the rounding of the power of ten.
         let digits = (-length.log10()).ceil().max(0.0) as usize;
         format!("{length:.digits$} m")
     } else {

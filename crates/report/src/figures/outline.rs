@@ -1,4 +1,7 @@
 //! Outlines of bodies: convex hulls of their points.
+//!
+//! A figure uses the hull of the points in the picture. A page of a spatial mechanism uses their
+//! hull in space.
 
 /// Convex hull, counter-clockwise in the given axes, without points on its sides. One or two points
 /// are their own hull.

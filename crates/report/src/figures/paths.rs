@@ -1,4 +1,4 @@
-//! Paths of points in the plane: both axes have one scale.
+//! Paths of points in the plane, with the same scale on both axes.
 
 mod recorder;
 
@@ -12,13 +12,13 @@ pub use recorder::PathRecorder;
 /// The path of a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// Its name in the legend.
+    /// Name in the legend.
     pub label: String,
     /// x (m); a value that is not finite is a gap.
     pub x: Vec<f64>,
     /// y (m).
     pub y: Vec<f64>,
-    /// Its appearance.
+    /// Appearance of the path.
     pub style: Style,
 }
 
@@ -39,7 +39,7 @@ const SLENDER: f64 = 3.5;
 /// Margin of the page (px).
 const MARGIN: f64 = 16.0;
 
-/// Paths in the plane with equal axes. A ring marks the start of each, a dot its end.
+/// Paths in the plane with equal axes. A ring marks the start of each path, a dot its end.
 #[must_use]
 pub fn paths(title: &str, paths: &[Path]) -> String {
     let all = || paths.iter().flat_map(Path::points);

@@ -25,7 +25,7 @@ pub(super) enum Labels {
 }
 
 impl Frame {
-    /// Place of a point on the page.
+    /// Position of a point on the page.
     pub(super) fn place(&self, x: f64, y: f64) -> [f64; 2] {
         [
             self.left + self.width * self.x.position(x),
@@ -84,7 +84,7 @@ impl Frame {
             .text(text);
     }
 
-    /// A curve. Values that cannot be drawn make a gap, and a single value between gaps is a dot.
+    /// A curve. Values that cannot be drawn leave a gap, and a single value between gaps is a dot.
     pub(super) fn curve(&self, svg: &mut Svg, x: &[f64], y: &[f64], style: Style) {
         let mut points = Vec::new();
         for (&x, &y) in x.iter().zip(y) {
@@ -162,7 +162,7 @@ impl Sample for Style {
 /// A name and its curve.
 pub(super) type Entry<'a, S = Style> = (&'a str, S);
 
-/// Places of the entries of a legend, relative to its corner, and the number of its lines.
+/// Positions of the entries of a legend, relative to its corner, and the number of its lines.
 fn legend_layout<S>(entries: &[Entry<'_, S>], width: f64) -> (Vec<[f64; 2]>, usize) {
     let (mut x, mut row) = (0.0, 0);
     let mut places = Vec::with_capacity(entries.len());

@@ -1,9 +1,9 @@
-//! Figures as PNG files: the SVG text of a figure, painted.
+//! Figures as PNG files: the SVG text of a figure is rendered.
 //!
-//! Nothing is drawn twice: whatever is to be seen in a picture stands in the SVG, with its style
-//! sheet. Text is set in the fonts of `fonts/`, so that a picture looks the same on every
-//! machine. Only characters that these do not have are looked for in the fonts of the machine; one
-//! that is not there either becomes a box.
+//! No content is drawn separately: every visible part of a picture is in the SVG, with its style
+//! sheet. Text uses the fonts in `fonts/`, so that a picture looks the same on every machine. Only
+//! characters that are missing in these fonts are searched for in the fonts of the machine; a
+//! character that is also missing there becomes a box.
 
 use std::ops::RangeInclusive;
 
@@ -13,45 +13,46 @@ mod paint;
 /// A figure as the content of a PNG file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Png {
-    /// The file: RGB without transparency, with the name of this program as `Software`.
+    /// Content of the file: RGB without transparency, with the name of this program as `Software`.
     pub bytes: Vec<u8>,
     /// Width and height in pixels.
     pub pixels: [u32; 2],
-    /// Characters that no font has, each once: they are boxes.
+    /// Characters that no font contains, without repetitions; they are drawn as boxes.
     pub boxes: String,
 }
 
-/// The program that pictures name as the one that made them.
+/// The program name that pictures contain.
 pub(crate) const SOFTWARE: &str = "pfaff";
 
-/// Pixels for each px of the figure if nothing else is requested: sharp on a screen with small
-/// pixels, and 1920 of them for the picture of a mechanism.
+/// Default number of pixels for each px of the figure: sharp on a screen with small pixels, and
+/// 1920 pixels for the picture of a mechanism.
 #[cfg(any(feature = "png", test))]
 const SHARP: f64 = 2.0;
 
-/// Scales that can be requested. With less than a tenth no symbol can be told from another.
+/// Allowed scales. Below a tenth, symbols cannot be distinguished.
 const SCALES: RangeInclusive<f64> = 0.1..=20.0;
 
-/// Pixels of the largest picture: 4 bytes each, three times while it is painted and packed.
+/// Maximum number of pixels of a picture: 4 bytes each, three times while it is rendered and
+/// compressed.
 const MOST_PIXELS: f64 = 2.5e7;
 
 /// Reason why a figure cannot be a PNG file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PngError {
-    /// Painting is not part of this program.
+    /// This program was built without the rendering of pictures.
     #[error(
         "this program is built without the feature `png`: take SVG, or install it with `--features png`"
     )]
     Unavailable,
-    /// The scale is not a number, or not one for a picture.
+    /// The scale is not a number, or out of range.
     #[error(
         "the scale is {found}, need a number from {} to {} (pixels of the picture per px of the figure)",
         SCALES.start(),
         SCALES.end()
     )]
     Scale {
-        /// The scale.
+        /// The given scale.
         found: f64,
     },
     /// The picture would be too large.
@@ -68,16 +69,16 @@ pub enum PngError {
         /// The largest scale for this figure.
         largest: f64,
     },
-    /// The figure has more elements than can be painted, or is not SVG.
+    /// The figure has more elements than can be rendered, or is not SVG.
     #[error("the figure cannot be painted: {reason}; take SVG")]
     Figure {
-        /// What is wrong.
+        /// Description of the fault.
         reason: String,
     },
-    /// The picture cannot be packed.
+    /// The picture cannot be compressed.
     #[error("the picture cannot be written as PNG: {reason}; take SVG")]
     Packing {
-        /// What is wrong.
+        /// Description of the fault.
         reason: String,
     },
 }
@@ -91,7 +92,7 @@ fn smaller(largest: f64) -> String {
     }
 }
 
-/// Checks before a long computation what [`png()`] would refuse after it.
+/// Checks, before a long computation, conditions under which [`png()`] would fail after it.
 ///
 /// # Errors
 /// - [`PngError::Unavailable`]
@@ -106,13 +107,13 @@ pub fn check_png(scale: Option<f64>) -> Result<(), PngError> {
     }
 }
 
-/// Paints a figure of this crate. `scale` is the number of pixels for each px of the figure; by
-/// default 2, or less where the picture would be too large.
+/// Renders a figure of this crate. `scale` is the number of pixels for each px of the figure. The
+/// default is 2, or less if the picture would be too large.
 ///
 /// # Errors
 /// - [`PngError::Unavailable`]: this crate is built without the feature `png`.
-/// - [`PngError::Scale`], [`PngError::Pixels`]: the scale is no number, or too large.
-/// - [`PngError::Figure`], [`PngError::Packing`]: the figure cannot be painted.
+/// - [`PngError::Scale`], [`PngError::Pixels`]: the scale is not a number, or too large.
+/// - [`PngError::Figure`], [`PngError::Packing`]: the figure cannot be rendered.
 pub fn png(svg: &str, scale: Option<f64>) -> Result<Png, PngError> {
     check_png(scale)?;
     #[cfg(feature = "png")]

@@ -1,22 +1,23 @@
-//! The first view of a mechanism: from points of its space to the plane of the picture.
+//! The initial view of a mechanism: the projection from points of its space to the plane of the
+//! picture.
 //!
-//! The plane is seen along z. Space is seen from a direction far away, from the right of its front
-//! and from above, with gravity downwards; where there is none, z is upwards. Figures keep this
-//! view; the script of a page begins with it and turns it.
+//! The plane is seen along z. Space is seen from a distant viewpoint at the front right and above,
+//! with gravity downwards; without gravity, z is upwards. Figures use this view; the script of a
+//! page starts with it and rotates it.
 
 use model::{Mechanism, SpaceKind};
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::channel::FewDigits;
 
-/// How far the view is turned to the right of the front, and raised (rad): sixty degrees from the
-/// horizontal axis across it, and thirty. The line of sight is then along no direction with
-/// rational components, so that corners of rational geometry do not hide each other.
+/// Rotation of the view to the right of the front, and its elevation (rad): sixty degrees from the
+/// transverse horizontal axis, and thirty degrees. The direction of sight then has no rational
+/// components, so that corners of rational geometry do not hide each other.
 const TURNED: f64 = -std::f64::consts::FRAC_PI_3;
 const RAISED: f64 = std::f64::consts::FRAC_PI_6;
 
-/// A view along parallel lines: the directions of space that point to the right and upwards in the
-/// picture, as orthogonal unit vectors, and the one that is upright in space.
+/// A parallel projection: the directions of space that point to the right and upwards in the
+/// picture, as orthogonal unit vectors, and the upward direction in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Projection {
     right: [f64; 3],
@@ -48,7 +49,7 @@ impl Projection {
 
     /// The view of space with this unit vector upwards.
     fn with_above(above: [f64; 3]) -> Self {
-        // The first axis of the ground that is not upright runs from left to right in front.
+        // The first axis of the ground that is not vertical points from left to right at the front.
         let first = if above[0].abs() < 0.9 { 0 } else { 1 };
         let level: [f64; 3] = std::array::from_fn(|k| {
             let axis = if k == first { 1.0 } else { 0.0 };
@@ -72,13 +73,13 @@ impl Projection {
         [self.right, self.up].map(|[a, b, c]| a * x + b * y + c * z)
     }
 
-    /// Whether the picture is the plane itself.
+    /// Whether the picture shows the plane itself.
     pub(crate) fn is_plane(&self) -> bool {
         *self == Self::PLANE
     }
 }
 
-/// For scripts, which turn it on.
+/// For scripts, which rotate the view.
 impl Serialize for Projection {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(3))?;
@@ -93,7 +94,7 @@ impl Serialize for Projection {
     }
 }
 
-/// A vector scaled to length one; `None` if it has no direction.
+/// A vector scaled to length one; `None` if its length is zero.
 pub(super) fn unit(v: [f64; 3]) -> Option<[f64; 3]> {
     let length = model::space::norm(&v);
     (length > 0.0 && length.is_finite()).then(|| v.map(|x| x / length))
@@ -121,15 +122,15 @@ mod tests {
         assert!(near(view.flat([1.0, 0.0, 0.0]), x));
         assert!(near(view.flat([0.0, 1.0, 0.0]), y));
         assert!(near(view.flat([0.0, 0.0, 1.0]), z));
-        // With y upwards, −z runs backwards.
+        // With y upwards, −z points to the back.
         let view = Projection::with_above([0.0, 1.0, 0.0]);
         assert!(near(view.flat([1.0, 0.0, 0.0]), x));
         assert!(near(view.flat([0.0, 1.0, 0.0]), z));
         assert!(near(view.flat([0.0, 0.0, -1.0]), y));
     }
 
-    /// Whatever is upwards, the picture keeps lengths across the line of sight and shows `above`
-    /// straight up.
+    /// For any upward direction, the picture keeps lengths perpendicular to the line of sight and
+    /// shows `above` vertically.
     #[test]
     fn every_view_is_orthogonal_and_upright() {
         for above in [[1.0, 2.0, 2.0], [-9.0, 1.0, 0.5], [0.0, -1.0, 0.0]] {

@@ -1,14 +1,14 @@
-//! Numbers of many samples: their range, and how many are where.
+//! Numbers of many samples: their range and their distribution.
 
 use serde::Serialize;
 
-/// A number in all samples that have it.
+/// A number over all samples in which it exists.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RangeDocument {
     /// Number of samples.
     pub samples: u64,
-    /// With the data as described; `null` if it is not unique there.
+    /// Value for the described data; `null` if the number is not unique there.
     pub described: Option<f64>,
     /// The least value.
     pub least: f64,
@@ -18,9 +18,9 @@ pub struct RangeDocument {
     pub mean: f64,
     /// The standard deviation.
     pub deviation: f64,
-    /// Values below which 5, 50 and 95 % of the samples are.
+    /// Percentiles: 5, 50 and 95 % of the samples are below these values.
     pub percentiles: [f64; 3],
-    /// How many values are where.
+    /// Histogram of the values.
     pub histogram: HistogramDocument,
 }
 
@@ -28,26 +28,26 @@ pub struct RangeDocument {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HistogramDocument {
-    /// Beginning of the first interval.
+    /// Start of the first interval.
     pub from: f64,
-    /// End of the last one.
+    /// End of the last interval.
     pub to: f64,
-    /// Values in each interval.
+    /// Number of values in each interval.
     pub counts: Vec<u64>,
-    /// Values before the first and after the last one: of few samples far outside.
+    /// Number of values before the first and after the last interval, from few distant samples.
     pub outside: [u64; 2],
 }
 
-/// Intervals of a histogram.
+/// Number of intervals of a histogram.
 const INTERVALS: usize = 24;
 
-/// A histogram ends where the middle nine tenths do, with as much room again on each side: few
-/// samples far outside are counted, not drawn.
+/// A histogram contains the middle nine tenths of the values, with the same width again on each
+/// side; a few distant samples are counted, but not drawn.
 const ROOM: f64 = 1.0;
 
 impl RangeDocument {
-    /// The range of these values, with the described one if there is one. Values that are not
-    /// finite are left out; `None` if no value is left.
+    /// The range of these values, with the described value if there is one. Values that are not
+    /// finite are omitted; `None` if no value remains.
     ///
     /// ```
     /// use pfaff_report::figures::RangeDocument;
@@ -61,7 +61,8 @@ impl RangeDocument {
         sorted.sort_by(f64::total_cmp);
         let (&least, &greatest) = (sorted.first()?, sorted.last()?);
         let n = sorted.len() as f64;
-        // Summed from the least size on, relative to the first: no overflow, little rounding.
+        // The values are summed in ascending order, relative to the first one: this avoids overflow
+        // and large rounding errors.
         let mean = least + sorted.iter().map(|x| (x - least) / n).sum::<f64>();
         let variance = sorted
             .iter()
@@ -127,7 +128,7 @@ mod tests {
             (1.0, 100.0, 99.0)
         );
         assert!((range.mean - 50.5).abs() < 1e-12);
-        // Of 1 to n the variance is (n² − 1)/12.
+        // For the numbers 1 to n, the variance is (n² − 1)/12.
         assert!((range.deviation - (9999.0_f64 / 12.0).sqrt()).abs() < 1e-12);
         assert_eq!(range.percentiles, [5.0, 50.0, 95.0]);
         assert_eq!(range.histogram.counts.iter().sum::<u64>(), 100);

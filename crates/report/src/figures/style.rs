@@ -1,5 +1,5 @@
-//! Colours, strokes and sizes. Colours are those of Okabe and Ito (2008), which colour-blind
-//! readers can distinguish; no information is given by colour alone.
+//! Colours, strokes and sizes. The colours are from Okabe and Ito (2008), which colour-blind
+//! readers can distinguish; no information depends on colour alone.
 
 /// Text and frames.
 pub(super) const INK: &str = "#222222";
@@ -12,7 +12,7 @@ pub(super) const TITLE_SIZE: f64 = 14.0;
 /// Size of all other text (px).
 pub(super) const TEXT_SIZE: f64 = 12.0;
 
-/// Colours of the light scheme of pages, with those of the dark one.
+/// Colours of the light scheme of pages, with the corresponding colours of the dark scheme.
 const DARK: [(&str, &str); 9] = [
     ("#ffffff", "#14171a"),
     ("#222222", "#e8eaec"),
@@ -30,10 +30,10 @@ const CURVES: [&str; 7] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
 ];
 
-/// How a curve is stroked.
+/// Stroke of a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pattern {
-    /// One line.
+    /// A continuous line.
     #[default]
     Solid,
     /// Dashes.
@@ -59,7 +59,7 @@ impl Pattern {
 pub struct Style {
     /// Index in the palette of seven colours, which repeats.
     pub colour: usize,
-    /// Its stroke.
+    /// Stroke of the curve.
     pub pattern: Pattern,
 }
 

@@ -1,14 +1,14 @@
-//! SVG text, element by element. Names from outside are escaped only here.
+//! SVG text, element by element. Only this module escapes external names.
 
 use std::fmt::Write;
 
 /// Fonts in the order of preference; the sizes of labels are estimated for the widest of them.
 const FONTS: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
-/// Part of the first element of every figure, and of no other program's.
+/// Text in the first element of every figure, which figures of other programs do not contain.
 pub(crate) const GENERATOR: &str = "'Liberation Sans', 'DejaVu Sans', sans-serif\" role=\"img\"";
 
-/// Mean width of a character relative to the size of the font, on the safe side.
+/// Conservative estimate of the mean width of a character relative to the font size.
 const CHARACTER: f64 = 0.62;
 
 /// Estimated width of a text (px).
@@ -47,7 +47,7 @@ impl Svg {
         svg
     }
 
-    /// Begins an element; it is written by one of the last three methods of [`Element`].
+    /// Starts an element; one of the last three methods of [`Element`] writes it.
     pub(super) fn element(&mut self, tag: &'static str) -> Element<'_> {
         self.text.push('<');
         self.text.push_str(tag);
@@ -61,7 +61,7 @@ impl Svg {
         }
     }
 
-    /// Closes everything.
+    /// Closes all elements.
     pub(super) fn finish(mut self) -> String {
         while !self.open.is_empty() {
             self.close();
@@ -76,7 +76,7 @@ impl Svg {
     }
 }
 
-/// A start tag that takes attributes.
+/// A start tag to which attributes can be added.
 pub(super) struct Element<'a> {
     svg: &'a mut Svg,
     tag: &'static str,
@@ -101,19 +101,19 @@ impl Element<'_> {
             .fold(self, |e, (name, value)| e.with(name, &number(value)))
     }
 
-    /// Writes it without content.
+    /// Writes the element without content.
     pub(super) fn empty(self) {
         self.svg.text.push_str("/>\n");
     }
 
-    /// Writes it around a text.
+    /// Writes the element with a text.
     pub(super) fn text(self, content: &str) {
         self.svg.text.push('>');
         escape(content, &mut self.svg.text);
         self.svg.end_tag(self.tag);
     }
 
-    /// Opens it for other elements.
+    /// Opens the element for other elements.
     pub(super) fn open(self) {
         self.svg.text.push_str(">\n");
         self.svg.open.push(self.tag);
@@ -143,7 +143,7 @@ pub(super) fn point_list(points: impl IntoIterator<Item = [f64; 2]>) -> String {
     list
 }
 
-/// Escapes characters with a meaning in XML, and replaces those that XML forbids.
+/// Escapes characters with a meaning in XML, and replaces characters that XML forbids.
 pub(crate) fn escape(from: &str, to: &mut String) {
     for c in from.chars() {
         match c {

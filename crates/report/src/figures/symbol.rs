@@ -1,37 +1,37 @@
-//! Symbols as data: strokes around a place (px, y down), along x. The SVG of a mechanism and the
-//! animation of a page draw the same strokes; their styles are in `picture.css`.
+//! Symbols as data: strokes around a point (px, y downwards), along x. The SVG of a mechanism and
+//! the animation of a page draw the same strokes; their styles are in `picture.css`.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::label::Rect;
 
-/// Kind of freedom that a joint leaves, as a picture. Directions are global unit vectors.
+/// Kind of freedom that a joint allows, as a symbol. Directions are global unit vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Symbol {
     /// Two points coincide.
     Pin,
-    /// In space, a joint that turns about an axis only.
+    /// In space, a joint that allows only rotation about an axis.
     Hinge { axis: [f64; 3] },
-    /// A weld, which leaves no freedom.
+    /// A weld, which allows no motion.
     Weld,
     /// A block on a straight guide.
     Block { axis: [f64; 3] },
     /// A pin in a straight slot.
     Slot { axis: [f64; 3] },
-    /// Two points keep their distance.
+    /// Two points at a constant distance.
     Rod,
     /// A knife edge or wheel, seen from above.
     Edge { along: [f64; 3] },
     /// Rotations depend on each other.
     Rotation,
-    /// A prescribed motion along an axis, or about the place.
+    /// A prescribed motion along an axis, or about the reference point.
     Drive { axis: Option<[f64; 3]> },
     /// In space, a prescribed rotation about an axis.
     Turn { axis: [f64; 3] },
 }
 
 impl Symbol {
-    /// Its name in [`SHAPES`].
+    /// Name in [`SHAPES`].
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Pin | Self::Hinge { .. } => "pin",
@@ -46,7 +46,7 @@ impl Symbol {
         }
     }
 
-    /// The direction along which it is drawn, or about which it turns.
+    /// The direction along which the symbol is drawn, or about which it rotates.
     pub(crate) fn axis(self) -> Option<[f64; 3]> {
         match self {
             Self::Block { axis } | Self::Slot { axis } | Self::Edge { along: axis } => Some(axis),
@@ -61,8 +61,8 @@ impl Symbol {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     pub(crate) name: &'static str,
-    /// Half the sides of its box, and the offset of the middle of the box above or below its place
-    /// (px).
+    /// Half the sides of the box of the symbol, and the offset of the middle of the box above or
+    /// below its point (px).
     pub(crate) half: [f64; 2],
     pub(crate) middle: f64,
     /// Class and path data of each stroke, in the order of drawing.
@@ -70,7 +70,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// The shape with this name; the first one if there is none.
+    /// The shape with this name; the first shape if there is none.
     pub(super) fn named(name: &str) -> Self {
         SHAPES
             .into_iter()
@@ -78,7 +78,7 @@ impl Shape {
             .unwrap_or(SHAPES[0])
     }
 
-    /// Its box on the page around a place (px), turned by an angle (rad).
+    /// The box on the page around a point (px), rotated by an angle (rad).
     pub(super) fn around(&self, at: [f64; 2], angle: f64) -> Rect {
         let ((sin, cos), [x, y]) = (angle.sin_cos(), self.half);
         Rect {
@@ -123,7 +123,7 @@ const STAND: &str = "M0 0L-9 14H9Z";
 const GROUND: &str = "M-15 14H15M-9 14l-5 6M-3 14l-5 6M3 14l-5 6M9 14l-5 6M15 14l-5 6";
 const CENTRE: &str = "M-4 0H4M0-4V4M-4 0a4 4 0 1 1 8 0a4 4 0 1 1-8 0";
 
-/// All symbols in the order in which they are drawn: first those that would hide others.
+/// All symbols in the order of drawing: symbols that would hide others are first.
 pub(crate) const SHAPES: [Shape; 15] = [
     shape("rod", [5.0, 5.0], 0.0, &[("mark", END)]),
     shape("block", [12.0, 7.5], 0.0, &[("mark", BLOCK)]),
@@ -149,8 +149,8 @@ pub(crate) const SHAPES: [Shape; 15] = [
     shape("push", [19.0, 6.0], 19.0, &[("mark", PUSH)]),
     shape("turn", [18.0, 15.0], 0.0, &[("mark", TURN)]),
     shape("pin", [6.3, 6.3], 0.0, &[("mark", PIN)]),
-    // Not for joints: the ground below a place, centres of mass, markers, applied forces and
-    // torques.
+    // Symbols for other items than joints: the ground below a point, centres of mass, markers,
+    // applied forces and torques.
     shape(
         "foot",
         [16.0, 10.0],

@@ -1,4 +1,4 @@
-//! Ranges of numbers over samples, as histograms one below the other; and places of a marker.
+//! Ranges of numbers over samples, as histograms below each other; and positions of a marker.
 
 use super::RangeDocument;
 use super::axis::{Axis, range as extent};
@@ -8,15 +8,15 @@ use super::svg::Svg;
 
 /// Width of a figure (px).
 const WIDTH: f64 = 960.0;
-/// Room for names (px).
+/// Space for names (px).
 const NAMES: f64 = 210.0;
-/// Room at the right edge, for the counts of values outside (px).
+/// Space at the right edge, for the counts of values outside (px).
 const RIGHT: f64 = 70.0;
 /// Height of a histogram (px).
 const HEIGHT: f64 = 56.0;
-/// Room below a histogram for its labels (px).
+/// Space below a histogram for its labels (px).
 const BELOW: f64 = 26.0;
-/// Colour of values with the redundancy as described.
+/// Colour of values with the same redundancy as the described data.
 const KEPT: &str = "#0072b2";
 /// Colour of values with exact numbers.
 const EXACT: &str = "#d55e00";
@@ -27,18 +27,18 @@ const BAND: &str = "0.12";
 pub struct RangeRow<'a> {
     /// The joint or drive.
     pub name: &'a str,
-    /// Which number of it.
+    /// Name of the number.
     pub what: &'a str,
-    /// Its unit.
+    /// Unit of the number.
     pub unit: &'a str,
-    /// Whether it is unique with exact numbers only.
+    /// Whether the number is unique only with exact data.
     pub is_exact: bool,
-    /// Its values.
+    /// Range of the values.
     pub range: &'a RangeDocument,
 }
 
-/// Histograms, each with an axis of its own. A line marks the described value, a band the middle
-/// nine tenths; values outside are counted at the edges.
+/// Histograms, each with its own axis. A line marks the described value, a band the middle nine
+/// tenths; values outside are counted at the edges.
 #[must_use]
 pub fn ranges(rows: &[RangeRow<'_>]) -> String {
     let row = HEIGHT + BELOW + 10.0;
@@ -48,7 +48,7 @@ pub fn ranges(rows: &[RangeRow<'_>]) -> String {
     label(
         &mut svg,
         [NAMES, 18.0],
-        "line: as described; band: the middle nine tenths of the samples",
+        "line: value as described; band: 5th to 95th percentile of the samples",
         GREY,
     );
     for (k, own) in rows.iter().enumerate() {
@@ -139,11 +139,11 @@ fn histogram(svg: &mut Svg, top: f64, row: &RangeRow<'_>) {
     }
 }
 
-/// Side of a panel of places (px).
+/// Side of a panel of positions (px).
 const SIDE: f64 = 260.0;
 
-/// The places of a marker (m) around the first of them, in mm: y over x, in space also z over x.
-/// Empty if the marker does not move.
+/// The positions of a marker (m) relative to the first one, in mm: y over x, in space also z over
+/// x. Empty if the marker does not move.
 #[must_use]
 pub fn cloud(name: &str, places: &[[f64; 3]], spatial: bool) -> String {
     let Some(&first) = places.first() else {
@@ -162,7 +162,7 @@ pub fn cloud(name: &str, places: &[[f64; 3]], spatial: bool) -> String {
     };
     let (margin, head) = (64.0, 34.0);
     let width = (SIDE + margin) * views.len() as f64 + 20.0;
-    let mut svg = Svg::new(width, SIDE + head + 44.0, &format!("Places of {name}"));
+    let mut svg = Svg::new(width, SIDE + head + 44.0, &format!("Positions of {name}"));
     svg.element("style").text(&dark_scheme());
     label(&mut svg, [margin, 18.0], name, INK);
     for (k, (axis, letter)) in views.iter().enumerate() {
@@ -187,7 +187,7 @@ pub fn cloud(name: &str, places: &[[f64; 3]], spatial: bool) -> String {
         let [x, y] = frame.place(0.0, 0.0);
         line(&mut svg, [x - 6.0, y], [x + 6.0, y], INK);
         line(&mut svg, [x, y - 6.0], [x, y + 6.0], INK);
-        let words = format!("{letter} over x, in {}", frame.x.unit("mm"));
+        let words = format!("{letter} against x ({})", frame.x.unit("mm"));
         label(&mut svg, [frame.left, head + SIDE + 36.0], &words, GREY);
     }
     svg.finish()

@@ -1,6 +1,6 @@
 //! Error against time and against evaluations: three panels for each scene, doubly logarithmic.
-//! Lower and further left is better. Curves differ in colour and in marker; the page follows the
-//! light or dark scheme of the reader.
+//! Lower and further left is better. Curves differ in colour and in marker; the page uses the light
+//! or dark scheme of the reader.
 
 use super::curve::{Curve, Look};
 use super::decades::{Unit, decades};
@@ -11,11 +11,11 @@ use crate::work_precision::{CurveName, WorkPrecisionRow, WorkPrecisionScene};
 
 /// Width of the figure (px).
 const WIDTH: f64 = 1120.0;
-/// Space for labels of the vertical axis (px).
+/// Margin of the page (px).
 const MARGIN: f64 = 18.0;
-/// Space between panels (px).
+/// Space for labels of the vertical axis (px).
 const LABELS: f64 = 44.0;
-/// Room between panels (px).
+/// Space between panels (px).
 const GUTTER: f64 = 30.0;
 /// Height of a panel (px).
 const HEIGHT: f64 = 176.0;
@@ -35,10 +35,10 @@ const UNRESOLVED: &str = "#f1f3f5";
 /// The quantity on the horizontal axis.
 type Work = fn(&WorkPrecisionRow) -> f64;
 
-/// Error of the motion (the larger one of position and velocity) for all methods over seconds and
-/// over evaluations, and for all treatments of redundancy and drift with one method over seconds. A
-/// dashed line is the error of the reference. Runs that did not reach their end have no point;
-/// their number is stated.
+/// Error of the motion (the larger one of position and velocity). Two panels show it for all
+/// methods, over seconds and over evaluations. One panel shows it for all treatments of redundancy
+/// and drift with one method, over seconds. A dashed line is the error of the reference. Runs that
+/// did not reach their end have no point; their number is stated.
 #[must_use]
 pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     let methods = Family::methods(scenes);
@@ -113,7 +113,7 @@ fn errors(scene: &WorkPrecisionScene) -> impl Iterator<Item = f64> + Clone {
     runs.chain(near).map(height)
 }
 
-/// Place of an error.
+/// Position of an error.
 fn height(error: f64) -> f64 {
     error.log10().clamp(SHOWN[0], SHOWN[1])
 }
@@ -167,7 +167,7 @@ fn title(svg: &mut Svg, [x, y]: [f64; 2], scene: &WorkPrecisionScene) {
     let failed = scene.rows.iter().filter(|row| row.status != "done").count();
     let limit = scene.reference.motion_limit();
     let mut words = if limit.is_finite() {
-        format!("reference known to {limit:.0e}")
+        format!("reference accurate to {limit:.0e}")
     } else {
         "no reference".to_owned()
     };
@@ -229,7 +229,7 @@ impl Family {
     fn treatments(scenes: &[WorkPrecisionScene]) -> Self {
         let all = names(scenes);
         let count = |method: &str| all.iter().filter(|c| c.method == method).count();
-        // The first one if there are several.
+        // The first method if there are several.
         let method = all
             .iter()
             .rev()
@@ -253,7 +253,7 @@ impl Family {
             .collect()
     }
 
-    /// Runs, loosest tolerance first.
+    /// Runs, starting with the loosest tolerance.
     fn curves(&self, scene: &WorkPrecisionScene, work: Work) -> Vec<Curve> {
         let curve = |(k, (name, _)): (usize, &(CurveName, String))| {
             let rows = scene.rows.iter().filter(|row| row.curve == *name);

@@ -1,6 +1,6 @@
 //! The files that one command writes into a directory.
 
-/// The names of the files that one kind of answer can have. In a name, `*` stands for a number.
+/// The names of the files that one kind of result can have. In a name, `*` represents a number.
 ///
 /// ```
 /// use pfaff_report::Family;
@@ -12,7 +12,7 @@
 pub struct Family(pub &'static [&'static str]);
 
 impl Family {
-    /// Whether a file with this name can be one of them.
+    /// Whether a file with this name can belong to the family.
     #[must_use]
     pub fn has(self, name: &str) -> bool {
         self.0.iter().any(|pattern| match pattern.split_once('*') {

@@ -1,18 +1,18 @@
-//! The lock of an output directory. It is held by the open directory itself, or by a file in it
-//! where directories cannot be locked; the operating system releases it when the process ends.
+//! The lock of an output directory. The directory itself is locked, or a file in it if directories
+//! cannot be locked. The operating system releases the lock when the process ends.
 
 use std::fs::{File, TryLockError};
 use std::path::Path;
 
 use super::FileError;
 
-/// The file that is locked where directories cannot be.
+/// The file that is locked if directories cannot be locked.
 const LOCK: &str = "pfaff.lock";
 
-/// The lock of a directory; `None` if the file system knows no locks.
+/// The lock of a directory; `None` if the file system does not support locks.
 ///
 /// # Errors
-/// [`FileError::Busy`]: another process holds it.
+/// [`FileError::Busy`]: another process has the lock.
 pub(super) fn of(
     directory: &Path,
     lock: fn(&File) -> Result<(), TryLockError>,

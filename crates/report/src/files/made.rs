@@ -1,15 +1,15 @@
-//! Directories that were made for results: those that stay empty are removed again.
+//! Directories that were created for results; those that remain empty are removed again.
 
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Directories that did not exist before, the innermost first.
+/// Directories that did not exist before, starting with the innermost one.
 #[derive(Debug, Default)]
 pub(super) struct NewDirectories(Vec<PathBuf>);
 
 impl NewDirectories {
-    /// Makes a directory and all above it.
+    /// Creates a directory and all directories above it.
     pub(super) fn all_of(path: &Path) -> io::Result<Self> {
         let is_missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
         let missing = path.ancestors().take_while(is_missing);
@@ -18,9 +18,9 @@ impl NewDirectories {
         Ok(made)
     }
 
-    /// Removes those that are empty.
+    /// Removes the directories that are empty.
     pub(super) fn remove_empty(&self) {
-        // Directories with files in them are not removed, nor are those above them.
+        // Directories that contain files are not removed, nor are the directories above them.
         let _ = self.0.iter().try_for_each(fs::remove_dir);
     }
 }

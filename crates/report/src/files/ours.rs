@@ -1,35 +1,35 @@
-//! Whether a file was written by this program, as far as its beginning shows. Whatever is not
-//! recognised is somebody else's and is not replaced.
+//! Whether this program has written a file, according to the start of the file. An unrecognised
+//! file belongs to another program and is not replaced.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// Bytes that are read to recognise a file.
+/// Number of bytes that are read to recognise a file.
 const HEAD: u64 = 1 << 12;
 
-/// The beginning of scenes that this program writes.
+/// The start of scenes that this program writes.
 pub const PROVENANCE: &str = "# Written by pfaff";
 
-/// Whether nothing is lost if a file is replaced: it does not exist, is empty, or was written by
-/// this program. What cannot be read is not ours.
+/// Whether a file can be replaced without a loss: it does not exist, is empty, or was written by
+/// this program. An unreadable file does not count as written by this program.
 #[must_use]
 pub fn is_ours(path: &Path) -> bool {
     match head_of(path) {
         Ok(head) => head.is_empty() || has_mark(path, &head),
-        // A link that leads nowhere has nothing to lose.
+        // Replacing a broken link loses no content.
         Err(e) => matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory),
     }
 }
 
-/// Whether this program has written a file: only such a file may be removed. A link is of whoever
-/// made it.
+/// Whether this program has written a file: only such a file may be removed. A link belongs to its
+/// author.
 pub(super) fn is_marked(path: &Path) -> bool {
     is_plain(path) && head_of(path).is_ok_and(|head| has_mark(path, &head))
 }
 
 fn head_of(path: &Path) -> io::Result<Vec<u8>> {
-    // A pipe would be waited for.
+    // Reading a pipe would block.
     if !fs::metadata(path)?.is_file() {
         return Err(ErrorKind::InvalidInput.into());
     }
@@ -56,21 +56,21 @@ fn has_mark(path: &Path, head: &[u8]) -> bool {
     }
 }
 
-/// Whether this is the beginning of a PNG file with this program as its `Software`.
+/// Whether these bytes start a PNG file with this program as its `Software`.
 fn is_picture(head: &[u8]) -> bool {
     let named = ["tEXtSoftware\0", crate::figures::SOFTWARE].concat();
-    // The name of a chunk is not part of its length.
+    // The length of a chunk does not include its name.
     let length = (named.len() - 4) as u32;
     let chunk = [&length.to_be_bytes(), named.as_bytes()].concat();
     head.starts_with(b"\x89PNG\r\n\x1a\n") && head.windows(chunk.len()).any(|part| part == chunk)
 }
 
-/// Whether this is the header of one of our tables: quantities of bodies, joints and drives over
-/// time, runs of a sweep, samples of tolerances, runs of a comparison, matrices or modes.
+/// Whether this is the header of a table of this program: quantities of bodies, joints and drives
+/// over time, runs of a sweep, samples of tolerances, runs of a comparison, matrices or modes.
 fn is_table(header: &str) -> bool {
     let mut names = header.split(',');
     match names.next() {
-        // Measures at the end of a row have names of their own.
+        // Measures at the end of a header have arbitrary names.
         Some("t") => names.next().is_none_or(|name| name.contains('.')),
         Some("sample") => names.next() == Some("status"),
         Some("run") => names.any(|name| name == "status"),
@@ -82,7 +82,7 @@ fn is_table(header: &str) -> bool {
     }
 }
 
-/// Whether it is a file itself: no link and no directory.
+/// Whether the path is a file itself, and neither a link nor a directory.
 pub(super) fn is_plain(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok_and(|known| known.is_file())
 }

@@ -1,33 +1,33 @@
-//! The process that writes a file, and whether it still runs. No lock is needed for that: locks are
-//! not to be relied on in file systems of networks.
+//! The process that writes a file, and whether it is still running. This needs no lock, because
+//! locks are unreliable in network file systems.
 
 use std::fs;
 
 use serde::{Deserialize, Serialize};
 
-/// A process of a machine.
+/// A process on a machine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Process {
     /// Name of the machine.
     pub(crate) host: String,
-    /// Its number.
+    /// Process identifier.
     pub(crate) pid: u32,
-    /// When it began, in a unit of the machine, because numbers are used again; 0 if that is not
-    /// known.
+    /// Start time of the process, in a unit of the machine, because identifiers are reused; 0 if
+    /// the time is unknown.
     pub(crate) born: u64,
 }
 
-/// Whether a process runs.
+/// Whether a process is running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Life {
     Runs,
     Gone,
-    /// It is on another machine, or the system does not tell.
+    /// The process is on another machine, or the system gives no information.
     Unknown,
 }
 
 impl Process {
-    /// This process.
+    /// The present process.
     pub(crate) fn own() -> Self {
         let pid = std::process::id();
         let born = Stat::of(pid).map_or(0, |stat| stat.born);
@@ -43,7 +43,8 @@ impl Process {
         if *self == own {
             return Life::Runs;
         }
-        // A machine that cannot tell this of itself cannot tell it of others.
+        // A machine that cannot provide this information for the present process cannot provide it
+        // for others.
         if self.host != own.host || own.born == 0 || self.born == 0 {
             return Life::Unknown;
         }
@@ -53,13 +54,13 @@ impl Process {
         }
     }
 
-    /// As a part of a file name.
+    /// The process as a part of a file name.
     pub(crate) fn name(&self) -> String {
         format!("{}-{}", self.host, self.pid)
     }
 }
 
-/// Name of this machine, of letters, digits and hyphens.
+/// Name of this machine, with letters, digits and hyphens.
 fn host() -> String {
     let known = fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let named = || {
@@ -77,18 +78,18 @@ fn host() -> String {
     }
 }
 
-/// What Linux tells of a process in `/proc/PID/stat`.
+/// Information of Linux about a process in `/proc/PID/stat`.
 struct Stat {
-    /// Ticks of the machine at its start.
+    /// Start time in clock ticks of the machine.
     born: u64,
-    /// Whether it only waits for its parent to notice its end.
+    /// Whether the process has ended and its parent has not yet read its exit status.
     has_ended: bool,
 }
 
 impl Stat {
     fn of(pid: u32) -> Option<Self> {
         let text = fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
-        // The second field is a name in brackets, which may have any characters.
+        // The second field is a name in brackets, which may contain any characters.
         let (_, fields) = text.rsplit_once(')')?;
         let mut fields = fields.split_whitespace();
         let state = fields.next()?;
@@ -139,7 +140,7 @@ mod tests {
             };
             assert_eq!(process.life(), Life::Runs);
             child.kill().expect("it runs");
-            // Ended, whether or not its parent has noticed.
+            // The process has ended, whether or not its parent has read its exit status.
             while !super::Stat::of(child.id()).is_none_or(|stat| stat.has_ended) {
                 std::thread::yield_now();
             }

@@ -7,16 +7,16 @@ use serde::{Serialize, Serializer};
 /// A column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its name.
+    /// Name of the column.
     pub name: String,
-    /// Type of its values.
+    /// Type of the values.
     pub kind: Kind,
 }
 
 /// Type of the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Whole numbers, some of which may be unknown.
+    /// Integers, some of which may be unknown.
     Count,
     /// Numbers; NaN if unknown.
     Number,
@@ -27,7 +27,7 @@ pub enum Kind {
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// A value of a column of whole numbers; `None` if it is unknown.
+    /// A value of a column of integers; `None` if it is unknown.
     Count(Option<u64>),
     /// A value of a column of numbers.
     Number(f64),
@@ -42,7 +42,7 @@ impl Cell {
         Self::Text(words.join(" "))
     }
 
-    /// Whether both are the same, bit by bit; all NaN are the same.
+    /// Whether both values are equal, bit by bit; all NaN values count as equal.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Number(a), Self::Number(b)) => {
@@ -52,7 +52,7 @@ impl Cell {
         }
     }
 
-    /// Parses a written value, if it is of this type.
+    /// Parses a written value, if it has this type.
     pub(super) fn read(text: &str, kind: Kind) -> Option<Self> {
         match kind {
             Kind::Count if text.is_empty() => Some(Self::Count(None)),

@@ -17,7 +17,7 @@ pub struct SweepDocument {
     pub vary: Vec<String>,
     /// Number of runs of the whole grid.
     pub runs: u64,
-    /// The runs of the shard that this is about; `None` for all runs.
+    /// The runs of the shard of this summary; `None` for all runs.
     pub shard: Option<Runs>,
     /// Number of runs that have a row.
     pub finished: u64,
@@ -25,30 +25,31 @@ pub struct SweepDocument {
     pub partial: bool,
     /// Runs that have no row.
     pub missing: Vec<Runs>,
-    /// Number of rows of runs that were made once more, which is harmless.
+    /// Number of repeated rows of runs that were made more than once, which is harmless.
     pub repeated: u64,
     /// Number of runs that reached their end.
     pub done: u64,
-    /// Number of runs that stopped before it.
+    /// Number of runs that stopped before their end.
     pub stopped: u64,
-    /// Number of runs that did not begin.
+    /// Number of runs that did not start.
     pub refused: u64,
-    /// Number of runs during which their processes ended.
+    /// Number of runs during which their process ended.
     pub crashed: u64,
     /// The first runs that failed.
     pub failures: Vec<SweepFailure>,
-    /// The largest energy balance of all runs; `None` if no run has one.
+    /// The largest energy balance of all runs; `None` if no run has an energy balance.
     pub max_energy_balance: Option<f64>,
     /// The run with this energy balance.
     pub max_energy_balance_run: Option<u64>,
 }
 
-/// The runs that a summary is about.
+/// The runs of a summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// All runs.
     Whole,
-    /// Those of a shard, which has none if there are more shards than runs.
+    /// The runs of a shard; `None` if the shard has no runs, because there are more shards than
+    /// runs.
     Shard(Option<Runs>),
 }
 
@@ -56,16 +57,16 @@ pub enum Extent {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SweepFailure {
-    /// Its number, from 1.
+    /// Index of the run, from 1.
     pub run: u64,
     /// `stopped`, `refused` or `crashed`.
     pub status: String,
-    /// Reason.
+    /// Reason of the failure.
     pub error: String,
 }
 
 impl SweepDocument {
-    /// The summary of all runs, or of those of a shard.
+    /// The summary of all runs, or of the runs of a shard.
     #[must_use]
     pub fn new(records: &Records, of: Extent) -> Self {
         let Records {

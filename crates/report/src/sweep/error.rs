@@ -15,9 +15,9 @@ pub enum JournalError {
     /// The operating system reported an error.
     #[error(transparent)]
     File(#[from] FileError),
-    /// It belongs to another sweep.
+    /// The file belongs to another sweep.
     #[error(
-        "`{}` belongs to another sweep: {what} is {now}, and was {was}; take another directory, or remove this one to begin again",
+        "`{}` belongs to another sweep: {what} is {now}, and was {was}; choose another directory, or remove this one to start again",
         path.display()
     )]
     Changed {
@@ -25,24 +25,24 @@ pub enum JournalError {
         path: PathBuf,
         /// The entry that differs.
         what: &'static str,
-        /// Its previous value.
+        /// Previous value of the entry.
         was: String,
-        /// Its present value.
+        /// Present value of the entry.
         now: String,
     },
-    /// Its first line is damaged, or does not describe a sweep.
-    #[error("the first line of `{}` is not that of a sweep: nobody knows what its rows belong to; remove it to begin again", path.display())]
+    /// The first line of the file is damaged, or does not describe a sweep.
+    #[error("the first line of `{}` is not the header of a sweep, so its rows cannot be assigned; remove the file to start again", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
     },
-    /// There is no sweep.
+    /// The directory contains no sweep.
     #[error("no sweep was begun in `{}`", directory.display())]
     Missing {
         /// The directory.
         directory: PathBuf,
     },
-    /// Two rows of one run differ, which machines that compute alike do not make.
+    /// Two rows of one run differ, although machines with equal arithmetic produce equal rows.
     #[error(transparent)]
     Differs(#[from] Box<Difference>),
 }
@@ -50,23 +50,22 @@ pub enum JournalError {
 /// Two rows of one run that differ.
 #[derive(Debug, thiserror::Error)]
 #[error(
-    "run {run} was made twice, and differently: `{column}` is {} in `{}` and {} in `{}`; the machines do not compute alike: remove the file \
-     that is not to be trusted, and make its runs again",
+    "run {run} was made twice, and differently: `{column}` is {} in `{}` and {} in `{}`; the machines compute different results: remove the file that you do not trust, and repeat its runs",
     values[0], paths[0].display(), values[1], paths[1].display()
 )]
 pub struct Difference {
-    /// The run.
+    /// Index of the run.
     pub run: u64,
     /// The first column that differs.
     pub column: String,
-    /// Its values.
+    /// Both values of this column.
     pub values: [String; 2],
-    /// The files of both.
+    /// The files of both rows.
     pub paths: [PathBuf; 2],
 }
 
 impl JournalError {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -78,7 +77,7 @@ impl JournalError {
         }
     }
 
-    /// Whether what is in the directory is to blame; otherwise the system is.
+    /// Whether the content of the directory is the cause; otherwise the system is the cause.
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {
@@ -94,12 +93,12 @@ pub(super) fn json(plan: &SweepPlan) -> Vec<u8> {
     serde_json::to_vec(plan).unwrap_or_default()
 }
 
-/// The digest by which files say to which plan they belong.
+/// The digest that identifies the plan of a file.
 pub(super) fn mark(plan: &SweepPlan) -> String {
     format!("{:016x}", digest(&json(plan)))
 }
 
-/// Returns an error that names the difference if two descriptions differ.
+/// Returns an error that states the difference if two descriptions differ.
 pub(super) fn same(path: &Path, was: &SweepPlan, now: &SweepPlan) -> Result<(), JournalError> {
     let keeps = |plan: &SweepPlan| {
         if plan.keep_rows {

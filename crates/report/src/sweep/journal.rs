@@ -1,6 +1,6 @@
-//! The journal of one attempt to make the runs of a shard: a line before runs begin, a line for
-//! each finished run, written at once and never changed. It belongs to one process alone, so no
-//! lock is needed.
+//! The journal of one attempt to make the runs of a shard. It has a line before runs start, and a
+//! line for each finished run, which is written at once and never changed. It belongs to one
+//! process, so no lock is needed.
 
 use std::fs::{self, File};
 use std::io::Write;
@@ -15,14 +15,14 @@ use crate::files::process::Process;
 /// Extension of the names of journals.
 pub(super) const EXTENSION: &str = ".journal";
 
-/// If this time has passed since the journal was last synchronised with the disk, the next line
-/// synchronises it again; waiting for the disk takes longer than a short run. A power failure loses
-/// at most the runs that finished within this time after the last synchronisation; a crash of the
-/// program loses none.
+/// If this time has passed since the last synchronisation of the journal with the disk, the next
+/// line synchronises it again. It is not done for each line, because waiting for the disk takes
+/// longer than a short run. A power failure loses at most the runs that finished within this time
+/// after the last synchronisation; a crash of the program loses no run.
 const SYNC: Duration = Duration::from_millis(100);
 
-/// A journal that is being written. However it is left, except by the end of the process, it says
-/// that the runs that are begun are not to blame.
+/// A journal that is being written. When it is dropped in any way, except by the end of the
+/// process, it records that its started runs did not cause this.
 #[derive(Debug)]
 pub struct Journal {
     file: File,
@@ -33,7 +33,7 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins one for these runs in the folder of the shards of a plan with this digest.
+    /// Starts a journal for these runs in the folder of the shards of a plan with this digest.
     pub(super) fn begin_in(
         folder: &Path,
         (plan, mark): (&SweepPlan, &str),
@@ -55,7 +55,7 @@ impl Journal {
             let mut options = File::options();
             match options.append(true).create_new(true).open(&path) {
                 Ok(file) => break (path, file),
-                // Another thread of this process has begun at the same time.
+                // Another thread of this process has started a journal at the same time.
                 Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists => time += 1,
                 Err(e) => return Err(FileError::refused("make", &path)(e).into()),
             }
@@ -72,19 +72,19 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Notes that these runs begin. Not synchronised with the disk: it tells of the end of the
-    /// process, not of that of the machine.
+    /// Records that these runs start. This is not synchronised with the disk, because it is needed
+    /// after the end of the process, not after a failure of the machine.
     ///
     /// # Errors
-    /// [`JournalError::File`]: it could not be written.
+    /// [`JournalError::File`]: the journal could not be written.
     pub fn begin(&mut self, runs: &[u64]) -> Result<(), JournalError> {
         self.line(&Entry::Begin(runs.to_vec()).text(), SyncWhen::Seldom)
     }
 
-    /// Notes that a run begins, beside which this process makes no other.
+    /// Records that a run starts, and that this process makes no other run at the same time.
     ///
     /// # Errors
-    /// [`JournalError::File`]: it could not be written.
+    /// [`JournalError::File`]: the journal could not be written.
     pub fn begin_alone(&mut self, run: u64) -> Result<(), JournalError> {
         self.line(&Entry::Alone(run).text(), SyncWhen::Seldom)
     }
@@ -92,7 +92,7 @@ impl Journal {
     /// Adds a finished run.
     ///
     /// # Errors
-    /// [`JournalError::File`]: it could not be written.
+    /// [`JournalError::File`]: the journal could not be written.
     pub fn append(&mut self, row: &SweepRow) -> Result<(), JournalError> {
         let cells = self.plan.cells(row);
         self.append_cells(&cells)
@@ -104,18 +104,18 @@ impl Journal {
         self.line(&text, SyncWhen::Seldom)
     }
 
-    /// Closes the journal after everything is on the disk.
+    /// Closes the journal after all of its content is on the disk.
     ///
     /// # Errors
-    /// [`JournalError::File`]: it could not be written.
+    /// [`JournalError::File`]: the journal could not be written.
     pub fn finish(mut self) -> Result<(), JournalError> {
         self.end()
     }
 
-    /// Removes the journal, as if it had not been begun.
+    /// Removes the journal, as if it had not been started.
     ///
     /// # Errors
-    /// [`JournalError::File`]: it could not be removed.
+    /// [`JournalError::File`]: the journal could not be removed.
     pub fn discard(mut self) -> Result<(), JournalError> {
         self.has_ended = true;
         Ok(fs::remove_file(&self.path).map_err(FileError::refused("remove", &self.path))?)
@@ -129,7 +129,7 @@ impl Journal {
         self.line(&Entry::End.text(), SyncWhen::Now)
     }
 
-    /// Each line is a single write, so lines of other threads are never mixed into it.
+    /// Each line is a single write, so lines of other threads are never mixed with it.
     fn line(&mut self, text: &[u8], when: SyncWhen) -> Result<(), JournalError> {
         let mut written = self.file.write_all(&line(text));
         let due = matches!(when, SyncWhen::Now) || self.synced.elapsed() > SYNC;
@@ -143,7 +143,8 @@ impl Journal {
 
 impl Drop for Journal {
     fn drop(&mut self) {
-        // Without this line, runs are made one by one the next time, no more.
+        // Without this line, the only effect is that the runs are made one at a time in the next
+        // attempt.
         let _ = self.end();
     }
 }

@@ -1,5 +1,5 @@
-//! Lines with digests: every line begins with a digest of the rest, so that a line cut off by a
-//! crash is recognised. It is ignored, and its run is made again.
+//! Lines with digests: every line starts with a digest of the rest, so that a line cut off by a
+//! crash is recognised. Such a line is ignored, and its run is made again.
 //!
 //! ```text
 //! 4be1d0… {"plan":"…","runs":[1,500],"host":"node7","pid":4711,"born":8812}
@@ -14,14 +14,15 @@ use serde::{Deserialize, Serialize};
 use super::{Cell, Column, Runs};
 use crate::files::process::Process;
 
-/// The first line of a file: what its rows belong to.
+/// The first line of a file: the plan and the runs to which its rows belong.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Head {
     /// Digest of the plan.
     pub(super) plan: String,
     /// First and last run.
     pub(super) runs: (u64, u64),
-    /// Who writes it; `None` for a finished shard, which says nothing of its maker.
+    /// The process that writes the file; `None` for a finished shard, which does not contain the
+    /// process.
     #[serde(flatten)]
     pub(super) by: Option<Process>,
 }
@@ -54,13 +55,13 @@ fn text(line: &[u8]) -> Option<&[u8]> {
     (u64::from_str_radix(written, 16).ok()? == digest(text)).then_some(text)
 }
 
-/// What a line after the first one says.
+/// The content of a line after the first one.
 pub(super) enum Entry {
-    /// These runs begin together.
+    /// These runs start together.
     Begin(Vec<u64>),
-    /// This run begins, and no other is made by the process at the same time.
+    /// This run starts, and the process makes no other run at the same time.
     Alone(u64),
-    /// The process leaves, and what is begun is not to blame for that.
+    /// The process ends the attempt, and the started runs did not cause this.
     End,
     /// A finished run.
     Row(u64, Vec<Cell>),
@@ -71,7 +72,7 @@ const ALONE: &str = "alone";
 const END: &str = "end";
 
 impl Entry {
-    /// The text of an entry that is no row.
+    /// The text of an entry that is not a row.
     pub(super) fn text(&self) -> Vec<u8> {
         let text = match self {
             Self::Begin(runs) => {
@@ -85,7 +86,7 @@ impl Entry {
         text.into_bytes()
     }
 
-    /// Reads a line; rows of other runs than these are left out.
+    /// Reads a line; rows of other runs are ignored.
     pub(super) fn read(line: &[u8], columns: &[Column], wanted: Runs) -> Option<Self> {
         if line.first().is_some_and(u8::is_ascii_digit) {
             let number = line.split(|b| *b == b',').next()?;
@@ -116,11 +117,12 @@ pub(super) fn record(cells: &[Cell]) -> io::Result<Vec<u8>> {
     Ok(text)
 }
 
-/// The cells of a row, if they fit the columns.
+/// The cells of a row, if they match the columns.
 fn cells(line: &[u8], columns: &[Column]) -> Option<Vec<Cell>> {
     let text = std::str::from_utf8(line).ok()?;
     if !text.contains('"') {
-        // Most rows: a reader of its own for each takes longer than all else.
+        // This is the case for most rows: a separate CSV reader for each row would take longer than
+        // all other work.
         return cells_of(text.split(','), columns);
     }
     let mut reader = csv::ReaderBuilder::new()

@@ -1,4 +1,4 @@
-//! What is known of all runs of a sweep whose shards are in several directories.
+//! The records of all runs of a sweep whose shards are in several directories.
 
 use std::path::{Path, PathBuf};
 
@@ -7,11 +7,11 @@ use super::records::RecordCollection;
 use super::{JournalError, Records, Shards};
 
 impl Records {
-    /// Gathers what is known of all runs of a sweep in several directories.
+    /// Collects the records of all runs of a sweep in several directories.
     ///
     /// # Errors
-    /// Those of [`Shards::find`] and [`Shards::read`]; [`JournalError::Changed`] if they belong to
-    /// different sweeps.
+    /// The errors of [`Shards::find`] and [`Shards::read`]; [`JournalError::Changed`] if the
+    /// directories belong to different sweeps.
     pub fn merged<P: AsRef<Path>>(directories: &[P]) -> Result<Self, JournalError> {
         let mut all: Option<RecordCollection> = None;
         for directory in directories.iter().map(AsRef::as_ref) {

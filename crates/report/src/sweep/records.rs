@@ -1,4 +1,4 @@
-//! What is known of the runs of a sweep, gathered from finished shards and journals.
+//! The records of the runs of a sweep, collected from finished shards and journals.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -6,30 +6,30 @@ use std::path::{Path, PathBuf};
 use super::error::Difference;
 use super::{Cell, JournalError, Runs, SweepPlan, SweepRows, SweepStatus};
 
-/// What is known of some runs.
+/// The records of some runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Records {
     /// The description of the sweep.
     pub plan: SweepPlan,
     /// The finished runs.
     pub rows: SweepRows,
-    /// How many more rows of these runs there are: runs that were made twice.
+    /// Number of further rows of these runs, from runs that were made twice.
     pub repeated: u64,
     /// Finished shards.
     pub sealed: Vec<Runs>,
-    /// Runs without a row that were begun by processes that ended during them, with how often that
-    /// was while the process made no other run.
+    /// Runs without a row whose process ended during them, with the number of times that this
+    /// happened while the process made no other run.
     pub suspects: BTreeMap<u64, u64>,
 }
 
 impl Records {
-    /// Nothing is known.
+    /// Empty records.
     #[must_use]
     pub fn none(plan: &SweepPlan) -> Self {
         RecordCollection::new(plan.clone()).records()
     }
 
-    /// Whether some of the runs could begin.
+    /// Whether at least one of the runs could start.
     #[must_use]
     pub fn has_begun(&self) -> bool {
         let refused = Cell::Text(SweepStatus::Refused.name().to_owned());
@@ -38,7 +38,7 @@ impl Records {
         rows.any(|cells| cells.get(status) != Some(&refused))
     }
 
-    /// The runs whose rows state that they have ended their process.
+    /// The runs whose rows state that their process ended during the run.
     #[must_use]
     pub fn crashed(&self) -> Vec<u64> {
         let crashed = Cell::Text(SweepStatus::Crashed.name().to_owned());
@@ -49,7 +49,7 @@ impl Records {
             .collect()
     }
 
-    /// Those of some runs that have no row.
+    /// The runs among these that have no row.
     #[must_use]
     pub fn missing(&self, runs: Runs) -> Vec<Runs> {
         let known = self
@@ -60,7 +60,7 @@ impl Records {
     }
 }
 
-/// Records that grow.
+/// Records during their collection.
 pub(super) struct RecordCollection {
     pub(super) records: Records,
     pub(super) sealed: Vec<Runs>,
@@ -71,7 +71,7 @@ pub(super) struct RecordCollection {
     of: BTreeMap<u64, usize>,
 }
 
-/// Places of columns that have a meaning here.
+/// Indices of columns that have a meaning here.
 struct Columns {
     seconds: usize,
     status: usize,
@@ -113,8 +113,8 @@ impl RecordCollection {
         }
     }
 
-    /// Takes a row of a file. A second one of the same run must say the same, except for the time
-    /// it took and except that it may have ended its process.
+    /// Adds a row of a file. A second row of the same run must be equal, except for its run time,
+    /// and except that one of both may state that the process ended.
     pub(super) fn take(
         &mut self,
         run: u64,
@@ -138,7 +138,7 @@ impl RecordCollection {
         let pairs = || known.iter().zip(&cells).enumerate();
         let differs = pairs().find(|(k, (a, b))| k != seconds && !a.is_same(b));
         let Some((k, (one, other))) = differs else {
-            // A copy has the same time, too.
+            // A copy also has the same run time.
             let is_copy = pairs().all(|(_, (a, b))| a.is_same(b));
             self.records.repeated += u64::from(!is_copy);
             return Ok(());
@@ -163,7 +163,8 @@ impl RecordCollection {
         .into())
     }
 
-    /// Notes that a process ended during these runs; true for one that it made alone.
+    /// Records that a process ended during these runs; the flag is true if the process made no
+    /// other run.
     pub(super) fn blame(&mut self, begun: BTreeMap<u64, bool>) {
         for (run, was_alone) in begun {
             *self.records.suspects.entry(run).or_default() += u64::from(was_alone);

@@ -4,21 +4,21 @@ use solvability::Value;
 
 use super::{Cell, Column, Kind, SweepPlan};
 
-/// How a run ended.
+/// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SweepStatus {
-    /// It reached its last time.
+    /// The run reached its end time.
     Done,
     /// It stopped earlier; the row contains the results up to there.
     Stopped,
-    /// It did not begin: with these numbers there is no mechanism, or no motion.
+    /// The run did not start: with these numbers there is no mechanism, or no motion.
     Refused,
-    /// Its process ended twice while it made no other run.
+    /// The process of the run ended twice while it made no other run.
     Crashed,
 }
 
 impl SweepStatus {
-    /// Its word in tables.
+    /// Name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -30,13 +30,13 @@ impl SweepStatus {
     }
 }
 
-/// Largest |F| or |T| of a joint or drive over the written rows of a run.
+/// Largest |F| or |T| of a joint or drive over the output rows of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
     /// The value with its verdict on the whole run (N or N·m): unique if all components of the
-    /// force, or of the torque, are.
+    /// force, or of the torque, are unique.
     pub value: Value,
-    /// The first time at which it occurs (s).
+    /// The first time at which the value occurs (s).
     pub time: f64,
 }
 
@@ -49,10 +49,10 @@ impl Extreme {
     }
 }
 
-/// The numbers of a run that began.
+/// The results of a run that started.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepMotion {
-    /// Integrator.
+    /// Integration method.
     pub method: &'static str,
     /// Last time reached (s).
     pub t: f64,
@@ -72,7 +72,7 @@ pub struct SweepMotion {
     pub max_velocity_residual: f64,
     /// Largest |E − E₀ − work| relative to the largest kinetic energy.
     pub energy_balance: f64,
-    /// Largest change of a coordinate by the assembly (m or rad).
+    /// Largest change of a coordinate during the assembly (m or rad).
     pub start_correction: f64,
     /// Largest change of a velocity at the start (m/s or rad/s).
     pub start_velocity_correction: f64,
@@ -83,36 +83,37 @@ pub struct SweepMotion {
     /// Degree of redundancy at the start.
     pub redundancy: u64,
     /// Number of joints and drives whose reaction is not unique on the run, or undecided; `None` if
-    /// no reaction is requested: then the run has no verdicts.
+    /// no reaction is requested, because then the run has no verdicts.
     pub not_unique: Option<u64>,
-    /// Number of joints and drives with a component that is unique at the start, but fragile.
+    /// Number of joints and drives with a component that is unique at the start, but sensitive to
+    /// data (`fragile`).
     pub fragile: u64,
-    /// Time of the last written state (s); the end of a run that is done.
+    /// Time of the last output state (s); the end time of a run that is done.
     pub t_state: f64,
-    /// The last written state, body by body in the order of [`SweepPlan::state`]; NaN if no row was
+    /// The last output state, body by body in the order of [`SweepPlan::state`]; NaN if no row was
     /// written.
     pub state: Vec<f64>,
     /// Extremes of force and torque of the joints and drives of [`SweepPlan::reactions`]; `None`
-    /// for one that has no reactions.
+    /// for a joint or drive without reactions.
     pub extremes: Vec<Option<[Extreme; 2]>>,
 }
 
 /// A run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepRow {
-    /// Its number in the grid, from 1.
+    /// Index of the run in the grid, from 1.
     pub run: u64,
     /// The varied numbers.
     pub varied: Vec<f64>,
-    /// How it ended.
+    /// End of the run.
     pub status: SweepStatus,
-    /// Reason why it is not done; empty if it is.
+    /// Reason why the run is not done; empty if it is done.
     pub error: String,
-    /// Its numbers, if it began.
+    /// Results of the run, if it started.
     pub motion: Option<SweepMotion>,
 }
 
-/// Columns of a run that began, with their values.
+/// Columns of a run that started, with their values.
 type Columns<T, const N: usize> = [(&'static str, fn(&SweepMotion) -> T); N];
 
 const COUNTS: Columns<Option<u64>, 9> = [
@@ -167,7 +168,7 @@ impl SweepPlan {
             .collect()
     }
 
-    /// A row under [`SweepPlan::columns`].
+    /// A row with the columns of [`SweepPlan::columns`].
     pub(super) fn cells(&self, row: &SweepRow) -> Vec<Cell> {
         let motion = row.motion.as_ref();
         let number = |x: fn(&SweepMotion) -> f64| Cell::Number(motion.map_or(f64::NAN, x));

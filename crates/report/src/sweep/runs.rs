@@ -12,43 +12,43 @@ pub struct Runs {
 }
 
 impl Runs {
-    /// The runs from `first` to `last`; `None` if there are none.
+    /// The runs from `first` to `last`; `None` if there are no such runs.
     #[must_use]
     pub fn new(first: u64, last: u64) -> Option<Self> {
         (1 <= first && first <= last).then_some(Self { first, last })
     }
 
-    /// The first one.
+    /// The first run.
     #[must_use]
     pub fn first(self) -> u64 {
         self.first
     }
 
-    /// The last one.
+    /// The last run.
     #[must_use]
     pub fn last(self) -> u64 {
         self.last
     }
 
-    /// How many there are.
+    /// Number of runs.
     #[must_use]
     pub fn count(self) -> u64 {
         self.last - self.first + 1
     }
 
-    /// Whether a run is one of them.
+    /// Whether a run belongs to these runs.
     #[must_use]
     pub fn has(self, run: u64) -> bool {
         (self.first..=self.last).contains(&run)
     }
 
-    /// Whether some run is in both.
+    /// Whether both have at least one common run.
     #[must_use]
     pub fn meets(self, other: Self) -> bool {
         self.first <= other.last && other.first <= self.last
     }
 
-    /// What is left of them without some others, in order.
+    /// The runs that remain after the removal of others, in order.
     #[must_use]
     pub fn without(self, others: &[Self]) -> Vec<Self> {
         let mut others: Vec<Self> = others.iter().filter(|o| o.meets(self)).copied().collect();
@@ -63,7 +63,7 @@ impl Runs {
         left
     }
 
-    /// Consecutive ones among ascending numbers.
+    /// Groups of consecutive numbers among ascending numbers.
     pub(super) fn among(numbers: impl IntoIterator<Item = u64>) -> Vec<Self> {
         let mut all: Vec<Self> = Vec::new();
         for run in numbers {
@@ -75,21 +75,21 @@ impl Runs {
         all
     }
 
-    /// As the beginning of a file name, with as many digits as the number of all runs has, so that
-    /// names are in the order of the runs.
+    /// The runs as the start of a file name. The numbers have as many digits as the number of all
+    /// runs, so that names are in the order of the runs.
     pub(super) fn name(self, all: u64) -> String {
         let width = all.to_string().len();
         format!("{:0width$}-{:0width$}", self.first, self.last)
     }
 
-    /// Those of a file name.
+    /// The runs in a file name.
     pub(super) fn of_name(name: &str) -> Option<Self> {
         let (first, last) = name.split_once('-')?;
         Self::new(first.parse().ok()?, last.parse().ok()?)
     }
 }
 
-/// `3-7`, or `3` for a single run.
+/// Prints `3-7`, or `3` for a single run.
 impl fmt::Display for Runs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.count() {
@@ -110,7 +110,7 @@ impl schemars::JsonSchema for Runs {
     }
 }
 
-/// As `[first, last]`.
+/// Written as `[first, last]`.
 impl Serialize for Runs {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         [self.first, self.last].serialize(serializer)

@@ -1,15 +1,16 @@
 //! The folder `shards` of the directory of a sweep: the plan, finished shards, and the journals of
-//! attempts. Names tell which runs a file is about, so that nobody reads what he does not need.
+//! attempts. File names contain the runs of a file, so that a process reads only the files that it
+//! needs.
 //!
 //! | file | content |
 //! | --- | --- |
-//! | `plan` | the description of the sweep; whoever comes first writes it |
-//! | `0001-0500.rows` | a finished shard: complete, or not there |
-//! | `0001-0500.parquet` | the same as Parquet, written before |
+//! | `plan` | the description of the sweep, written by the first process |
+//! | `0001-0500.rows` | a finished shard: complete, or missing |
+//! | `0001-0500.parquet` | the same shard as Parquet, written before |
 //! | `0001-0500.HOST-PID-TIME.journal` | an attempt |
 //!
-//! Files are written beside their places, synchronised and renamed, so that two processes may write
-//! the same one: their contents differ in the column `seconds` alone. There are no locks.
+//! Files are written next to their final paths, synchronised and renamed, so that two processes may
+//! write the same file: their contents differ only in the column `seconds`. There are no locks.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -31,8 +32,8 @@ const PLAN: &str = "plan";
 /// Name of the folder.
 const FOLDER: &str = "shards";
 
-/// How often files may vanish while they are read, because others have finished a shard and removed
-/// its journals.
+/// Maximum number of times that files may disappear while they are read, because other processes
+/// have finished a shard and removed its journals.
 const LOOKS: usize = 1000;
 
 /// The shards of a sweep in a directory.
@@ -51,7 +52,7 @@ struct ShardFile {
     is_sealed: bool,
 }
 
-/// What a file says.
+/// The content of a file.
 struct ShardRecords {
     found: ShardFile,
     entries: Vec<Entry>,
@@ -59,10 +60,11 @@ struct ShardRecords {
 }
 
 impl Shards {
-    /// Opens those of a directory, and begins them if there are none.
+    /// Opens the shards of a directory, and starts them if the directory has none.
     ///
     /// # Errors
-    /// - [`JournalError::Changed`], [`JournalError::Damaged`]: another sweep is there.
+    /// - [`JournalError::Changed`], [`JournalError::Damaged`]: the directory contains another
+    ///   sweep.
     /// - [`JournalError::File`]: the operating system reported an error.
     pub fn open(directory: &Path, plan: &SweepPlan) -> Result<Self, JournalError> {
         let folder = directory.join(FOLDER);
@@ -72,7 +74,7 @@ impl Shards {
             Some(found) => found,
             None => {
                 publish(&path, &line(&json(plan)), Publish::Once)?;
-                // Another process may have been faster.
+                // Another process may have written the plan first.
                 Self::plan_in(&path)?.ok_or(JournalError::Damaged { path: path.clone() })?
             }
         };
@@ -84,11 +86,11 @@ impl Shards {
         })
     }
 
-    /// Those that were begun in a directory.
+    /// The shards that were started in a directory.
     ///
     /// # Errors
-    /// - [`JournalError::Missing`]: there are none.
-    /// - [`JournalError::Damaged`], [`JournalError::File`]: they cannot be read.
+    /// - [`JournalError::Missing`]: the directory contains no shards.
+    /// - [`JournalError::Damaged`], [`JournalError::File`]: the shards cannot be read.
     pub fn find(directory: &Path) -> Result<Self, JournalError> {
         fs::metadata(directory).map_err(FileError::refused("read", directory))?;
         let folder = directory.join(FOLDER);
@@ -103,7 +105,7 @@ impl Shards {
         })
     }
 
-    /// Whether there are some in a directory.
+    /// Whether a directory contains shards.
     #[must_use]
     pub fn are_in(directory: &Path) -> bool {
         directory.join(FOLDER).join(PLAN).exists()
@@ -138,7 +140,7 @@ impl Shards {
         })
     }
 
-    /// The files that are about some of these runs, in the order of their names.
+    /// The files that contain some of these runs, in the order of their names.
     fn found(&self, wanted: Runs) -> Result<Vec<ShardFile>, JournalError> {
         let refused = || FileError::refused("read", &self.folder);
         let mut all = Vec::new();
@@ -162,7 +164,7 @@ impl Shards {
         Ok(all)
     }
 
-    /// The runs of the finished shards, by their names alone.
+    /// The runs of the finished shards, from their names alone.
     ///
     /// # Errors
     /// [`JournalError::File`]: the folder cannot be read.
@@ -177,7 +179,7 @@ impl Shards {
             .collect())
     }
 
-    /// What is known of some runs, from all files that are about them.
+    /// The records of some runs, from all files that contain them.
     ///
     /// # Errors
     /// - [`JournalError::Changed`], [`JournalError::Damaged`]: a file belongs to another sweep.
@@ -189,7 +191,7 @@ impl Shards {
         Ok(gathered.records())
     }
 
-    /// Adds what is known of some runs.
+    /// Adds the records of some runs.
     pub(super) fn gather(
         &self,
         wanted: Runs,
@@ -198,7 +200,7 @@ impl Shards {
         let mut looks = 0;
         let told = loop {
             match self.told(wanted) {
-                // Its rows are in a finished shard now.
+                // The rows of this file are now in a finished shard.
                 Err(JournalError::File(FileError::Refused { source, .. }))
                     if source.kind() == ErrorKind::NotFound && looks < LOOKS =>
                 {
@@ -226,7 +228,7 @@ impl Shards {
             if found.is_sealed {
                 let common = wanted.without(&wanted.without(&[found.runs]));
                 let expected: u64 = common.iter().map(|runs| runs.count()).sum();
-                // A damaged one is made again.
+                // A damaged shard is made again.
                 if count >= expected {
                     gathered.sealed.push(found.runs);
                 }
@@ -235,7 +237,7 @@ impl Shards {
             let is_dead = match by.as_ref().map(Process::life) {
                 Some(Life::Runs) => false,
                 Some(Life::Gone) => true,
-                // Nobody asks for a shard again that is being made.
+                // A shard that another process is making is not made again.
                 Some(Life::Unknown) | None => found.runs == wanted,
             };
             if !has_ended && is_dead {
@@ -263,7 +265,7 @@ impl Shards {
         Ok(all)
     }
 
-    /// The first line of a file and the others; `None` if it has been cut off before.
+    /// The first line of a file and the other lines; `None` if the first line is incomplete.
     fn content<'b>(
         &self,
         found: &ShardFile,
@@ -293,7 +295,7 @@ impl Shards {
         Ok(Some((head, lines)))
     }
 
-    /// Begins an attempt to make some runs.
+    /// Starts an attempt to make some runs.
     ///
     /// # Errors
     /// [`JournalError::File`]: the operating system reported an error.
@@ -304,7 +306,7 @@ impl Shards {
     /// Writes a finished shard. All of its runs have rows.
     ///
     /// # Errors
-    /// [`JournalError::File`]: it could not be written.
+    /// [`JournalError::File`]: the shard could not be written.
     pub fn seal(&self, runs: Runs, records: &Records) -> Result<(), JournalError> {
         let path = self.folder.join(runs.name(self.plan.runs) + ROWS);
         let rows = || records.rows.range(runs.first()..=runs.last());
@@ -333,7 +335,7 @@ impl Shards {
         Ok(publish(&path, &bytes, Publish::Anew)?)
     }
 
-    /// Removes journals of attempts that are over and whose runs are in finished shards.
+    /// Removes journals of attempts that have ended and whose runs are in finished shards.
     ///
     /// # Errors
     /// [`JournalError::File`]: the operating system reported an error.
@@ -343,7 +345,7 @@ impl Shards {
             if found.is_sealed || !found.runs.without(&sealed).is_empty() {
                 continue;
             }
-            // Another process may be as tidy.
+            // Another process may have removed the file.
             let Ok(bytes) = fs::read(&found.path) else {
                 continue;
             };
@@ -359,12 +361,13 @@ impl Shards {
         Ok(())
     }
 
-    /// Forgets the rows of runs that have ended their process, and that these runs are suspects:
-    /// they are made again like runs that were never begun. Returns their number. No process may
-    /// make runs of the sweep meanwhile.
+    /// Deletes the rows of runs during which their process ended, and the record of these runs as
+    /// suspects: they are made again like runs that were never started. Returns their number. No
+    /// process may make runs of the sweep at the same time.
     ///
     /// # Errors
-    /// As [`Self::read`]; [`JournalError::File`]: a file could not be written or removed.
+    /// Returns the same errors as [`Self::read`]; [`JournalError::File`]: a file could not be
+    /// written or removed.
     pub fn forget_crashed(&self) -> Result<u64, JournalError> {
         let Some(all) = self.all() else { return Ok(0) };
         let records = self.read(all)?;
@@ -376,7 +379,7 @@ impl Shards {
         let files = files
             .iter()
             .filter(|file| crashed.iter().any(|run| file.runs.has(*run)));
-        // The other rows are on the disk again before their files are removed.
+        // The other rows are written to the disk again before their files are removed.
         let mut journal = self.begin(all)?;
         for (run, cells) in &records.rows {
             if crashed.binary_search(run).is_err() {
@@ -388,25 +391,25 @@ impl Shards {
             let path = &file.path;
             fs::remove_file(path).map_err(FileError::refused("remove", path))?;
             if file.is_sealed {
-                // Only programs with the feature `parquet` write it.
+                // Only programs with the feature `parquet` write this file.
                 let _ = fs::remove_file(path.with_extension("parquet"));
             }
         }
         Ok(crashed.len() as u64)
     }
 
-    /// Removes the folder if there is nothing in it but the plan.
+    /// Removes the folder if it contains only the plan.
     pub fn forget(&self) {
         let files = fs::read_dir(&self.folder).map_or(0, Iterator::count);
         if files == 1 && fs::remove_file(self.folder.join(PLAN)).is_ok() {
-            // Others may have begun.
+            // Other processes may have started runs.
             let _ = fs::remove_dir(&self.folder);
         }
     }
 }
 
-/// Says in the journals of this process that its end is ordered: the runs that are begun are not to
-/// blame for it. For a process that is about to be ended without unwinding.
+/// Records in the journals of this process that its end is intended: the started runs did not cause
+/// it. This is for a process that will be ended without unwinding.
 pub fn end_attempts(directory: &Path) {
     let Ok(shards) = Shards::find(directory) else {
         return;
@@ -421,22 +424,22 @@ pub fn end_attempts(directory: &Path) {
             && head.by.as_ref() == Some(&own)
         {
             let file = File::options().append(true).open(&found.path);
-            // The process ends, whether or not this can be done.
+            // The process ends, whether or not this succeeds.
             let _ = file.and_then(|mut file| file.write_all(&line(&Entry::End.text())));
         }
     }
 }
 
-/// What becomes of an older file.
+/// Treatment of an older file.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Publish {
-    /// It stays.
+    /// The older file is kept.
     Once,
-    /// It is replaced.
+    /// The older file is replaced.
     Anew,
 }
 
-/// Writes a file beside its place, synchronises it with the disk and gives it its name.
+/// Writes a file next to its final path, synchronises it with the disk and renames it.
 fn publish(path: &Path, bytes: &[u8], how: Publish) -> Result<(), FileError> {
     let part = own_part(path);
     let written = || {
@@ -445,7 +448,7 @@ fn publish(path: &Path, bytes: &[u8], how: Publish) -> Result<(), FileError> {
         file.sync_all()
     };
     let placed = || match how {
-        // Not every file system has links.
+        // Not every file system supports links.
         Publish::Once => match fs::hard_link(&part, path) {
             Ok(()) => fs::remove_file(&part),
             Err(e) if e.kind() == ErrorKind::AlreadyExists => fs::remove_file(&part),
@@ -457,11 +460,11 @@ fn publish(path: &Path, bytes: &[u8], how: Publish) -> Result<(), FileError> {
         .map_err(FileError::refused("write", path))
         .and_then(|()| placed().map_err(FileError::refused("rename to", path)));
     if done.is_err() {
-        // The first error is the one to report.
+        // The first error is reported.
         let _ = fs::remove_file(&part);
     }
     done?;
-    // The file itself is on the disk; not every system can do the same for its name.
+    // The file itself is on the disk; not every system can also synchronise its name.
     if let Some(folder) = path.parent() {
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
     }

@@ -14,18 +14,18 @@ const TABLE: &str = "sweep.csv";
 const PARQUET: &str = "sweep.parquet";
 const SUMMARY: &str = "summary.json";
 
-/// Those that this program writes.
+/// The tables that this program writes.
 const WRITTEN: &[&str] = if cfg!(feature = "parquet") {
     FAMILY.0
 } else {
     &[TABLE, SUMMARY]
 };
 
-/// Writes `sweep.csv`, `sweep.parquet` if this is compiled in, and `summary.json`, each beside its
-/// place: several processes may do so at the same time, and the last one stays.
+/// Writes `sweep.csv`, `sweep.parquet` if this feature is compiled, and `summary.json`, each next
+/// to its final path. Several processes may do this at the same time; the last result remains.
 ///
 /// # Errors
-/// If something could not be written; complete older tables are kept.
+/// Returns an error if a file could not be written; complete older tables are kept.
 pub fn write_sweep<E: From<FileError> + From<TableError>>(
     directory: &OutputDirectory,
     records: &Records,

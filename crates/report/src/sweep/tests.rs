@@ -1,4 +1,5 @@
-//! Files survive damage; tables are the same after any interruption, whoever made the rows.
+//! Tests that files survive damage, and that tables are the same after any interruption, whichever
+//! process made the rows.
 
 use std::fs;
 use std::path::PathBuf;
@@ -28,7 +29,7 @@ impl Folder {
         Shards::open(&self.0, &plan()).expect("free")
     }
 
-    /// Names of the files with this ending.
+    /// Names of the files with this extension.
     fn names(&self, ending: &str) -> Vec<String> {
         let entries = fs::read_dir(self.0.join("shards")).expect("begun");
         let names = entries.map(|e| {
@@ -124,7 +125,7 @@ fn refused(run: u64) -> SweepRow {
     }
 }
 
-/// An attempt that ends by order.
+/// An attempt that is ended intentionally.
 fn fill(folder: &Folder, of: Runs, rows: &[SweepRow]) {
     let mut journal = folder.shards().begin(of).expect("free");
     for row in rows {
@@ -133,7 +134,8 @@ fn fill(folder: &Folder, of: Runs, rows: &[SweepRow]) {
     journal.finish().expect("writable");
 }
 
-/// A journal of a process that no longer runs: the lines of one that does, with another head.
+/// A journal of a process that is no longer running: the lines of a running process, with another
+/// header.
 fn left_by(host: &str, folder: &Folder, name: &str, of: Runs, lines: &[&str]) {
     let own = Process::own();
     let host = if host.is_empty() { &own.host } else { host };
@@ -143,7 +145,7 @@ fn left_by(host: &str, folder: &Folder, name: &str, of: Runs, lines: &[&str]) {
         of.first(),
         of.last(),
         own.pid,
-        // No process of that number began then.
+        // No process with this identifier started at that time.
         own.born + 1,
     );
     let mut bytes = line(head.as_bytes());
@@ -180,7 +182,7 @@ fn a_row_comes_back_with_its_bits() {
         .seal(runs(1, 2), &unsealed)
         .expect("writable");
     folder.shards().tidy(runs(1, 4)).expect("writable");
-    // The journal is about more runs.
+    // The journal contains more runs.
     assert_eq!(folder.names(".journal").len(), 1);
     fs::remove_file(folder.journal()).expect("there");
     let sealed = folder.read();
@@ -199,8 +201,8 @@ fn a_row_comes_back_with_its_bits() {
     }
 }
 
-/// A journal that was cut off anywhere keeps the rows of its complete lines; another attempt makes
-/// the others.
+/// A journal that was cut off at any position keeps the rows of its complete lines; another attempt
+/// makes the other runs.
 #[test]
 fn a_journal_may_be_cut_at_any_byte() {
     let folder = Folder::new("cut");
@@ -231,7 +233,7 @@ fn damaged_lines_are_made_again() {
     bytes.extend([0; 100]);
     fs::write(&path, &bytes).expect("writable");
     assert_eq!(numbers(&folder.read()), [1, 3]);
-    // A finished shard that is damaged is not taken for finished.
+    // A damaged shard does not count as finished.
     fs::write(&path, &whole).expect("writable");
     let shards = folder.shards();
     shards.seal(runs(1, 3), &folder.read()).expect("writable");
@@ -307,7 +309,7 @@ fn another_sweep_is_refused_by_name() {
         assert!(error.to_string().contains(what), "{error}");
         assert_eq!(folder.names(""), before);
     }
-    // A file of another sweep that somebody has put there.
+    // A file of another sweep that was copied into this folder.
     let (other, name) = (Folder::new("changed-too"), folder.journal());
     let beside = SweepPlan { runs: 5, ..plan() };
     let shards = Shards::open(&other.0, &beside).expect("free");
@@ -329,7 +331,8 @@ fn another_sweep_is_refused_by_name() {
     assert!(matches!(error, JournalError::Missing { .. }), "{error}");
 }
 
-/// Twice the same run: once more is told, a copy is none, and a difference is refused by its name.
+/// The same run twice: a repetition is reported, a copy is not, and a difference is rejected with
+/// an error.
 #[test]
 fn rows_of_one_run_must_agree() {
     let [one, two, three] = ["agree", "agree-too", "agree-not"].map(Folder::new);
@@ -376,7 +379,7 @@ fn rows_of_one_run_must_agree() {
             "{error}"
         );
     }
-    // A machine on which a run ended its process, and one on which it did not.
+    // A machine on which the process ended during a run, and one on which it did not.
     let crashed = SweepRow {
         status: SweepStatus::Crashed,
         ..refused(2)
@@ -396,8 +399,9 @@ fn rows_of_one_run_must_agree() {
     }
 }
 
-/// A process that ended during runs makes them suspect, unless it left by order, still runs, or has
-/// finished them. That of another machine is asked for again only if it is gone.
+/// A process that ended during runs makes them suspect, unless it ended intentionally, is still
+/// running, or has finished them. The runs of a process on another machine are requested again only
+/// if its journal is removed.
 #[test]
 fn only_an_end_without_a_word_makes_runs_suspect() {
     let folder = Folder::new("suspects");
@@ -410,12 +414,12 @@ fn only_an_end_without_a_word_makes_runs_suspect() {
     assert_eq!(suspects(runs(1, 4)), []);
     running.finish().expect("writable");
     assert_eq!(suspects(runs(1, 4)), []);
-    // As a panic or an error leaves it.
+    // The state after a panic or an error.
     let mut dropped = folder.shards().begin(runs(1, 4)).expect("free");
     dropped.begin(&[1, 2]).expect("writable");
     drop(dropped);
     assert_eq!(suspects(runs(1, 4)), []);
-    // As a process leaves it that is ended by order, whatever its threads do.
+    // The state after an intended end of the process, whatever its threads do.
     let mut ended = folder.shards().begin(runs(1, 4)).expect("free");
     ended.begin_alone(3).expect("writable");
     super::end_attempts(&folder.0);
@@ -459,7 +463,8 @@ fn only_an_end_without_a_word_makes_runs_suspect() {
     assert_eq!(suspects(runs(1, 4))[0], (1, 2));
 }
 
-/// Journals go when their runs are in finished shards, but not those of processes that still run.
+/// Journals are removed when their runs are in finished shards, except journals of processes that
+/// are still running.
 #[test]
 fn finished_shards_take_the_place_of_journals() {
     let folder = Folder::new("tidy");
@@ -484,7 +489,7 @@ fn finished_shards_take_the_place_of_journals() {
     if cfg!(feature = "parquet") {
         assert_eq!(parquet, ["1-2.parquet", "3-4.parquet"]);
     }
-    // The bytes of a shard are those of its rows, whoever writes it.
+    // The bytes of a shard depend only on its rows, whichever process writes it.
     let other = Folder::new("tidy-too");
     fill(&other, runs(1, 4), &[row(4), row(3)]);
     let records = other.read();
@@ -550,7 +555,7 @@ fn tables_do_not_depend_on_who_made_the_rows() {
     ));
 }
 
-/// A summary tells what is missing.
+/// A summary states the missing runs.
 #[test]
 fn gaps_are_told_as_runs() {
     let folder = Folder::new("gaps");
@@ -568,7 +573,7 @@ fn gaps_are_told_as_runs() {
     assert_eq!(text["shard"], serde_json::json!([3, 3]));
 }
 
-/// Where the verdict allows no number, there is no time of it either.
+/// If the verdict allows no number, the time of the number is also omitted.
 #[test]
 fn cells_of_extremes_are_determined() {
     let plan = plan();

@@ -1,6 +1,6 @@
 //! `reactions.csv`: force and torque on the first body of joints and drives, and the numbers of
-//! groups. Which cells have a number is known when the run has ended: until then all numbers are
-//! those of one choice, which is the content of `choice.csv`.
+//! groups. The cells with a number are known when the run has ended. Before, all numbers belong to
+//! one choice of multipliers, which is the content of `choice.csv`.
 
 use std::io::{self, BufRead, Write};
 
@@ -15,12 +15,13 @@ pub enum Selection {
     /// All reactions.
     #[default]
     All,
-    /// These, in the order of the rows of C, whatever the order of the names.
+    /// Reactions of these joints and drives, in the order of the rows of C, whatever the order of
+    /// the names.
     Names(Vec<String>),
 }
 
 impl Selection {
-    /// Indices of the selected ones.
+    /// Indices of the selected joints and drives.
     fn places(&self, mechanism: &Mechanism) -> Result<Vec<usize>, TableError> {
         let groups = &mechanism.layout().groups;
         let Self::Names(names) = self else {
@@ -39,10 +40,10 @@ impl Selection {
     }
 }
 
-/// The columns of the joint or drive at this place, in the order of the rows of C.
+/// The columns of the joint or drive with this index, in the order of the rows of C.
 ///
 /// # Panics
-/// If there is no such place.
+/// Panics if the index does not exist.
 #[must_use]
 pub fn reaction_columns(mechanism: &Mechanism, place: usize) -> Vec<Column> {
     let group = &mechanism.layout().groups[place];
@@ -57,17 +58,17 @@ pub fn reaction_columns(mechanism: &Mechanism, place: usize) -> Vec<Column> {
         .collect()
 }
 
-/// What a column of reactions shows.
+/// The quantity in a column of reactions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// A component of a joint or drive, or the named component of its definition.
     Component(ConstraintId, &'static str),
-    /// A number of a group, by the place of the group.
+    /// A number of a group, by the index of the group.
     Group(usize, &'static str),
 }
 
 impl Quantity {
-    /// The verdicts on it; `None` if it is zero under any load.
+    /// The verdicts on the quantity; `None` if it is zero under any load.
     #[must_use]
     pub fn verdicts<'s>(&self, stretches: &'s Stretches) -> Option<&'s VerdictTrack> {
         match self {
@@ -80,7 +81,8 @@ impl Quantity {
         }
     }
 
-    /// A number of it at a time with the verdict on the stretch that contains it.
+    /// A number of this quantity at a time, with the verdict on the interval that contains the
+    /// time.
     #[must_use]
     pub fn value(&self, stretches: &Stretches, t: f64, number: f64) -> Value {
         let track = self.verdicts(stretches);
@@ -91,16 +93,16 @@ impl Quantity {
 /// A column of reactions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReactionColumn {
-    /// Its name.
+    /// Name of the column.
     pub column: Column,
-    /// What it shows.
+    /// Quantity in the column.
     pub quantity: Quantity,
-    /// Whether the number is determined by the last digits of the data.
+    /// Whether the number is sensitive to the last digits of the data.
     pub fragile: bool,
 }
 
 impl ReactionColumn {
-    /// Its name in tables.
+    /// Name in tables.
     #[must_use]
     pub fn name(&self) -> String {
         let name = match (&self.quantity, self.column.number) {
@@ -115,7 +117,8 @@ impl ReactionColumn {
     }
 }
 
-/// The columns of all selected joints and drives, then those of groups, given with their names.
+/// The columns of all selected joints and drives, followed by those of groups, which are given with
+/// their names.
 ///
 /// # Errors
 /// [`TableError::UnknownReaction`]: a selected name does not exist.
@@ -150,9 +153,10 @@ pub fn columns_of_reactions(
     Ok(columns.into_iter().map(column).collect())
 }
 
-/// `t`, then for each joint and drive `<name>.Fx, .Fy, .T`, in space `.Fx, .Fy, .Fz, .Tx, .Ty,
-/// .Tz`, and the named component of its definition, if it has one: `.N` of a knife edge, `.drive`
-/// of a drive (s, N, N·m); then the numbers of groups. All numbers are those of one choice.
+/// `t`, then for each joint and drive `<name>.Fx, .Fy, .T`, in space
+/// `.Fx, .Fy, .Fz, .Tx, .Ty, .Tz`, and the named component of its definition, if it has one: `.N`
+/// of a knife edge, `.drive` of a drive (s, N, N·m); then the numbers of groups. All numbers belong
+/// to one choice of multipliers.
 pub struct ReactionTable<W: Write> {
     table: Table<W>,
     n_reactions: usize,
@@ -183,7 +187,7 @@ impl<W: Write> ReactionTable<W> {
         })
     }
 
-    /// Its columns, without `t`.
+    /// Columns of the table, without `t`.
     #[must_use]
     pub fn columns(&self) -> &[ReactionColumn] {
         &self.columns
@@ -241,8 +245,8 @@ fn header(columns: &[ReactionColumn]) -> Vec<String> {
     std::iter::once("t".to_owned()).chain(names).collect()
 }
 
-/// Copies a table of all numbers and leaves out those that are not determined on their stretch, and
-/// those that do not exist. Returns whether a cell is empty.
+/// Copies a table of all numbers without the numbers that are not determined on their interval, and
+/// without those that do not exist. Returns whether a cell is empty.
 ///
 /// # Errors
 /// [`TableError::Write`]: reading or writing failed.
@@ -259,8 +263,8 @@ pub fn write_determined(
     })
 }
 
-/// Copies a table of all numbers with those of a choice, in a table of the same rows and columns,
-/// in place of those that are not determined on their stretch.
+/// Copies a table of all numbers. Numbers that are not determined on their interval are replaced by
+/// the numbers of a choice of multipliers, from a table with the same rows and columns.
 ///
 /// # Errors
 /// [`TableError::Write`]: reading or writing failed.
@@ -278,8 +282,8 @@ pub fn write_chosen(
     })
 }
 
-/// Copies a table; cells that are not determined are those of the other table, or empty. Returns
-/// whether there are any.
+/// Copies a table; cells that are not determined are copied from the other table, or are empty.
+/// Returns whether there are such cells.
 fn copy(
     mut all: impl BufRead,
     mut chosen: Option<impl BufRead>,

@@ -1,4 +1,4 @@
-//! Golden headers and rows, exact bits, rows of another mechanism.
+//! Tests of reference headers and rows, exact bits, rows of another mechanism.
 
 use joints::plane::Direction;
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive};
@@ -51,7 +51,7 @@ fn table(mechanism: &Mechanism, selection: &Selection) -> ReactionTable<Vec<u8>>
     ReactionTable::new("choice.csv", Vec::new(), mechanism, columns).expect("writes")
 }
 
-/// A row without groups, as it is written.
+/// A row without groups, as written.
 fn written(mut table: ReactionTable<Vec<u8>>, t: f64) -> String {
     let none = ChosenValues::new(Vec::new(), Vec::new());
     let row = ChosenValues::new(reactions().to_vec(), Vec::new());
@@ -95,8 +95,8 @@ fn reactions_have_the_header_of_the_contract() {
     assert_eq!(written(table, 0.25), expected);
 }
 
-/// A cell has a number where the component is determined on the stretch that contains the time; a
-/// row on a cut belongs to the stretch that begins there. A fragile column says so, and sums
+/// A cell has a number if the component is determined on the interval that contains the time; a row
+/// on a boundary belongs to the interval that starts there. A fragile column is marked, and sums
 /// follow.
 #[test]
 fn cells_are_empty_where_nothing_is_determined() {
@@ -136,7 +136,8 @@ fn cells_are_empty_where_nothing_is_determined() {
                     1.0,3.0,0.5,-3.0,8.0,\n\
                     2.0,3.0,0.5,-3.0,8.0,17.0\n";
     assert_eq!(text(determined), expected);
-    // The table of a choice has its own numbers where nothing is determined, and nowhere else.
+    // In the table of a choice, the cells that are not determined have the numbers of this choice;
+    // all other cells are unchanged.
     let mut table =
         ReactionTable::new("choice.csv", Vec::new(), &carrier, columns.clone()).expect("writes");
     let row = ChosenValues::new(

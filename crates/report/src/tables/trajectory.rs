@@ -7,15 +7,15 @@ use model::{Marker, Mechanism, Scratch, System};
 
 use super::{Table, TableError};
 
-/// A column of a trajectory or of reactions: what it is of, and which number of it. As text
-/// `<owner>.<number>`, or the owner alone.
+/// A column of a trajectory or of reactions: its owner, and the name of the number. As text it is
+/// `<owner>.<number>`, or only the owner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Name of the body, marker, measure, drive or joint.
     pub owner: String,
     /// `body`, `marker`, `measure`, `law` or `reaction`.
     pub kind: &'static str,
-    /// The number, as `x` or `Fx`; empty for a measure, which is one number.
+    /// Name of the number, such as `x` or `Fx`; empty for a measure, which is one number.
     pub number: &'static str,
 }
 
@@ -28,16 +28,17 @@ impl fmt::Display for Column {
     }
 }
 
-/// The numbers of a trajectory at one time, of a mechanism: for each body `<body>.x, .y, .angle,
-/// .vx, .vy, .omega` of the origin of its frame (m, rad, m/s, rad/s), in space `.x, .y, .z, .qw,
-/// .qx, .qy, .qz, .vx, .vy, .vz, .wx, .wy, .wz` (ground axes; the quaternion changes continuously,
-/// from one with w ≥ 0); then for each marker that can move its place and velocity, in the plane
-/// with `.angle` and `.omega` as a body if it has an angle; then each measure; then for each drive
-/// by a law `<drive>.force` (N) or `<drive>.torque` (N·m), on the second body of its joint.
+/// The numbers of a trajectory of a mechanism at one time. For each body:
+/// `<body>.x, .y, .angle, .vx, .vy, .omega` of the origin of its frame (m, rad, m/s, rad/s), in
+/// space `.x, .y, .z, .qw, .qx, .qy, .qz, .vx, .vy, .vz, .wx, .wy, .wz` (ground axes; the
+/// quaternion changes continuously, starting with w ≥ 0). Then, for each marker that can move, its
+/// position and velocity; in the plane also `.angle` and `.omega`, like a body, if the marker has
+/// an angle. Then each measure. Then, for each drive with a force law, `<drive>.force` (N) or
+/// `<drive>.torque` (N·m) on the second body of its joint.
 pub struct Trajectory<'m> {
     mechanism: &'m Mechanism,
     columns: Vec<Column>,
-    /// To evaluate drives by laws, if there are any.
+    /// Work memory for the evaluation of drives with force laws, if there are any.
     s: Option<Scratch>,
 }
 
@@ -73,16 +74,16 @@ impl<'m> Trajectory<'m> {
         }
     }
 
-    /// Its columns.
+    /// Columns of the trajectory.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
 
-    /// Adds its numbers for the state (q, v) at time t to `values`.
+    /// Adds the numbers for the state (q, v) at time t to `values`.
     ///
     /// # Panics
-    /// If q and v are not those of the mechanism.
+    /// Panics if q and v belong to another mechanism.
     pub fn extend(&mut self, values: &mut Vec<f64>, t: f64, q: &[f64], v: &[f64]) {
         for body in 0..self.mechanism.bodies().len() {
             values.extend(self.mechanism.frames().body(body, q, v).numbers());
@@ -110,7 +111,7 @@ impl<'m> Trajectory<'m> {
     }
 }
 
-/// `t`, then the columns of a [`Trajectory`].
+/// `t`, followed by the columns of a [`Trajectory`].
 pub struct TrajectoryTable<'m, W: Write> {
     table: Table<W>,
     trajectory: Trajectory<'m>,
@@ -160,12 +161,13 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
     }
 }
 
-/// Whether a marker has columns: one of the ground stands still.
+/// Whether a marker has columns: a marker of the ground does not move.
 fn is_written(marker: &Marker) -> bool {
     marker.body.moving().is_some()
 }
 
-/// Whether a marker has this one of [`model::SpaceKind::columns`]; without an angle it is a point.
+/// Whether a marker has this column of [`model::SpaceKind::columns`]; a marker without an angle is
+/// a point.
 fn has_column(marker: &Marker, column: &str) -> bool {
     marker.angle.is_some() || matches!(column, "x" | "y" | "z" | "vx" | "vy" | "vz")
 }

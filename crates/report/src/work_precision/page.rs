@@ -1,5 +1,5 @@
-//! `report.html` of a comparison: one file that opens offline, for readers who do not know the
-//! program.
+//! `report.html` of a comparison: one file that can be opened offline, for readers who do not know
+//! the program.
 
 use super::{
     Place, ReferenceDocument, WorkPrecisionDocument, WorkPrecisionRow, WorkPrecisionScene,
@@ -7,22 +7,24 @@ use super::{
 use crate::page::{add, close, duration, list, open, safe, short};
 
 /// Explanation of the numbers, once for all scenes.
-const EXPLANATION: &str = "<p>Each run is compared with values that it did not make itself. <em>Errors</em> are the largest over all \
-components and reference times; lengths are measured in the size of the mechanism, and the error of each kind (position, velocity, \
-acceleration, reaction) is relative to the largest value of the kind. Reactions are compared only where they are unique: other \
-ones belong to the elimination, not to the mechanism. <em>Evaluations</em> are solved accelerations, rejected steps and starts \
-included; each of them solves the equations once, and <em>factorisations</em> are those of the iteration matrices of implicit methods. \
-<em>Seconds</em> are the shortest of at least three runs after one to warm up, without output; runs are repeated until \
-they have taken 20 ms. In the figure the error is the larger one of position and velocity, a point is a tolerance, and down and to the left \
-is better. Below the dashed line the reference itself is not known better. Runs that failed, were refused or given up are rows of the tables with \
-their reason.</p>\n";
+const EXPLANATION: &str = "<p>Each run is compared with reference values that do not come from the same run. <em>Errors</em> are the largest over all \
+components and reference times. Lengths are divided by the size of the mechanism. The error of each kind (position, velocity, \
+acceleration, reaction) is relative to the largest value of that kind. Only unique reactions are compared: the values of other reactions \
+depend on the chosen independent rows, not only on the mechanism. <em>Evaluations</em> count the computations of accelerations, including \
+rejected steps and starts. Each evaluation solves the equations of motion once. <em>Factorisations</em> count the factorised iteration \
+matrices of implicit methods. <em>Seconds</em> are the shortest run time of at least three runs without output, after one warm-up run. Runs \
+are repeated until their total time is at least 20 ms. In the figure, the error is the larger of the errors of position and velocity. Each point \
+belongs to one tolerance; points further down and to the left are better. Errors below the dashed line are smaller than the uncertainty of \
+the reference. The tables also list failed, rejected and abandoned runs with their reasons.</p>\n";
 
 /// The page of a comparison; `figure` is the SVG of [`crate::figures::work_precision()`].
 #[must_use]
 pub fn work_precision_page(document: &WorkPrecisionDocument, figure: &str) -> String {
     let mut page = open("Error against run time");
     if document.partial {
-        page.push_str("<p><strong>Interrupted: not all runs were made.</strong></p>\n");
+        page.push_str(
+            "<p><strong>The comparison was interrupted. Some runs are missing.</strong></p>\n",
+        );
     }
     list(&mut page, &document.summary);
     page.push_str(EXPLANATION);
@@ -47,7 +49,7 @@ fn section(page: &mut String, scene: &WorkPrecisionScene) {
 fn reference(page: &mut String, reference: &ReferenceDocument) {
     let [position, velocity, acceleration, reaction] = reference.limits.map(short);
     let words = format_args!(
-        "<p class=\"grey\">Reference: {} Known to {position} (position), {velocity} (velocity), {acceleration} (acceleration), {reaction} \
+        "<p class=\"grey\">Reference: {} Accuracy: {position} (position), {velocity} (velocity), {acceleration} (acceleration), {reaction} \
          (unique reactions). {}</p>\n",
         safe(&reference.source),
         safe(&reference.agreement)
@@ -55,7 +57,7 @@ fn reference(page: &mut String, reference: &ReferenceDocument) {
     add(page, words);
 }
 
-/// Time and evaluations of each curve at each error; the fastest is marked.
+/// Time and evaluations of each curve at each error; the fastest curve is marked.
 fn ranking(page: &mut String, scene: &WorkPrecisionScene) {
     let mut curves = Vec::new();
     for place in scene.ranking.iter().flat_map(|line| &line.places) {
@@ -66,7 +68,7 @@ fn ranking(page: &mut String, scene: &WorkPrecisionScene) {
     if curves.is_empty() {
         return;
     }
-    page.push_str("<div class=\"wide\"><table>\n<tr><th class=\"name\">time, evaluations for an error of</th>");
+    page.push_str("<div class=\"wide\"><table>\n<tr><th class=\"name\">run time and evaluations for an error of</th>");
     for line in &scene.ranking {
         add(page, format_args!("<th>{:.0e}</th>", line.error));
     }

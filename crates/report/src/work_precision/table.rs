@@ -1,11 +1,11 @@
-//! `work_precision.csv`, row by row as the runs end.
+//! `work_precision.csv`, written row by row when a run ends.
 
 use std::io::Write;
 
 use super::WorkPrecisionRow;
 use crate::tables::{Table, TableError};
 
-/// The columns; more may be added after `status`.
+/// The columns; further columns may be added after `status`.
 const HEADER: [&str; 21] = [
     "scene",
     "formulation",
@@ -31,7 +31,7 @@ const HEADER: [&str; 21] = [
 ];
 
 /// One line for each run. Each line is passed to the writer immediately, so an interruption loses
-/// nothing.
+/// no finished run.
 pub struct WorkPrecisionTable<W: Write> {
     table: Table<W>,
 }

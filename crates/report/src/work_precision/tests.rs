@@ -1,4 +1,4 @@
-//! Table, figure and page of a small comparison.
+//! Tests of table, figure and page of a small comparison.
 
 use super::*;
 use crate::figures;
@@ -146,7 +146,7 @@ fn the_figure_has_a_point_for_every_finished_run_and_none_for_others() {
     let document = document();
     let svg = figures::work_precision(&document.scenes);
     // Three runs of dop853: two are drawn in all three panels, the one with another formulation in
-    // the last one; and four samples in the legends, radau5 included.
+    // the last one. The legends have four samples, including radau5.
     assert_eq!(svg.matches("<polygon").count(), 2 * 3 + 1 + 4);
     assert!(svg.contains("1 of 4 runs did not reach the end"));
     assert!(svg.contains("dop853: formulations and stabilisations"));

@@ -1,4 +1,4 @@
-//! The documentation at the head of a module.
+//! The documentation at the start of a module.
 
 use dynamics::code::LEAVE;
 use model::{SpaceKind, System};
@@ -7,7 +7,7 @@ use super::one_line;
 use crate::functions::{Functions, NamedView};
 use crate::subject::Subject;
 
-/// What coordinates and velocities in space are.
+/// Description of coordinates and velocities in space.
 const IN_SPACE: [&str; 3] = [
     "Coordinates of a body: its mass centre, then the quaternion (w, x, y, z) of its principal axes, of any length; velocities: that of the",
     "mass centre along the axes of the ground, then the angular velocity along the principal axes. `dq` is a displacement along velocities: a",

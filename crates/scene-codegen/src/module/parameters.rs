@@ -1,5 +1,6 @@
-//! The numbers of a scene in its module: what its functions take, and where a run finds it; and how
-//! the velocities of bodies in space are turned, which may depend on them.
+//! The numbers of a scene in its module: the arguments of its functions, and their indices in the
+//! mechanism of a run. Also the principal axes of bodies in space, which may depend on these
+//! numbers.
 
 use joints::RecordedNumber;
 use model::{BodyRecord, Principal, SpaceKind};
@@ -10,7 +11,7 @@ use crate::functions::Functions;
 use crate::parameters::Inputs;
 use crate::subject::Subject;
 
-/// The numbers of the scene that functions take.
+/// The numbers of the scene that functions take as arguments.
 pub(super) fn parameters(inputs: &Inputs) -> TokenStream {
     let n = inputs.list.len();
     if n == 0 {
@@ -32,7 +33,7 @@ pub(super) fn parameters(inputs: &Inputs) -> TokenStream {
     }
 }
 
-/// How the velocities of bodies in space are turned against their frames.
+/// The rotation between the velocity axes and the frames of bodies in space.
 pub(super) fn principal_axes(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
     let mechanism = &subject.prepared.mechanism;
     let (bodies, space) = (mechanism.bodies(), mechanism.space());
@@ -80,7 +81,7 @@ pub(super) fn principal_axes(subject: &Subject<'_>, functions: &Functions) -> To
     }
 }
 
-/// Where a run finds the numbers in its mechanism.
+/// Indices of the numbers in the mechanism of a run.
 pub(super) fn inputs_of_code(inputs: &Inputs, path: &syn::Path) -> TokenStream {
     let shape = inputs.shape;
     let list = inputs.list.iter().enumerate().map(|(k, p)| {

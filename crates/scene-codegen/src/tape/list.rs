@@ -1,10 +1,10 @@
 //! Straight-line code as a list of instructions on storage places, executed for several states at
-//! once: what is read of an instruction serves all of them. A state gets the same bits in whatever
-//! company it is.
+//! once, so that each instruction is read only once for all of them. The results for a state have
+//! the same bits, whatever the other states are.
 //!
-//! A product that is used once, by a sum or a difference, is one instruction with it; both round as
-//! they would apart. Places are used again once their value is not needed any more, so that all of
-//! them stay in the nearest cache.
+//! A product that is used once, by a sum or a difference, is combined with it to one instruction;
+//! product and sum are rounded separately. A storage place is reused when its value is no longer
+//! needed, so that all values stay in the nearest cache.
 
 use std::array::from_fn;
 use std::cmp::Reverse;
@@ -15,15 +15,15 @@ use symbolic::{Binary, Function, Number as _, Op, Program, Value};
 
 use crate::equations::Source;
 
-/// Index of a storage place. No index is too large for [`PLACES`], so none is checked.
+/// Index of a storage place. No index can exceed [`PLACES`], so no index is checked.
 pub(super) type Place = u16;
 
 /// Number of storage places, of which a list uses the first ones.
 pub(super) const PLACES: usize = 1 << 16;
 
-/// Operands and result of a product with a sum, rounded after the product and after the sum: each
-/// sum, difference and product of a program. A sum has the factor b = 1, a product c = −0, which
-/// change no bit.
+/// Operands and result of a product with a sum, rounded after the product and after the sum. Each
+/// sum, difference and product of a program has this form. A sum has the factor b = 1, a product
+/// has c = −0; neither changes a bit.
 #[derive(Clone, Copy, Debug)]
 struct Sum {
     a: Place,
@@ -43,7 +43,7 @@ enum Signs {
     Reversed,
 }
 
-/// What is done in sequence.
+/// Instructions that are executed in sequence.
 #[derive(Clone, Debug)]
 enum Do {
     Sums(Signs, Vec<Sum>),
@@ -54,32 +54,35 @@ enum Do {
 /// One function as a list.
 #[derive(Default)]
 pub(super) struct List {
-    /// Coordinates, entries of what is given with them, and numbers of a tape, each with its place.
+    /// Coordinates, entries of the second argument, and numbers of an operation list, each with its
+    /// storage place.
     pub(super) coordinates: Vec<(usize, Place)>,
     pub(super) with: Vec<(usize, Place)>,
     pub(super) numbers: Vec<(usize, Place)>,
-    /// Functions of time with derivatives and the places of these.
+    /// Functions of time with derivatives and their storage places.
     pub(super) functions: Vec<(usize, Vec<(usize, Place)>)>,
-    /// Coordinates with the places of their cosines and sines.
+    /// Coordinates with the storage places of their cosines and sines.
     pub(super) angles: Vec<(usize, [Option<Place>; 2])>,
-    /// Bodies in space with entries of their rotations, by rows, and the places of these.
+    /// Bodies in space with entries of their rotations, by rows, and the storage places of these
+    /// entries.
     pub(super) rotations: Vec<(usize, Vec<(usize, Place)>)>,
     constants: Vec<(f64, Place)>,
     steps: Vec<Do>,
-    /// Places of the results.
+    /// Storage places of the results.
     pub(super) out: Vec<Place>,
-    /// Places of the relative sizes of divisors.
+    /// Storage places of the relative sizes of divisors.
     pub(super) shares: Vec<Place>,
 }
 
 impl List {
-    /// The list of a program whose first `n_out` outputs are results, the others relative sizes of
-    /// divisors; `sources` tells where its inputs come from. `None` if it needs too many places.
+    /// The list of a program whose first `n_out` outputs are results and whose other outputs are
+    /// relative sizes of divisors; `sources` contains the sources of its inputs. `None` if the list
+    /// needs too many storage places.
     pub(super) fn new(program: &Program, sources: &[Source], n_out: usize) -> Option<Self> {
         let mut made = Maker::new(program)?;
         let mut list = Self::default();
-        // Inputs and constants are there before the first step, so they have places that no value
-        // has had before.
+        // Inputs and constants exist before the first step, so each of them needs an unused storage
+        // place.
         for (k, op) in program.ops().iter().enumerate() {
             match op {
                 Op::Input(s) => {
@@ -120,7 +123,7 @@ impl List {
         }
     }
 
-    /// Executes all steps on L states, whose inputs are in their places.
+    /// Executes all steps on L states, whose inputs are in their storage places.
     #[inline(always)]
     pub(super) fn execute<const L: usize>(&self, places: &mut [[f64; L]; PLACES]) {
         for &(x, to) in &self.constants {
@@ -143,7 +146,7 @@ impl List {
     }
 }
 
-/// What is listed at a key, a new entry if there is none.
+/// The entry of a key in the list; a new entry if there is none.
 fn of<T: Default>(list: &mut Vec<(usize, T)>, key: usize) -> &mut T {
     let known = list.iter().position(|(at, _)| *at == key);
     let known = known.unwrap_or_else(|| {
@@ -166,22 +169,22 @@ fn each<const L: usize>(
     }
 }
 
-/// The place of the constant 1.
+/// The storage place of the constant 1.
 const ONE: Place = 0;
-/// The place of the constant −0.
+/// The storage place of the constant −0.
 const NOTHING: Place = 1;
 
-/// What of a program has been made into a list so far.
+/// State of the conversion of a program to a list.
 struct Maker<'p> {
     program: &'p Program,
-    /// The place of each value that has one.
+    /// The storage place of each value that has one.
     places: Vec<Option<Place>>,
-    /// How often each value is still read: by the operations that follow and as an output.
+    /// Number of remaining uses of each value: by the following operations and as an output.
     reads: Vec<usize>,
-    /// Products that are part of the sum that reads them.
+    /// Products that are combined with the sum that uses them.
     joined: Vec<bool>,
     free: Vec<Place>,
-    /// Number of places in use so far.
+    /// Number of storage places used so far.
     count: usize,
 }
 
@@ -208,7 +211,7 @@ impl<'p> Maker<'p> {
         })
     }
 
-    /// Gives a value a place that no other value needs; `None` if there is none left.
+    /// Assigns a free storage place to a value; `None` if there is no free one.
     fn take(&mut self, k: usize) -> Option<Place> {
         let place = match self.free.pop() {
             Some(place) => place,
@@ -225,7 +228,7 @@ impl<'p> Maker<'p> {
         self.places[v.index()].expect("operands precede their uses")
     }
 
-    /// Reads a value; its place is free after its last use.
+    /// Reads a value; its storage place is free after the last use.
     fn read(&mut self, v: Value) -> Place {
         let place = self.of(v);
         self.reads[v.index()] -= 1;
@@ -236,7 +239,7 @@ impl<'p> Maker<'p> {
         place
     }
 
-    /// Adds the step of an operation. `None` if there are no places left.
+    /// Adds the step of an operation. `None` if there is no free storage place.
     fn step(&mut self, k: usize, steps: &mut Vec<Do>) -> Option<()> {
         let signs = signs(self.program, &self.joined, k);
         let (a, b, c) = match self.program.ops()[k] {
@@ -287,12 +290,13 @@ fn signs(program: &Program, joined: &[bool], k: usize) -> Signs {
     }
 }
 
-/// Number of instructions in which a processor has the result of one: until then others come first.
+/// Number of instructions after which a processor has the result of an instruction; other
+/// instructions are executed in between.
 const LATENCY: usize = 5;
 
-/// The operations in an order in which each has to wait for another one as seldom as possible, and
-/// those of one kind follow each other: of those that need not wait the one with the longest chain
-/// behind it is first. Inputs, constants and joined products are left out.
+/// The operations in an order in which each waits for another as rarely as possible, and in which
+/// operations of one kind are adjacent. Among the operations that need not wait, the one with the
+/// longest dependent chain is first. Inputs, constants and combined products are omitted.
 fn order(program: &Program, joined: &[bool]) -> Vec<usize> {
     let ops = program.ops();
     let is_step = |k: usize| !joined[k] && !matches!(ops[k], Op::Input(_) | Op::Number(_));
@@ -324,7 +328,7 @@ fn order(program: &Program, joined: &[bool]) -> Vec<usize> {
     };
     let steps: Vec<usize> = (0..ops.len()).filter(|k| is_step(*k)).collect();
     let mut ready: [BinaryHeap<(usize, Reverse<usize>)>; 5] = Default::default();
-    // Those whose operands are on the way, with the time when these are there.
+    // Operations whose operands are being computed, with the time when these are available.
     let mut waiting: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
     let mut from = vec![0_usize; ops.len()];
     waiting.extend(
@@ -377,8 +381,8 @@ mod tests {
 
     use super::*;
 
-    /// A program of 400 operations of all kinds on 12 inputs, by the digits of a generator: sums
-    /// of products, products that are used twice, constants, roots, results that are inputs.
+    /// A program of 400 operations of all kinds on 12 inputs, from pseudo-random numbers: sums of
+    /// products, products that are used twice, constants, roots, results that are inputs.
     fn program(seed: u64) -> (Program, Vec<Source>) {
         let mut state = seed;
         let mut draw = |n: usize| {
@@ -395,7 +399,7 @@ mod tests {
         }
         let sources = (0..12).map(|k| Source::Mechanism(Input::Coordinate(k)));
         for _ in 0..400 {
-            // Mostly of recent values, so that chains are long.
+            // Mostly recent values, so that chains are long.
             let mut of = |values: &[Value]| {
                 let last = values.len().min(20);
                 values[values.len() - 1 - draw(last)]
@@ -420,7 +424,7 @@ mod tests {
                     p.neg(product)
                 }
             };
-            // Of one size, so that none overflows.
+            // Values of similar size, so that no value overflows.
             let (one, square) = (p.number(1.0), p.mul(made, made));
             let size = p.add(one, square);
             values.push(p.div(made, size));
@@ -429,7 +433,8 @@ mod tests {
         (p.with_outputs(&outputs), sources.collect())
     }
 
-    /// The references are the operations of the program one by one. Each state has other numbers.
+    /// The references are the operations of the program, one at a time. Each state has other
+    /// numbers.
     #[test]
     fn lists_are_their_programs_bit_for_bit() {
         const L: usize = 8;
@@ -460,7 +465,8 @@ mod tests {
         }
     }
 
-    /// Each operation follows its operands, none is left out, and no place is needed that is taken.
+    /// Each operation follows its operands, no operation is missing, and no storage place is reused
+    /// while its value is needed.
     #[test]
     fn places_are_used_again() {
         let (program, sources) = program(7);

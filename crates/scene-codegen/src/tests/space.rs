@@ -1,6 +1,5 @@
 //! Code for scenes in space: rotations by quaternions, velocities along principal axes, gyroscopic
-//! torques, forces that see a body in the axes of its frame, drives of angles by their cosine and
-//! sine.
+//! torques, forces in the axes of a body frame, drives of angles by their cosine and sine.
 
 #[path = "../../tests/space/mod.rs"]
 mod scenes;
@@ -11,8 +10,8 @@ use scenes::scenes;
 use super::{SAME, compare, corrections_are_exact, run, states, study, subject};
 use crate::functions::{Functions, NamedView};
 
-/// States of each scene, and how many of them at least the code has to be healthy at: those of a
-/// chain that swings freely are often beyond its pivots.
+/// Number of states of each scene, and the smallest number of them at which the code must be
+/// healthy: many states of a chain that swings freely are beyond the range of its pivots.
 const STATES: usize = 1000;
 const HEALTHY: usize = 800;
 
@@ -32,7 +31,7 @@ fn corrections_in_space_are_those_of_a_saddle_solve() {
     }
 }
 
-/// q̇ = T(q)·v, as the system has it, for quaternions of any length.
+/// q̇ = T(q)·v, as in the system, for quaternions of any length.
 #[test]
 fn rates_of_coordinates_are_those_of_the_mechanism() {
     for (name, text) in scenes() {
@@ -83,9 +82,9 @@ fn accelerations_do_not_depend_on_lengths_of_quaternions() {
     }
 }
 
-/// Shafts that turn by more than half a turn, and a cart that turns by more than a right angle: no
-/// entry of C along fixed axes stays away from 0, but along those of the bodies that carry others,
-/// or of the chassis.
+/// Shafts that rotate by more than half a turn, and a cart that rotates by more than a right angle.
+/// Along fixed axes, every entry of C becomes zero at some state. This is not the case along the
+/// axes of the supporting bodies, or of the chassis.
 #[test]
 fn what_turns_keeps_its_pivots() {
     let view = |name: &str| {

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-/// Names and texts of the spatial scenes in `examples`, and of those beside this file.
+/// Returns names and texts of the spatial scenes in `examples`, and of those in the folder of this
+/// file.
 pub(crate) fn scenes() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut scenes = Vec::new();

@@ -1,5 +1,5 @@
-//! The line of action of two wheels that turn about axes of one carrier, from their pitch point and
-//! a pressure angle.
+//! The line of action of two wheels that rotate about axes of one carrier, from their pitch point
+//! and a pressure angle.
 
 use joints::space3::{Direction, cross, dot};
 
@@ -16,7 +16,7 @@ impl Axis {
     /// Whether a force along a line through a point has a moment about the axis.
     pub(super) fn has_lever(&self, line: [f64; 3], at: [f64; 3]) -> bool {
         let line = Direction::new(line).map(Direction::xyz);
-        // What has no direction is refused where the definition is built.
+        // A line of length zero is rejected when the definition is built.
         line.is_none_or(|line| {
             let moment = cross(minus(at, self.point), line);
             dot(moment, self.along).abs() > MEETING * length(moment)
@@ -24,21 +24,21 @@ impl Axis {
     }
 }
 
-/// N, a unit normal of the plane of both axes, and g, the direction of the line along which the
-/// wheels roll on each other.
+/// N, a unit normal of the plane of both axes, and g, the direction of the line of contact along
+/// which the wheels roll on each other.
 struct Roll {
     normal: [f64; 3],
     along: [f64; 3],
 }
 
-/// `cos α·N + sin α·(N × g)`, α being the pressure angle.
+/// The line of action is `cos α·N + sin α·(N × g)`; α is the pressure angle.
 ///
-/// Axes a₁, a₂ that are parallel: g = a₁, and N = a₁ × c with c along the centre line, from the
-/// first axis to the second, so that `N × g = c`. Axes that meet in an apex: g from the apex
-/// through the pitch point, N along a₁ × a₂.
+/// For parallel axes a₁, a₂: g = a₁, and N = a₁ × c with c along the centre line, from the first
+/// axis to the second, so that `N × g = c`. For axes that meet in an apex: g points from the apex
+/// through the pitch point, and N is along a₁ × a₂.
 ///
 /// # Errors
-/// Why there is no such line.
+/// Reason why no such line exists.
 pub(super) fn of_action(
     axes: [Axis; 2],
     pitch: [f64; 3],

@@ -1,5 +1,5 @@
-//! `orientation`: a rotation from the axes of a body to those of the ground, written in one of four
-//! ways.
+//! `orientation`: a rotation from the axes of a body to the axes of the ground, written in one of
+//! four ways.
 
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
@@ -41,8 +41,8 @@ pub(crate) const MATRIX: Key = Key::optional("matrix", MATRIX_EXPECTED, Takes::T
 
 const MATRIX_EXPECTED: &str = "a rotation matrix of three rows";
 
-/// Share by which a quaternion or a matrix may differ from a rotation without a warning: 1e-2 is
-/// what two digits of an entry allow.
+/// Share by which a quaternion or a matrix may differ from a rotation without a warning. Entries
+/// with two digits are accurate to 1e-2.
 const ROUGH: f64 = 1e-2;
 
 /// Reads an orientation as a quaternion (w, x, y, z) of any length.
@@ -92,7 +92,7 @@ fn quaternion(field: &Field) -> Option<[f64; 4]> {
     if length == 0.0 {
         field.error(
             Mistake::NoDirection,
-            format!(": `{}` is zero, which is no orientation", field.key),
+            format!(": `{}` is zero, so it is not an orientation", field.key),
             "no orientation",
         );
         return None;
@@ -128,7 +128,7 @@ fn about(table: &Table, axis: &Field, angle: Option<Field>) -> Option<[f64; 4]> 
     Some([cos, x, y, z])
 }
 
-/// The rotation next to a matrix: its orthogonal factor.
+/// The rotation nearest to a matrix: its orthogonal factor.
 fn rotation(field: &Field) -> Option<[f64; 4]> {
     let rows = field.matrix(MATRIX_EXPECTED, Dimension::NONE)?;
     let m = Matrix3::from_rows(&rows.map(|row| Vector3::from(row).transpose()));
@@ -139,7 +139,7 @@ fn rotation(field: &Field) -> Option<[f64; 4]> {
     let [largest, least] = [svd.singular_values.max(), svd.singular_values.min()];
     let polar = u * v;
     let fault = if least <= ROUGH * largest {
-        "is singular, which is no orientation"
+        "is singular, so it is not an orientation"
     } else if polar.determinant() < 0.0 {
         "is a reflection: no rotation turns a right hand into a left one"
     } else {
@@ -156,7 +156,7 @@ fn rotation(field: &Field) -> Option<[f64; 4]> {
     None
 }
 
-/// Warns of numbers that are not those of a rotation; the nearest one is taken.
+/// Warns of numbers that do not form an exact rotation; the nearest rotation is used.
 fn warn_of_rough(field: &Field, off: f64, what: &str) {
     if off > ROUGH {
         field.findings.warning(

@@ -34,7 +34,7 @@ const ANGLE: Key = number("angle", "a number", Interval::Any)
     .doc("Angle of the body's frame at the start")
     .or(|| 0.0.into());
 const TOLERANCE: Key = tolerance::length(
-    "What points and directions in the body's frame are known to; that of the scene where it is not given",
+    "Tolerance of points and directions in the body's frame [default: tolerance of the scene]",
 );
 const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
     .unit(Dimension::ANGULAR_VELOCITY)

@@ -37,7 +37,7 @@ const ANGULAR_VELOCITY: Key = Key::triple("angular_velocity")
     .unit(Dimension::ANGULAR_VELOCITY)
     .doc("Angular velocity [wx, wy, wz] at the start, ground axes; it follows in the same way where it is left out");
 const TOLERANCE: Key = tolerance::length(
-    "What points and directions in the body's frame are known to; that of the scene where it is not given",
+    "Tolerance of points and directions in the body's frame [default: tolerance of the scene]",
 );
 const START_KEYS: [Key; 2] = [
     Key::triple("position")
@@ -102,7 +102,7 @@ fn tensor(field: &Field) -> Option<[[f64; 3]; 3]> {
     if items.iter().any(|row| row.value.get_ref().is_array()) {
         return field.matrix(INERTIA.expected, INERTIA.unit);
     }
-    // Not a vector: another number of moments belongs to no space.
+    // The value is not read as a vector, because another number of moments belongs to no space.
     let moments = field.numbers(3, INERTIA.expected, |_| INERTIA.unit)?;
     let [x, y, z]: [f64; 3] = moments.try_into().ok()?;
     for (moment, item) in [x, y, z].iter().zip(&items) {

@@ -1,15 +1,15 @@
-//! The keys of directions beside the parameters of a definition.
+//! The keys of directions that are not parameters of a definition.
 
 use joints::spec::{Parameter, Shape, Spec};
 
-/// The axes in which directions are written.
+/// The key for the axes in which directions are written.
 pub(crate) const FRAME: &str = "frame";
-/// A direction across an axis.
+/// The key for a direction across an axis.
 pub(crate) const CROSS: &str = "cross";
-/// The axis in the frames of both bodies.
+/// The key for the axis in the frames of both bodies.
 pub(crate) const AXES: &str = "axes";
 
-/// Values of `frame`; the first is taken where it is not given.
+/// Values of `frame`; the first one is the default.
 pub(crate) const FRAMES: [&str; 2] = ["body", "global"];
 
 /// Whether a definition has a parameter of this kind.
@@ -17,7 +17,8 @@ fn has(spec: &Spec, is: impl Fn(&Parameter) -> bool) -> bool {
     spec.parameters.iter().any(is)
 }
 
-/// The keys of a definition beside its parameters, in a space that carries directions.
+/// The keys of directions that are not parameters of a definition, in a space that converts
+/// directions between bodies.
 pub(crate) fn keys(spec: &Spec) -> impl Iterator<Item = &'static str> {
     let is_written = |p: &Parameter| {
         matches!(
@@ -32,7 +33,7 @@ pub(crate) fn keys(spec: &Spec) -> impl Iterator<Item = &'static str> {
         matches!(p.shape, Shape::Axes { like: Some(_), .. })
     });
     let takes_cross = has_axes && !has(spec, |p| p.name == CROSS);
-    // The axes of wheels are those of their bearings.
+    // The bearings define the axes of wheels.
     let keys = [
         (FRAME, has(spec, is_written)),
         (CROSS, takes_cross && !spec.bearings),

@@ -1,8 +1,8 @@
-//! Numbers with dimensions, in some 32 digits: sums, products and functions of what was written.
+//! Numbers with dimensions, to some 32 digits: sums, products and functions of the written numbers.
 //!
-//! Sums, products, quotients, roots and whole powers are as good as exact, so that `0.1 + 0.2` and
-//! `300 mm` are the doubles next to 0.3. Other functions are accurate to a double, and how far they
-//! may be off is carried along to first order.
+//! Sums, products, quotients, roots and integer powers are practically exact, so that `0.1 + 0.2`
+//! and `300 mm` are the doubles next to 0.3. Other functions are accurate to a double, and their
+//! errors are propagated to first order.
 
 use std::f64::consts::PI;
 
@@ -12,16 +12,16 @@ use linalg::Dd;
 use super::problem::Problem;
 use crate::dimension::Dimension;
 
-/// A number of an expression.
+/// A number in an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Quantity {
-    /// In kg, N, m, s and rad, or as it is written if it has no dimension of its own.
+    /// The value in kg, N, m, s and rad, or as written if it has no dimension of its own.
     pub(crate) value: Dd,
-    /// How far the value may be off.
+    /// Upper bound on the error of the value.
     pub(crate) error: f64,
-    /// `None` for a bare number: it takes the dimension of its place.
+    /// `None` for a bare number: it gets the dimension of the key that it is given for.
     pub(crate) dimension: Option<Dimension>,
-    /// Whether π is in it: then it is meant in radians if it is an angle.
+    /// Whether the value contains π: then it is in radians if it is an angle.
     has_pi: bool,
 }
 
@@ -39,7 +39,7 @@ impl Bases {
         angle: Dd::ONE,
     };
 
-    /// A bare number where this dimension is asked for; plain numbers stay as they are.
+    /// The value of a bare number for a key of this dimension; dimensionless numbers do not change.
     fn scaled(self, bare: Quantity, dimension: Dimension) -> Result<Quantity, Problem> {
         let [length, angle] = dimension.chosen();
         if bare.has_pi && angle != 0 && self.angle != Dd::ONE {
@@ -64,7 +64,7 @@ fn pi() -> Dd {
     Dd::from_sum(PI, 1.224_646_799_147_353_2e-16)
 }
 
-/// Largest whole power that is a product; others are powers of doubles.
+/// Largest integer power that is computed as a product; other powers are computed in doubles.
 const MOST_FACTORS: i32 = 64;
 
 impl Quantity {
@@ -77,7 +77,7 @@ impl Quantity {
         }
     }
 
-    /// π, a bare number.
+    /// π, as a bare number.
     pub(crate) fn pi() -> Self {
         Self {
             has_pi: true,
@@ -85,7 +85,7 @@ impl Quantity {
         }
     }
 
-    /// One of a unit, `times/over`; half a turn is π in both of its parts.
+    /// The value 1 in a unit, `times/over`; half a turn is π in both of its parts.
     pub(crate) fn unit(times: f64, over: f64, dimension: Dimension) -> Self {
         let times = if times == PI { pi() } else { times.into() };
         Self {
@@ -94,7 +94,7 @@ impl Quantity {
         }
     }
 
-    /// The value at a place that takes `expected`.
+    /// The value for a key that requires `expected`.
     pub(crate) fn at(self, expected: Dimension, bases: Bases) -> Result<Self, Problem> {
         match self.dimension {
             None => bases.scaled(self, expected)?.checked(),
@@ -103,7 +103,7 @@ impl Quantity {
         }
     }
 
-    /// As a double. What is not more than its own error is zero.
+    /// The value as a double. A value that is not larger than its own error is zero.
     pub(crate) fn to_f64(self) -> f64 {
         if self.value.hi().abs() <= self.error {
             0.0
@@ -112,7 +112,7 @@ impl Quantity {
         }
     }
 
-    /// This number of radians.
+    /// This number as an angle in radians.
     pub(crate) fn in_radians(self) -> Self {
         Self {
             dimension: Some(Dimension::ANGLE),
@@ -120,7 +120,7 @@ impl Quantity {
         }
     }
 
-    /// A result of this number and another one.
+    /// The result of an operation of this number and another one.
     fn with(self, other: Self) -> Self {
         Self {
             has_pi: self.has_pi || other.has_pi,
@@ -136,7 +136,7 @@ impl Quantity {
         }
     }
 
-    /// Refuses what no description may have.
+    /// Rejects values that no description may have.
     fn checked(self) -> Result<Self, Problem> {
         if is_usable(self.value.hi()) && self.error.is_finite() {
             Ok(self)
@@ -149,7 +149,8 @@ impl Quantity {
         self.of(-self.value, self.error)
     }
 
-    /// Both in one dimension: a bare number takes that of the other.
+    /// Converts both numbers to one dimension: a bare number gets the dimension of the other
+    /// number.
     fn matched(self, other: Self, bases: Bases) -> Result<[Self; 2], Problem> {
         match (self.dimension, other.dimension) {
             (None, None) => Ok([self, other]),
@@ -230,7 +231,7 @@ impl Quantity {
         self.of(self.value.abs(), self.error)
     }
 
-    /// The smaller of both if `sign` is 1, the larger one if it is −1.
+    /// The smaller number if `sign` is 1, the larger number if it is −1.
     pub(crate) fn least(self, other: Self, sign: f64, bases: Bases) -> Result<Self, Problem> {
         let [a, b] = self.matched(other, bases)?;
         let is_less = ((a.value - b.value).hi() * sign) < 0.0;
@@ -249,7 +250,7 @@ impl Quantity {
             });
         }
         let value = self.value.abs().sqrt();
-        // Near zero the root of the error.
+        // Near zero, the square root of the error.
         let error = (self.error / value.hi().max(f64::MIN_POSITIVE)).min(self.error.sqrt());
         Ok(Self {
             dimension,
@@ -257,7 +258,7 @@ impl Quantity {
         })
     }
 
-    /// `f(x)`, a bare number, with the derivative of f.
+    /// `f(x)`, as a bare number, with the derivative of f.
     pub(crate) fn smooth(
         self,
         name: &'static str,
@@ -303,7 +304,8 @@ impl Quantity {
     }
 }
 
-/// The dimension of a product with the power ±1 of the other factor; bare factors are numbers.
+/// The dimension of a product with the power ±1 of the other factor; bare factors count as
+/// dimensionless.
 fn dimension_of(a: Option<Dimension>, b: Option<Dimension>, power: i8) -> Option<Dimension> {
     let has_one = a.is_some() || b.is_some();
     let [a, b] = [a, b].map(|d| d.unwrap_or(Dimension::NONE));
@@ -321,7 +323,7 @@ fn product(a: Quantity, b: Quantity) -> Quantity {
     }
 }
 
-/// `q^n`, whatever comes out.
+/// `q^n`, without a check of the result.
 fn whole_power(q: Quantity, n: i32) -> Quantity {
     let one = Quantity {
         dimension: q.dimension.map(|_| Dimension::NONE),
@@ -336,8 +338,8 @@ fn whole_power(q: Quantity, n: i32) -> Quantity {
     }
 }
 
-/// The value in two parts, or the plain one near the ends of the range of doubles, where the second
-/// part is none.
+/// The value in two parts, or the plain double near the ends of the range of doubles, where the
+/// second part does not exist.
 fn or_plain(value: Dd, plain: f64) -> Dd {
     if value.hi().is_finite() && value.lo().is_finite() {
         value

@@ -1,9 +1,10 @@
-//! Terms with the variables of a law: their dimension, where it is known, and the operations that
-//! compute them later.
+//! Terms with the variables of a force law: their dimension, if it is known, and the operations
+//! that compute them later.
 //!
-//! A term has its value in kg, N, m, s and rad if its dimension is known. A bare number times a
-//! variable has none (`0.5*rate` may be a torque): such a term is the number that the units of the
-//! scene give, as a bare number is, until a place or a sum tells its dimension.
+//! A term has its value in kg, N, m, s and rad if its dimension is known. The product of a bare
+//! number and a variable has no known dimension (`0.5*rate` may be a torque). Such a term is a
+//! number in the units of the scene, like a bare number, until a key or a sum determines its
+//! dimension.
 
 use model::law::{Join, Law, LawError, Operation, UnaryFunction};
 
@@ -13,7 +14,7 @@ use crate::dimension::Dimension;
 
 #[derive(Clone)]
 pub(super) enum LawTerm {
-    /// Without a variable.
+    /// A value without variables.
     Constant(Quantity),
     Variable(Variable),
 }
@@ -24,7 +25,8 @@ pub(super) struct Variable {
     work: Vec<Operation>,
 }
 
-/// The law that a text states: of a measure of this dimension, with a force or torque of `result`.
+/// The force law in a text: for a joint coordinate of this dimension, with a force or torque of
+/// dimension `result`.
 pub(crate) fn law(
     text: &str,
     measure: Dimension,
@@ -78,7 +80,7 @@ impl LawTerm {
         }
     }
 
-    /// The value where `expected` is asked for.
+    /// The value for a key that requires `expected`.
     fn at(self, expected: Dimension, bases: Bases) -> Result<Variable, Problem> {
         match self {
             Self::Constant(q) => {
@@ -100,7 +102,7 @@ impl LawTerm {
         }
     }
 
-    /// The number that the units of the scene give.
+    /// The number in the units of the scene.
     fn bare(self, bases: Bases) -> Result<Variable, Problem> {
         let v = match self {
             Self::Constant(q) => Variable {
@@ -119,7 +121,7 @@ impl LawTerm {
         })
     }
 
-    /// Both in one dimension, if one of them has any.
+    /// Converts both terms to one dimension, if at least one of them has a dimension.
     fn matched(self, other: Self, bases: Bases) -> Result<[Variable; 2], Problem> {
         match (self.dimension(), other.dimension()) {
             (None, None) => Ok([self.bare(bases)?, other.bare(bases)?]),
@@ -170,7 +172,7 @@ impl LawTerm {
     }
 }
 
-/// Largest whole power that is a product; see `Quantity::power`.
+/// Largest integer power that is computed as a product; see `Quantity::power`.
 const MOST_FACTORS: f64 = 64.0;
 
 fn joined([a, b]: [Variable; 2], join: Join, dimension: Option<Dimension>) -> LawTerm {
@@ -181,7 +183,7 @@ fn joined([a, b]: [Variable; 2], join: Join, dimension: Option<Dimension>) -> La
 }
 
 impl Variable {
-    /// Multiplied or divided by the unit that the scene has for a dimension.
+    /// Multiplies or divides the term by the unit of the scene for a dimension.
     fn scaled(mut self, of: Dimension, bases: Bases, join: Join) -> Result<Self, Problem> {
         let unit = Quantity::bare(linalg::Dd::ONE).at(of, bases)?.to_f64();
         if unit != 1.0 {

@@ -1,4 +1,4 @@
-//! Values against closed forms written down as decimals, and places of faults.
+//! Values compared with closed forms in decimal digits, and positions of faults.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{E, FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, LN_10, PI, SQRT_2};
@@ -6,7 +6,7 @@ use std::f64::consts::{E, FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, LN_10, PI, SQRT_2};
 use super::token::LONGEST;
 use super::*;
 
-/// Parameters by name, in metres and radians or in what else is chosen.
+/// Parameters by name, in metres and radians or in other chosen units.
 struct Names(BTreeMap<&'static str, Option<Quantity>>, Bases);
 
 impl Scope for Names {
@@ -99,7 +99,7 @@ fn exact_values_are_the_doubles_next_to_them() {
     }
 }
 
-/// Closed forms by their decimals (tables of values, 20 digits), to two units in the last place.
+/// Closed forms as decimals (from tables, 20 digits), accurate to two units in the last place.
 #[test]
 fn functions_have_their_known_values() {
     for (text, of, expected) in [
@@ -242,7 +242,7 @@ fn faults_have_their_places() {
             "{text}"
         );
     }
-    // Wrong parameters have been reported where they stand.
+    // Wrong parameters have been reported at their own positions.
     assert_eq!(
         value("2*wrong + cos(wrong)", NONE, &names()),
         Err(String::new())

@@ -1,4 +1,4 @@
-//! The words of an expression: numbers, names, operators and brackets.
+//! The tokens of an expression: numbers, names, operators and brackets.
 
 use std::ops::Range;
 
@@ -6,20 +6,20 @@ use linalg::Dd;
 
 use super::problem::{Fault, Problem};
 
-/// A word.
+/// A token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Token<'s> {
     Number(Dd),
     Name(&'s str),
-    /// One of `+ - * / ^ ( ) ,`.
+    /// One of the characters `+ - * / ^ ( ) ,`.
     Sign(u8),
     End,
 }
 
-/// Longest text (bytes): its words take some forty times as much memory.
+/// Longest text (bytes): its tokens need some forty times as much memory.
 pub(super) const LONGEST: usize = 1 << 14;
 
-/// All words with their places; the end is one of them.
+/// All tokens with their positions; the last one is the end.
 pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault> {
     if text.len() > LONGEST {
         let problem = Problem::Long { most: LONGEST };
@@ -40,7 +40,7 @@ pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault
                 (Token::Number(decimal(&rest[..length])), length)
             }
             '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' => (Token::Sign(rest.as_bytes()[0]), 1),
-            // As units are printed.
+            // Units are printed with this character.
             '·' => (Token::Sign(b'*'), c.len_utf8()),
             '²' | '³' => {
                 found.push((Token::Sign(b'^'), at..at + c.len_utf8()));
@@ -79,8 +79,8 @@ pub(crate) fn is_name(name: &str) -> bool {
     name.starts_with(begins_name) && name.chars().all(in_name)
 }
 
-/// Length of the number that a text begins with; zero if it begins with none. An `e` that no digits
-/// follow belongs to a name.
+/// Length of the number at the start of a text; zero if there is no number. An `e` without
+/// following digits belongs to a name.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
     let digits = |from: usize| {
@@ -109,11 +109,11 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-/// Digits of the longest whole number that is read exactly.
+/// Digits of the longest integer that is read exactly.
 const DIGITS: usize = 30;
 
-/// A decimal number in two parts: the double next to it, and what that one misses. `text` is a
-/// number of a file or of an expression; what is none is NaN.
+/// A decimal number in two parts: the nearest double, and the remaining difference. `text` is a
+/// number of a file or of an expression; for any other text the result is NaN.
 pub(crate) fn decimal(text: &str) -> Dd {
     let text = text.replace('_', "");
     let nearest: f64 = text.parse().unwrap_or(f64::NAN);
@@ -130,7 +130,7 @@ pub(crate) fn decimal(text: &str) -> Dd {
     let (Ok(whole), Some(power)) = (digits.parse::<u128>(), power) else {
         return nearest.into();
     };
-    // Beyond, one of the two parts leaves the range of doubles on the way.
+    // Beyond this power, one of the two parts leaves the range of doubles in an intermediate step.
     const LARGEST_POWER: u32 = 200;
     if digits.len() > DIGITS || power.unsigned_abs() > LARGEST_POWER {
         return nearest.into();

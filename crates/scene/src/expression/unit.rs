@@ -1,10 +1,10 @@
-//! The units of expressions, and other units written in them.
+//! The units of expressions, and replacements for other units.
 
 use std::f64::consts::PI;
 
 use crate::dimension::Dimension;
 
-/// Units of expressions, as `times/over` in those of the format.
+/// Units of expressions, as `times/over` in the units of the format.
 pub(super) const UNITS: [(&str, f64, f64, Dimension); 13] = [
     ("mm", 1.0, 1e3, Dimension::LENGTH),
     ("cm", 1.0, 1e2, Dimension::LENGTH),
@@ -32,7 +32,7 @@ pub(crate) fn names_of(of: Dimension) -> Vec<&'static str> {
     fitting.map(|(name, ..)| *name).collect()
 }
 
-/// Units that expressions do not have, in theirs.
+/// Units that expressions do not support, written in supported units.
 const OTHERS: [(&str, &str); 14] = [
     ("km", "1e3 m"),
     ("t", "1e3 kg"),
@@ -50,7 +50,7 @@ const OTHERS: [(&str, &str); 14] = [
     ("1/min", "2*pi/min"),
 ];
 
-/// A unit that expressions do not have, in theirs.
+/// A unit that expressions do not support, written in supported units.
 pub(crate) fn in_units_here(unit: &str) -> Option<&'static str> {
     let mut known = OTHERS.iter();
     known.find_map(|(name, here)| (*name == unit).then_some(*here))

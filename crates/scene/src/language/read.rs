@@ -31,7 +31,7 @@ const ANGLE: Key = Key::optional("angle", "a unit of angle", Takes::OneOf(angles
     .doc("Unit of angles; with \"deg\", angular velocities are in deg/s")
     .or(|| "rad".into());
 
-/// The keys of `[scene]` that say how the rest is read.
+/// The keys of `[scene]` that determine how the rest is read.
 pub(crate) const SCENE_KEYS: [Key; 2] = [FORMAT, UNITS];
 /// The keys of `units`.
 pub(crate) const UNIT_KEYS: [Key; 2] = [LENGTH, ANGLE];
@@ -45,8 +45,8 @@ fn angles() -> Vec<&'static str> {
 }
 
 impl Language {
-    /// Reads `format` and `units` of `[scene]`, and `[parameters]`. Other problems of these
-    /// sections are left to their readers.
+    /// Reads `format` and `units` of `[scene]`, and `[parameters]`. Other modules report further
+    /// problems of these sections.
     pub(crate) fn read(root: &mut Table) -> Self {
         let mut language = Self::PLAIN;
         let entries = |field: &Field| field.value.get_ref().is_table();
@@ -59,7 +59,7 @@ impl Language {
             let format = head.optional(&FORMAT);
             is_stated = format.is_some();
             let format = format.and_then(|field| whole(&field));
-            // A format that cannot be read has been reported.
+            // An unreadable format has been reported.
             language.computes = format == Some(COMPUTING) || (is_stated && format.is_none());
             units = head.optional(&UNITS);
         }
@@ -94,7 +94,7 @@ impl Language {
         language
     }
 
-    /// Reads the parameters, each after those that it names.
+    /// Reads the parameters, each one after the parameters that it contains.
     fn parameters(&mut self, field: &Field) {
         let Some(table) = field.table("one table `[parameters]`") else {
             return;
@@ -138,15 +138,16 @@ impl Language {
     }
 }
 
-/// A parameter as it is written.
+/// A parameter as written in the text.
 struct Parameter<'t> {
     name: String,
     value: Field<'t>,
 }
 
-/// Reports each circle of parameters once; parameters that only name one of a circle are left out.
+/// Reports each cycle of parameters once; parameters that only refer to a member of a cycle are
+/// left out.
 fn report_circles(list: &[Parameter], needs: &[Vec<(usize, Range<usize>)>], waits: &[usize]) {
-    // 0: not yet seen; otherwise the number of the walk that came here.
+    // 0: not yet visited; otherwise the number of the search that reached this parameter.
     let mut seen = vec![0; list.len()];
     for first in (0..list.len()).filter(|k| waits[*k] > 0) {
         let mut path: Vec<(usize, Range<usize>)> = Vec::new();
@@ -184,7 +185,7 @@ fn report_circles(list: &[Parameter], needs: &[Vec<(usize, Range<usize>)>], wait
     }
 }
 
-/// Names that a message about a circle shows.
+/// Number of names that a message about a cycle shows.
 const SHOWN: usize = 8;
 
 fn list_of(names: &[&str], between: &str) -> String {
@@ -198,7 +199,7 @@ fn list_of(names: &[&str], between: &str) -> String {
     shown.join(between)
 }
 
-/// Reports a name that expressions cannot say, or that means something else to them.
+/// Reports a name that expressions cannot contain, or that has another meaning in expressions.
 fn check_name(name: &str, span: Range<usize>, findings: &Findings) {
     if let Some(what) = reserved(name) {
         findings.error_with_help(
@@ -219,7 +220,7 @@ fn check_name(name: &str, span: Range<usize>, findings: &Findings) {
     }
 }
 
-/// A whole number that `format` takes.
+/// An integer that `format` accepts.
 fn whole(field: &Field) -> Option<i64> {
     let format = field.integer(FORMAT.expected)?;
     if (1..=COMPUTING).contains(&format) {

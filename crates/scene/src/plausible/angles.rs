@@ -9,21 +9,23 @@ use crate::dimension::Dimension;
 use crate::expression::Quantity;
 use crate::language::Language;
 
-/// Degrees are written in multiples of this; an angle in radians is a multiple of it only by
-/// chance.
+/// Degrees are usually written in multiples of this number; an angle in radians is a multiple of it
+/// only by chance.
 const ROUND_DEGREES: f64 = 5.0;
 
-/// Least number that looks like degrees: below it are the angles within a turn, 2π = 6.28.
+/// Smallest number that looks like degrees: smaller numbers are angles within one revolution,
+/// 2π = 6.28.
 const LEAST_DEGREES: f64 = 10.0;
 
-/// Largest number that looks like degrees: one turn. Motions of many turns are beyond it.
+/// Largest number that looks like degrees: one revolution. Motions over many revolutions have
+/// larger numbers.
 const MOST_DEGREES: f64 = 360.0;
 
-/// A number as it was read.
+/// A number as read from the text.
 #[derive(Clone, Copy)]
 pub(crate) struct Number {
     pub(crate) value: f64,
-    /// Whether it is an angle that has no unit and counts in radians.
+    /// Whether the number is an angle without a unit that is read in radians.
     is_bare_angle: bool,
 }
 
@@ -37,17 +39,17 @@ impl Number {
     }
 }
 
-/// Which of the angles looks like degrees, and what to write instead.
+/// An angle that looks like degrees, and the suggested text.
 pub(crate) struct Degrees {
-    /// Its index.
+    /// Index of the angle.
     pub(crate) at: usize,
-    /// What is wrong with it.
+    /// Description of the fault.
     pub(crate) message: String,
     pub(crate) help: String,
 }
 
 /// Angles without a unit look like degrees if all of them are multiples of five and not all are
-/// within ±2π. Numbers of one list are judged together.
+/// within ±2π. Numbers of one list are checked together.
 pub(crate) fn degrees(numbers: &[Number], language: &Language) -> Option<Degrees> {
     let angles = || numbers.iter().enumerate().filter(|(_, n)| n.is_bare_angle);
     let is_round = |x: f64| x.abs() <= MOST_DEGREES && x % ROUND_DEGREES == 0.0;

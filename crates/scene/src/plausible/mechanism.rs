@@ -1,5 +1,5 @@
-//! What the whole mechanism shows: moments of inertia that do not fit mass and size, bodies that no
-//! joint holds, and joints far away.
+//! Checks of the whole mechanism: moments of inertia that do not agree with mass and size, bodies
+//! without a joint, and distant joints.
 
 use model::codes::Code;
 use model::space::norm;
@@ -10,30 +10,33 @@ use crate::findings::Findings;
 use crate::language::LengthUnit;
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
 
-/// Largest radius of gyration, in arms of the body. All mass within an arm gives 1; a flywheel on a
-/// small crank has some 5, and the inertia of a rod in kg·cm² read as kg·m² has 58.
+/// Largest plausible radius of gyration, as a multiple of the arms of the body. If all mass is
+/// within an arm, the ratio is at most 1; a flywheel on a small crank has some 5, and the inertia
+/// of a rod in kg·cm² read as kg·m² has 58.
 const LARGEST_GYRATION: f64 = 20.0;
 
-/// Smallest radius of gyration, in arms of the body. A rod has 0.6, a small bob on a light rod
-/// 0.01; the inertia of a rod in kg·m² read as kg·mm² has 0.0006.
+/// Smallest plausible radius of gyration, as a multiple of the arms of the body. A rod has 0.6, a
+/// small bob on a light rod 0.01; the inertia of a rod in kg·m² read as kg·mm² has 0.0006.
 const SMALLEST_GYRATION: f64 = 1e-3;
 
-/// Density from which a ball of that mass and inertia is made of no material (kg/m³): osmium has
-/// 2.3e4, and the inertia of a wheel in kg·m² read as kg·mm² makes 1e11 of 1e2. A point mass of
-/// 1 kg with a token of 1e-6 kg·m² has 6e7.
+/// Density above which a ball of the same mass and inertia consists of no real material (kg/m³).
+/// Osmium has 2.3e4; if the inertia of a wheel in kg·m² is read as kg·mm², a density of 1e2 becomes
+/// 1e11. A point mass of 1 kg with a nominal inertia of 1e-6 kg·m² has 6e7.
 const DENSEST: f64 = 1e9;
 
-/// Share of the size of the mechanism below which the radius of gyration of such a body is small.
+/// Share of the size of the mechanism below which the radius of gyration of such a body counts as
+/// small.
 const SMALL: f64 = 1e-2;
 
 /// Density of steel (kg/m³).
 const STEEL: f64 = 7850.0;
 
-/// Most sizes of a mechanism from the centre of mass of a body to a joint of it. Lengths in cm read
-/// as m are 100 times too large; the longest parts of a machine are some ten times the middle ones.
+/// Largest plausible distance from the centre of mass of a body to one of its joints, as a multiple
+/// of the size of the mechanism. Lengths in cm read as m are 100 times too large; the longest parts
+/// of a machine are some ten times as long as the median part.
 const FARTHEST: f64 = 100.0;
 
-/// Warns of what is not plausible in a mechanism.
+/// Warns of implausible data of a mechanism.
 pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, findings: &Findings) {
     let records = mechanism.bodies();
     let joints = joints(mechanism);
@@ -63,7 +66,7 @@ fn joints(mechanism: &Mechanism) -> Vec<JointPoints<'_>> {
         .collect()
 }
 
-/// What is known of the shape of a body.
+/// Information about the shape of a body.
 #[derive(Clone, Default)]
 struct BodyShape {
     /// Points of joints, forces and markers relative to the centre of mass.
@@ -78,7 +81,7 @@ impl BodyShape {
         self.points.iter().map(|point| norm(point))
     }
 
-    /// Whether not all points are the same one.
+    /// Whether the points differ from each other.
     fn has_extent(&self) -> bool {
         self.points.windows(2).any(|pair| pair[0] != pair[1])
     }
@@ -123,7 +126,8 @@ fn gyration(body: &BodyRecord) -> Option<f64> {
 }
 
 /// Size of a mechanism: the upper median of all arms and radii of gyration, so that neither a few
-/// points far away nor many joints near centres of mass change it. `None` if there are none.
+/// distant points nor many joints near centres of mass change it. `None` if there are no arms and
+/// radii.
 fn size(records: &[BodyRecord], bodies: &[BodyShape]) -> Option<f64> {
     let arms = bodies.iter().flat_map(BodyShape::arms);
     let mut sizes: Vec<f64> = arms.chain(records.iter().filter_map(gyration)).collect();
@@ -133,7 +137,7 @@ fn size(records: &[BodyRecord], bodies: &[BodyShape]) -> Option<f64> {
     sizes.get(middle).copied()
 }
 
-/// Warns of bodies that no joint holds, if there are joints.
+/// Warns of bodies without a joint, if the mechanism has joints.
 fn unheld(records: &[BodyRecord], bodies: &[BodyShape], map: &SourceMap, findings: &Findings) {
     if !bodies.iter().any(|body| body.is_held) {
         return;
@@ -195,7 +199,7 @@ fn far(
     }
 }
 
-/// Warns of moments of inertia that fit no body of that mass and size.
+/// Warns of moments of inertia that do not agree with the mass and size of the body.
 fn inertia(
     records: &[BodyRecord],
     bodies: &[BodyShape],
@@ -210,7 +214,7 @@ fn inertia(
             dense(body, entry, size, unit, findings);
             continue;
         }
-        // Points far away have a warning of their own.
+        // There is a separate warning for distant points.
         let near = shape.arms().filter(|arm| *arm <= FARTHEST * size);
         let arm = near.fold(0.0, f64::max);
         let Some(radius) = gyration(body).filter(|_| arm > 0.0) else {
@@ -241,8 +245,9 @@ fn inertia(
     }
 }
 
-/// Warns of a body, such as a wheel, whose points are all at its centre of mass, if it is small in
-/// the mechanism and a ball of its mass and inertia is of no material.
+/// Warns of a body, such as a wheel, whose points are all at its centre of mass. The warning is
+/// given if the body is small relative to the mechanism and a ball of its mass and inertia consists
+/// of no real material.
 fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings: &Findings) {
     let Some(gyration) = gyration(body).filter(|radius| *radius < SMALL * size) else {
         return;

@@ -1,4 +1,4 @@
-//! Explains text that is not TOML in the terms of authors of scenes, guessing what was intended.
+//! Explains text that is not valid TOML to authors of scenes, from a guess of their intention.
 
 use std::ops::Range;
 
@@ -6,9 +6,9 @@ use crate::findings::Findings;
 use crate::mistake::Mistake;
 use crate::units;
 
-/// Reports text that is not TOML, one error for each line. An error at the end of the text means
-/// that a bracket was never closed: only the first error shows where, and the others are its
-/// consequences.
+/// Reports text that is not valid TOML, one error for each line. An error at the end of the text
+/// means that a bracket was never closed. Only the first error shows its position; the other errors
+/// are consequences.
 pub(super) fn report(errors: &[toml::de::Error], findings: &Findings) {
     let text = findings.source.text();
     let end = text.trim_end().len();
@@ -80,12 +80,12 @@ fn never_closed(text: &str, first_error: usize) -> Option<Explanation> {
     })
 }
 
-/// The explanation of an error at this place, if the intention can be guessed.
+/// The explanation of an error at this position, if the intention can be guessed.
 fn fault(text: &str, span: Range<usize>) -> Option<Explanation> {
     let at = text.floor_char_boundary(span.start);
     let begin = text[..at].rfind('\n').map_or(0, |k| k + 1);
     let end = text[at..].find('\n').map_or(text.len(), |k| at + k);
-    // The file is not read yet, so its format is what a line of it says.
+    // The file has not been read yet, so a search for its line determines the format.
     let says_format = |line: &str| line.replace(' ', "").starts_with("format=2");
     let computes = text.lines().any(says_format);
     let (message, help) = meant(text[begin..end].trim_end(), at - begin, computes)?;
@@ -97,7 +97,7 @@ fn fault(text: &str, span: Range<usize>) -> Option<Explanation> {
     })
 }
 
-/// The fault of a line that cannot be read from this place on, and what to write instead.
+/// The fault of a line that cannot be read from this position on, and the suggested text.
 /// `computes`: texts are expressions.
 fn meant(line: &str, at: usize, computes: bool) -> Option<(&'static str, String)> {
     if line.starts_with('[') && is_key(line.trim_matches(['[', ']', ' '])) {
@@ -136,7 +136,7 @@ fn meant(line: &str, at: usize, computes: bool) -> Option<(&'static str, String)
             "a text ends on its line, with the quote that it began with".to_owned(),
         ));
     }
-    // Within a list, the text at the place.
+    // Within a list, the text at this position.
     let value = if value.starts_with(['[', '{']) {
         line.get(at..).unwrap_or_default()
     } else {
@@ -214,7 +214,7 @@ fn word(key: &str, value: &str) -> Option<(&'static str, String)> {
     Some(("a text without quotes", help))
 }
 
-/// The last bracket before a place that is still open there.
+/// The last bracket before a position that is still open there.
 fn open_bracket(text: &str, at: usize) -> Option<usize> {
     let mut closed = 0;
     let mut end = at;
@@ -229,8 +229,8 @@ fn open_bracket(text: &str, at: usize) -> Option<usize> {
     }
 }
 
-/// Brackets that a line opens and does not close, and the number that it closes in addition,
-/// ignoring texts and comments.
+/// Brackets that a line opens and does not close, and the number of brackets that it closes in
+/// addition. Texts and comments are ignored.
 fn open_brackets(line: &str) -> (Vec<usize>, usize) {
     let mut quote = None;
     let (mut open, mut excess) = (Vec::new(), 0);
@@ -309,7 +309,7 @@ mod tests {
         assert_eq!(fault.span.start, text.find("[0.0").expect("there"));
         assert!(never_closed("[[body]]\n", 0).is_none());
         assert_eq!(open_brackets("keep = [\"a]\", # ]"), (vec![7], 0));
-        // If two brackets are open, the inner one; if it is closed further down, the one above it.
+        // If two brackets are open, the inner one; if it is closed further down, the outer one.
         assert_eq!(open_bracket("a = [\n [1,\n", 11), Some(7));
         assert_eq!(open_bracket("a = [\n [1,\n 2],\n", 16), Some(4));
     }

@@ -1,5 +1,5 @@
 //! Joints and forces: one table for each definition of the registry and each way to write its
-//! bodies and its place.
+//! bodies and its reference point.
 
 use joints::spec::{Parameter, Shape, Spec, Unit};
 use model::Definitions;
@@ -31,7 +31,7 @@ pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: ElementKi
         ElementKind::Joint => ("Joint", registry.constraint_specs().collect()),
         ElementKind::Force => ("Force", registry.force_specs().collect()),
     };
-    // Definitions with the same type follow each other.
+    // Definitions with the same type are adjacent.
     specs.sort_by_key(|spec| spec.scene_type);
     let tables: Vec<Value> = specs
         .iter()
@@ -134,7 +134,7 @@ fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
     if let Some(markers) = markers {
         let ways = |key: &str| json!({ "oneOf": [{ "required": [key] }, markers] });
         all.extend(directions.into_iter().map(ways));
-        // What only says where directions are written is refused beside markers.
+        // Keys that only state the axes of directions are rejected together with markers.
         let beside = keys.iter().filter(|key| [FRAME, CROSS].contains(*key));
         all.extend(beside.map(|key| json!({ "not": { "required": [key, MARKERS] } })));
     }
@@ -145,7 +145,7 @@ fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
     table
 }
 
-/// `markers`
+/// Schema of `markers`.
 fn two_markers() -> Value {
     let mut markers = tuple(vec![json!({ "type": "string" }); 2]);
     markers["description"] = "Two markers [first, second] of the bodies, in place of points and directions: z along the axis of the joint, x across".into();
@@ -153,7 +153,7 @@ fn two_markers() -> Value {
     markers
 }
 
-/// A key for directions beside the parameters.
+/// A key for directions that is not a parameter.
 fn beside<S: SceneSpace>(key: &str, spec: &Spec) -> Value {
     match key {
         FRAME => json!({
@@ -176,7 +176,7 @@ fn beside<S: SceneSpace>(key: &str, spec: &Spec) -> Value {
     }
 }
 
-/// `body` or `bodies`.
+/// Schema of `body` or `bodies`.
 fn connection(spec: &Spec) -> Value {
     match listed(spec) {
         1 => json!({ "type": "string", "description": "The body" }),
@@ -193,7 +193,7 @@ fn connection(spec: &Spec) -> Value {
     }
 }
 
-/// `at`
+/// Schema of `at`.
 fn global<S: SceneSpace>(spec: &Spec, n: usize) -> Value {
     let one = reference(&name_in::<S>("place"));
     let mut place = if spec.points_apart {
@@ -216,7 +216,7 @@ fn global<S: SceneSpace>(spec: &Spec, n: usize) -> Value {
     place
 }
 
-/// A description with the purpose of its points.
+/// A description that includes the purpose of the points.
 fn with_points(words: impl Into<String>, spec: &Spec) -> String {
     let is_point = |p: &&Parameter| matches!(p.shape, Shape::Point { .. }) && !p.doc.is_empty();
     let points: Vec<_> = spec.parameters.iter().filter(is_point).collect();
@@ -229,7 +229,7 @@ fn with_points(words: impl Into<String>, spec: &Spec) -> String {
     words
 }
 
-/// `point` or `points`
+/// Schema of `point` or `points`.
 fn in_bodies<S: SceneSpace>(spec: &Spec, owners: &[usize]) -> Value {
     let place = reference(&name_in::<S>("place"));
     let on = |slot: usize| owners.iter().filter(|owner| **owner == slot).count();

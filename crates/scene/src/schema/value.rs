@@ -17,8 +17,8 @@ pub(super) fn described(key: &Key) -> Value {
             "type": "string",
             "minLength": 1,
             "maxLength": LONGEST_NAME,
-            // A name that begins like a formula would be a formula in a spreadsheet; and names have
-            // one line.
+            // A name that starts like a formula would become a formula in a spreadsheet; and names
+            // have one line.
             "pattern": r"^[^=+@\x00-\x1f\x7f-\x9f-][^\x00-\x1f\x7f-\x9f]*$",
         }),
         Takes::Text => json!({ "type": "string" }),
@@ -62,7 +62,7 @@ pub(super) fn described(key: &Key) -> Value {
     schema
 }
 
-/// What something means, and its unit.
+/// The meaning of a value, and its unit.
 pub(super) fn in_unit(meaning: &str, unit: Dimension) -> String {
     match unit {
         Dimension::NONE => meaning.to_owned(),
@@ -70,7 +70,7 @@ pub(super) fn in_unit(meaning: &str, unit: Dimension) -> String {
     }
 }
 
-/// A number, or a text that is computed.
+/// A number, or a text with an expression.
 pub(super) fn number(range: Interval) -> Value {
     let mut number = json!({ "type": ["number", "string"] });
     match range {
@@ -85,7 +85,7 @@ pub(super) fn number(range: Interval) -> Value {
     number
 }
 
-/// `[parameters]`
+/// Schema of `[parameters]`.
 pub(super) fn parameters() -> Value {
     json!({
         "title": "Parameters",
@@ -94,7 +94,7 @@ pub(super) fn parameters() -> Value {
     })
 }
 
-/// A list of as many values as there are schemas.
+/// A list with one value for each of these schemas.
 pub(super) fn tuple(items: Vec<Value>) -> Value {
     let n = items.len();
     let mut distinct = items.clone();
@@ -144,7 +144,7 @@ fn table(keys: &[Key]) -> Value {
     json!({ "type": "object", "properties": properties, "additionalProperties": false })
 }
 
-/// The ways in which an orientation is written.
+/// The four ways to write an orientation.
 fn orientation() -> Value {
     let way = |keys: &[&Key]| {
         let properties: Map<String, Value> = keys
@@ -167,7 +167,7 @@ fn orientation() -> Value {
     ] })
 }
 
-/// Texts, each once.
+/// A list of texts without repetitions.
 fn texts(least: usize) -> Value {
     json!({ "type": "array", "items": { "type": "string" }, "minItems": least, "uniqueItems": true })
 }

@@ -62,7 +62,7 @@ impl SceneSpace for Space3 {
     ) -> [f64; 3] {
         const GROUND: [f64; 4] = [1.0, 0.0, 0.0, 0.0];
         let [from, to] = [from, to].map(|body| body.map_or(GROUND, |body| body.orientation));
-        // Then nothing is rounded.
+        // In this case the direction has no rounding error.
         if from == to {
             return direction;
         }

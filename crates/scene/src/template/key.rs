@@ -1,4 +1,4 @@
-//! Finds the place of a number in the text by its key.
+//! Finds the position of a number in the text by its key.
 
 use model::codes::Code;
 use toml::Spanned;
@@ -14,7 +14,7 @@ use crate::section;
 /// Largest number of names in a message.
 const LISTED: usize = 12;
 
-/// Reason why a key does not refer to a number of a scene.
+/// Reason why a key does not select a number of a scene.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KeyError {
@@ -24,11 +24,11 @@ pub enum KeyError {
     /// A part of the key does not exist.
     #[error("`{key}`: there is no `{part}` in `{within}`{}", advice(.nearest.as_deref(), .known))]
     Unknown {
-        /// The key.
+        /// The given key.
         key: String,
         /// The part that does not exist.
         part: String,
-        /// The part of the key that was found.
+        /// The part of the key that was resolved.
         within: String,
         /// The name that was probably intended.
         nearest: Option<String>,
@@ -40,9 +40,9 @@ pub enum KeyError {
         "`{key}`: `{within}` has {length} entries, counted from 0; there is no entry `{index}`"
     )]
     Index {
-        /// The key.
+        /// The given key.
         key: String,
-        /// The list.
+        /// Path of the list.
         within: String,
         /// The text in brackets.
         index: String,
@@ -52,17 +52,17 @@ pub enum KeyError {
     /// The key refers to something other than a number.
     #[error("`{key}` is {found}, not a number{}", inside(.parts))]
     NotANumber {
-        /// The key.
+        /// The given key.
         key: String,
-        /// The kind of value that it refers to.
+        /// The kind of value that the key selects.
         found: String,
-        /// The names of its parts.
+        /// The names of the parts of this value.
         parts: Vec<String>,
     },
     /// The key is not in the text, and its table has neither a header nor braces.
     #[error("`{key}` is not in the scene; write it there, with any number")]
     NoRoom {
-        /// The key.
+        /// The given key.
         key: String,
     },
     /// Two keys refer to the same number.
@@ -70,13 +70,13 @@ pub enum KeyError {
     Repeated {
         /// The second key.
         key: String,
-        /// The first one.
+        /// The first key.
         first: String,
     },
 }
 
 impl KeyError {
-    /// Its code; see [`model::codes`].
+    /// Error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -109,7 +109,7 @@ fn inside(parts: &[String]) -> String {
     }
 }
 
-/// What may stand at the place of a key.
+/// Kinds of values that a key may select.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum SlotKind {
     /// A number.
@@ -118,7 +118,7 @@ pub(super) enum SlotKind {
     Value,
 }
 
-/// The place of a key in the text.
+/// The position of a key in the text.
 pub(super) fn find(
     key: &str,
     text: &str,
@@ -155,7 +155,7 @@ fn computes(root: &DeTable) -> bool {
     format == Some(COMPUTING as f64)
 }
 
-/// How far a key has been followed.
+/// Progress of the search for a key.
 struct Walk<'k> {
     key: &'k str,
     /// The rest of the key.
@@ -171,19 +171,19 @@ impl<'k> Walk<'k> {
         within.strip_suffix('.').unwrap_or(within)
     }
 
-    /// The next part, if it has no brackets.
+    /// The next part, without brackets.
     fn part(&self) -> &'k str {
         let end = self.rest.find(['.', '[']).filter(|end| *end > 0);
         &self.rest[..end.unwrap_or(self.rest.len())]
     }
 
-    /// Whether the rest begins with this name; names may contain dots and brackets.
+    /// Whether the rest starts with this name; names may contain dots and brackets.
     fn begins_with(&self, name: &str) -> bool {
         let after = self.rest.strip_prefix(name).map(|rest| rest.bytes().next());
         !name.is_empty() && matches!(after, Some(None | Some(b'.' | b'[')))
     }
 
-    /// Continues after this number of bytes.
+    /// Skips this number of bytes.
     fn pass(&mut self, length: usize) {
         let rest = &self.rest[length..];
         self.rest = match rest.strip_prefix('.') {
@@ -207,7 +207,7 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// The value of the next part; the longest name that fits.
+    /// The value of the next part; the longest fitting name is used.
     fn named<'t, X>(&mut self, items: &[(&str, &'t X)]) -> Result<&'t X, KeyError> {
         let fitting = items.iter().filter(|(name, _)| self.begins_with(name));
         let Some((name, item)) = fitting.max_by_key(|(name, _)| name.len()) else {
@@ -218,7 +218,7 @@ impl<'k> Walk<'k> {
         Ok(item)
     }
 
-    /// The value under the first part: a section, or else a parameter.
+    /// The value of the first part: a section, or otherwise a parameter.
     fn first<'t>(&mut self, root: &'t DeTable<'t>) -> Result<&'t Spanned<DeValue<'t>>, KeyError> {
         let parameters = root.get(section::PARAMETERS.name);
         let parameters = parameters.and_then(|table| table.get_ref().as_table());
@@ -262,7 +262,7 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// Whether a number may stand in the place of a value.
+    /// Whether a value may be replaced by a number.
     fn takes(&self, value: &DeValue) -> bool {
         let is_switch = self.key.ends_with(&format!(".{}", ACTIVE.name));
         as_number(value).is_some()
@@ -270,7 +270,7 @@ impl<'k> Walk<'k> {
             || is_switch && value.is_bool()
     }
 
-    /// The value at the end of the key, if it is in one place.
+    /// The value at the end of the key, if it is written in one piece.
     fn value(&self, node: &Spanned<DeValue>, text: &str) -> Result<Slot, KeyError> {
         let span = node.span();
         let is_table = node.get_ref().is_table();
@@ -314,8 +314,8 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// A place for a last key that is not in the text: after the line of the header of its table,
-    /// or after its brace. Whether the key is valid is checked by the reader of scenes.
+    /// A position for a last key that is missing in the text: after the header line of its table,
+    /// or after its opening brace. The reader of scenes checks whether the key is valid.
     fn addition(
         &self,
         node: &Spanned<DeValue>,
@@ -352,7 +352,7 @@ impl<'k> Walk<'k> {
     }
 }
 
-/// A list where a number is needed.
+/// The error for a list where a number is needed.
 fn not_a_number(key: &str, items: &[Spanned<DeValue>]) -> KeyError {
     let part = |(k, item): (usize, &Spanned<DeValue>)| {
         let name = item

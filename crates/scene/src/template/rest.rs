@@ -1,6 +1,6 @@
-//! The text of a scene that starts elsewhere, at rest: the key `start` of each body is written, and
-//! velocities that are given become zero. Everything else stays as it is, so that points, initial
-//! values and comments are those of the described start.
+//! The text of a scene that starts in other poses, at rest: the key `start` of each body is
+//! written, and given velocities become zero. The rest of the text does not change, so that points,
+//! initial values and comments still refer to the described start.
 
 use model::{DescribedBody, FramePose};
 use toml::de::DeTable;
@@ -10,7 +10,7 @@ use super::{KeyError, Template, number};
 use crate::language::Units;
 use crate::scene::Scene;
 
-/// The text of a scene whose bodies start at these poses, in the order of the bodies, at rest.
+/// The text of a scene whose bodies start at rest in these poses, in the order of the bodies.
 ///
 /// ```
 /// use model::FramePose;
@@ -23,10 +23,10 @@ use crate::scene::Scene;
 ///
 /// # Errors
 /// - [`KeyError::NotToml`]: the scene has no text.
-/// - [`KeyError::NoRoom`]: there is no place for a key, because a body is written in dotted keys.
+/// - [`KeyError::NoRoom`]: a key cannot be added, because a body is written in dotted keys.
 ///
 /// # Panics
-/// If there are not as many poses as bodies.
+/// Panics if the number of poses differs from the number of bodies.
 pub fn at_rest(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
     let text = scene.text().ok_or(KeyError::NotToml)?;
     let bodies = scene.description.bodies();
@@ -90,7 +90,7 @@ fn list(items: impl Iterator<Item = String>) -> String {
     format!("[{}]", items.collect::<Vec<_>>().join(", "))
 }
 
-/// A number in an SI unit, in a scene whose bare numbers have the unit `bare`.
+/// A number with its SI unit, in a scene whose bare numbers have the unit `bare`.
 fn with_unit(x: f64, bare: &str, si: &str) -> String {
     if bare == si {
         number(x)
@@ -99,7 +99,7 @@ fn with_unit(x: f64, bare: &str, si: &str) -> String {
     }
 }
 
-/// The velocities that are given and not zero, with their numbers of components.
+/// The given nonzero velocities, with their numbers of components.
 fn moving(body: &DescribedBody) -> Vec<(&'static str, usize)> {
     let (velocity, omega) = match body {
         DescribedBody::Plane(b) => (
@@ -119,7 +119,7 @@ fn moving(body: &DescribedBody) -> Vec<(&'static str, usize)> {
     .collect()
 }
 
-/// Whether the key `start` of a body is a table with a header of its own.
+/// Whether the key `start` of a body is a table with its own header.
 fn has_header(text: &str, body: usize) -> bool {
     let has = || {
         let root = DeTable::parse(text).ok()?;

@@ -1,4 +1,4 @@
-//! Numbers are found by their keys, and nothing else is changed.
+//! Tests that numbers are found by their keys, and that the rest of the text does not change.
 
 use model::Registry;
 
@@ -76,7 +76,7 @@ fn numbers_are_found_by_their_names() {
         0.25,
         "motion = { type = \"steps\", steps = [{ from = 0.0, to = 1.0, by = 0.25 }] }",
     );
-    // A key that is not in the text is added.
+    // A key that is missing in the text is added.
     check_line("simulate.rtol", 1e-6, "rtol = 1e-6");
     check_line("body.cart.2.angle", 2.0, "angle = 2");
     check_line(
@@ -118,7 +118,7 @@ fn every_number_comes_back_with_its_bits() {
             value.to_bits()
         );
     }
-    // These values are refused by the reader, not by TOML.
+    // The reader rejects these values, although they are valid TOML.
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX] {
         let problems = read("", &template.with(&[value]), &Registry::standard()).err();
         let message = problems.expect("refused")[0].message.clone();
@@ -174,7 +174,7 @@ fn wrong_keys_say_what_there_is() {
     ] {
         assert!(Template::new(SCENE, &[key]).is_err(), "{key:?}");
     }
-    // A misspelt last key is added; the reader refuses it and suggests the right one.
+    // A misspelt last key is added; the reader rejects it and suggests the right one.
     let problems = read(
         "",
         &changed(&["body.cart.mas"], &[1.0]),
@@ -198,7 +198,7 @@ fn the_same_number_twice_is_refused() {
         Template::new("a = = 1", &["a"]).err(),
         Some(KeyError::NotToml)
     );
-    // A text that the reader would refuse because of its size is refused as well.
+    // A text that the reader would reject because of its size is also rejected here.
     let long = format!("a = 1\nb = [{}]", "0,".repeat(3_000_000));
     assert_eq!(Template::new(&long, &["a"]).err(), Some(KeyError::NotToml));
     let dotted = "[scene]\nmotion.rate = 1.0\n";

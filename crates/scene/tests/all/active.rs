@@ -1,9 +1,10 @@
-//! `active = false`: what takes no part is read, checked and reported, and is in no list.
+//! Tests `active = false`: an inactive element is read, checked and reported, and is in no list.
 
 use crate::diagnostics::check_in;
 use crate::{BODIES, read};
 
-/// Two hinges, the second with a lock beside it, which is driven, sprung and summed.
+/// Two hinges; the second is parallel to a lock, which has a drive and a spring and is part of a
+/// sum.
 const PARTS: &str = r#"
 [[joint]]
 name = "A"
@@ -81,11 +82,11 @@ fn what_is_not_active_is_in_no_list() {
             "group `both`"
         ]
     );
-    // Places are those of what is left.
+    // The positions are those of the remaining elements.
     let map = scene.source.as_ref().expect("a text");
     let entries: Vec<_> = map.elements().map(|entry| entry.name.as_str()).collect();
     assert_eq!(entries, ["A", "B", "other"]);
-    // The command line is told, too.
+    // The command line also reports the error.
     let error = scene
         .combination("A.Fx + lock.Fx")
         .expect_err("no reaction");
@@ -143,7 +144,7 @@ fn faults_have_their_places() {
             "expected true or false",
         )],
     );
-    // A text in which each case replaces one place.
+    // A text in which each case replaces one part.
     let motor = "values = [0, 1, 2] }\nactive = ";
     check_in(
         &text().replace(&format!("{motor}false"), &format!("{motor}0")),
@@ -172,7 +173,7 @@ fn faults_have_their_places() {
                 "`[output]` refers to `motor`, which is not active",
                 "not active",
             ),
-            // What takes no part is checked like the rest.
+            // Inactive elements are checked like all others.
             (
                 "name = \"lock\"\ntype = \"revolute\"\nbodies = [\"ground\", \"a\"]",
                 "name = \"lock\"\ntype = \"revolute\"\nbodies = «[\"ground\", \"ground\"]»",
@@ -185,7 +186,7 @@ fn faults_have_their_places() {
                 "the name `A` is used twice",
                 "used again here",
             ),
-            // Rows are those of what is active: A, B and the drive have five.
+            // Rows are those of active elements: A, B and the drive have five.
             (
                 "t_end = 2.0",
                 "t_end = 2.0\ndrop = [«6»]",

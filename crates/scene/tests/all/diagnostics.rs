@@ -1,10 +1,10 @@
-//! The texts and places of diagnostics: one fault per case, and one file with many.
+//! Tests texts and positions of diagnostics: one error per case, and one file with many errors.
 
 use pfaff_scene::Diagnostic;
 
 use crate::read;
 
-/// A small scene without faults, of which cases replace one part.
+/// A small scene without errors; each case replaces one part of it.
 const SCENE: &str = r#"[scene]
 name = "small"
 space = "plane"
@@ -53,15 +53,15 @@ t_end = 2.0
 drop = [1]
 "#;
 
-/// A case: a part of the scene, its replacement with «» around the place that must be marked, the
-/// message, and the label.
+/// A case: a part of the scene, its replacement with «» around the position that must be marked,
+/// the message, and the label.
 pub(crate) type Case = (&'static str, &'static str, &'static str, &'static str);
 
 fn check(cases: &[Case]) {
     check_in(SCENE, cases);
 }
 
-/// Checks that each case has this one problem, in a scene without faults.
+/// Checks that each case has only this problem, in a scene without other errors.
 pub(crate) fn check_in(scene: &str, cases: &[Case]) {
     assert!(read(scene).is_ok(), "{:#?}", read(scene));
     for &(part, fault, message, label) in cases {
@@ -642,7 +642,7 @@ fn help_lists_what_there_is() {
     }
 }
 
-/// Faults of all kinds in one file: all are reported, none twice, and none that is only a
+/// One file contains errors of all kinds: all are reported, none twice, and none that is only a
 /// consequence of another. `name` is misspelt, not missing, and `chasis` may be the name of the
 /// third body.
 #[test]
@@ -741,7 +741,7 @@ fn a_text_that_is_not_toml_is_judged_line_by_line() {
     );
 }
 
-/// Where texts are computed, a unit needs quotes only.
+/// In the format with expressions, a unit needs only quotes.
 #[test]
 fn a_unit_without_quotes_gets_them() {
     let help = |format: &str| {
@@ -769,7 +769,7 @@ fn a_bracket_that_is_never_closed_hides_its_consequences() {
     );
 }
 
-/// Each body without a name explains one name that no body has, and no more.
+/// Each body without a name explains only one reference to a missing body.
 #[test]
 fn names_of_unnamed_bodies_are_not_reported_again() {
     let unknown = |text: &str| -> Vec<String> {
@@ -786,7 +786,7 @@ fn names_of_unnamed_bodies_are_not_reported_again() {
     assert_eq!(lines(&read(&plural).expect_err("plural")).len(), 1);
 }
 
-/// Rows are counted as soon as all joints and drives can be read, whatever else is wrong.
+/// Rows are counted as soon as all joints and drives can be read, for any other errors.
 #[test]
 fn dropped_rows_are_checked_beside_other_faults() {
     let text = SCENE
@@ -801,7 +801,7 @@ fn dropped_rows_are_checked_beside_other_faults() {
     );
 }
 
-/// Usable numbers whose difference is none.
+/// The numbers are usable, but their difference overflows.
 #[test]
 fn places_too_far_away_are_refused() {
     let text = SCENE
@@ -816,7 +816,7 @@ fn places_too_far_away_are_refused() {
     );
 }
 
-/// All of thousands of problems are reported in short time, including joints that refer to missing
+/// Thousands of problems are all reported in short time, including joints that refer to missing
 /// bodies.
 #[test]
 fn thousands_of_problems_are_reported() {

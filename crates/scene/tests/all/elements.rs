@@ -1,5 +1,5 @@
-//! Every joint and force type of the contract, with its parameters checked by the values of its
-//! kernels.
+//! Tests every joint and force type of the scene format, with its parameters checked by the values
+//! of its kernels.
 //!
 //! The bodies are described at (1, 2) rotated by a right angle (a), (3, 2) (b) and (0, 0) (c). The
 //! global point (1, 4) is (2, 0) in the frame of a and (−2, 2) in the frame of b. Initial values
@@ -32,7 +32,7 @@ fn joint(text: &str) -> (Description, Joint) {
     (d, joint)
 }
 
-/// Φ with body frames at these angles at the origin.
+/// Returns Φ with body frames at these angles at the origin.
 fn phi(text: &str, angles: &[f64]) -> Vec<f64> {
     let (_, joint) = joint(text);
     let x: Vec<Pose> = angles.iter().map(|&a| Pose::new(0.0, 0.0, a)).collect();
@@ -43,7 +43,7 @@ fn phi(text: &str, angles: &[f64]) -> Vec<f64> {
     out
 }
 
-/// The block of C with all bodies at the origin.
+/// Returns the block of C with all bodies at the origin.
 fn c(element: &dyn Element<f64>) -> Vec<f64> {
     let spec = element.spec();
     let n = 3 * spec.common.slots.len();
@@ -64,11 +64,12 @@ const AB: &str = "bodies = [\"a\", \"b\"]\n";
 fn revolute() {
     let at = format!("type = \"revolute\"\n{AB}at = [1.0, 4.0]");
     assert_close(&phi(&at, &[0.0; 2]), &[4.0, -2.0]);
-    // The same in body frames; the order of the table has no effect, and integers are numbers.
+    // The same values in body frames; the order of the table has no effect, and integers are
+    // numbers.
     let points = format!("type = \"revolute\"\n{AB}points = {{ b = [-2, 2], a = [2, 0] }}");
     assert_close(&phi(&points, &[0.0; 2]), &[4.0, -2.0]);
     let ground = "type = \"revolute\"\nbodies = [\"ground\", \"b\"]\nat = [1.0, 4.0]";
-    // (1, 4) − (−2, 2)
+    // The expected value is (1, 4) − (−2, 2).
     assert_close(&phi(ground, &[0.0; 2]), &[3.0, 2.0]);
     let ground = "type = \"revolute\"\nbodies = [\"ground\", \"b\"]\npoints = { ground = [1, 4], b = [0, 0] }";
     assert_close(&phi(ground, &[0.0; 2]), &[1.0, 4.0]);
@@ -124,7 +125,7 @@ fn rack_and_pinion() {
 
 #[test]
 fn point_on_line() {
-    // (2, 0) against the normal (−1, 1)/√2.
+    // The point (2, 0) is compared with the normal (−1, 1)/√2.
     let line = "line = [[0.0, 0.0], [2.0, 2.0]]";
     for place in ["at = [1.0, 4.0]", "point = [2.0, 0.0]"] {
         let text = format!("type = \"point-on-line\"\nbody = \"a\"\n{place}\n{line}");
@@ -134,7 +135,7 @@ fn point_on_line() {
 
 #[test]
 fn knife_edge() {
-    // n = (0.6, 0.8), point (2, 0): [n, n·(0, 2)].
+    // With n = (0.6, 0.8) and the point (2, 0), the values are [n, n·(0, 2)].
     let (_, joint) =
         joint("type = \"knife-edge\"\nbody = \"a\"\nat = [1.0, 4.0]\nnormal = [3.0, 4.0]");
     assert_close(&c(&*joint.element), &[0.6, 0.8, 1.6]);
@@ -156,7 +157,7 @@ fn velocity() {
 
 #[test]
 fn rolling() {
-    // d·v of the point (2, 0) of a, minus 0.25·ω of b.
+    // The value is d·v of the point (2, 0) of a, minus 0.25·ω of b.
     let text = "type = \"rolling\"\nbodies = [\"a\", \"b\"]\n";
     for place in ["at = [1.0, 4.0]", "points = { a = [2.0, 0.0] }"] {
         let (_, joint) = joint(&format!(
@@ -223,8 +224,8 @@ axis = [1.0, 0.0]
             .phi(&[Pose::GROUND; 2], &[[0.125, 0.0, 0.0]], &mut out);
         out[0]
     };
-    // Measures at the origin minus the described ones minus 0.125; d = (−4, 2) at the origin and 0
-    // in the described configuration.
+    // The values are the joint coordinates at the origin minus the described ones minus 0.125; d =
+    // (−4, 2) at the origin and 0 in the described configuration.
     assert_close(
         &[value(0), value(1), value(2), value(3)],
         &[
@@ -241,7 +242,7 @@ axis = [1.0, 0.0]
     assert_eq!(d.drives[3].motion.jet(1.0), [0.0; 3]);
 }
 
-/// Two drives of one measure are redundant, which is not an error.
+/// Two drives of one joint coordinate are redundant, which is not an error.
 #[test]
 fn redundant_drives_are_legal() {
     let joint =
@@ -257,7 +258,7 @@ fn redundant_drives_are_legal() {
     assert_eq!(d.drives.len(), 2);
 }
 
-/// Q with all bodies at the origin and these twists, with functions at t = 0.
+/// Returns Q with all bodies at the origin and these twists, with functions at t = 0.
 fn q(text: &str, v: &[Twist]) -> Vec<f64> {
     let d = read_more(&format!("[[force]]\nname = \"X\"\n{text}"))
         .description
@@ -287,8 +288,8 @@ const REST: Twist = Twist {
 
 #[test]
 fn spring_damper() {
-    // From (2, 0) of a to (0, 0) of b: length 2 at the origin, √8 in the described configuration. b
-    // moves to the left by 1: l̇ = 1.
+    // The spring is from (2, 0) of a to (0, 0) of b. Its length is 2 at the origin and √8 in the
+    // described configuration. b moves to the left by 1: l̇ = 1.
     let v = [REST, Twist { x: -1.0, ..REST }];
     let text = format!(
         "type = \"spring-damper\"\n{AB}at = [[1, 4], [3, 2]]\nstiffness = 10.0\ndamping = 3.0\n"
@@ -304,18 +305,18 @@ fn spring_damper() {
 fn torsion_spring_damper() {
     let v = [REST, Twist { omega: 2.0, ..REST }];
     let text = format!("type = \"torsion-spring-damper\"\n{AB}stiffness = 10.0\ndamping = 3.0\n");
-    // −10·(0 − 0.5) − 3·2 = −1
+    // The torque is −10·(0 − 0.5) − 3·2 = −1.
     let torque = q(&format!("{text}free_angle = 0.5"), &v);
     assert_close(&torque, &[0.0, 0.0, 1.0, 0.0, 0.0, -1.0]);
-    // Without it, the described angle −π/2 is used: −10·π/2 − 6.
+    // Without a given value, the described angle −π/2 is used: −10·π/2 − 6.
     let torque = -10.0 * FRAC_PI_2 - 6.0;
     assert_close(&q(&text, &v), &[0.0, 0.0, -torque, 0.0, 0.0, torque]);
 }
 
 #[test]
 fn bushing() {
-    // d = (−2, 2) − (2, 0) = (−4, 2), zero in the described configuration; the angle was −π/2.
-    // Force on b (4·1, −2·10) at (−2, 2).
+    // d = (−2, 2) − (2, 0) = (−4, 2), and zero in the described configuration; the angle was −π/2.
+    // The force on b is (4·1, −2·10) at (−2, 2).
     let text = format!(
         "type = \"bushing\"\n{AB}at = [1, 4]\nstiffness = [1, 10, 100]\ndamping = [0, 0, 0]"
     );
@@ -352,7 +353,7 @@ fn point_force() {
         &q(&format!("{text}{components}"), &[REST]),
         &[3.0, 0.0, 0.0],
     );
-    // (0, 4) at (2, 0): torque 8.
+    // The force (0, 4) at (2, 0) has the torque 8.
     let text = format!("{text}force = [0, 4]\n");
     assert_close(&q(&text, &[REST]), &[0.0, 4.0, 8.0]);
     for (frame, name) in [
@@ -380,7 +381,7 @@ fn torque() {
     assert_close(&q(&text, &[REST; 2]), &[0.0, 0.0, -5.0, 0.0, 0.0, 5.0]);
 }
 
-/// The tests above are complete: the registry has no scene type that is not in the contract.
+/// The tests above are complete: the registry has no scene type beyond those of the format.
 #[test]
 fn the_types_are_those_of_the_contract() {
     let registry = Registry::standard();

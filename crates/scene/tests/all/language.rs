@@ -1,4 +1,4 @@
-//! Format 2: expressions, parameters and units; every fault at its place inside of the text.
+//! Tests format 2: expressions, parameters and units; every error has its position inside the text.
 
 use std::f64::consts::FRAC_PI_6;
 
@@ -61,7 +61,7 @@ fn crank() -> Scene {
     read(CRANK).unwrap_or_else(|problems| panic!("{problems:#?}"))
 }
 
-/// Numbers by hand, in metres and radians.
+/// The expected numbers are derived by hand, in metres and radians.
 #[test]
 fn numbers_mean_what_their_units_say() {
     let scene = crank();
@@ -155,7 +155,7 @@ fn a_scene_in_millimetres_is_that_in_metres() {
     assert_eq!(show(&new), show(&old));
 }
 
-/// What is marked, the message, and the label with the help, of a problem.
+/// Returns the marked text, the message, and the label with the help, of a problem.
 fn said(text: &str, problem: &Diagnostic) -> [String; 3] {
     let marked = text[problem.primary.span.clone()].to_owned();
     let help = problem.help.clone().unwrap_or_default();
@@ -359,7 +359,7 @@ fn all_faults_are_told_at_once() {
         .iter()
         .map(|p| &text[p.primary.span.clone()])
         .collect();
-    // Uses of the wrong `phi` are consequences.
+    // Uses of the invalid `phi` are consequences.
     assert_eq!(marked, ["zeta", "a", "b", "1 s", "2 kg"]);
 }
 
@@ -378,7 +378,7 @@ fn thousands_of_parameters_follow_each_other() {
         scene.description.plane().expect("a planar scene").bodies[0].mass,
         2.0001
     );
-    // A circle of all of them is one problem.
+    // A cycle of all parameters is one problem.
     let text = text.replacen("p0 = 1e-4", &format!("p0 = \"p{n}\""), 1);
     let problems = read(&text).expect_err("a circle");
     assert_eq!(problems.len(), 1, "{:#?}", problems[1]);
@@ -395,7 +395,7 @@ fn escapes_do_not_shift_places() {
     assert_eq!(&text[problems[0].primary.span.clone()], "\"2\\u0020kg\"");
 }
 
-/// Without `format = 2` nothing is new, and what to write is said.
+/// Without `format = 2` there are no new features, and the message states the required text.
 #[test]
 fn the_old_format_computes_nothing() {
     let text = CRANK.replacen("format = 2\n", "", 1);
@@ -455,7 +455,7 @@ fn what_is_probably_not_meant_is_a_warning() {
 }
 
 proptest! {
-    /// Whatever stands in a text, reading ends, without a panic, with places inside of the file.
+    /// For any text, reading ends without a panic and with positions inside the file.
     #[test]
     fn no_text_panics(text in expression(), other in expression()) {
         let quoted = |text: &str| toml::Value::from(text).to_string();

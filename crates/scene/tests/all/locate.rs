@@ -1,4 +1,4 @@
-//! Places of errors that are found after reading.
+//! Tests positions of errors that are found after reading.
 
 use dynamics::{DropError, MotionError, MotionFault, RowChoice, prepare};
 use model::start::Misfit;
@@ -14,12 +14,12 @@ fn scene() -> Scene {
     )
 }
 
-/// Its text.
+/// Returns the text of a scene.
 fn text_of(scene: &Scene) -> &str {
     scene.text().expect("it was read")
 }
 
-/// The last line of the bodies.
+/// Returns the last line of the bodies.
 fn lines_before() -> usize {
     BODIES.matches('\n').count()
 }
@@ -53,7 +53,7 @@ fn a_large_correction_points_at_the_joint_that_misses() {
     );
     let d = scene.locate_start(&error).expect("a place");
     assert_eq!(&text_of(&scene)[d.primary.span.clone()], "\"A\"");
-    // √(3² + 2²)
+    // The distance is √(3² + 2²).
     assert!(
         error.to_string().contains("these miss: `A` by 3.606 m;"),
         "{error}"
@@ -111,7 +111,7 @@ motion = { type = "constant-rate", rate = 2.0 }
 t_end = 1.0
 "#;
 
-/// The first mark and the other marks.
+/// Returns the first mark and the other marks.
 fn marks(scene: &Scene, error: &MotionError) -> (String, Vec<String>) {
     let d = scene.locate_motion(error).expect("a place");
     let marked = |label: &Label| text_of(scene)[label.span.clone()].to_owned();
@@ -166,7 +166,7 @@ fn velocities_that_do_not_exist_point_at_the_drive() {
     assert_eq!(others, ["[\"c.omega\"]"]);
 }
 
-/// A description that was changed after reading, as in a sweep.
+/// A description was changed after reading, as in a sweep.
 #[test]
 fn changed_numbers_point_at_their_keys() {
     let mut scene = scene();
@@ -197,7 +197,7 @@ fn changed_numbers_point_at_their_keys() {
     };
     let place = scene.locate_build(&unknown).expect("a place");
     assert_eq!(place.primary.line, 1);
-    // Without a text there are no places.
+    // Without a text there are no positions.
     scene.source = None;
     assert_eq!(scene.locate_build(&unknown), None);
 }

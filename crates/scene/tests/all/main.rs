@@ -23,7 +23,8 @@ use pfaff_scene::{Diagnostic, Scene};
 /// The mechanism of the published paper.
 const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
 
-/// Bodies a, b and c: a at (1, 2), rotated by a right angle, b at (3, 2), c at (0, 0).
+/// The scene has bodies a, b and c: a at (1, 2), rotated by a right angle, b at (3, 2), c at (0,
+/// 0).
 const BODIES: &str = r#"[scene]
 name = "small"
 space = "plane"

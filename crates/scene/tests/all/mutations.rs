@@ -1,4 +1,5 @@
-//! Broken files: after any change, reading ends with a scene or with diagnostics within the text.
+//! Tests broken files: after any change, reading ends with a scene or with diagnostics within the
+//! text.
 
 use model::{Mechanism, Registry};
 use proptest::prelude::*;
@@ -69,7 +70,7 @@ fn mutation() -> impl Strategy<Value = Mutation> {
     ]
 }
 
-/// The text in pieces: lines, or words and single signs.
+/// Returns the text in pieces: lines, or words and single characters.
 fn pieces(text: &str, by_line: bool) -> Vec<String> {
     if by_line {
         return text.split_inclusive('\n').map(str::to_owned).collect();
@@ -122,7 +123,7 @@ fn check(text: &str) {
     }
 }
 
-/// Values of all kinds that are valid TOML, correct at one place and wrong at most others.
+/// Values of all kinds that are valid TOML, correct at one place and invalid at most others.
 const VALUES: [&str; 34] = [
     "nan",
     "-inf",
@@ -188,7 +189,8 @@ const LINES: [&str; 24] = [
     "rate = [0, { type = \"steps\", steps = [] }]",
 ];
 
-/// Changes whole lines so that the text mostly stays valid TOML and the reader itself is tested.
+/// Changes whole lines such that the text usually remains valid TOML and the test reaches the
+/// reader itself.
 fn change_line(text: &str, at: usize, kind: u8, piece: usize) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let at = at % lines.len();

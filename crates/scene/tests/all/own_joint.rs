@@ -7,7 +7,7 @@ use model::Registry;
 use crate::{BODIES, assert_close, read};
 
 joint! { plane PinOnParabola(i, j) {
-    /// Point `s_j` of body j stays on the parabola `y = x²/(2·vertex_radius)` of body i.
+    /// Point `s_j` of body j is always on the parabola `y = x²/(2·vertex_radius)` of body i.
     params { s_j: Point in j, vertex_radius: Length }
     initial { curvature: PerLength = 1.0 / vertex_radius }
     let p = local(i, point(j, s_j) - origin(i));
@@ -37,7 +37,7 @@ fn a_registered_joint_has_its_keys_and_measures() {
     element.initialise(&x);
     let mut phi = [f64::NAN];
     element.phi(&x, &[], &mut phi);
-    // 5 − 1²/(2·0.25)
+    // The expected value is 5 − 1²/(2·0.25).
     assert_close(&phi, &[3.0]);
     assert_eq!(d.drives.len(), 1);
 

@@ -1,11 +1,12 @@
-//! Frames away from the centre of mass, markers, measures: what they say, and their faults.
+//! Tests frames away from the centre of mass, markers and joint coordinates: their values, and
+//! their errors.
 
 use model::{BodyRef, MeasureKind, ToleranceScope};
 
 use crate::diagnostics::check_in;
 use crate::{assert_close, read};
 
-/// A crank whose frame is at its shaft, a slider, and places by name.
+/// A crank with its frame at its shaft, a slider, and markers.
 const SCENE: &str = r#"[scene]
 name = "places"
 space = "plane"
@@ -101,14 +102,14 @@ fn points_are_relative_to_the_centre_of_mass() {
     assert_close(&points(0), &[1.0, 2.0, -0.5, 0.0]);
     assert_eq!(points(1), [0.5, 0.25, 0.3, 0.0]);
     assert_eq!(points(2), [0.0, 1.0]);
-    // A marker is taken where it is, a global point where the body is.
+    // A marker is used at its position, and a global point at that of the body.
     assert_close(&points(3), &[0.0, 1.0, 0.5, 0.0]);
     assert_eq!(d.forces[0].element.points(), [[9.0, 9.0], [0.5, 0.25]]);
 }
 
 #[test]
 fn a_marker_of_another_body_is_a_place() {
-    // The tip in the frame of the slider: (1, 2) + R·(1, 0.25).
+    // The tip in the frame of the slider is (1, 2) + R·(1, 0.25).
     let text = SCENE.replace(
         "points = { crank = \"tip\", slider = [0.3, 0.0] }",
         "at = \"tip\"",
@@ -150,8 +151,8 @@ fn markers_and_measures_are_read() {
     );
 }
 
-/// The tolerance of a marker is that of the points that it places, before those of body and scene
-/// and after that of the joint.
+/// The tolerance of a marker is that of its points; it precedes those of body and scene, and
+/// follows that of the joint.
 #[test]
 fn a_tolerance_of_a_marker_is_that_of_its_point() {
     use model::{Mechanism, System};
@@ -184,7 +185,7 @@ fn a_tolerance_of_a_marker_is_that_of_its_point() {
     assert_eq!(tolerances(&with_scene), [Some(1e-5), Some(1e-3)]);
     let with_joint = SCENE.replace("name = \"B\"\n", "name = \"B\"\ntolerance = 1e-2\n");
     assert_eq!(tolerances(&with_joint), [Some(1e-2); 2]);
-    // Parts keep it.
+    // Parts of the mechanism keep this tolerance.
     let d = read(SCENE)
         .expect("a scene")
         .description
@@ -313,7 +314,7 @@ fn faults_have_their_places() {
     );
 }
 
-/// Without markers a text is a text.
+/// Without markers, a text is not a marker name.
 #[test]
 fn numbers_with_units_are_no_markers() {
     let text = "[scene]\nname = \"x\"\nspace = \"plane\"\n[[body]]\nname = \"a\"\nmass = 1\ninertia = 1\n\

@@ -1,4 +1,4 @@
-//! The schema agrees with the reader in everything that a schema can express: keys, kinds of
+//! The schema agrees with the reader in all properties that a schema can express: keys, kinds of
 //! values, ranges, choices.
 
 use std::collections::BTreeSet;
@@ -25,7 +25,7 @@ fn verdict(text: &str) -> Option<String> {
     fault(&schema, &schema, &json_of(text))
 }
 
-/// All scene files of the repository.
+/// Returns all scene files of the repository.
 fn scenes() -> Vec<PathBuf> {
     let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut found = vec![crates.join("robot-trolley/robot-trolley.toml")];
@@ -39,7 +39,7 @@ fn scenes() -> Vec<PathBuf> {
     found
 }
 
-/// The purpose of a parameter, its type, its unit and frame, and its default.
+/// The text contains the purpose of a parameter, its type, its unit and frame, and its default.
 #[test]
 fn keys_of_joints_and_forces_are_explained() {
     let schema = schema();
@@ -168,7 +168,7 @@ fn all_forms_are_valid() {
     assert_eq!(verdict(&text), None);
 }
 
-/// One change each, and the reader refuses the form of the result.
+/// Each entry is one change; the reader rejects the form of the result.
 const WRONG: [(&str, &str); 53] = [
     ("space = \"plane\"", "space = \"space\""),
     ("space = \"plane\"", ""),
@@ -262,7 +262,8 @@ fn what_the_reader_refuses_by_form_is_not_valid() {
     }
 }
 
-/// A joint between markers, and the same with one key that says the place or the axis again.
+/// A joint between markers, and the same joint with one key that repeats the reference point or the
+/// axis.
 #[test]
 fn markers_stand_alone() {
     let scene = |kind: &str, more: &str| {
@@ -305,7 +306,7 @@ fn markers_stand_alone() {
     }
 }
 
-/// Expressions stand where numbers do, in format 2; the schema does not tell the formats apart.
+/// In format 2 expressions may replace numbers; the schema does not distinguish the formats.
 #[test]
 fn expressions_are_valid() {
     let whole = format!("{BODIES}{MORE}");
@@ -332,7 +333,7 @@ fn expressions_are_valid() {
     assert_eq!(verdict(&mass), None);
 }
 
-/// Keys that the reader knows for a table, from what it says of one that it does not know.
+/// Returns the keys that the reader accepts for a table, from its message about an unknown key.
 fn keys_of_reader(text: &str) -> BTreeSet<String> {
     let problems = read(text).expect_err("a key is unknown");
     let unknown = problems
@@ -352,7 +353,7 @@ fn keys_of_schema(table: &Value) -> BTreeSet<String> {
     properties.keys().cloned().collect()
 }
 
-/// A valid value of a key according to the schema, in TOML.
+/// Returns a valid value of a key according to the schema, in TOML.
 fn example(key: &str, of: &Value) -> String {
     match key {
         "body" => "\"a\"".to_owned(),
@@ -381,7 +382,8 @@ fn keys_of_elements_are_those_of_the_reader() {
                     text.push_str(&format!("{key} = {}\n", example(key, of)));
                 }
             }
-            // For a type with several definitions, the reader names all ways to write the bodies.
+            // For a type with several definitions, the message of the reader lists all forms of the
+            // bodies.
             let mut keys = keys_of_reader(&text);
             let type_of = |table: &Value| table["properties"]["type"]["const"].clone();
             let shared = |other: &&Value| type_of(other) == type_of(table);

@@ -1,4 +1,4 @@
-//! Warnings that are not wanted.
+//! Tests the suppression of warnings.
 
 use super::read;
 
@@ -21,7 +21,7 @@ fn each_warning_is_silenced_by_its_code() {
     assert_eq!(codes("silence = [\"P0192\"]"), ["P0193"]);
     assert_eq!(codes("silence = [\"P0193\"]"), ["P0192"]);
     assert!(codes("silence = [\"P0193\", \"P0192\"]").is_empty());
-    // Where the scene has no such warning, nothing happens.
+    // If the scene has no such warning, the entry has no effect.
     assert_eq!(codes("silence = [\"P0197\"]"), ["P0193", "P0192"]);
 }
 
@@ -30,12 +30,12 @@ fn codes_that_are_no_warnings_are_errors_at_their_place() {
     for (written, message, help) in [
         (
             "\"P0102\"",
-            "`[scene]`: `silence` names `P0102`, which is no warning of a scene",
+            "`[scene]`: `silence` contains `P0102`, which is not a warning of a scene",
             "did you mean `P0192`?",
         ),
         (
             "\"degrees\"",
-            "`[scene]`: `silence` names `degrees`, which is no warning of a scene",
+            "`[scene]`: `silence` contains `degrees`, which is not a warning of a scene",
             "there are `P0190`, `P0191`, `P0192`, `P0193`, `P0194`, `P0195`, `P0196`, `P0197`, `P0198`, `P0199`",
         ),
         (
@@ -56,7 +56,7 @@ fn codes_that_are_no_warnings_are_errors_at_their_place() {
     assert_eq!(problems[0].code.to_string(), "P0105");
 }
 
-/// The same slip in every body is told ten times, and then counted.
+/// The same mistake in every body is reported ten times, and then counted.
 #[test]
 fn many_warnings_are_counted() {
     let body =

@@ -1,5 +1,5 @@
-//! Scenes in space: every type, orientations and directions in all their forms, and faults that
-//! only space has.
+//! Tests scenes in space: every type, orientations and directions in all their forms, and errors
+//! that occur only in space.
 
 use std::collections::BTreeSet;
 
@@ -9,8 +9,8 @@ use model::{AnyDescription, Mechanism, Registry, SpatialBody, SpatialDescription
 use crate::diagnostics::check_in;
 use crate::{assert_close, read};
 
-/// Bodies a, b and c: a at (1, 2, 3), its axes turned by a right angle about z, b at (3, 2, 3), c
-/// at the origin.
+/// The scene has bodies a, b and c: a at (1, 2, 3) with axes rotated by a right angle about z, b at
+/// (3, 2, 3), c at the origin.
 const BODIES: &str = r#"[scene]
 name = "small"
 space = "spatial"
@@ -178,7 +178,7 @@ fn body(orientation: &str) -> SpatialBody {
     d.bodies[0].clone()
 }
 
-/// Half a turn about (0, 3, 4)/5 takes x to −x and y to (0, −0.28, 0.96).
+/// Half a turn about (0, 3, 4)/5 maps x to −x and y to (0, −0.28, 0.96).
 #[test]
 fn four_ways_of_an_orientation() {
     let expected = [[-1.0, 0.0, 0.0], [0.0, -0.28, 0.96], [0.0, 0.96, 0.28]];
@@ -186,7 +186,8 @@ fn four_ways_of_an_orientation() {
         "{ quaternion = [0.0, 0.0, 0.6, 0.8] }",
         "{ quaternion = [0.0, 0.0, -0.6, -0.8] }",
         "{ axis = [0, 3, 4], angle = 3.141592653589793 }",
-        // About x by ψ = atan2(0.96, 0.28), then by π about z: y goes to (0, −cos ψ, sin ψ).
+        // The rotation is about x by ψ = atan2(0.96, 0.28), then by π about z: y is mapped to (0,
+        // −cos ψ, sin ψ).
         "{ rpy = [1.2870022175865687, 0.0, 3.141592653589793] }",
         "{ matrix = [[-1, 0, 0], [0, -0.28, 0.96], [0, 0.96, 0.28]] }",
     ] {
@@ -199,7 +200,8 @@ fn four_ways_of_an_orientation() {
             assert!(near, "{way}: axis {k} is {found:?}");
         }
     }
-    // About x first, then y, then z: with right angles x goes to −z under the pitch and stays.
+    // The rotation is about x first, then y, then z: with right angles the pitch maps x to −z, and
+    // the yaw does not change it.
     let turned = Pose::new(
         [0.0; 3],
         body("{ rpy = [1.5707963267948966, 1.5707963267948966, 0.0] }").orientation,
@@ -223,7 +225,7 @@ fn an_orientation_with_few_digits_is_taken_with_a_warning() {
     assert_close(&turned.to_global([1.0, 0.0, 0.0]), &[0.0, 1.0, 0.0]);
 }
 
-/// The pose of a body that was turned about an axis of the ground through (1, 0, 0).
+/// Returns the pose of a body that was rotated about an axis of the ground through (1, 0, 0).
 fn turned(pose: Pose, axis: [f64; 3], angle: f64) -> Pose {
     let (sin, cos) = (0.5 * angle).sin_cos();
     let turn = Pose::new([0.0; 3], [cos, sin * axis[0], sin * axis[1], sin * axis[2]]);
@@ -236,7 +238,7 @@ fn turned(pose: Pose, axis: [f64; 3], angle: f64) -> Pose {
     }
 }
 
-/// A hinge turns about the axis that was meant, however it is written: y of the ground is x of a.
+/// A hinge rotates about the intended axis in any notation: y of the ground is x of a.
 #[test]
 fn directions_of_the_body_of_the_ground_and_of_both() {
     for axis in [
@@ -268,8 +270,8 @@ fn directions_of_the_body_of_the_ground_and_of_both() {
     }
 }
 
-/// Two markers: on the ground z points along −y and x along x, on body d z along its x and x along
-/// its −z. Body d stands so that they coincide.
+/// There are two markers: on the ground z points along −y and x along x; on body d z points along
+/// its x-axis and x along its −z-axis. The pose of body d is such that they coincide.
 const MARKED: &str = r#"[[body]]
 name = "d"
 mass = 1.0
@@ -296,8 +298,8 @@ bodies = ["ground", "d"]
 markers = ["bearing", "journal"]
 "#;
 
-/// z along the axis, x across: every joint holds where its markers coincide, and moves as its type
-/// says.
+/// The axis is z, and x is across: every joint is satisfied if its markers coincide, and moves
+/// according to its type.
 #[test]
 fn a_joint_between_markers_has_their_places_and_axes() {
     let along = [0.0, 1.0, 0.0];
@@ -331,7 +333,7 @@ fn a_joint_between_markers_has_their_places_and_axes() {
             out.iter().fold(0.0_f64, |m, x| m.max(x.abs()))
         };
         assert!(phi(pose) < 1e-15, "{kind}: {}", phi(pose));
-        // About the place of the joint, at (1, −2, 0).
+        // The rotation is about the reference point of the joint, at (1, −2, 0).
         let moved = |by: f64, mut pose: Pose| {
             pose.r[1] += by;
             pose
@@ -465,13 +467,13 @@ fn faults_in_space() {
             (
                 TURNED,
                 "orientation = { matrix = «[[1, 0, 0], [0, 1, 0], [0, 0, 0]]» }",
-                "body `a`: `orientation`: `matrix` is singular, which is no orientation",
+                "body `a`: `orientation`: `matrix` is singular, so it is not an orientation",
                 "no orientation",
             ),
             (
                 TURNED,
                 "orientation = { quaternion = «[0, 0, 0, 0]» }",
-                "body `a`: `orientation`: `quaternion` is zero, which is no orientation",
+                "body `a`: `orientation`: `quaternion` is zero, so it is not an orientation",
                 "no orientation",
             ),
             (
@@ -520,7 +522,7 @@ fn faults_in_space() {
     );
 }
 
-/// What belongs to one space is told as such in the other one.
+/// An element of one space is reported as such in the other space.
 #[test]
 fn the_other_space_is_named() {
     check_in(
@@ -611,7 +613,7 @@ fn the_other_space_is_named() {
     );
 }
 
-/// Two shafts of the ground that meet under a right angle at the origin.
+/// Two shafts of the ground meet under a right angle at the origin.
 const SHAFTS: &str = r#"
 [[joint]]
 name = "A"
@@ -628,17 +630,17 @@ at = [0, 1, 0]
 axis = [0, 1, 0]
 "#;
 
-/// The mesh of both shafts.
+/// Returns the mesh of both shafts.
 fn teeth(keys: &str) -> model::Joint<joints::Space3> {
     let text = format!(
         "{BODIES}[[joint]]\nname = \"M\"\ntype = \"mesh\"\nbearings = [\"A\", \"B\"]\n{keys}\n{SHAFTS}"
     );
-    // It stands where its table stands, before its bearings.
+    // The mesh has the position of its table, before its bearings.
     let first = described(&text).joints.into_iter().next();
     first.expect("a joint")
 }
 
-/// The stored values of a joint by their names.
+/// Returns the stored values of a joint by their names.
 fn value(joint: &model::Joint<joints::Space3>, name: &str) -> Vec<f64> {
     let spec = joint.element.spec();
     let datum = spec.data.iter().find(|d| d.name == name).expect(name);
@@ -647,8 +649,8 @@ fn value(joint: &model::Joint<joints::Space3>, name: &str) -> Vec<f64> {
     all[datum.numbers()].to_vec()
 }
 
-/// Points and axes are those of the bearings, in the frames of wheels and carrier; the line of
-/// action is the normal of the plane of both axes, turned about the line from the apex.
+/// Points and axes are those of the bearings, in the frames of wheels and carrier. The line of
+/// action is the normal of the plane of both axes, rotated about the line from the apex.
 #[test]
 fn teeth_are_placed_by_their_bearings() {
     let joint = teeth("at = [2, 3, 0]");
@@ -661,14 +663,14 @@ fn teeth_are_placed_by_their_bearings() {
             model::BodyRef::Ground
         ]
     );
-    // Body a is at (1, 2, 3), turned by a right angle about z; b at (3, 2, 3).
+    // Body a is at (1, 2, 3), rotated by a right angle about z; b is at (3, 2, 3).
     assert_close(&value(&joint, "s_i"), &[-2.0, 0.0, -3.0]);
     assert_close(&value(&joint, "s_j"), &[-3.0, -1.0, -3.0]);
     assert_close(&value(&joint, "p_i"), &[1.0, 0.0, 0.0]);
     assert_close(&value(&joint, "p_j"), &[0.0, 1.0, 0.0]);
     assert_close(&value(&joint, "pitch"), &[2.0, 3.0, 0.0]);
     assert_close(&value(&joint, "line"), &[0.0, 0.0, 1.0]);
-    // N × g with g = (0.8, 0.6, 0).
+    // The normal is N × g with g = (0.8, 0.6, 0).
     let joint = teeth("at = [4, 3, 0]\npressure_angle = 0.3");
     let (sin, cos) = 0.3_f64.sin_cos();
     assert_close(&value(&joint, "line"), &[-0.6 * sin, 0.8 * sin, cos]);
@@ -773,10 +775,10 @@ fn bearings_of_teeth() {
             ),
         ],
     );
-    // Few digits are enough: the share is of the distance from the apex.
+    // Few digits are enough: the limit is a fraction of the distance from the apex.
     let digits = scene.replace("at = [2, 3, 0]\n", "at = [2, 3, 1e-6]\n");
     assert!(read(&digits).is_ok());
-    // What is not active cannot bear.
+    // An inactive joint cannot be a bearing.
     let off = scene.replacen("name = \"A\"\n", "name = \"A\"\nactive = false\n", 1);
     let problems = read(&off).expect_err("a bearing is off");
     let message = problems[0].to_string();

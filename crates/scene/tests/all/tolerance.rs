@@ -1,10 +1,10 @@
-//! Tolerances stated in a file, in the description and at their places.
+//! Tests tolerances in a file, in the description and at their positions.
 
 use model::{BuildError, Mechanism, Tolerance, ToleranceScope};
 
 use crate::{BODIES, read, read_more};
 
-/// Body a with a motor at its pin.
+/// Body a has a motor at its pin.
 const DRIVEN: &str = r#"[[joint]]
 name = "A"
 type = "revolute"
@@ -102,7 +102,7 @@ fn every_wrong_one_has_its_place() {
         .iter()
         .map(|p| format!("{}: {}", &text[p.primary.span.clone()], p.message))
         .collect();
-    // Of one table the first tolerance; the drive of the joint is not reported again.
+    // Each table reports its first invalid tolerance; the drive of the joint is not reported again.
     assert_eq!(
         told,
         [

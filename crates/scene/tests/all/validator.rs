@@ -1,5 +1,5 @@
 //! A validator for the part of JSON schema (draft 2020-12) that the schema of scenes uses. An
-//! unknown keyword fails the test, so that nothing is ignored.
+//! unknown keyword fails the test, so that every keyword has an effect.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ const WORDS: [&str; 6] = [
     "required",
 ];
 
-/// The reason why a value does not satisfy the schema; `None` if it does.
+/// Returns the reason why a value does not satisfy the schema; `None` if it does.
 pub(crate) fn fault(root: &Value, schema: &Value, value: &Value) -> Option<String> {
     let schema = schema.as_object().expect("a schema is an object");
     if let Some(missing) = missing(schema.get("required"), value) {

@@ -1,5 +1,5 @@
-//! The words of other programs: the page of the book lists those that the reader knows, and each
-//! leads to something that a scene or the command has.
+//! Tests the words of other programs: the page of the book lists those that the reader recognises,
+//! and each refers to an element of a scene or of the command.
 
 use std::collections::BTreeSet;
 
@@ -8,7 +8,7 @@ use pfaff_scene::ELSEWHERE;
 
 const PAGE: &str = include_str!("../../../../docs/book/words.md");
 
-/// The texts between grave accents.
+/// Returns the texts between grave accents.
 fn quoted(cell: &str) -> impl Iterator<Item = &str> {
     cell.split('`').skip(1).step_by(2)
 }

@@ -1,5 +1,5 @@
-//! A signed function of time that vanishes if the kept rows lose their rank: the determinant of
-//! these rows, bordered by a fixed basis of the motions that they allow at one instant. Rows and
+//! A signed function of time that vanishes if the kept rows become dependent. It is the determinant
+//! of these rows, bordered by a fixed basis of the motions that they allow at one instant. Rows and
 //! basis stay fixed, so the function is as smooth as the motion.
 
 use linalg::{Determinant, KeptRowSaddle, Lu, Matrix, PivotedQr};
@@ -9,7 +9,7 @@ pub(super) struct Border {
     kept: Vec<usize>,
     /// Rows: the basis vectors.
     frame: Matrix,
-    /// The factors of the kept rows; `None` if there are more of them than motions.
+    /// The factors of the kept rows; `None` if there are more rows than velocities.
     saddle: Option<KeptRowSaddle>,
     units: Vec<f64>,
     /// The determinant at that instant.
@@ -30,15 +30,16 @@ impl Border {
         border
     }
 
-    /// The determinant at another instant, relative to its value at the first instant. Zero if the
-    /// rows are dependent to working precision.
+    /// Returns the determinant at another instant, relative to its value at the first instant. Zero
+    /// if the rows are dependent to working precision.
     pub(super) fn value(&mut self, c: &Matrix) -> f64 {
         let now = self.determinant(c);
         now.sign * self.reference.sign * (now.log - self.reference.log).exp()
     }
 
-    /// Overlap of the fixed basis with the null space of the same rows at another instant, as a
-    /// volume: 1 if the null space has not rotated. `there` is fixed at that instant, with C `c`.
+    /// Returns the overlap of the fixed basis with the null space of the same rows at another
+    /// instant, as a volume: 1 if the null space has not rotated. `there` is fixed at that instant,
+    /// with C `c`.
     pub(super) fn overlap(&self, there: &Self, c: &Matrix) -> f64 {
         let turned;
         let other = if self.kept == there.kept {
@@ -66,7 +67,7 @@ impl Border {
     }
 }
 
-/// An orthonormal basis of the null space of rows, one vector in each row.
+/// Returns an orthonormal basis of the null space of the rows, one vector in each row.
 fn null_space(c: &Matrix, kept: &[usize]) -> Matrix {
     let qr = PivotedQr::of_rows(c.select_rows(kept));
     qr.q_columns(kept.len()..c.ncols()).transpose()

@@ -1,4 +1,4 @@
-//! The verdicts of an instant, compared with those of the stretches that contain it.
+//! Compares the verdicts at an instant with those of the time intervals that contain it.
 
 use model::{Layout, Mechanism, System};
 
@@ -7,9 +7,9 @@ use super::path::{Path, Sample};
 use crate::stretches::{Stretches, worst};
 use crate::verdict::{Judgement, Verdict};
 
-/// Lists the verdicts at an instant that differ from those of its stretches: of each reaction as a
-/// whole, then of its components. `judged` has those on all components, in the order of joints and
-/// drives.
+/// Lists the verdicts at an instant that differ from those of its time intervals: first of each
+/// whole reaction, then of its components. `judged` contains the verdicts on all components, in the
+/// order of joints and drives.
 pub(super) fn differences(
     mechanism: &Mechanism,
     verdicts: &Stretches,
@@ -34,10 +34,10 @@ pub(super) fn differences(
     found
 }
 
-/// The special instants that samples show, in place of those of a run: its states are less
-/// accurate, and near such an instant they do not differ from it. Of several samples side by side
-/// that do not differ from it by more than rounding, the first of the motion or else the one with
-/// the smallest margin is the instant.
+/// Replaces the special instants of a simulation by those that the samples show. The states of the
+/// simulation are less accurate, and near such an instant its verdicts do not differ from the
+/// samples. If several adjacent samples have verdicts that differ only by rounding, the instant is
+/// the first sample of the motion, or otherwise the sample with the smallest margin.
 pub(super) fn look_at_samples<F>(verdicts: &mut Stretches, path: &Path<'_, F>) {
     let samples = &path.samples;
     for (k, track) in verdicts.components_mut().enumerate() {
@@ -70,8 +70,8 @@ fn name_of(layout: &Layout, group: usize) -> String {
     layout.groups[group].name.clone()
 }
 
-/// Adds the verdicts at an instant to those along the motion: where they are decided and differ
-/// from their stretch they are special.
+/// Adds the verdicts at an instant to those along the motion. The instant is special for verdicts
+/// that are decided and differ from the verdict on their interval.
 pub(super) fn look(verdicts: &mut Stretches, (time, judged): (f64, &[Judgement])) {
     for (track, here) in verdicts.components_mut().zip(judged) {
         track.look(time, &here.verdict);

@@ -1,4 +1,4 @@
-//! Results of the verdicts along a motion, and the errors if there are none.
+//! Results and errors of the analysis along a motion.
 
 use model::StartError;
 use model::codes::Code;
@@ -14,23 +14,23 @@ use crate::verdict::Verdict;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MotionAnalysis {
-    /// The verdicts on joints and drives, by stretches of time, with the instants at which others
-    /// hold.
+    /// Verdicts on joints and drives by time interval, with the instants at which the verdicts
+    /// differ.
     pub verdicts: Stretches,
-    /// The rank that holds almost everywhere.
+    /// The rank almost everywhere on the motion.
     pub generic: GenericRank,
-    /// Stretches of time with another rank, in the order of time.
+    /// Time intervals with a different rank, in chronological order.
     pub stretches: Vec<Stretch>,
-    /// Singular configurations, in the order of time.
+    /// Singular configurations, in chronological order.
     pub passages: Vec<Passage>,
 }
 
-/// The rank that holds almost everywhere on a motion.
+/// The rank almost everywhere on a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GenericRank {
-    /// An instant at which it holds (s).
+    /// An instant with this rank (s).
     pub time: f64,
     /// Rank of C.
     pub rank: usize,
@@ -38,18 +38,19 @@ pub struct GenericRank {
     pub redundancy: usize,
 }
 
-/// A stretch of the motion, between break times, with another rank than the rest.
+/// A time interval between break times on which the rank differs from that of the rest of the
+/// motion.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Stretch {
-    /// Time at which it begins (s).
+    /// Start time (s).
     pub from: f64,
-    /// Time at which it ends (s).
+    /// End time (s).
     pub to: f64,
-    /// Degree of redundancy on this stretch.
+    /// Degree of redundancy on this interval.
     pub redundancy: usize,
-    /// Description of the stretch as text.
+    /// Description of the interval as text.
     pub text: String,
 }
 
@@ -64,9 +65,9 @@ pub struct Passage {
     pub kind: PassageKind,
     /// First and last time at which the smallest non-zero singular value is below 10⁻³.
     pub nearly_singular: [f64; 2],
-    /// Verdicts that differ from those of the stretch that contains the instant.
+    /// Verdicts that differ from those of the interval that contains the instant.
     pub differences: Vec<Difference>,
-    /// Description of the passage as text.
+    /// Description of the singular configuration as text.
     pub text: String,
 }
 
@@ -87,14 +88,14 @@ pub enum PassageKind {
         /// The smallest non-zero singular value.
         sigma: f64,
     },
-    /// The configuration is so close to singular that it is undecided whether the rank drops.
+    /// The configuration is so close to a singular one that a drop of the rank is undecided.
     Undecided {
         /// The singular values and the tolerance.
         doubt: Doubt,
     },
 }
 
-/// One verdict that differs.
+/// A verdict that differs at an instant.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -103,7 +104,7 @@ pub struct Difference {
     pub reaction: String,
     /// The component of the reaction; `None` for the whole reaction.
     pub component: Option<&'static str>,
-    /// Verdict on the stretch that contains the instant.
+    /// Verdict on the interval that contains the instant.
     pub generic: Verdict,
     /// Verdict at this instant.
     pub here: Verdict,
@@ -114,17 +115,19 @@ pub struct Difference {
 #[non_exhaustive]
 pub enum AlongError {
     /// The sample times do not form an interval.
-    #[error("sample times must be finite and grow, and at least two: {found} at place {index}")]
+    #[error(
+        "at least two sample times are needed, finite and increasing: {found} at index {index}"
+    )]
     Times {
-        /// Index of the first wrong time, from 0.
+        /// Index of the first invalid time, from 0.
         index: usize,
-        /// The time at this index, NaN if there is none.
+        /// The time at this index; NaN if the index does not exist.
         found: f64,
     },
     /// A state of the motion is not valid for this mechanism.
     #[error(transparent)]
     State(#[from] StateError),
-    /// A state of the motion cannot be brought onto the constraints.
+    /// No configuration that satisfies the constraints is near a state of the motion.
     #[error("at t = {time} s the state of the motion is not on the constraints: {source}")]
     OffConstraints {
         /// Time of the state (s).
@@ -137,27 +140,26 @@ pub enum AlongError {
     Analysis(#[from] AnalysisError),
     /// Too many rows are on common cycles.
     #[error(
-        "{joints} are on common cycles with {rows} rows in all: a motion is judged by matrices of all of them, which is possible up to {most} rows"
+        "{joints} are on common cycles with {rows} rows in total; a motion can be analysed up to {most} rows"
     )]
     Large {
         /// The first joints and drives of the part.
         joints: String,
-        /// Number of their rows.
+        /// Number of rows of the part.
         rows: usize,
-        /// Largest number of rows that is possible.
+        /// Largest permitted number of rows.
         most: usize,
     },
     /// The rank is undecided at every sample time.
     #[error(
-        "the rank is decided at none of the sample times; at t = {time} s singular values are {sigma_r:.3e} and then {sigma_next:.3e}, \
-         with a tolerance of {tolerance:.3e}"
+        "the rank is undecided at all sample times; at t = {time} s the singular values around the gap are {sigma_r:.3e} and {sigma_next:.3e}, the tolerance is {tolerance:.3e}"
     )]
     Undecided {
         /// The last sample time (s).
         time: f64,
-        /// σ_r at this time, for the reading of the rank with the larger gap.
+        /// σ_r at this time, for the candidate of the rank with the larger gap.
         sigma_r: f64,
-        /// σ_{r+1}
+        /// Next singular value, σ_{r+1}.
         sigma_next: f64,
         /// Singular values below this tolerance count as zero.
         tolerance: f64,
@@ -165,7 +167,7 @@ pub enum AlongError {
 }
 
 impl AlongError {
-    /// Its code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {

@@ -1,5 +1,5 @@
-//! Instants at which a component is unique that is not unique on its stretch, while the rank stays
-//! the same: its margin falls to zero and rises again.
+//! Finds instants at which a component is unique although it is not unique on its time interval,
+//! while the rank stays the same. Its margin decreases to zero there and increases again.
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -13,16 +13,16 @@ use crate::state::State;
 use crate::stretches::{Stretches, VerdictTrack};
 use crate::verdict::{Judgement, Verdict};
 
-/// Margins of all components at the times that have been asked for: searches for several components
-/// often ask for the same ones.
+/// Cache of the margins of all components at the requested times. Searches for several components
+/// often request the same times.
 #[derive(Default)]
 struct Margins {
-    /// By the bits of the time.
+    /// Margins by the bits of the time.
     at: HashMap<u64, Vec<f64>>,
 }
 
 impl Margins {
-    /// The margin of a component, by its place among all.
+    /// Returns the margin of a component, given its index among all components.
     fn of<F: FnMut(f64) -> State>(
         &mut self,
         path: &mut Path<'_, F>,
@@ -63,7 +63,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     let mut margins_at = Margins::default();
     let mut found: Vec<JudgedInstant> = Vec::new();
     for (component, track) in verdicts.components().enumerate() {
-        // Margins at samples; `None` where another verdict than not unique holds around.
+        // Margins at samples; `None` if the verdict of the surrounding interval is not `NotUnique`.
         let samples = path.samples.iter().zip(&known);
         let margins: Vec<Option<f64>> = samples
             .map(|(s, known)| {
@@ -75,7 +75,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
         for bracket in brackets {
             let inside = |t: f64| bracket[0] <= t && t <= bracket[1];
             let is_unique = |judged: &[Judgement]| judged[component].verdict.is_unique();
-            // What samples show is known already.
+            // The samples are already analysed.
             let samples = path.samples.iter().zip(&known);
             let mut given = samples.filter(|(s, known)| inside(s.t) && **known);
             let is_listed = track.special().iter().any(|s| inside(s.time));
@@ -97,8 +97,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// Whether a component is also unique at a sample next to an instant, and between both: then the
-/// instant is that of the sample, blurred by rounding.
+/// Returns whether a component is also unique at a sample next to an instant and between both. If
+/// so, the instant is that of the sample, and rounding displaces it.
 fn is_of_sample<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     known: &[bool],
@@ -122,8 +122,8 @@ fn is_open(track: &VerdictTrack, t: f64) -> bool {
     *track.at(t) == Verdict::NotUnique
 }
 
-/// Intervals around minima of the margin of a component, by its margins at samples, where known,
-/// and at finer times.
+/// Returns intervals around minima of the margin of a component. The minima are found from its
+/// known margins at samples and at finer times.
 fn brackets<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     margins_at: &mut Margins,
@@ -132,8 +132,8 @@ fn brackets<F: FnMut(f64) -> State>(
 ) -> Result<Vec<[f64; 2]>, AlongError> {
     let mut brackets = Vec::new();
     for coarse in local_minima(times, margins) {
-        // Two instants may share what looks like one minimum: search between neighbouring samples
-        // on each side.
+        // Two instants may appear as one minimum, so the search continues between neighbouring
+        // samples on each side.
         let neighbour = |t: f64, side: isize| -> Option<f64> {
             let at = times.binary_search_by(|x| x.total_cmp(&t)).ok()?;
             let next = at.checked_add_signed(side)?;

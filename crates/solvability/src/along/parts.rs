@@ -1,5 +1,5 @@
-//! A motion analysed part by part: each set of joints on common cycles has its own motion and its
-//! own passages.
+//! Analyses a motion part by part. Each set of joints on common cycles has its own motion and its
+//! own singular configurations.
 
 use model::{Mechanism, System};
 
@@ -12,7 +12,7 @@ use crate::state::State;
 use crate::stretches::Stretches;
 
 /// Analyses a motion of parts at these times, which include the break times. The verdicts of the
-/// run that computed the motion are given, if there was one.
+/// simulation that computed the motion are given, if there was a simulation.
 pub(super) fn judged_by_parts(
     mechanism: &Mechanism,
     motion: impl Fn(f64, &Extent) -> State + Sync,
@@ -107,8 +107,8 @@ fn whole_branches(passage: &mut Passage, extent: &Extent, motion: &impl Fn(f64, 
     }
 }
 
-/// Merges the stretches of all parts, in the order of time. `redundancy` is that of the whole
-/// mechanism; the number with each stretch is the usual redundancy of its part.
+/// Merges the time intervals of all parts in chronological order. `redundancy` is that of the whole
+/// mechanism; the number with each interval is the usual redundancy of its part.
 fn together(mut found: Vec<(usize, Stretch)>, redundancy: usize) -> Vec<Stretch> {
     found.sort_by(|(_, a), (_, b)| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
     let mut all: Vec<Stretch> = Vec::new();

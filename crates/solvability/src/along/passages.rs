@@ -1,4 +1,4 @@
-//! Instants at which the rank drops or nearly drops.
+//! Finds the instants at which the rank drops or nearly drops.
 
 use crate::limits::{
     BENT, BESIDE_PASSAGE, MAY_PASS, MINIMUM_LOWER, OVERLAP, SAMPLE_HALVINGS, SINGULAR_INSTANT,
@@ -28,13 +28,14 @@ struct SigmaMinimum {
 
 /// A singular or nearly singular instant, with the rank there.
 pub(super) struct DecidedPassage {
-    /// Verdicts are not compared.
+    /// The instant, without compared verdicts.
     pub(super) passage: Passage,
     pub(super) point: Point,
     pub(super) decision: RankDecision,
 }
 
-/// Finds singular and nearly singular instants, except on stretches that are singular throughout.
+/// Finds singular and nearly singular instants, except on time intervals that are singular
+/// throughout.
 pub(super) fn passages<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     stretches: &[Stretch],
@@ -67,9 +68,9 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
         .collect()
 }
 
-/// Returns brackets of the minima of a sampled function, including minima at its ends. Returns none
-/// where the function is constant, and none next to times at which it is not known, because it may
-/// decrease further towards these.
+/// Returns brackets of the minima of a sampled function, including minima at its ends. It returns
+/// no bracket where the function is constant. It also returns no bracket next to times with unknown
+/// values, because the function may decrease further towards these times.
 pub(super) fn local_minima(times: &[f64], values: &[Option<f64>]) -> Vec<[f64; 2]> {
     let last = times.len().saturating_sub(1);
     (0..times.len())
@@ -87,14 +88,14 @@ pub(super) fn local_minima(times: &[f64], values: &[Option<f64>]) -> Vec<[f64; 2
 #[derive(Clone)]
 struct End {
     t: f64,
-    /// σ_r
+    /// Singular value σ_r.
     sigma: f64,
     /// C, equilibrated with the scaling of all samples.
     matrix: Matrix,
     kept: Vec<usize>,
 }
 
-/// The Frobenius norm of a difference.
+/// Returns the Frobenius norm of a difference.
 fn distance(a: &Matrix, b: &Matrix) -> f64 {
     let pairs = a.as_slice().iter().zip(b.as_slice());
     pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
@@ -121,7 +122,8 @@ fn sign_changes<F: FnMut(f64) -> State>(
         .map(|w| (w[0].clone(), w[1].clone(), SAMPLE_HALVINGS))
         .collect();
     while let Some((a, b, halvings)) = intervals.pop() {
-        // Every matrix as near as this to one of rank r has rank r or more.
+        // If C differs from a matrix of rank r by no more than this distance, its rank is at least
+        // r.
         if BENT * distance(&a.matrix, &b.matrix) < a.sigma.max(b.sigma) {
             continue;
         }
@@ -143,7 +145,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
         if halvings == 0 {
             continue;
         }
-        // The same in the other direction: rows and frame of b.
+        // The same test in the other direction, with the rows and the frame of b.
         let mut back = Border::new(&b.matrix, &b.kept);
         let overlaps = |border: &Border, back: &Border| {
             let there = border.overlap(back, &b.matrix);
@@ -172,14 +174,14 @@ fn sign_changes<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// Determines what happens at a candidate.
+/// Determines the event at a candidate.
 fn passage<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     candidate: SigmaMinimum,
 ) -> Result<DecidedPassage, AlongError> {
     let (time, sigma) = (candidate.t, candidate.sigma);
     let point = path.at(time)?;
-    // A sign change proves that a matrix of lower rank is at most σ_r away.
+    // A sign change proves that the distance to a matrix of lower rank is at most σ_r.
     let distance = if candidate.proved { sigma } else { 0.0 };
     let decision = path.decide(&point, distance)?;
     let interval = nearly_singular(path, time)?;
@@ -214,7 +216,7 @@ fn passage<F: FnMut(f64) -> State>(
     })
 }
 
-/// The interval around t on which σ_r is below the limit, as far as the motion is given.
+/// Returns the interval around t on which σ_r is below the limit, within the given motion.
 fn nearly_singular<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     t: f64,
@@ -223,7 +225,7 @@ fn nearly_singular<F: FnMut(f64) -> State>(
     let ends = [samples[0].t, samples[samples.len() - 1].t];
     let before: Vec<&Sample> = samples.iter().rev().filter(|s| s.t < t).collect();
     let after: Vec<&Sample> = samples.iter().filter(|s| s.t > t).collect();
-    // The first sample outside, and the last one inside.
+    // The first sample outside the interval, and the last sample inside.
     let edges = [before, after].map(|side| {
         let outside = side.iter().position(|s| s.sigma >= NEARLY_REDUNDANT)?;
         let inside = outside.checked_sub(1).map_or(t, |k| side[k].t);
@@ -240,8 +242,8 @@ fn nearly_singular<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// Velocities of the motion, moved onto `C·v = b` in the kept rows. Returns `None` if these rows
-/// are dependent to the last digit.
+/// Returns velocities of the motion that satisfy `C·v = b` in the kept rows. Returns `None` if
+/// these rows are dependent to the last digit.
 fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Option<Vec<f64>> {
     let layout = mechanism.layout();
     let mut s = p.s.clone();
@@ -256,7 +258,7 @@ fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Option<Vec<f6
     Some(p.v.iter().zip(step).map(|(v, d)| v + d).collect())
 }
 
-/// The velocities that the mechanism also has just before and after the instant, n_v × (n_v − r).
+/// Returns the free velocities just before and after the instant, n_v × (n_v − r).
 fn regular_motions<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     t: f64,
@@ -272,7 +274,7 @@ fn regular_motions<F: FnMut(f64) -> State>(
     if freedoms == 0 {
         return Ok(Matrix::zeros(n, 0));
     }
-    // The mean of both sides differs from the limit by the square of their distance only.
+    // The mean of both sides differs from the limit only by the square of their distance.
     let distance = BESIDE_PASSAGE * (to - t).min(t - from);
     let sides = if distance > 0.0 {
         vec![t - distance, t + distance]
@@ -317,8 +319,8 @@ mod tests {
         }
     }
 
-    /// A crank of one metre on a rod of one metre, whose end slides on the x axis: the crank at
-    /// 90° + δ leaves the end at −2·sin δ, and the rows lose their rank where δ passes zero.
+    /// Returns a crank of one metre on a rod of one metre, whose end slides on the x axis. If the
+    /// crank is at 90° + δ, the end is at −2·sin δ. The rows lose their rank where δ passes zero.
     fn passed(delta: impl Fn(f64) -> f64, times: &[f64]) -> Vec<f64> {
         let mut d = Description::new("slider-crank");
         let crank = d.body(Body::new("crank", 1.0, 1.0));
@@ -360,7 +362,7 @@ mod tests {
 
     const SAMPLES: [f64; 3] = [0.0, 0.5, 1.0];
 
-    /// From 0 to 1 between the second sample and the third.
+    /// Function that rises from 0 to 1 between the second and the third sample.
     fn second_half(t: f64) -> f64 {
         (2.0 * t - 1.0).max(0.0)
     }
@@ -378,8 +380,8 @@ mod tests {
         are_near(&found, &[0.7, 0.99]);
     }
 
-    /// A turn through both singular poses, δ = 0 and δ = π, ends with determinants of the same size
-    /// and sign, but the bodies move in other directions there.
+    /// A revolution through both singular configurations, δ = 0 and δ = π, ends with determinants
+    /// of the same size and sign. The bodies move in other directions at its end.
     #[test]
     fn two_passages_between_samples_show_in_a_turned_motion() {
         let (from, turn) = (-1.1, PI + 2.2);
@@ -390,7 +392,7 @@ mod tests {
         );
     }
 
-    /// δ is 0.5 until it jumps below zero for two thousandths of the way, and 0.02 afterwards.
+    /// δ is 0.5 until it falls below zero for two thousandths of the motion; afterwards it is 0.02.
     #[test]
     fn passages_are_found_that_are_two_thousandths_apart() {
         let roots = [0.3095, 0.3115];
@@ -401,7 +403,7 @@ mod tests {
         are_near(&passed(delta, &SAMPLES), &roots);
     }
 
-    /// All samples are nearly singular and equally so, and serve.
+    /// All samples are equally nearly singular, and all are used.
     #[test]
     fn a_motion_near_a_singular_pose_has_regular_samples() {
         let found = passed(|t| 2e-4 * (1.0 - 2.0 * second_half(t)), &SAMPLES);

@@ -1,4 +1,4 @@
-//! States of a motion moved onto the constraints, and the samples taken of them.
+//! Moves the states of a motion onto the constraints, and samples them.
 
 use crate::error::AnalysisError;
 use crate::limits::{REGULAR_SAMPLE, ROWS_MAX};
@@ -17,7 +17,7 @@ use crate::matrices::Solvability;
 use crate::state::{self, State};
 use crate::verdict::Judgement;
 
-/// What is determined at each sample.
+/// Results that are determined at each sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Detail {
     /// The rank.
@@ -30,17 +30,17 @@ pub(super) enum Detail {
 pub(super) struct Path<'a, F> {
     pub(super) mechanism: &'a Mechanism,
     motion: F,
-    /// Numbers of the rows of Φ that hold along the motion.
+    /// Numbers of the rows of Φ along the motion.
     holonomic: Vec<usize>,
     /// Length that makes C dimensionless, the same along the motion.
     size: f64,
     /// The rank almost everywhere.
     pub(super) rank: usize,
-    /// An instant at which it holds (s): the one farthest from singular.
+    /// The instant with this rank that is farthest from a singular configuration (s).
     pub(super) typical: f64,
-    /// The equilibration of the best sample, used for all.
+    /// The equilibration of the best sample, used for all samples.
     scaling: Scaling,
-    /// The samples in the order of time.
+    /// The samples in chronological order.
     pub(super) samples: Vec<Sample>,
 }
 
@@ -50,9 +50,9 @@ pub(super) struct Point {
     pub(super) q: Vec<f64>,
     pub(super) v: Vec<f64>,
     pub(super) s: Scratch,
-    /// C without dimensions.
+    /// Dimensionless C.
     pub(super) c: Matrix,
-    /// The accuracy of its entries, once it has been asked for.
+    /// The accuracy of the entries of C, computed on the first request.
     known: OnceCell<Matrix>,
 }
 
@@ -67,12 +67,12 @@ pub(super) struct Sample {
     pub(super) c: Matrix,
     pub(super) decision: RankDecision,
     /// The verdicts on all components, in the order of joints and drives; empty if only ranks are
-    /// asked for.
+    /// requested.
     pub(super) judged: Vec<Judgement>,
 }
 
 impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
-    /// Samples a motion and reads the rank that it has almost everywhere: the largest one.
+    /// Samples a motion and determines its rank almost everywhere: the largest rank of the samples.
     pub(super) fn new(
         mechanism: &'a Mechanism,
         mut motion: F,
@@ -112,7 +112,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         Ok(path)
     }
 
-    /// Takes rank and equilibration from the samples and evaluates all samples with these.
+    /// Takes rank and equilibration from the samples, and evaluates all samples with these.
     fn settle_rank(&mut self) -> Result<(), AlongError> {
         let sigma = |s: &Sample| s.decision.evidence.sigma_r;
         let decided = self.samples.iter().filter(|s| s.decision.is_decided());
@@ -148,7 +148,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         Ok(())
     }
 
-    /// The state at time t, moved onto the constraints.
+    /// Returns the state at time t, moved onto the constraints.
     pub(super) fn at(&mut self, t: f64) -> Result<Point, AlongError> {
         let State { q, v } = (self.motion)(t);
         state::check(self.mechanism, t, &q, &v)?;
@@ -166,19 +166,19 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         })
     }
 
-    /// The accuracy of the entries of C at a point.
+    /// Returns the accuracy of the entries of C at a point.
     fn known<'p>(&self, p: &'p Point) -> &'p Matrix {
         p.known
             .get_or_init(|| uncertainty(self.mechanism, &p.s, self.size))
     }
 
-    /// Length that makes C dimensionless.
+    /// Returns the length that makes C dimensionless.
     pub(super) fn size(&self) -> f64 {
         self.size
     }
 
-    /// Decides the rank at a point; `distance` bounds how far its C may be from the matrix whose
-    /// rank is wanted.
+    /// Decides the rank at a point. `distance` is an upper bound of the distance between the C of
+    /// the point and the matrix whose rank is requested.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
         let layout = self.mechanism.layout();
         if distance == 0.0 && self.mechanism.has_tolerances() && layout.rows() <= ROWS_MAX {
@@ -198,25 +198,25 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         decision.map_err(|source| AnalysisError::Rank { time: p.t, source }.into())
     }
 
-    /// C at a point, equilibrated with the scaling of all samples.
+    /// Returns C at a point, equilibrated with the scaling of all samples.
     pub(super) fn equilibrated(&self, p: &Point) -> Matrix {
         self.scaling.apply(&p.c)
     }
 
-    /// The r-th singular value at time t.
+    /// Returns the r-th singular value at time t.
     pub(super) fn sigma(&mut self, t: f64) -> Result<f64, AlongError> {
         let point = self.at(t)?;
         Ok(singular_value(&self.equilibrated(&point), self.rank))
     }
 
-    /// The verdicts on all components at time t.
+    /// Returns the verdicts on all components at time t.
     pub(super) fn judged_at(&mut self, t: f64) -> Result<Vec<Judgement>, AlongError> {
         let point = self.at(t)?;
         let decision = self.decide(&point, 0.0)?;
         self.judged(&point, decision)
     }
 
-    /// The same at a point whose rank has been decided.
+    /// Returns the verdicts on all components at a point with a decided rank.
     pub(super) fn judged(
         &self,
         p: &Point,
@@ -229,13 +229,13 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         judged.map_err(|source| AnalysisError::Query { time: p.t, source }.into())
     }
 
-    /// First and last sample time (s).
+    /// Returns the first and last sample time (s).
     pub(super) fn extent(&self) -> [f64; 2] {
         [self.samples[0].t, self.samples[self.samples.len() - 1].t]
     }
 }
 
-/// σ_r; infinite if the rank is 0.
+/// Returns σ_r, or infinity if the rank is 0.
 pub(super) fn singular_value(c: &Matrix, rank: usize) -> f64 {
     match rank {
         0 => f64::INFINITY,

@@ -1,17 +1,18 @@
 //! Searches in a function of time: for a change of sign, for the time at which it falls below zero,
-//! and for a minimum. The function may return an error. They find singular instants along a given
-//! motion and within a step of a simulation.
+//! and for a minimum. The function may return an error. The searches find singular instants along a
+//! given motion and within a step of a simulation.
 //!
-//! Events of an integrator have a search of their own, in `integrators`: that crate depends on no
-//! other crate, and its search returns the end of the bracket beyond the event.
+//! The crate `integrators` has its own search for events: that crate depends on no other crate, and
+//! its search returns the end of the bracket after the event.
 
 use crate::limits::{EDGE, FALL, NARROWING, RESOLUTION, SEARCH_ITERATIONS};
 
-/// A root of `f` between a and b, where `f(a) > 0 > f(b)`: secant steps with the Illinois
-/// modification, bisection if these gain too little, until a value is at most `enough`.
+/// Returns a root of `f` between a and b, where `f(a) > 0 > f(b)`. The method uses secant steps
+/// with the Illinois modification, and bisection if these steps gain too little. It stops if a
+/// value is at most `enough`.
 ///
 /// # Errors
-/// The errors of `f`.
+/// Returns the errors of `f`.
 pub fn root<E>(
     [a, b]: [f64; 2],
     [f_a, f_b]: [f64; 2],
@@ -19,7 +20,7 @@ pub fn root<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
     let (mut low, mut high) = ((a, f_a), (b, f_b));
-    // Values for the secant; halved at an end that stays.
+    // Values for the secant, halved at an end that does not move.
     let (mut w_low, mut w_high) = (f_a, f_b);
     let mut width = b - a;
     let mut slow = 0;
@@ -60,8 +61,8 @@ pub fn root<E>(
     })
 }
 
-/// The time between `outside` and `inside`, in either order, at which `f` becomes negative: `f` is
-/// not negative at `outside`, but is at `inside`.
+/// Returns the time between `outside` and `inside`, in either order, at which `f` becomes negative.
+/// `f` is not negative at `outside` and negative at `inside`.
 pub(super) fn edge<E>(
     [outside, inside]: [f64; 2],
     mut f: impl FnMut(f64) -> Result<f64, E>,
@@ -76,21 +77,21 @@ pub(super) fn edge<E>(
     Ok(direction * root(along, values, enough, |x| f(direction * x))?)
 }
 
-/// Whether a function may reach `limit` near its minimum, if the values found around the minimum
-/// lie between `least` and `largest`.
+/// Returns whether a function may reach `limit` near its minimum, if the values found around the
+/// minimum are between `least` and `largest`.
 pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
     let lowest = least - FALL * (largest - least);
-    // NaN excludes nothing.
+    // NaN values exclude no limit.
     lowest.is_nan() || lowest <= limit
 }
 
-/// Finds the minimum of `f` between a and b and its value, provided that there is one minimum.
-/// Golden section search, which finds the corner of an absolute value to rounding, or stops once
-/// the interval is as narrow as `enough`. Returns `None` as soon as it is clear that the minimum is
-/// above `limit`, also where a function that jumps stays above it as the interval gets narrow.
+/// Finds the minimum of `f` between a and b and its value, provided that there is one minimum. The
+/// golden section search finds the corner of an absolute value to rounding, or stops if the
+/// interval is narrower than `enough`. It returns `None` as soon as the minimum is certainly above
+/// `limit`, for example if a function with a jump stays above it on a narrow interval.
 ///
 /// # Errors
-/// The errors of `f`.
+/// Returns the errors of `f`.
 pub fn minimum<E>(
     [mut a, mut b]: [f64; 2],
     limit: f64,
@@ -180,7 +181,7 @@ mod tests {
         assert!((at(&|t| (t - 0.3).abs()) - 0.3).abs() < 1e-15);
         assert!((at(&|t| (t - 0.3).powi(2)) - 0.3).abs() < 1e-8);
         assert_eq!(at(&|t| t), -1.0);
-        // A tenth above the limit: few evaluations; a tenth below it: found.
+        // A tenth above the limit takes few evaluations. A tenth below the limit is found.
         let above = |t: f64| 0.1 + (t - 0.3).abs().sqrt();
         assert!(matches!(found(0.0, &|t| 0.1 + (t - 0.3).powi(2)), (None, asked) if asked < 14));
         assert!(matches!(found(0.0, &above), (None, asked) if asked < 24));

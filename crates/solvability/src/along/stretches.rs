@@ -1,5 +1,5 @@
-//! The verdicts of a motion by those at its sample times, and stretches between break times on
-//! which another rank holds.
+//! Determines the verdicts of a motion from its sample times, and the time intervals between break
+//! times on which the rank differs.
 
 use model::{Mechanism, System};
 
@@ -10,7 +10,7 @@ use crate::components::all_components;
 use crate::state::State;
 use crate::stretches::{InstantOrder, Stretches, VerdictRecorder};
 
-/// The verdicts by those at the sample times that have the rank of their piece of the motion.
+/// Returns the verdicts at the sample times whose rank is that of their interval of the motion.
 pub(super) fn of_samples<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Stretches {
     let (mechanism, samples) = (path.mechanism, &path.samples);
     let mut recorder = VerdictRecorder::new(all_components(mechanism.layout()).count());
@@ -30,13 +30,13 @@ pub(super) fn of_samples<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Stretche
     Stretches::of_components(mechanism, path.extent(), tracks)
 }
 
-/// The stretches with another rank than the motion has almost everywhere, in the order of time;
-/// neighbouring stretches with the same rank are merged.
+/// Returns the time intervals whose rank differs from the rank almost everywhere, in chronological
+/// order. Neighbouring intervals with the same rank are merged.
 pub(super) fn of_other_rank<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Vec<Stretch> {
     let rows = path.mechanism.layout().rows();
     let mut found: Vec<Stretch> = Vec::new();
     for Piece { from, to, rank } in pieces(path) {
-        // A piece on which no rank is decided has none of its own.
+        // An interval without a decided rank is not reported.
         let Some(rank) = rank.filter(|rank| *rank != path.rank) else {
             continue;
         };
@@ -57,11 +57,11 @@ pub(super) fn of_other_rank<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Vec<S
     found
 }
 
-/// A piece of the motion between break times.
+/// A time interval of the motion between break times.
 struct Piece {
     from: f64,
     to: f64,
-    /// The largest rank that is decided at sample times inside.
+    /// The largest decided rank at the sample times inside.
     rank: Option<usize>,
 }
 
@@ -80,7 +80,7 @@ fn pieces<F: FnMut(f64) -> State>(path: &Path<'_, F>) -> Vec<Piece> {
     ends.windows(2).map(piece).collect()
 }
 
-/// First and last time, and the break times between them.
+/// Returns the first and last time, and the break times between them.
 pub(super) fn ends_of_pieces(mechanism: &Mechanism, first: f64, last: f64) -> Vec<f64> {
     let breaks = mechanism.layout().break_times.iter().copied();
     let inside = breaks.filter(|t| first < *t && *t < last);

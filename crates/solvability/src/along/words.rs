@@ -1,9 +1,9 @@
-//! Passages and stretches as sentences.
+//! Describes singular configurations and time intervals as sentences.
 
 use super::data::{Difference, Passage, PassageKind, Stretch};
 use crate::limits::{GIVEN_DIGITS, SEARCHED_DIGITS};
 
-/// Describes what happens at an instant of a motion with this redundancy almost everywhere.
+/// Describes the event at an instant of a motion. `usual` is the redundancy almost everywhere.
 pub(super) fn passage(p: &Passage, usual: usize) -> String {
     let time = format!("at t = {} s", digits(p.time, SEARCHED_DIGITS));
     let [from, to] = p.nearly_singular.map(|t| digits(t, SEARCHED_DIGITS));
@@ -26,7 +26,7 @@ pub(super) fn passage(p: &Passage, usual: usize) -> String {
     with_differences(what, &p.differences)
 }
 
-/// Describes the rank on a stretch of a motion with this redundancy almost everywhere.
+/// Describes the rank on a time interval of a motion. `usual` is the redundancy almost everywhere.
 pub(super) fn stretch(s: &Stretch, usual: usize) -> String {
     let (from, to) = (digits(s.from, GIVEN_DIGITS), digits(s.to, GIVEN_DIGITS));
     format!(
@@ -35,7 +35,7 @@ pub(super) fn stretch(s: &Stretch, usual: usize) -> String {
     )
 }
 
-/// Appends to the sentence which reactions change from unique to not unique, and the reverse.
+/// Appends the reactions that change from unique to not unique, and the reverse, to the sentence.
 fn with_differences(sentence: String, differences: &[Difference]) -> String {
     let named = |word: &str| {
         let changed = differences.iter().filter(|d| d.here.word() == word);
@@ -57,7 +57,8 @@ fn with_differences(sentence: String, differences: &[Difference]) -> String {
     text
 }
 
-/// Name of the reaction if all of it differs in the same way, or else of its component.
+/// Returns the name of the reaction if all of its components differ in the same way, otherwise the
+/// name of its component.
 fn name(d: &Difference, all: &[Difference]) -> String {
     let whole = |w: &&Difference| w.reaction == d.reaction && w.component.is_none();
     let is_covered = all.iter().find(whole).is_some_and(|w| w.here == d.here);

@@ -1,7 +1,8 @@
-//! Choices at the states of a motion, solved with the rows that the motion has factored there.
+//! Choices at the states of a motion, solved with the row factors that the simulation has computed
+//! there.
 //!
-//! As for verdicts along a motion, the rank is that of the motion: factored kept rows give the left
-//! null space in plain numbers, and the scales of rows are those of the start.
+//! The rank is that of the motion, as for verdicts along a motion. The left null space follows from
+//! the factored kept rows, and the scales of the rows are those of the start.
 
 use std::borrow::Cow;
 
@@ -22,13 +23,13 @@ use crate::pose::evaluated;
 /// A choice with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedChoice {
-    /// Its name, as it stands at numbers.
+    /// Name of the choice, printed with its numbers.
     pub label: Label,
     /// The rule.
     pub choice: Choice,
 }
 
-/// Choices among the solutions of a motion, at one state after the other.
+/// Choices among the solutions of a motion, evaluated at successive states.
 pub struct CarriedChoices<'m> {
     mechanism: &'m Mechanism,
     parts: Vec<FreePart<'m>>,
@@ -45,11 +46,11 @@ struct FreePart<'m> {
     /// Factors of rows and columns in the equilibrated rows of the start.
     row_factor: Vec<f64>,
     column_factor: Vec<f64>,
-    /// The smallest singular value there, and the smallest that kept rows need.
+    /// The smallest singular value at the start, and the smallest permitted one for kept rows.
     sigma: f64,
     required: f64,
     tolerance: f64,
-    /// The share of each choice.
+    /// The share of this part in each choice.
     choices: Vec<Choice>,
 }
 
@@ -59,9 +60,9 @@ pub struct CarriedSolution<'s> {
     pub t: f64,
     /// Coordinates, which satisfy the constraints.
     pub q: &'s [f64],
-    /// C has been evaluated here.
+    /// Scratch in which C has been evaluated at this state.
     pub scratch: &'s Scratch,
-    /// Rows without multiplier in the solution, from 0.
+    /// Rows whose multipliers are zero in the solution, from 0.
     pub dropped: &'s [usize],
     /// The dependency of each of these rows on the others, `Cᵀ·z = 0`, over all rows in SI units.
     pub dependencies: &'s [Vec<f64>],
@@ -70,10 +71,11 @@ pub struct CarriedSolution<'s> {
 }
 
 impl<'m> CarriedChoices<'m> {
-    /// For a motion from the coordinates q at time t that drops these rows.
+    /// Prepares the choices for a motion that starts at time t with coordinates q and drops these
+    /// rows.
     ///
     /// # Errors
-    /// [`AnalysisError`]: C cannot be analysed there.
+    /// [`AnalysisError`]: C cannot be analysed at the start.
     pub fn new(
         mechanism: &'m Mechanism,
         (t, q): (f64, &[f64]),
@@ -92,8 +94,9 @@ impl<'m> CarriedChoices<'m> {
         })
     }
 
-    /// The multipliers of all rows for each choice; the error of one that selects no solution at
-    /// this state. Where there are no multipliers, these have none either.
+    /// Returns the multipliers of all rows for each choice, or the error of a choice that selects
+    /// no solution at this state. If the given multipliers of a part are NaN, the returned ones are
+    /// NaN, too.
     #[must_use]
     pub fn at(&self, at: &CarriedSolution<'_>) -> Vec<Result<Vec<f64>, ChoiceError>> {
         let mut found = vec![Ok(at.multipliers.to_vec()); self.count];
@@ -147,7 +150,7 @@ impl<'m> FreePart<'m> {
         })
     }
 
-    /// The multipliers of the part for each choice.
+    /// Returns the multipliers of the part for each choice.
     fn solve(
         &self,
         whole: &Mechanism,
@@ -188,7 +191,7 @@ impl<'m> FreePart<'m> {
         solved.collect()
     }
 
-    /// Checks that the others are independent without these rows.
+    /// Checks that the remaining rows are independent without these rows.
     fn check_rows(&self, whole: &Mechanism, z: &Matrix, rows: &[usize]) -> Result<(), ChoiceError> {
         let p = z.ncols();
         let refused = |source| {
@@ -203,7 +206,7 @@ impl<'m> FreePart<'m> {
                 rows: z.nrows(),
             });
         }
-        // Without the rows D the smallest singular value is at least σ_r times that of Z_D.
+        // Without the rows D, the smallest singular value is at least σ_r times that of Z_D.
         let weakest = singular_values(&z.select_rows(rows)).last().copied();
         let smallest = self.sigma * weakest.unwrap_or(1.0);
         if smallest < self.required {
@@ -215,7 +218,7 @@ impl<'m> FreePart<'m> {
         Ok(())
     }
 
-    /// `C_Xᵀ·Z_X` of equilibrated rows.
+    /// Returns `C_Xᵀ·Z_X` of equilibrated rows.
     fn cancelling(&self, s: &Scratch, rows: &RowRanges, z: &Matrix) -> Matrix {
         let layout = self.mechanism.layout();
         let mut b = Matrix::zeros(layout.n_v, z.ncols());

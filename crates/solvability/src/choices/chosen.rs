@@ -1,11 +1,11 @@
-//! Numbers of one solution among all: their type says so.
+//! Numbers of one solution among several, marked by their type.
 
 use super::{Label, NamedChoice};
 
-/// Numbers that belong to one solution of the equations of motion: that in which the multipliers of
-/// some rows are zero, or that of a named choice. Which of them are the same in every solution is a
-/// question for the verdicts; the numbers alone do not say it, so they are given only to a caller
-/// who says that they are chosen.
+/// Numbers of one solution of the equations of motion: the solution with zero multipliers in some
+/// rows, or the solution of a named choice. The verdicts decide which of these numbers are the same
+/// in every solution; the numbers themselves do not show it. The type therefore returns them only
+/// by a method whose name marks them as chosen.
 ///
 /// ```
 /// use pfaff_solvability::ChosenValues;
@@ -17,12 +17,12 @@ use super::{Label, NamedChoice};
 pub struct ChosenValues<T> {
     values: Vec<T>,
     dropped: Vec<usize>,
-    /// Name of the choice; `None` if the choice is that of the dropped rows.
+    /// Name of the choice; `None` if the dropped rows define the choice.
     label: Option<Label>,
 }
 
 impl<T> ChosenValues<T> {
-    /// Numbers of the solution in which these rows (from 0) have no multiplier.
+    /// Creates the numbers of the solution in which these rows (from 0) have no multiplier.
     #[must_use]
     pub fn new(values: Vec<T>, dropped: Vec<usize>) -> Self {
         Self {
@@ -32,7 +32,7 @@ impl<T> ChosenValues<T> {
         }
     }
 
-    /// Numbers of this choice.
+    /// Creates the numbers of this choice.
     #[must_use]
     pub fn by(values: Vec<T>, choice: &NamedChoice) -> Self {
         Self {
@@ -42,7 +42,7 @@ impl<T> ChosenValues<T> {
         }
     }
 
-    /// Other numbers of the same choice.
+    /// Creates other numbers of the same choice.
     #[must_use]
     pub fn with<U>(&self, values: Vec<U>) -> ChosenValues<U> {
         ChosenValues {
@@ -52,31 +52,31 @@ impl<T> ChosenValues<T> {
         }
     }
 
-    /// The name of the choice; `None` if it is that of the dropped rows.
+    /// Returns the name of the choice; `None` if the dropped rows define the choice.
     #[must_use]
     pub fn label(&self) -> Option<&Label> {
         self.label.as_ref()
     }
 
-    /// The numbers, of this choice.
+    /// Returns the numbers of this choice.
     #[must_use]
     pub fn as_chosen(&self) -> &[T] {
         &self.values
     }
 
-    /// The rows whose multipliers are zero by choice, from 0, ascending.
+    /// Returns the rows whose multipliers are zero by choice, from 0, ascending.
     #[must_use]
     pub fn dropped(&self) -> &[usize] {
         &self.dropped
     }
 
-    /// States for which rows the numbers are that are written next.
+    /// Sets the dropped rows for the numbers that are written next.
     pub fn choose(&mut self, dropped: &[usize]) {
         self.dropped.clear();
         self.dropped.extend_from_slice(dropped);
     }
 
-    /// The numbers of this choice, to be written by whoever solves for them.
+    /// Returns the numbers of this choice as a buffer that the solver fills.
     pub fn to_be_written(&mut self) -> &mut [T] {
         &mut self.values
     }

@@ -1,5 +1,5 @@
-//! The equations for the multipliers, and the solution of them on the kept rows of the rank
-//! decision; the multipliers of dropped rows are zero.
+//! The equations for the multipliers, and their solution on the kept rows of the rank decision. The
+//! multipliers of dropped rows are zero.
 
 use std::sync::Arc;
 
@@ -38,32 +38,32 @@ use crate::sparse::{blocks, rows_of};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equations {
-    /// Diagonal of M, n_v.
+    /// Diagonal of the mass matrix M, n_v values.
     pub mass: Vec<f64>,
-    /// Q, n_v.
+    /// Generalised forces Q, n_v values.
     pub force: Vec<f64>,
-    /// C, (m + h) × n_v.
+    /// Constraint matrix C, (m + h) × n_v.
     pub c: Matrix,
-    /// Γ, m + h.
+    /// Right-hand side Γ of the acceleration constraints, m + h values.
     pub gamma: Vec<f64>,
-    /// Sizes of the terms that are added in each row.
+    /// Sizes of the terms in the sum of each row.
     pub terms: RowTerms,
 }
 
-/// Sizes of the terms that are added in the rows of `C·a = Γ`: a difference that is small relative
-/// to them is rounding. See [`model::Scales::terms`].
+/// Sizes of the terms in the sums of the rows of `C·a = Γ`: a difference that is small relative to
+/// them is rounding. See [`model::Scales::terms`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowTerms {
-    /// Of the entries of Γ, m + h. Zeros if Γ is exact.
+    /// Sizes for the entries of Γ, m + h values. They are zero if Γ is exact.
     pub gamma: Vec<f64>,
-    /// Of C·a for accelerations of one unit in any direction, m + h.
+    /// Sizes for C·a with accelerations of one unit in any direction, m + h values.
     pub extents: Vec<f64>,
-    /// Unit of each acceleration, n_v.
+    /// Unit of each acceleration, n_v values.
     pub units: Vec<f64>,
 }
 
 impl RowTerms {
-    /// Those of a matrix whose columns have one unit, with an exact Γ.
+    /// Returns the sizes for a matrix whose columns have one unit, with an exact Γ.
     #[must_use]
     pub fn of_matrix(c: &Matrix) -> Self {
         let extent = |i: usize| c.row(i).iter().map(|x| x.abs()).sum();
@@ -74,8 +74,8 @@ impl RowTerms {
         }
     }
 
-    /// Those of a mechanism of this size (m) at velocities v (n_v). Needs C and Γ at the state of
-    /// the scratch.
+    /// Returns the sizes for a mechanism of this size (m) at velocities v (n_v). C and Γ must have
+    /// been evaluated in the scratch at this state.
     #[must_use]
     pub fn of(mechanism: &Mechanism, s: &Scratch, v: &[f64], size: f64) -> Self {
         let scales = mechanism.scales(s);
@@ -89,13 +89,14 @@ impl RowTerms {
         }
     }
 
-    /// Of row `i` at accelerations of which the largest is `largest`.
+    /// Returns the size of the terms of row `i` at accelerations up to `largest`.
     fn of_row(&self, i: usize, largest: f64) -> f64 {
         largest * self.extents[i] + self.gamma[i]
     }
 
-    /// The largest of these accelerations, and of those that the forces would cause alone, in their
-    /// units: accelerations of bodies that the rows hold are the rounding of these.
+    /// Returns the largest of these accelerations and of the accelerations that the forces alone
+    /// would cause, in their units. Computed accelerations of bodies that the rows hold fixed are
+    /// rounding of these values.
     fn largest(&self, a: &[f64], (mass, force): (&[f64], &[f64])) -> f64 {
         let alone = force.iter().zip(mass).map(
             |(force, mass)| {
@@ -111,18 +112,18 @@ impl RowTerms {
 /// Accelerations, and one solution for the multipliers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
-    /// a, n_v.
+    /// Accelerations a, n_v values.
     pub acceleration: Vec<f64>,
-    /// λ with zeros on the dropped rows. All other solutions are `λ + Z·y`.
+    /// Multipliers λ, zero for the dropped rows. All other solutions are `λ + Z·y`.
     pub multipliers: ChosenValues<f64>,
-    /// Reactions that have no finite value in the motion, whatever the multipliers say:
-    /// [`crate::no_finite_reactions`]. Empty unless the caller asks for them.
+    /// Reactions that have no finite value in the motion, although their multipliers are finite:
+    /// [`crate::no_finite_reactions`]. The list is empty unless the caller requests it.
     pub no_finite: Vec<Arc<NoFiniteReaction>>,
 }
 
 impl Equations {
-    /// The equations of a mechanism at time t, coordinates q and velocities v, which must satisfy
-    /// the constraints.
+    /// Returns the equations of a mechanism at time t, coordinates q and velocities v, which must
+    /// satisfy the constraints.
     ///
     /// # Errors
     /// [`RequestError::Length`], [`RequestError::NotFinite`]: t, q or v do not fit the mechanism.
@@ -130,7 +131,7 @@ impl Equations {
         Ok(Self::at(mechanism, (q, v), evaluated(mechanism, t, q, v)?))
     }
 
-    /// The equations at a state that has been evaluated.
+    /// Returns the equations at an evaluated state.
     fn at(mechanism: &Mechanism, (q, v): (&[f64], &[f64]), s: Scratch) -> Self {
         Self {
             mass: mechanism.mass().to_vec(),
@@ -141,10 +142,11 @@ impl Equations {
         }
     }
 
-    /// Solves for one λ, with zeros on the dropped rows. All other solutions are `λ + Z·y`.
+    /// Computes one λ, with zeros for the dropped rows. All other solutions are `λ + Z·y`.
     ///
     /// # Errors
-    /// - [`ChoiceError::Undecided`]: the rank is undecided, so the kept rows are not known.
+    /// - [`ChoiceError::Undecided`]: the rank is undecided, so the independent rows are not
+    ///   determined.
     /// - [`ChoiceError::Saddle`]: the kept rows and the masses do not determine the accelerations.
     /// - [`ChoiceError::Contradiction`]: the dropped rows require other accelerations, so there is
     ///   no solution.
@@ -156,10 +158,10 @@ impl Equations {
         self.solution(rows).map(|solution| solution.multipliers)
     }
 
-    /// Like [`Equations::multipliers`], with the accelerations.
+    /// Works like [`Equations::multipliers`], with the accelerations.
     ///
     /// # Errors
-    /// As [`Equations::multipliers`].
+    /// Same errors as [`Equations::multipliers`].
     pub fn solution(&self, rows: impl Into<RowDecision>) -> Result<Solution, ChoiceError> {
         self.solution_within(&rows.into(), |_, _| 0.0)
     }
@@ -185,8 +187,8 @@ impl Equations {
         Ok((solution, saddle))
     }
 
-    /// Like [`Equations::solution`]; `explained` returns what data within a stated tolerance
-    /// explain of a combination of rows at accelerations.
+    /// Works like [`Equations::solution`]. For a combination of rows at given accelerations,
+    /// `explained` returns the difference that data within a stated tolerance explain.
     fn solution_within(
         &self,
         rows: &RowDecision,
@@ -207,8 +209,8 @@ impl Equations {
         Ok(solution)
     }
 
-    /// The combination of rows in which the kept rows cancel the dropped row i, m + h: as a force,
-    /// it moves nothing.
+    /// Returns the combination of rows in which the kept rows cancel the dropped row i, m + h
+    /// values. Loads in this ratio cause no acceleration.
     fn dependency(
         &self,
         rows: &RowDecision,
@@ -240,12 +242,12 @@ fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Result<Scra
     Ok(s)
 }
 
-/// One solution of the equations of a mechanism of any size at time t, coordinates q and velocities
-/// v, which must satisfy the constraints. Uses dense matrices, or sparse ones if dense ones would
-/// be too large.
+/// Returns one solution of the equations of a mechanism of any size at time t, coordinates q and
+/// velocities v, which must satisfy the constraints. The function uses dense matrices, or sparse
+/// ones if dense ones would be too large.
 ///
 /// # Errors
-/// As [`Equations::of`] and [`Equations::multipliers`]; with sparse matrices every
+/// Same errors as [`Equations::of`] and [`Equations::multipliers`]. With sparse matrices, every
 /// coordinate needs a mass.
 pub fn solution(
     mechanism: &Mechanism,
@@ -265,8 +267,8 @@ pub fn solution(
     })
 }
 
-/// The solution with sparse matrices under the given forces, n_v values, instead of those of the
-/// mechanism.
+/// Returns the solution with sparse matrices under the given forces (n_v values) in place of the
+/// forces of the mechanism.
 pub(crate) fn solution_under(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -330,9 +332,9 @@ fn check_rows(rows: &RowDecision, m: usize) -> Result<(), ChoiceError> {
     }
 }
 
-/// Checks that the dropped rows agree with these accelerations, each of which has the error of the
-/// `largest`. Where a row differs by more than the rounding of its own terms, `implied` returns the
-/// terms of the kept rows in it, and what data explain.
+/// Checks that the dropped rows agree with these accelerations, each of which has the rounding
+/// error of `largest`. If a row differs by more than the rounding of its own terms, `implied`
+/// returns the terms of the kept rows in it and the difference that the data explain.
 fn agree<R: Iterator<Item = (usize, f64)>>(
     rows: &RowDecision,
     row: impl Fn(usize) -> R,
@@ -360,7 +362,7 @@ fn agree<R: Iterator<Item = (usize, f64)>>(
     Ok(())
 }
 
-/// Multipliers of the kept rows, with zeros for the dropped rows.
+/// Returns the multipliers of the kept rows, with zeros for the dropped rows.
 fn on_all_rows(kept: &[usize], of_kept: Vec<f64>, rows: usize) -> Vec<f64> {
     let mut lambda = vec![0.0; rows];
     for (&i, l) in kept.iter().zip(of_kept) {

@@ -11,8 +11,8 @@ use crate::groups::RequestError;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ChoiceError {
-    /// The rank is undecided, so it is not known what may be chosen.
-    #[error("the rank is undecided, and with it what may be chosen: {0}")]
+    /// The rank is undecided, so the choices are not determined.
+    #[error("the rank is undecided, so no choice can be computed: {0}")]
     Undecided(Doubt),
     /// An argument is invalid.
     #[error(transparent)]
@@ -20,10 +20,10 @@ pub enum ChoiceError {
     /// The equations cannot be solved on the kept rows.
     #[error(transparent)]
     Saddle(#[from] SaddleError),
-    /// Derivatives of forces are needed, and one of them calls a function.
+    /// Derivatives of forces are needed, and a force calls an external function.
     #[error(transparent)]
     Called(#[from] CalledForce),
-    /// Redundant rows require different accelerations: no reactions exist.
+    /// Redundant rows require different accelerations, so no reactions exist.
     #[error(
         "row {} requires an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
          there are no reactions that satisfy both",
@@ -49,10 +49,9 @@ pub enum ChoiceError {
         /// The weight.
         value: f64,
     },
-    /// Several rigid supports share a load, and the choice does not determine how.
+    /// Several rigid supports share a load, and the choice does not determine their shares.
     #[error(
-        "the choice leaves open how loads are shared ({free} missing): joints with weight zero (rigid ones) share loads in a way that is not determined; \
-         give a compliance to one more of the joints that mix"
+        "the choice does not determine all loads ({free} missing): rigid joints (compliance zero) share loads; give a compliance to at least one more of these joints"
     )]
     Indeterminate {
         /// Number of directions that are not determined.
@@ -69,7 +68,7 @@ pub enum ChoiceError {
     /// An error in one part of the mechanism.
     #[error("among {joints}: {source}")]
     InPart {
-        /// The first joints and drives of the part.
+        /// First joints and drives of the part.
         joints: String,
         /// Cause.
         source: Box<ChoiceError>,
@@ -86,7 +85,7 @@ pub enum ChoiceError {
         joints: String,
         /// Redundancy of the part.
         own: usize,
-        /// Number of its rows that are listed.
+        /// Number of listed rows of the part.
         listed: usize,
     },
     /// The reactions in these rows cannot be zero.
@@ -107,7 +106,7 @@ pub enum ChoiceError {
 }
 
 impl ChoiceError {
-    /// Its code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {

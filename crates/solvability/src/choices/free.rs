@@ -1,4 +1,4 @@
-//! All solutions `λ₀ + Z·y` at one pose, and those of them that a rule selects.
+//! All solutions `λ₀ + Z·y` at one configuration, and those that a rule selects.
 
 use linalg::Matrix;
 use model::{ConstraintId, RowRanges, System};
@@ -8,10 +8,10 @@ use super::multipliers::FreeMultipliers;
 use super::{ChoiceError, Compliance, NormWeights};
 use crate::groups::{LinearForm, ReactionForms, RequestError};
 
-/// `C_Xᵀ·Z_X` of equilibrated rows X.
+/// Returns `C_Xᵀ·Z_X` of equilibrated rows X.
 type Cancelling<'a> = Box<dyn Fn(&RowRanges) -> Result<Matrix, RequestError> + 'a>;
 
-/// The reactions at a pose, with the directions in which their multipliers are free.
+/// The reactions at a configuration, with the directions in which their multipliers are free.
 pub(crate) struct Choosing<'a> {
     pub(crate) reactions: &'a ReactionForms<'a>,
     pub(crate) free: FreeMultipliers<'a>,
@@ -19,7 +19,7 @@ pub(crate) struct Choosing<'a> {
 }
 
 impl Choosing<'_> {
-    /// The λ of least norm with these weights.
+    /// Returns the λ of least norm with these weights.
     pub(crate) fn least_norm(
         &self,
         lambda_0: &[f64],
@@ -41,7 +41,7 @@ impl Choosing<'_> {
         })
     }
 
-    /// The λ of elastic supports with these compliances.
+    /// Returns the λ of elastic supports with these compliances.
     pub(crate) fn elastic(
         &self,
         lambda_0: &[f64],

@@ -9,7 +9,7 @@ use super::{Choice, Compliance};
 use crate::value::Label;
 use crate::words;
 
-/// Name of a choice in which these joints and drives are rigid.
+/// Returns the name of a choice in which these joints and drives are rigid.
 pub(crate) fn label(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) -> Label {
     let text = match choice {
         Choice::MinimumNorm(w) => format!(
@@ -43,7 +43,7 @@ pub(crate) fn label(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) ->
         Choice::Elimination(rows) => {
             let known = rows.iter().filter_map(|&i| layout.labels.get(i));
             let labels: Vec<RowLabel> = known.cloned().collect();
-            // The label is repeated at every number, so it lists only the first rows.
+            // The label is repeated with every number, so it lists only the first rows.
             let (first, more) = if labels.len() > NAMED_ROWS {
                 labels.split_at(FIRST_NAMED)
             } else {

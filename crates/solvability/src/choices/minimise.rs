@@ -1,4 +1,4 @@
-//! The solution that minimises a sum of weighted squares: used for minimum norms and for elastic
+//! Computes the solution that minimises a sum of weighted squares, for minimum norms and elastic
 //! supports.
 
 use crate::limits::CHOICE_SOLVES;
@@ -9,9 +9,9 @@ use super::multipliers::FreeMultipliers;
 use crate::groups::{LinearForm, check, check_finite};
 use crate::matrices::Solvability;
 
-/// The λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`: with the rows
-/// `√weight·ℓᵀ` in L, `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, solved by QR of L·Z. Components of y that change
-/// none of the numbers ℓᵀ·λ stay zero.
+/// Returns the λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`. With the rows
+/// `√weight·ℓᵀ` in L, the minimum satisfies `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, which is solved by QR of
+/// L·Z. Components of y that change none of the numbers ℓᵀ·λ stay zero.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -35,7 +35,7 @@ use crate::matrices::Solvability;
 /// ```
 ///
 /// # Errors
-/// - [`ChoiceError::Indeterminate`]: numbers with weight zero are free to change.
+/// - [`ChoiceError::Indeterminate`]: numbers with weight zero are not determined.
 /// - [`ChoiceError::Weight`]: a weight is negative or not a number.
 /// - [`ChoiceError::Request`]: sizes do not fit.
 pub fn minimise(
@@ -46,7 +46,7 @@ pub fn minimise(
     minimise_in(&FreeMultipliers::of(solvability), lambda_0, terms)
 }
 
-/// As [`minimise`].
+/// Works like [`minimise`], for free multipliers.
 pub(super) fn minimise_in(
     free: &FreeMultipliers<'_>,
     lambda_0: &[f64],
@@ -94,15 +94,15 @@ pub(super) fn minimise_in(
     Ok(lambda)
 }
 
-/// Selects independent columns of a matrix of images (rows of size one or less); the others depend
-/// on them.
+/// Selects independent columns of a matrix of images (rows of size one or less). The other columns
+/// depend on them.
 pub(super) fn independent_columns(rows: &[&[f64]], columns: usize, tolerance: f64) -> Vec<usize> {
     let matrix = Matrix::from_fn(rows.len(), columns, |i, j| rows[i][j]);
     let qr = PivotedQr::of_columns(&matrix);
     qr.permutation()[..count(&qr, tolerance)].to_vec()
 }
 
-/// Number of pivots above a tolerance.
+/// Returns the number of pivots above a tolerance.
 fn count(qr: &PivotedQr, tolerance: f64) -> usize {
     qr.r_diagonal().filter(|r| r.abs() > tolerance).count()
 }

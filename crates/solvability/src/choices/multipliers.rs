@@ -1,4 +1,4 @@
-//! The directions in which multipliers are free, as numbers.
+//! The directions in which multipliers are free.
 
 use std::borrow::Cow;
 
@@ -18,7 +18,7 @@ pub(crate) struct FreeMultipliers<'a> {
 }
 
 impl<'a> FreeMultipliers<'a> {
-    /// Those of a matrix.
+    /// Returns the free directions of a matrix.
     pub(crate) fn of(solvability: &'a Solvability) -> Self {
         Self {
             z: Cow::Borrowed(solvability.null_space()),
@@ -27,7 +27,8 @@ impl<'a> FreeMultipliers<'a> {
         }
     }
 
-    /// `λ − Z·(Z_D)⁻¹·λ_D`: the solution that is zero, exactly, in the rows D, which determine y.
+    /// Returns `λ − Z·(Z_D)⁻¹·λ_D`: the solution that is exactly zero in the rows D, which
+    /// determine y.
     pub(crate) fn eliminated(&self, lambda: &[f64], rows: &[usize]) -> Vec<f64> {
         let qr = PivotedQr::of_columns(&self.z.select_rows(rows));
         let mut lambda = lambda.to_vec();
@@ -42,7 +43,7 @@ impl<'a> FreeMultipliers<'a> {
         lambda
     }
 
-    /// `λ − Z·y` for these columns of Z.
+    /// Computes `λ − Z·y` for these columns of Z.
     pub(super) fn leave(&self, lambda: &mut [f64], columns: &[usize], y: &[f64]) {
         for (i, l) in lambda.iter_mut().enumerate() {
             let terms = columns.iter().zip(y);

@@ -12,24 +12,24 @@ use crate::words::short;
 pub struct Demand {
     /// The drive.
     pub drive: String,
-    /// The driven joint and the measure; `None` if no joint is at this place, or the drive
-    /// is in the place of the joint.
+    /// The driven joint and the joint coordinate. `None` if the drive has no joint at its reference
+    /// point, or replaces the joint.
     pub joint: Option<(String, &'static str)>,
-    /// The measure.
+    /// Name of the joint coordinate.
     pub measure: &'static str,
-    /// Whether the measure is an angle.
+    /// Whether the joint coordinate is an angle.
     pub angular: bool,
-    /// Change of the measure since the start, its rate and acceleration.
+    /// Change of the joint coordinate since the start, its rate and its acceleration.
     pub prescribed: [f64; 3],
 }
 
 impl Demand {
-    /// The demand of a drive whose function of time has been evaluated. Returns `None` if this is
-    /// not a drive.
+    /// Returns the motion that a drive prescribes, given its evaluated function of time. Returns
+    /// `None` if the constraint is not a drive.
     pub(super) fn of(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Option<Self> {
         let groups = &mechanism.layout().groups;
         let group = &groups[id.0];
-        // After the prescribed motion come the angles that are counted.
+        // The unwrapped angles follow after the prescribed motion.
         let [prescribed, ..] = *mechanism.prescribed(id, s) else {
             return None;
         };
@@ -44,7 +44,7 @@ impl Demand {
         })
     }
 
-    /// "the angle of `A`"
+    /// Returns, for example, "the angle of `A`".
     pub(super) fn of_what(&self) -> String {
         match &self.joint {
             Some((joint, measure)) => format!("the {measure} of `{joint}`"),
@@ -52,7 +52,7 @@ impl Demand {
         }
     }
 
-    /// "to change by 0.3 m"
+    /// Returns, for example, "to change by 0.3 m".
     pub(super) fn asked(&self, level: ConstraintLevel) -> String {
         let (verb, value) = match level {
             ConstraintLevel::Position => ("change by", self.prescribed[0]),

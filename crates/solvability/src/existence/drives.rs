@@ -1,7 +1,7 @@
-//! Drives that cannot follow the motion they prescribe, at one configuration and along the motion.
-//! Joints are kept before drives: if a redundant row can be one of a drive, it is. Then the row
-//! that is violated belongs to a drive, and no joint is named as the cause, however much the drives
-//! differ.
+//! Finds drives that cannot follow their prescribed motion, at one configuration and along the
+//! motion. The rank decision prefers rows of joints to rows of drives: if a redundant row can be
+//! one of a drive, it is. The violated row then belongs to a drive, and no joint is named as the
+//! cause, however much the drives differ.
 
 use std::cell::OnceCell;
 
@@ -16,12 +16,12 @@ use super::joints_first::{JointsFirst, StatedRanks};
 use crate::generic::{Generic, OtherConfiguration, generic};
 use crate::state::check_configuration;
 
-/// Contradictions between drives and the other constraints at time t and coordinates q: drives that
-/// prescribe different positions or velocities, and drives that prescribe what joints forbid.
-/// Positions come before velocities, the largest excess first. No velocities are needed. At q the
-/// joints must be satisfied, and so must each drive that is independent of them and of the drives
-/// before it. The result is empty if the rank is undecided in `f64`, or if there are more than
-/// [`ONE_PART`] rows.
+/// Returns contradictions between drives and the other constraints at time t and coordinates q.
+/// Drives may prescribe different positions or velocities, or may prescribe a motion that the
+/// joints prevent. Positions come before velocities, and the largest excess comes first. Velocities
+/// are not needed. At q, the joints must be satisfied, and so must each drive that is independent
+/// of them and of the drives before it. The result is empty if the rank is undecided in `f64`, or
+/// if there are more than [`ONE_PART`] rows.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
@@ -39,13 +39,13 @@ pub fn contradicting_drives(
     compared(mechanism, t, q, ranks.as_ref(), Notice::Rounding)
 }
 
-/// The first contradiction of drives between the start and the last time, checked at a dozen
-/// positions after the start. The positions follow the drives. Returns `None` if the drives cannot
-/// be followed or if there are more than [`ONE_PART`] rows. Rows that depend on each other only at
-/// the start are ignored, and so are differences too small for a run to notice.
+/// Returns the first contradiction of drives between the start and the last time, checked at a
+/// dozen positions after the start. The positions follow the drives. Returns `None` if the drives
+/// cannot be followed or if there are more than [`ONE_PART`] rows. The function ignores rows that
+/// depend on each other only at the start, and differences that are too small to stop a simulation.
 ///
 /// # Errors
-/// As [`contradicting_drives`].
+/// Same errors as [`contradicting_drives`].
 pub fn contradicting_drives_along(
     mechanism: &Mechanism,
     start: &[f64],
@@ -57,13 +57,13 @@ pub fn contradicting_drives_along(
         return Ok(None);
     }
     let ranks = StatedRanks::at(mechanism, 0.0, start)?;
-    // Drives that are independent at the start contradict nothing: on the way the rank is lower at
-    // single instants only.
+    // Drives that are independent at the start do not contradict each other: along the motion the
+    // rank is lower only at single instants.
     match JointsFirst::of_velocities(mechanism, 0.0, start, ranks.as_ref())? {
         Some(rows) if rows.has_redundant_drives(mechanism) => {}
         _ => return Ok(None),
     }
-    // Other configurations are looked for once, if anything contradicts at all.
+    // Other configurations are computed once, and only if a contradiction is found.
     let elsewhere = OnceCell::new();
     let elsewhere = || {
         elsewhere
@@ -80,9 +80,9 @@ pub fn contradicting_drives_along(
     Ok(found)
 }
 
-/// Whether the drives of a contradiction are redundant at other configurations as well, if any can
-/// be reached from the start: at a singular start a drive may be redundant that is needed at all
-/// configurations around it.
+/// Returns whether the drives of a contradiction are also redundant at other configurations that
+/// can be reached from the start. At a singular start, a drive may be redundant that is independent
+/// at all configurations around it.
 fn lasts(
     mechanism: &Mechanism,
     ranks: Option<&StatedRanks>,
@@ -103,13 +103,14 @@ fn lasts(
     elsewhere.is_none_or(|found| found.points.iter().all(is_redundant))
 }
 
-/// Whether there are no drives, or too many rows.
+/// Returns whether there are no drives, or too many rows.
 fn is_beyond(mechanism: &Mechanism) -> bool {
     let layout = mechanism.layout();
     layout.drive_rows().is_empty() || layout.rows() > ONE_PART
 }
 
-/// Calls `see` with the positions on the way until one cannot be reached or `see` returns `false`.
+/// Calls `see` with the positions along the motion until a position cannot be reached or `see`
+/// returns `false`.
 fn walk(
     mechanism: &Mechanism,
     start: &[f64],
@@ -134,7 +135,8 @@ fn walk(
             DRIVE_POSITIONS => t_end,
             k => t_end * f64::from(k) / f64::from(DRIVE_POSITIONS),
         };
-        // If the walk ends early, it is at a place where differing drives already differ.
+        // If the continuation ends early, it ends at a position where drives that contradict each
+        // other already differ.
         let is_there = walk.go(to)?;
         if !see(walk.t, &walk.q)? || !is_there {
             break;
@@ -189,7 +191,7 @@ impl DriveWalk<'_> {
         Ok(true)
     }
 
-    /// The largest change of a followed drive between the time of these rows and `next`.
+    /// Returns the largest change of a followed drive between the time of these rows and `next`.
     fn stride(&self, rows: &JointsFirst, next: f64) -> f64 {
         let now = &rows.s;
         let mut then = self.mechanism.scratch();
@@ -225,11 +227,11 @@ impl DriveWalk<'_> {
 enum Notice {
     /// All contradictions above rounding.
     Rounding,
-    /// The contradictions that a run to this time would notice.
+    /// The contradictions that would stop a simulation to this time.
     RunTo(f64),
 }
 
-/// Contradictions of positions and of velocities.
+/// Returns the contradictions of positions and of velocities.
 fn compared(
     mechanism: &Mechanism,
     t: f64,
@@ -258,8 +260,8 @@ fn compared(
             .slowest(mechanism, q)
             .unwrap_or_else(|| vec![0.0; mechanism.layout().n_v]);
         let level = Level::velocities(mechanism, scene_size(mechanism, q), &v);
-        // Different rates count as equal if the positions differ by less than a run notices at its
-        // end.
+        // Different rates count as equal if the positions at the end of the simulation differ by
+        // less than it notices.
         let slow = |i| per_second * mechanism.scales(&all.s).position(i);
         let terms = |i| mechanism.scales(&all.s).terms(i, &level) + slow(i);
         add(all.contradictions(mechanism, level, &terms, share));

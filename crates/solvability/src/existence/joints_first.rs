@@ -1,5 +1,5 @@
-//! Ranks and kept rows in which joints come before drives: what they leave of a drive is what it
-//! contradicts.
+//! Ranks and independent rows that prefer joints to drives. The redundant remainder of a drive is
+//! the contradicting part.
 
 use linalg::{KeptRowSaddle, Matrix};
 use model::start::scene_size;
@@ -11,12 +11,12 @@ use crate::certificate;
 use crate::error::AnalysisError;
 use crate::pose::{dimensionless, evaluated, uncertainty, velocity_units};
 
-/// The ranks of a mechanism with a stated tolerance: they are those of the data within it, and no
-/// single matrix has them. Without a tolerance each configuration has its own.
+/// The ranks of a mechanism with a stated tolerance. They apply to the data within this tolerance,
+/// and no single matrix has them. Without a tolerance, each configuration has its own ranks.
 pub(super) struct StatedRanks {
-    /// Of the rows of Φ; `None` if they are undecided.
+    /// Ranks of the rows of Φ; `None` if they are undecided.
     positions: Option<RanksOfRows>,
-    /// Of all rows; `None` if they are undecided.
+    /// Ranks of all rows; `None` if they are undecided.
     velocities: Option<RanksOfRows>,
 }
 
@@ -28,7 +28,7 @@ struct RanksOfRows {
 }
 
 impl StatedRanks {
-    /// The ranks at a configuration; `None` without a tolerance.
+    /// Returns the ranks at a configuration; `None` without a tolerance.
     pub(super) fn at(
         mechanism: &Mechanism,
         t: f64,
@@ -59,14 +59,14 @@ impl StatedRanks {
     }
 }
 
-/// Those of these rows that do not belong to a drive.
+/// Returns the rows that do not belong to a drive.
 fn without_drives(mechanism: &Mechanism, rows: &[usize]) -> Vec<usize> {
     let drives = mechanism.layout().drive_rows();
     let is_joint = |row: &&usize| drives.binary_search(row).is_err();
     rows.iter().filter(is_joint).copied().collect()
 }
 
-/// Rank decision at a configuration in which joints are kept before drives.
+/// Rank decision at a configuration that prefers joints to drives as independent rows.
 pub(super) struct JointsFirst {
     /// Scratch in which the rows are evaluated.
     pub(super) s: Scratch,
@@ -74,7 +74,7 @@ pub(super) struct JointsFirst {
 }
 
 impl JointsFirst {
-    /// Decision on the rows of Φ.
+    /// Returns the decision on the rows of Φ.
     pub(super) fn of_positions(
         mechanism: &Mechanism,
         t: f64,
@@ -87,7 +87,7 @@ impl JointsFirst {
         }
     }
 
-    /// Decision on all rows.
+    /// Returns the decision on all rows.
     pub(super) fn of_velocities(
         mechanism: &Mechanism,
         t: f64,
@@ -105,8 +105,8 @@ impl JointsFirst {
         }
     }
 
-    /// Decision on the first `count` rows of C, with these ranks if they are known. Returns `None`
-    /// if a rank is undecided.
+    /// Returns the decision on the first `count` rows of C, with the given ranks if there are any.
+    /// Returns `None` if a rank is undecided.
     fn of(
         mechanism: &Mechanism,
         t: f64,
@@ -119,7 +119,7 @@ impl JointsFirst {
         let size = scene_size(mechanism, q);
         let all: Vec<usize> = (0..count).collect();
         let c = dimensionless(mechanism, &s, size).select_rows(&all);
-        // The residuals of drives are what is being compared, so they do not count as inaccuracy of
+        // The residuals of drives are the quantities to compare, so they do not count as errors of
         // the configuration.
         let mut of_joints = s.clone();
         for row in layout.drive_rows() {
@@ -163,15 +163,15 @@ impl JointsFirst {
         Ok(decision.map(|decision| Self { s, decision }))
     }
 
-    /// Whether a drive depends on the kept rows.
+    /// Returns whether a drive depends on the kept rows.
     pub(super) fn has_redundant_drives(&self, mechanism: &Mechanism) -> bool {
         let drives = mechanism.layout().drive_rows();
         let mut dropped = self.decision.dropped.iter();
         dropped.any(|row| drives.binary_search(row).is_ok())
     }
 
-    /// The smallest velocities that satisfy the kept rows, which data within a tolerance change;
-    /// `None` if they cannot be computed.
+    /// Returns the smallest velocities that satisfy the kept rows and that data within a tolerance
+    /// change; `None` if they cannot be computed.
     pub(super) fn slowest(&self, mechanism: &Mechanism, q: &[f64]) -> Option<Vec<f64>> {
         let (layout, kept) = (mechanism.layout(), &self.decision.kept);
         let c = layout.dense(&self.s);
@@ -186,7 +186,7 @@ impl JointsFirst {
         Some(v)
     }
 
-    /// Residuals of redundant drives that are larger than a fraction of the terms of their rows.
+    /// Returns the residuals of redundant drives that exceed a fraction of the terms of their rows.
     pub(super) fn contradictions(
         &self,
         mechanism: &Mechanism,

@@ -1,11 +1,11 @@
-//! Where drives cannot go on: the configurations of the constraints form a curve in coordinates and
-//! time, and time has a maximum on it. There the rank of Φq drops, and afterwards there is no
-//! configuration nearby.
+//! Finds limit positions of drives. The configurations of the constraints form a curve in
+//! coordinates and time, and time has a maximum on this curve at a limit position. There the rank
+//! of Φq drops, and after this time there is no configuration nearby.
 //!
-//! The curve is followed with its length as the parameter, with time as one more unknown: at the
-//! maximum the rows are dependent in the coordinates, but not in coordinates and time. With
-//! `zᵀ·Φq = 0` there, a velocity w with `Φq·w = 0` changes time by
-//! `t'' = zᵀ·Γ(w) / (zᵀ·Φ_t)`; time has a maximum if this is negative.
+//! The continuation uses the length of the curve as parameter and time as an additional unknown. At
+//! the maximum the rows are dependent in the coordinates, but not in coordinates and time. With
+//! `zᵀ·Φq = 0` there, a velocity w with `Φq·w = 0` changes time by `t'' = zᵀ·Γ(w) / (zᵀ·Φ_t)`; time
+//! has a maximum if this is negative.
 
 use linalg::{Matrix, PivotedQr, least_squares_step, symmetric_eigen};
 use model::start::scene_size;
@@ -20,14 +20,14 @@ use crate::pose::velocity_units;
 use crate::state::check;
 use crate::words;
 
-/// Drives that cannot go on: there is no configuration beyond.
+/// Drives that cannot continue, because no configuration exists beyond their limit position.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveLimit {
     /// The last time with a configuration (s).
     pub time: f64,
-    /// The drives, and the joints with functions of time, that cannot go on together.
+    /// The drives, and the joints with functions of time, that reach their limit together.
     pub drives: Vec<LimitedDrive>,
 }
 
@@ -40,13 +40,13 @@ pub struct LimitedDrive {
     pub name: String,
     /// Whether it is a drive.
     pub is_drive: bool,
-    /// The driven joint and its measure, if there is such a joint.
+    /// The driven joint and its joint coordinate, if there is such a joint.
     pub joint: Option<(String, &'static str)>,
-    /// The measure that the drive prescribes.
+    /// The joint coordinate that the drive prescribes.
     pub measure: &'static str,
-    /// Whether the measure is an angle.
+    /// Whether the joint coordinate is an angle.
     pub angular: bool,
-    /// The value of the measure there (m, rad).
+    /// The value of the joint coordinate at the limit position (m, rad).
     pub value: Option<f64>,
 }
 
@@ -77,7 +77,7 @@ impl std::fmt::Display for DriveLimit {
                 let names: Vec<String> = names.collect();
                 write!(
                     f,
-                    "drives {} cannot go on together beyond {beyond}",
+                    "drives {} cannot continue together beyond {beyond}",
                     words::list(&names)
                 )
             }
@@ -92,7 +92,8 @@ impl LimitedDrive {
         let group = &groups[id.0];
         let driven = mechanism.driven(id);
         let blocks = mechanism.data().blocks(s);
-        // What a drive keeps from its start, and no parameter states, is its measure there.
+        // A value that a drive keeps from its start, and that no parameter states, is its joint
+        // coordinate there.
         let is_stated = |name: &str| group.spec.common.parameters.iter().any(|p| p.name == name);
         let zero = blocks
             .iter()
@@ -112,7 +113,7 @@ impl LimitedDrive {
         }
     }
 
-    /// The value of the measure with its unit.
+    /// Returns the value of the joint coordinate with its unit.
     fn there(&self) -> Option<String> {
         let value = self.value?;
         if self.angular {
@@ -123,9 +124,9 @@ impl LimitedDrive {
     }
 }
 
-/// The drives that cannot go on just after time t, at coordinates q and velocities v on the rows
-/// `kept` of Φ, which are independent there. `None` if time has no maximum near there on the curve
-/// of configurations, or if several free motions leave that open.
+/// Returns the drives that cannot continue just after time t, at coordinates q and velocities v on
+/// the rows `kept` of Φ, which are independent there. Returns `None` if time has no maximum near
+/// this point on the curve of configurations, or if several free motions leave this undecided.
 #[must_use]
 pub fn drive_limit(
     mechanism: &Mechanism,
@@ -151,8 +152,8 @@ pub fn drive_limit(
     None
 }
 
-/// A point of the curve, with the direction in which it goes on: coordinates without dimensions,
-/// and time.
+/// A point of the curve, with the direction in which the curve continues: dimensionless
+/// coordinates, and time.
 struct CurvePoint {
     t: f64,
     q: Vec<f64>,
@@ -165,14 +166,14 @@ struct Curve<'m> {
     kept: &'m [usize],
     /// Displacements of one unit: the size of the mechanism, or a radian.
     units: Vec<f64>,
-    /// The same for the kept rows.
+    /// Units of the values of the kept rows.
     row_units: Vec<f64>,
     /// Time in which the fastest function of time changes by one unit (s).
     second: f64,
 }
 
 impl<'m> Curve<'m> {
-    /// `None` if no row depends on time.
+    /// Returns `None` if no row depends on time.
     fn new(mechanism: &'m Mechanism, kept: &'m [usize], t: f64, q: &[f64]) -> Option<Self> {
         let size = scene_size(mechanism, q);
         let units = velocity_units(mechanism, size);
@@ -205,13 +206,13 @@ impl<'m> Curve<'m> {
         s
     }
 
-    /// The rows of Φq without dimensions.
+    /// Returns the dimensionless rows of Φq.
     fn of_coordinates(&self, s: &Scratch) -> Matrix {
         let c = self.mechanism.layout().dense(s).select_rows(self.kept);
         Matrix::from_fn(c.nrows(), c.ncols(), |i, j| c[(i, j)] * self.units[j])
     }
 
-    /// The same with a column for time.
+    /// Returns these rows with an additional column for time.
     fn of_all(&self, s: &Scratch) -> Matrix {
         let c = self.of_coordinates(s);
         Matrix::from_fn(c.nrows(), c.ncols() + 1, |i, j| {
@@ -223,7 +224,7 @@ impl<'m> Curve<'m> {
         })
     }
 
-    /// The direction of a motion with these velocities.
+    /// Returns the direction of a motion with these velocities.
     fn given(&self, v: &[f64]) -> Vec<f64> {
         let own = v
             .iter()
@@ -232,7 +233,7 @@ impl<'m> Curve<'m> {
         own.chain([1.0]).collect()
     }
 
-    /// The direction of the curve that is nearest to that of the point.
+    /// Returns the direction of the curve that is nearest to the direction of the point.
     fn tangent(&self, at: &CurvePoint) -> Option<Vec<f64>> {
         let rows = self.of_all(&self.evaluated(at.t, &at.q));
         if rows.first_non_finite().is_some() || rows.nrows() >= rows.ncols() {
@@ -262,7 +263,7 @@ impl<'m> Curve<'m> {
         (t + length * along[n] * self.second, q)
     }
 
-    /// The point after a step of this length.
+    /// Returns the point after a step of this length.
     fn step(&self, from: &CurvePoint, length: f64) -> Option<CurvePoint> {
         let (mut t, mut q) = self.moved((from.t, &from.q), &from.ahead, length);
         let weights = vec![1.0; self.units.len() + 1];
@@ -286,7 +287,7 @@ impl<'m> Curve<'m> {
         None
     }
 
-    /// The last point before time falls, from one that is a step before it.
+    /// Returns the last point before time decreases, given a point one step before it.
     fn highest(&self, from: CurvePoint) -> CurvePoint {
         let (mut at, mut length) = (from, LIMIT_STEP);
         for _ in 0..LIMIT_HALVINGS {
@@ -300,7 +301,7 @@ impl<'m> Curve<'m> {
         at
     }
 
-    /// The drives that cannot go on, if no velocity raises time at second order.
+    /// Returns the drives that cannot continue, if no velocity increases time at second order.
     fn limit(&self, at: &CurvePoint) -> Option<DriveLimit> {
         let mut s = self.evaluated(at.t, &at.q);
         let c = self.of_coordinates(&s);
@@ -314,9 +315,9 @@ impl<'m> Curve<'m> {
             .zip(&stress)
             .map(|(&i, z)| z * s.b[i])
             .collect();
-        // Φ_t = −b
+        // The derivative of the rows with respect to time is Φ_t = −b.
         let of_time = -drawn.iter().sum::<f64>();
-        // Where branches meet, the rows depend on each other in coordinates and time, too.
+        // Where branches meet, the rows are also dependent in coordinates and time.
         let parts = stress.iter().zip(&self.row_units);
         let largest = parts.fold(0.0_f64, |a, (z, unit)| a.max((z * unit).abs()));
         if of_time.abs() * self.second <= LIMIT_ROUNDING * largest {
@@ -361,8 +362,8 @@ impl<'m> Curve<'m> {
     }
 }
 
-/// Whether a quadratic form of the columns of `free` has a maximum at zero: negative along one of
-/// them, and nowhere positive.
+/// Returns whether a quadratic form of the columns of `free` has a maximum at zero: it must be
+/// negative along one column and positive in no direction.
 fn highest_of_form(free: &Matrix, form: &mut impl FnMut(&[f64]) -> f64) -> bool {
     let n = free.ncols();
     if n > LIMIT_FORMS {
@@ -374,7 +375,7 @@ fn highest_of_form(free: &Matrix, form: &mut impl FnMut(&[f64]) -> f64) -> bool 
             .collect();
         form(&sum)
     };
-    // By polarisation: 2·f(a, b) = f(a + b) − f(a) − f(b), and f(a + a) = 4·f(a).
+    // Polarisation: 2·f(a, b) = f(a + b) − f(a) − f(b), and f(a + a) = 4·f(a).
     let own: Vec<f64> = (0..n).map(|a| 0.25 * of(a, a)).collect();
     let mut matrix = Matrix::zeros(n, n);
     for a in 0..n {

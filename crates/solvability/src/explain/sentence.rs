@@ -1,4 +1,4 @@
-//! Dependencies as sentences.
+//! Describes dependencies as sentences.
 
 use model::{BodyRef, ConstraintId, Layout, Mechanism, Reaction, Scratch, System};
 use rank::Circuit;
@@ -11,8 +11,8 @@ use crate::verdict::Verdict;
 use crate::words::{list, names, short};
 
 /// Describes a self-stress in terms of joints and bodies if its geometry allows it, otherwise in
-/// terms of rows. In space, `told` are the loads on the joints. Numbers are those of the reactions
-/// as all outputs tell them: on the first body of each joint, or the named component.
+/// terms of rows. In space, `told` contains the loads on the joints. The numbers are the components
+/// that all outputs print: on the first body of each joint, or the named component.
 pub(super) fn of_stress(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -30,16 +30,15 @@ pub(super) fn of_stress(
         .collect();
     if let (Some(told), false, [_, _, ..]) = (told, drives, ids.as_slice()) {
         let names = list(&names(layout, &ids));
-        let shared = "without any load; how a load is shared among them is not determined";
         return match told {
             LoadDescription::Common(load) => {
-                format!("{names} can put {load} on each other {shared}")
+                format!("{names} can load each other with {load}, without external load")
             }
             LoadDescription::Each(load) => {
-                format!("{names} can each put {load} on the others {shared}")
+                format!("{names} can each load the others with {load}, without external load")
             }
             LoadDescription::Various(loads) => {
-                format!("{names} can load each other ({loads}) {shared}")
+                format!("{names} can load each other without external load ({loads})")
             }
         };
     }
@@ -50,28 +49,27 @@ pub(super) fn of_stress(
             let action = match (drives, x.force) {
                 (true, _) => format!("{i} and {j} both prescribe the same motion of {}", list(a)),
                 (false, [0.0, 0.0, 0.0]) => {
-                    format!("{i} and {j} both stop {} from turning", against(a))
+                    format!("{i} and {j} both prevent {} from turning", against(a))
                 }
                 (false, _) if slips(layout, &ids) => {
                     format!(
-                        "{i} and {j} both stop {} from slipping sideways along the same line",
+                        "{i} and {j} both prevent {} from slipping sideways along the same line",
                         against(a)
                     )
                 }
                 (false, _) => format!("{i} and {j} both hold {} along the same line", against(a)),
             };
             format!(
-                "{action}; how the load is shared between them is not determined; {} cancel{}",
+                "{action}; the model does not determine how they share the load: {} cancel{}",
                 cancel(),
                 sum(mechanism, s, solvability, [x, y]).unwrap_or_default()
             )
         }
         ([_, _, _, ..], _) if circuit.rows.len() > TELLABLE => format!(
-            "{} can {} without any load, in one way that involves {} rows; how a load is shared among \
-             them is not determined",
+            "{} form one self-stress of {} rows: they can {} without external load",
             list(&names(layout, &ids)),
-            Loads::of(mechanism, circuit).act(),
-            circuit.rows.len()
+            circuit.rows.len(),
+            Loads::of(mechanism, circuit).act()
         ),
         ([_, _, ..], _) => {
             let rows: Vec<String> = circuit
@@ -80,12 +78,11 @@ pub(super) fn of_stress(
                 .map(|&i| layout.labels[i].to_string())
                 .collect();
             format!(
-                "{} can {} without any load: of the rows {}, any {} imply the remaining one; how a load is \
-                 shared among them is not determined ({} cancel)",
+                "{} can {} without external load: any {} of the rows {} imply the remaining one ({} cancel)",
                 list(&names(layout, &ids)),
                 Loads::of(mechanism, circuit).act(),
-                rows.join(", "),
                 rows.len() - 1,
+                rows.join(", "),
                 cancel()
             )
         }
@@ -93,7 +90,7 @@ pub(super) fn of_stress(
     }
 }
 
-/// Names of the bodies that are not the ground, in order.
+/// Returns the names of the bodies that are not the ground, in order.
 fn moving(mechanism: &Mechanism, bodies: &[BodyRef]) -> Vec<String> {
     let mut bodies = bodies.to_vec();
     bodies.sort_unstable();
@@ -111,8 +108,8 @@ fn against(bodies: &[String]) -> String {
     }
 }
 
-/// Whether all are single velocity conditions on one body that do not depend on time: wheels and
-/// knife edges.
+/// Returns whether all constraints are single velocity conditions on one body that do not depend on
+/// time: wheels and knife edges.
 fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     ids.iter().all(|id| {
         let group = &layout.groups[id.0];
@@ -123,8 +120,8 @@ fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     })
 }
 
-/// The component of a load by which it is told: the named one if the joint has a single row,
-/// otherwise each that is not zero. With its value.
+/// Returns the components that describe a load, with their values: the named component if the joint
+/// has a single row, otherwise each component that is not zero.
 fn told_components(layout: &Layout, load: &FreeDirection) -> Vec<(&'static str, f64)> {
     let group = &layout.groups[load.joint.0];
     if let (Some(name), Some(value), 1) = (group.spec.component, load.component, group.rows.len()) {
@@ -141,7 +138,7 @@ fn told_components(layout: &Layout, load: &FreeDirection) -> Vec<(&'static str, 
     all.filter(|(_, value)| *value != 0.0).collect()
 }
 
-/// The loads on joints, as "`a.Fx` = 1 N" without the quotes.
+/// Returns the loads on joints as text, for example "`a.Fx` = 1 N" without the quotes.
 fn terms(layout: &Layout, loads: &[FreeDirection]) -> Vec<String> {
     let space = layout.space;
     let of = |load: &FreeDirection| -> Vec<String> {
@@ -160,8 +157,8 @@ fn terms(layout: &Layout, loads: &[FreeDirection]) -> Vec<String> {
     loads.iter().flat_map(of).collect()
 }
 
-/// The combination of two reactions that their loads leave as it is, and whether it is determined;
-/// nothing if one of the two loads has both a force and a torque, or no number.
+/// Returns the combination of two reactions that their loads do not change, and whether it is
+/// determined. Returns `None` if one of the two loads has both a force and a torque, or no number.
 fn sum(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -198,7 +195,7 @@ fn sum(
         weight => format!("{weight}*"),
     };
     let sign = if weight < 0.0 { '-' } else { '+' };
-    // As `--combine` reads it.
+    // The combination has the syntax of the option `--combine`.
     let combination = format!("`{i}.{c} {sign} {factor}{j}.{d}`");
     match solvability.combination(&l).map(|judged| judged.verdict) {
         Ok(Verdict::Unique) => Some(format!(", {combination} is determined")),
@@ -209,15 +206,15 @@ fn sum(
     }
 }
 
-/// A positive number with as few digits as tell it to twelve.
+/// Formats a positive number with as few digits as reproduce it to twelve digits.
 fn digits(x: f64) -> String {
     let told = |digits: usize| format!("{x:.digits$e}").parse().unwrap_or(x);
     let short = (0..12).map(told).find(|y: &f64| (y - x).abs() <= 1e-12 * x);
     format!("{}", short.unwrap_or_else(|| told(12)))
 }
 
-/// Explains the meaning of a circuit to the reader. Sums that might be unique are not mentioned,
-/// because the rows may take part in other circuits too.
+/// Explains the meaning of a circuit to the user. Sums that might be unique are not mentioned,
+/// because the rows may also belong to other circuits.
 pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
     let layout = mechanism.layout();
     let labels: Vec<String> = circuit
@@ -228,21 +225,22 @@ pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
     match labels.as_slice() {
         [row] => format!("row {row} constrains nothing here: its multiplier is not determined"),
         [a, b] => format!(
-            "rows {a} and {b} forbid the same motion: how a load is shared between them is not determined \
+            "rows {a} and {b} prevent the same motion: the model does not determine how they share a load \
              (multipliers in the ratio {} cancel)",
             ratio(mechanism, circuit)
         ),
         rows => format!(
-            "of the rows {}, any {} imply the remaining one: how a load is shared among them is not determined \
+            "any {} of the rows {} imply the remaining one: the model does not determine how they share a load \
              (multipliers in the ratio {} cancel)",
-            rows.join(", "),
             rows.len() - 1,
+            rows.join(", "),
             ratio(mechanism, circuit)
         ),
     }
 }
 
-/// Kind of the multipliers of a circuit: a row in metres has a force, a row in radians a torque.
+/// Kind of the multipliers of a circuit: the multiplier of a row in metres is a force, that of a
+/// row in radians is a torque.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Loads {
     Forces,
@@ -263,7 +261,7 @@ impl Loads {
         }
     }
 
-    /// The verb for the action of joints on each other by these loads.
+    /// Returns the verb for the action of joints on each other by these loads.
     fn act(self) -> &'static str {
         match self {
             Self::Forces => "press against each other",
@@ -273,8 +271,8 @@ impl Loads {
     }
 }
 
-/// Coefficients without trailing zeros, with the sign for which most are positive; with units if
-/// the rows have different kinds.
+/// Formats the coefficients without trailing zeros, with the sign for which most are positive.
+/// Units are printed if the rows have different kinds.
 fn ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
     let negative = circuit.coefficients.iter().filter(|c| **c < 0.0).count();
     let sign = if 2 * negative > circuit.coefficients.len() {

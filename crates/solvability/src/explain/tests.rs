@@ -1,5 +1,5 @@
-//! Loads in space that bodies cannot tell apart, compared with what the screws of single loops
-//! leave: a wrench is handed round iff it is reciprocal to the screws of all joints.
+//! Spatial loads that the equilibrium of the bodies does not determine, compared with the screws of
+//! single loops: all joints can carry a wrench iff it is reciprocal to the screws of all joints.
 
 use super::*;
 use crate::pose::{dimensionless, evaluated};
@@ -21,7 +21,7 @@ fn explained(sketch: &Sketch) -> Explanation {
     explain(&mechanism, &s, &q, &solvability).expect("decided")
 }
 
-/// Compares what is said of the joints that share loads, without the names and what is missing.
+/// Compares the text about joints that share loads, without the names and the missing number.
 fn share(sketch: &Sketch, expected: &str) {
     let found = explained(sketch);
     let [mixing] = found.mixing.as_slice() else {
@@ -37,35 +37,34 @@ fn share(sketch: &Sketch, expected: &str) {
 /// A wrench through the hinges has no moment about their axis.
 #[test]
 fn coaxial_hinges_share_all_forces_and_the_moments_across() {
-    let words = "`H0` and `H1` can carry forces in all directions and moments about x and y that the bodies cannot \
-        tell apart: 5 numbers are missing to determine all of them";
+    let words = "`H0` and `H1` share 5 load components that equilibrium does not determine (forces in all directions \
+        and moments about x and y); of the sums over these joints, Fx, Fy, Fz, Tx and Ty about (0, 0, 0.4) are determined";
     share(&door(&[Revolute; 2], HOME), words);
-    let words =
-        "`H0`, `H1` and `H2` can carry forces in all directions and moments about x and y that";
+    let words = "(forces in all directions and moments about x and y)";
     share(&door(&[Revolute; 3], HOME), words);
     // A cylindrical joint carries no force along its axis, a ball only forces through it.
     share(
         &door(&[Revolute, Cylindrical], HOME),
-        "can carry forces along x and y and moments about x and y that",
+        "(forces along x and y and moments about x and y)",
     );
     share(
         &door(&[Revolute, Spherical], HOME),
-        "can carry forces in all directions through `H1` that",
+        "(forces in all directions through `H1`)",
     );
     share(
         &door(&[Cylindrical, Spherical], HOME),
-        "can carry forces along x and y through `H1` that",
+        "(forces along x and y through `H1`)",
     );
 }
 
 #[test]
 fn a_planar_linkage_carries_loads_across_its_plane() {
-    let words = "`A`, `B`, `C` and `D` can carry a load across the plane of the linkage (force along z and two \
-        moments) that the bodies cannot tell apart: 3 numbers are missing to determine all of them";
+    let words = "`A`, `B`, `C` and `D` share 3 load components that equilibrium does not determine (a load across the \
+        plane of the linkage (force along z and two moments))";
     let [home, beside, turned] = places();
     share(&four_bar([Revolute; 4], home), words);
     share(&four_bar([Revolute; 4], beside), words);
-    // Neither the unit of length counts, nor the distance from the origin.
+    // Neither the unit of length nor the distance from the origin has an influence.
     for (size, x) in [(1e-3, 0.0), (1e3, 0.0), (1.0, 1e6)] {
         let far = Pose::new([x, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]);
         share(&scaled_four_bar(size, far), words);
@@ -76,16 +75,10 @@ fn a_planar_linkage_carries_loads_across_its_plane() {
         "(force along (0.05042, 0.6218, −0.7815) and two moments)",
     );
     let kinds = [Revolute, Revolute, Cylindrical, Revolute];
-    share(
-        &four_bar(kinds, home),
-        "can carry moments about x and y that",
-    );
+    share(&four_bar(kinds, home), "(moments about x and y)");
     let kinds = [Revolute, Revolute, Revolute, Spherical];
-    share(
-        &four_bar(kinds, home),
-        "can carry a force along z through `D` that",
-    );
-    // The slider-crank, too, moves in its plane.
+    share(&four_bar(kinds, home), "(a force along z through `D`)");
+    // The slider-crank also moves in its plane.
     let names = ["crank", "rod", "block", "O", "A", "B", "slide"];
     let points = [[0.0; 3], [0.3, 0.4, 0.0], [1.5, 0.0, 0.0], [1.5, 0.0, 0.0]];
     let slider = |middle: Kind| {
@@ -94,12 +87,9 @@ fn a_planar_linkage_carries_loads_across_its_plane() {
     };
     share(
         &slider(Revolute),
-        "a load across the plane of the linkage (force along z and two moments) that",
+        "a load across the plane of the linkage (force along z and two moments)",
     );
-    share(
-        &slider(Spherical),
-        "can carry a force along z through `B` that",
-    );
+    share(&slider(Spherical), "(a force along z through `B`)");
 }
 
 /// Every force through the centre of a spherical linkage is reciprocal to rotations about it.
@@ -113,21 +103,18 @@ fn a_spherical_linkage_carries_forces_through_its_centre() {
     ];
     let names = ["crank", "coupler", "rocker", "A", "B", "C", "D"];
     let linkage = loop_of_four(names, [Revolute; 4], axes, axes, HOME);
-    share(
-        &linkage,
-        "can carry forces in all directions through (0, 0, 0) that",
-    );
+    share(&linkage, "(forces in all directions through (0, 0, 0))");
 }
 
-/// Reciprocal to the axes through (0, 0, 0), (0, 3, 0) … are the wrenches (F, M) about the origin
-/// with M = (−4·Fx + 3·Fz, −3·Fy + 4·Fz, 0).
+/// The wrenches (F, M) about the origin that are reciprocal to the axes through (0, 0, 0), (0, 3,
+/// 0) … have M = (−4·Fx + 3·Fz, −3·Fy + 4·Fz, 0).
 #[test]
 fn the_wrenches_of_bennett_have_pitches() {
     let found = explained(&bennett(HOME));
     assert!(
         found.mixing[0]
             .text
-            .contains("can carry forces in all directions with moments that")
+            .contains("(forces in all directions with moments)")
     );
     let loads = [
         "a force along x through (0, 0, 0) with a moment of −4 N·m per N about it",
@@ -135,8 +122,7 @@ fn the_wrenches_of_bennett_have_pitches() {
         "a force along z through (−4, 3, 0)",
     ];
     for (stress, load) in found.stresses.iter().zip(loads) {
-        let words =
-            format!("`J0`, `J1`, `J2` and `J3` can put {load} on each other without any load");
+        let words = format!("`J0`, `J1`, `J2` and `J3` can load each other with {load}");
         assert!(stress.text.starts_with(&words), "{}", stress.text);
     }
 }
@@ -156,28 +142,47 @@ fn legs_of_a_table_carry_forces_along_its_axis() {
     let table = slab(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.5]]);
     share(
         &table,
-        "`P0`, `P1`, `P2` and `P3` can each carry a force along z that the bodies cannot tell apart",
+        "`P0`, `P1`, `P2` and `P3` share one load component that equilibrium does not determine (a force along z at each)",
     );
-    let words =
-        "`P0`, `P1`, `P2` and `P3` can each put a force along z on the others without any load";
+    let words = "`P0`, `P1`, `P2` and `P3` can each load the others with a force along z";
     assert!(explained(&table).stresses[0].text.starts_with(words));
 }
 
-/// A hinge along x and two points on planes, whose forces do not turn about it and do not meet.
+/// A hinge along x and two points on planes, whose forces have no moment about it and do not
+/// intersect.
 #[test]
 fn few_different_loads_are_told_joint_by_joint() {
     let mut s = slab(&[[1.0, 0.0]]);
     let slab = model::BodyRef::Body(0);
     s.joint("H", Revolute, [GROUND, slab], [0.0; 3], X);
     s.joint("Q", OnPlane, [GROUND, slab], [0.0, 0.5, 2.0], X);
-    let words = "`P0`, `H` and `Q` share loads that the bodies cannot tell apart (`P0` a force along z, \
-        `H` forces along x and z with moments, `Q` a force along x): 2 numbers are missing";
+    let words = "`P0`, `H` and `Q` share 2 load components that equilibrium does not determine (`P0` a force along z, \
+        `H` forces along x and z with moments, `Q` a force along x)";
     let found = explained(&s);
     let told: Vec<&str> = found.mixing.iter().map(|m| m.text.as_str()).collect();
     assert!(told.iter().any(|text| text.contains(words)), "{told:?}");
 }
 
-/// What is unique is told component by component.
+/// Three hinges on one axis and two points: 21 rows with the points, 6 freedoms, and different
+/// loads.
+#[test]
+fn many_loads_are_not_described_joint_by_joint() {
+    let mut s = slab(&[[1.0, 0.0]]);
+    let slab = model::BodyRef::Body(0);
+    for (k, x) in [0.0, 0.5, 1.5].into_iter().enumerate() {
+        s.joint(&format!("H{k}"), Revolute, [GROUND, slab], [x, 0.0, 0.0], X);
+    }
+    s.joint("Q", OnPlane, [GROUND, slab], [0.0, 0.5, 2.0], X);
+    let found = explained(&s);
+    let words = "load components that equilibrium does not determine; of the sums";
+    let [mixing] = found.mixing.as_slice() else {
+        panic!("{:?}", found.mixing);
+    };
+    assert!(mixing.redundancy > 5, "{}", mixing.redundancy);
+    assert!(mixing.text.contains(words), "{}", mixing.text);
+}
+
+/// Unique loads are described component by component.
 #[test]
 fn what_is_determined_is_told_in_components() {
     let told = |kinds: [Kind; 4]| -> Vec<String> {
@@ -185,14 +190,14 @@ fn what_is_determined_is_told_in_components() {
         let determined = |r: ReactionExplanation| r.text.split("; ").last().map(str::to_owned);
         found.filter_map(determined).collect()
     };
-    assert_eq!(told([Revolute; 4]), ["determined is Fx and Fy"; 4]);
-    // A force f along z through D(1.4, 0): at A it has Ty = −1.4·f and no Tx.
+    assert_eq!(told([Revolute; 4]), ["only Fx and Fy are determined"; 4]);
+    // A force f along z through D(1.4, 0) has the moment Ty = −1.4·f and no Tx at A.
     let found = told([Revolute, Revolute, Revolute, Spherical]);
     assert_eq!(
         found[0],
-        "determined is Fx, Fy, 0.8137·Fz + 0.5812·Ty and Tx"
+        "only Fx, Fy, 0.8137·Fz + 0.5812·Ty and Tx are determined"
     );
-    assert_eq!(found[3], "determined is Fx and Fy");
+    assert_eq!(found[3], "only Fx and Fy are determined");
 }
 
 /// The sentences on the dependencies of a planar mechanism at its start.
@@ -218,15 +223,15 @@ fn held(build: impl Fn(&mut model::Description, [BodyRef; 2])) -> String {
     one
 }
 
-/// Numbers are those of the reactions: on the first body of each joint, which is the ground for
-/// some of them and the body for others. Worked out by hand: the ground pushes the body up by 1 N
-/// at the one joint and down at the other.
+/// The numbers are the components of the reactions: on the first body of each joint, which is the
+/// ground for some joints and the body for others. By manual calculation, the ground pushes the
+/// body up by 1 N at one joint, and down at the other.
 #[test]
 fn loads_that_cancel_are_told_as_reactions_are() {
     use joints::{Direction, Fixed, Gear, Line, PinInSlot, PointOnLine};
 
     let roller = |s| PointOnLine::new(s, Line::new([0.0, 0.0], [1.0, 0.0]).expect("a line"));
-    // The slot's force is that on the ground, the roller's that on the body.
+    // The force of the slot acts on the ground, and the force of the roller on the body.
     let found = held(|d, pair| {
         d.joint(
             "slot",
@@ -238,7 +243,7 @@ fn loads_that_cancel_are_told_as_reactions_are() {
     let words = "`slot.Fy` = 1 N and `roller.Fy` = 1 N cancel, `slot.Fy - roller.Fy` is determined";
     assert!(found.ends_with(words), "{found}");
 
-    // A force at an arm of 1 m has a moment, which the clamp takes.
+    // A force at an arm of 1 m has a moment, which the clamp carries.
     let found = held(|d, pair| {
         d.joint("clamp", &pair, Fixed::new([0.0; 2], [-1.0, 0.0]));
         d.joint("roller", &pair[1..], roller([0.0; 2]));
@@ -246,7 +251,8 @@ fn loads_that_cancel_are_told_as_reactions_are() {
     let words = "`clamp.Fy` = 1 N, `clamp.T` = 1 N·m and `roller.Fy` = 1 N cancel";
     assert!(found.ends_with(words), "{found}");
 
-    // Guide and drive: a drive is told by the load along its measure, here on the ground.
+    // Guide and drive: the text describes a drive by the load along its joint coordinate, here on
+    // the ground.
     let found = held(|d, pair| {
         let guide = joints::Translational::new([1.0, 0.0], [0.0; 2], Direction::Y);
         let motion = model::Function::constant_rate(0.0).expect("finite");
@@ -256,8 +262,8 @@ fn loads_that_cancel_are_told_as_reactions_are() {
     let words = "`roller.Fy` = 1 N and `m.drive` = 1 N cancel, `roller.Fy - m.drive` is determined";
     assert!(found.ends_with(words), "{found}");
 
-    // Wheels of ratio −2, twice: the second gear is turned round. λ on `one` is balanced by λ/−2
-    // of the other, whose first body is `two`.
+    // Two gear meshes with ratio −2; the order of the wheels is reversed in the second one. The
+    // load λ on `one` is balanced by λ/−2 of the other, whose first body is `two`.
     let mut d = model::Description::new("gears");
     let [one, two] = ["one", "two"].map(|name| d.body(model::Body::new(name, 1.0, 1.0)));
     for (name, body) in [("A", one), ("B", two)] {
@@ -274,13 +280,13 @@ fn loads_that_cancel_are_told_as_reactions_are() {
     assert!(found.iter().any(|text| text.ends_with(words)), "{found:?}");
 }
 
-/// Hinges have no moment about their axis, and a door on two shares all others.
+/// Hinges have no moment about their axis, and two hinges of a door share all other moments.
 #[test]
 fn what_is_zero_whatever_the_loads_is_told_to_be_so() {
     let found = explained(&door(&[Revolute; 2], HOME)).reactions;
     assert_eq!(found.len(), 2);
     for reaction in &found {
-        let end = "; determined is Tz only, which is zero whatever the loads";
+        let end = "; only Tz is determined, and it is zero under every load";
         assert!(reaction.text.ends_with(end), "{}", reaction.text);
     }
 }

@@ -1,4 +1,4 @@
-//! Components in joint axes, which turn with the mechanism.
+//! Components in joint axes, which rotate with the mechanism.
 
 use joints::space3::Pose;
 use model::space::{cross, difference, dot, norm};
@@ -7,10 +7,10 @@ use model::{ConstraintId, Frame};
 use super::judge_frames;
 use crate::sketch::{Kind, Z, four_bar, places};
 
-/// Allowed difference between axes: rounding.
+/// Permitted difference between axes: rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// V3: in the axes of its joints a planar four-bar has the same verdicts wherever it stands.
+/// V3: in the axes of its joints, a planar four-bar has the same verdicts at any position.
 #[test]
 fn verdicts_in_joint_axes_turn_with_the_mechanism() {
     for place in places() {
@@ -43,7 +43,7 @@ fn verdicts_in_joint_axes_turn_with_the_mechanism() {
     }
 }
 
-/// A ball has no axis, so no axes of its own.
+/// A ball joint has no axis, and therefore no joint axes.
 #[test]
 fn a_ball_has_no_joint_axes() {
     let kinds = [

@@ -1,13 +1,13 @@
-//! Chooses readable vectors from a space of velocities: conditions are imposed one after the other,
-//! and a condition is kept if it leaves a new vector. No rank is decided here.
+//! Chooses readable vectors from a space of velocities. Conditions are imposed one after the other,
+//! and a condition is kept if it leaves a new vector. This module decides no rank.
 
 use crate::limits::{NEW_MOTION, SATISFIED};
 use linalg::{Matrix, PivotedQr};
 
-/// A linear form of the velocities: columns and coefficients, the coefficients at most about 1.
+/// A linear form of the velocities: columns and coefficients. The coefficients are at most about 1.
 pub(super) type Form = Vec<(usize, f64)>;
 
-/// The velocities that the rows allow, and those already chosen among them.
+/// The velocities that the rows allow, and the velocities that are already chosen.
 pub(super) struct Space<'a> {
     /// Orthonormal basis, n × f.
     all: &'a Matrix,
@@ -15,31 +15,31 @@ pub(super) struct Space<'a> {
     chosen: Vec<Vec<f64>>,
 }
 
-/// A subspace: f × k, orthonormal columns of coefficients.
+/// A subspace: orthonormal columns of coefficients, f × k.
 pub(super) type Subspace = Matrix;
 
-/// Linear forms that vanish, in coefficients of a space: one row of f numbers for each form.
+/// Linear forms that must vanish, in coefficients of a space: one row of f numbers for each form.
 pub(super) type Condition = Matrix;
 
 impl<'a> Space<'a> {
-    /// The space that the orthonormal columns span.
+    /// Returns the space that the orthonormal columns span.
     pub(super) fn new(all: &'a Matrix) -> Self {
         let chosen = Vec::new();
         Self { all, chosen }
     }
 
-    /// Number of freedoms that have not been chosen.
+    /// Returns the number of freedoms that have not been chosen.
     pub(super) fn left(&self) -> usize {
         self.all.ncols() - self.chosen.len()
     }
 
-    /// The whole space.
+    /// Returns the whole space.
     pub(super) fn whole(&self) -> Subspace {
         Matrix::identity(self.all.ncols())
     }
 
-    /// Marks velocities as chosen that the caller reports separately. Returns `false` and marks
-    /// none if one of them does not lie in the space.
+    /// Marks velocities as chosen if the caller reports them separately. Returns `false` and marks
+    /// no velocity if one of them is not in the space.
     pub(super) fn take_out(&mut self, velocities: &[Vec<f64>]) -> bool {
         let mut within = Vec::new();
         for v in velocities {
@@ -57,7 +57,7 @@ impl<'a> Space<'a> {
         true
     }
 
-    /// These forms as a condition of coefficients.
+    /// Returns these forms as a condition on the coefficients.
     pub(super) fn condition(&self, forms: &[Form]) -> Condition {
         let mut rows = Matrix::zeros(forms.len(), self.all.ncols());
         for (i, form) in forms.iter().enumerate() {
@@ -71,8 +71,8 @@ impl<'a> Space<'a> {
         rows
     }
 
-    /// The part of a subspace that satisfies a condition. Returns `None` if it contains nothing
-    /// new.
+    /// Returns the part of a subspace that satisfies a condition. Returns `None` if it contains no
+    /// new vector.
     pub(super) fn restricted(&self, y: &Subspace, condition: &Condition) -> Option<Subspace> {
         let k = y.ncols();
         let qr = PivotedQr::of_rows(condition.product(y));
@@ -87,8 +87,8 @@ impl<'a> Space<'a> {
         self.newest(&left).map(|_| left)
     }
 
-    /// Chooses a velocity of a subspace, n numbers. Returns `None` if nothing in the subspace is
-    /// new.
+    /// Chooses a velocity of a subspace, n numbers. Returns `None` if the subspace contains no new
+    /// velocity.
     pub(super) fn take(&mut self, y: &Subspace) -> Option<Vec<f64>> {
         let column = self.newest(y)?;
         let coefficients: Vec<f64> = (0..y.nrows()).map(|i| y[(i, column)]).collect();
@@ -97,7 +97,7 @@ impl<'a> Space<'a> {
         Some(v)
     }
 
-    /// The column that differs most from the chosen velocities, if one is new.
+    /// Returns the column that differs most from the chosen velocities, if a column is new.
     fn newest(&self, y: &Subspace) -> Option<usize> {
         let mut best = (NEW_MOTION, None);
         for j in 0..y.ncols() {
@@ -110,7 +110,7 @@ impl<'a> Space<'a> {
         best.1
     }
 
-    /// The part of these coefficients that is orthogonal to the chosen ones.
+    /// Returns the part of these coefficients that is orthogonal to the chosen ones.
     fn remainder(&self, mut x: Vec<f64>) -> Vec<f64> {
         for c in &self.chosen {
             let along: f64 = c.iter().zip(&x).map(|(a, b)| a * b).sum();
@@ -120,7 +120,7 @@ impl<'a> Space<'a> {
     }
 
     fn choose(&mut self, coefficients: Vec<f64>) {
-        // Done twice, so that the chosen ones stay orthogonal to rounding.
+        // The projection is applied twice, so that the chosen vectors are orthogonal to rounding.
         let rest = self.remainder(self.remainder(coefficients));
         let size = norm(rest.iter().copied());
         if size > 0.0 {
@@ -137,7 +137,8 @@ fn norm(x: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// Velocities (a, b, c) with a = b: the one with a = 0 is c alone; then a = b is left.
+    /// Velocities (a, b, c) with a = b. The first vector has a = 0 and moves only c; the second one
+    /// has a = b.
     #[test]
     fn conditions_choose_what_is_left() {
         let half = 0.5_f64.sqrt();

@@ -1,5 +1,4 @@
-//! Bodies connected by joints: the velocities that their rows leave free, as motions of few bodies
-//! each.
+//! Free velocities of connected bodies, as motions of few bodies each.
 
 use crate::limits::{AT_REST, NEW_MOTION, TRIALS};
 use crate::pose::{dimensionless, evaluated, uncertainty, velocity_units};
@@ -21,12 +20,12 @@ pub(super) struct Component<'a> {
     pub(super) s: Scratch,
     /// Size of the mechanism (m).
     pub(super) size: f64,
-    /// Velocities that correspond to 1 without dimensions.
+    /// Velocities with the dimensionless value 1.
     units: Vec<f64>,
 }
 
-/// Velocities of all bodies of a component: of their centres of mass (m/s), then angular velocities
-/// (rad/s), both in ground axes.
+/// Velocities of all bodies of a component: velocities of their centres of mass (m/s), then angular
+/// velocities (rad/s), both in ground axes.
 pub(super) type Velocities = Vec<Vec<f64>>;
 
 /// Number of joints and bodies that move, and their mass.
@@ -40,8 +39,8 @@ struct Cost {
 
 /// Free motions of a component.
 pub(super) struct Motions {
-    /// Whether the component moves as one free body: its translations and rotations, which
-    /// come before all other motions.
+    /// Whether the component moves as one free body. Its translations and rotations then come
+    /// before all other motions.
     pub(super) is_free: bool,
     /// The other motions, those with few moving joints first.
     pub(super) motions: Vec<Velocities>,
@@ -58,24 +57,25 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// The pivots of the rows, the largest first: how much each row adds to those before it.
+    /// Returns the pivots of the rows, the largest first. Each pivot is the part of a row that is
+    /// independent of the previous rows.
     pub(super) fn pivots(&self, rows: &[usize]) -> Vec<f64> {
         let (qr, _) = self.factors(rows);
         qr.r_diagonal().map(f64::abs).collect()
     }
 
-    /// QR factors of these rows, equilibrated, and the exponents of their columns.
+    /// Returns QR factors of these rows, equilibrated, and the exponents of their columns.
     fn factors(&self, rows: &[usize]) -> (PivotedQr, Vec<i32>) {
         let c = dimensionless(self.mechanism, &self.s, self.size).select_rows(rows);
         let known = uncertainty(self.mechanism, &self.s, self.size).select_rows(rows);
-        // An uncertainty that is not finite belongs to a matrix that is none either.
+        // If an uncertainty is not finite, the matrix is not finite, either.
         let scaling = Accuracy::from(&known)
             .equilibration(&c)
             .unwrap_or_else(|_| equilibrate(&c));
         (PivotedQr::of_rows(scaling.apply(&c)), scaling.cols)
     }
 
-    /// At most `most` motions that the rows leave free; `rank` is the rank of the rows.
+    /// Returns at most `most` motions that the rows leave free; `rank` is the rank of the rows.
     pub(super) fn motions(&self, rank: usize, most: usize) -> Motions {
         let rows: Vec<usize> = (0..self.mechanism.layout().rows()).collect();
         let (qr, columns) = self.factors(&rows);
@@ -91,7 +91,7 @@ impl<'a> Component<'a> {
         Motions { is_free, motions }
     }
 
-    /// At most `most` motions that span what is left of a space.
+    /// Returns at most `most` motions that span the remaining part of a space.
     fn chosen(&self, space: &mut Space<'_>, most: usize) -> Vec<Velocities> {
         let mut motions = Vec::new();
         while motions.len() < most && space.left() > 0 {
@@ -103,7 +103,7 @@ impl<'a> Component<'a> {
         motions
     }
 
-    /// At most `most` motions that span these velocities (columns of C in the rows).
+    /// Returns at most `most` motions that span these velocities (columns of C in the rows).
     pub(super) fn among(&self, velocities: &Matrix, most: usize) -> Vec<Velocities> {
         let unit = |j: usize, i: usize| velocities[(i, j)] / self.units[j];
         let scaled = Matrix::from_fn(velocities.ncols(), velocities.nrows(), unit);
@@ -117,7 +117,7 @@ impl<'a> Component<'a> {
         self.chosen(&mut Space::new(&all), most)
     }
 
-    /// A motion of as few joints and bodies as the search finds.
+    /// Returns a motion of as few joints and bodies as the search finds.
     fn next(&self, space: &mut Space<'_>) -> Option<Vec<f64>> {
         let mut y = space.whole();
         if y.ncols() > 1 {
@@ -129,8 +129,8 @@ impl<'a> Component<'a> {
         space.take(&y)
     }
 
-    /// The subspace that remains after holding as many joints as possible, and then as many bodies;
-    /// the best result of several orders.
+    /// Returns the subspace that remains after as many joints as possible, and then as many bodies
+    /// as possible, are fixed. The result is the best one of several orders.
     fn smallest(&self, space: &Space<'_>) -> Subspace {
         let bodies = self.mechanism.bodies();
         let groups = self.mechanism.layout().groups.len();
@@ -172,8 +172,8 @@ impl<'a> Component<'a> {
         best.map_or(whole, |(_, y)| y)
     }
 
-    /// Joints at which the search for motions of few bodies begins: those at the ends of chains
-    /// first.
+    /// Returns the joints at which the search for motions of few bodies begins: joints at the ends
+    /// of chains first.
     fn targets(&self) -> Vec<usize> {
         let groups = &self.mechanism.layout().groups;
         let mut joints = vec![0_usize; self.mechanism.bodies().len()];
@@ -211,9 +211,9 @@ impl<'a> Component<'a> {
         order
     }
 
-    /// Conditions that make a motion easy to describe, the most useful first: bodies that do not
-    /// rotate, joints that stay at rest, rotations about one axis, centres of mass that stay at
-    /// rest, translations along one axis.
+    /// Returns conditions that make a motion easy to describe, the most useful first: bodies that
+    /// do not rotate, joints that stay at rest, rotations about one axis, centres of mass that stay
+    /// at rest, translations along one axis.
     fn wishes(&self) -> Vec<Vec<Form>> {
         let bodies = || 0..self.mechanism.bodies().len();
         let pinned = self.mechanism.layout().constraint_ids().flat_map(|id| {
@@ -227,14 +227,14 @@ impl<'a> Component<'a> {
         let turns = bodies().map(|b| self.turns(b).collect());
         let centres = bodies().map(|b| space.translations_of(b).flat_map(one).collect());
         let axes = bodies().flat_map(|b| space.translations_of(b).rev().map(one));
-        // In the plane there is one axis to turn about.
+        // In the plane there is only one axis of rotation.
         let turned = bodies().filter(|_| space.n_rotations() > 1);
         let turned = turned.flat_map(|b| self.turns(b).rev().map(|form| vec![form]));
         let wishes = turns.chain(pinned).chain(turned);
         wishes.chain(centres).chain(axes).collect()
     }
 
-    /// The components of the angular velocity of a body in ground axes.
+    /// Returns the components of the angular velocity of a body in ground axes.
     fn turns(&self, body: usize) -> impl DoubleEndedIterator<Item = Form> + '_ {
         let space = self.mechanism.space();
         space.torques().map(move |k| {
@@ -245,15 +245,15 @@ impl<'a> Component<'a> {
         })
     }
 
-    /// The axis, in ground axes, about which a column of a rotation turns its body.
+    /// Returns the axis, in ground axes, about which a column of a rotation rotates its body.
     fn axis(&self, column: usize) -> [f64; 3] {
         let space = self.mechanism.space();
         let axes = self.s.bodies.axes(space.body_of(column));
         axes[space.axis_of(space.dof_of(column))]
     }
 
-    /// Forms that vanish if the bodies of a joint move as one; if one of them is the ground, if
-    /// they are at rest.
+    /// Returns forms that vanish if the bodies of a joint move together, or, if one of them is the
+    /// ground, if they are at rest.
     fn held(&self, group: usize) -> Vec<Form> {
         let place = self.place(ConstraintId(group));
         let all = &self.mechanism.layout().groups[group].bodies;
@@ -272,7 +272,7 @@ impl<'a> Component<'a> {
         }
     }
 
-    /// Forms that vanish if a point of a body is at rest.
+    /// Returns forms that vanish if a point of a body is at rest.
     fn point_at_rest(&self, body: usize, point: [f64; 3]) -> Vec<Form> {
         let space = self.mechanism.space();
         let arm = difference(point, self.origin(body));
@@ -286,7 +286,7 @@ impl<'a> Component<'a> {
         space.translations_of(body).enumerate().map(form).collect()
     }
 
-    /// Forms that vanish if two bodies move as one, compared at a point.
+    /// Returns forms that vanish if two bodies move together, compared at a point.
     fn together(&self, [a, b]: [usize; 2], place: [f64; 3]) -> Vec<Form> {
         let difference = |(mut one, other): (Form, Form)| {
             one.extend(other.into_iter().map(|(j, c)| (j, -c)));
@@ -299,8 +299,8 @@ impl<'a> Component<'a> {
         forms
     }
 
-    /// The motions of all bodies as one rigid body: translations, and rotations about the centre of
-    /// mass of the first body; without dimensions.
+    /// Returns the dimensionless motions of all bodies as one rigid body: translations, and
+    /// rotations about the centre of mass of the first body.
     fn rigid(&self) -> Vec<Vec<f64>> {
         let space = self.mechanism.space();
         let bodies = self.mechanism.bodies().len();
@@ -319,29 +319,29 @@ impl<'a> Component<'a> {
         (0..space.n_v()).map(motion).collect()
     }
 
-    /// Forms that vanish if a body is at rest.
+    /// Returns forms that vanish if a body is at rest.
     fn at_rest(&self, body: usize) -> Vec<Form> {
         let columns = self.mechanism.space().columns_of(body);
         columns.map(|j| vec![(j, 1.0)]).collect()
     }
 
-    /// The centre of mass of a body.
+    /// Returns the centre of mass of a body.
     pub(super) fn origin(&self, body: usize) -> [f64; 3] {
         self.s.bodies.origin(body)
     }
 
-    /// The place of a joint or drive.
+    /// Returns the reference point of a joint or drive.
     pub(super) fn place(&self, id: ConstraintId) -> [f64; 3] {
         self.mechanism.reactions(&self.s).place(id)
     }
 
-    /// The rigid motions with dimensions.
+    /// Returns the rigid motions in physical units.
     pub(super) fn rigid_velocities(&self) -> Vec<Velocities> {
         self.rigid().iter().map(|v| self.velocities(v)).collect()
     }
 
-    /// Velocities with dimensions in ground axes, scaled so that the largest rotation is 1, or the
-    /// fastest translation if nothing rotates. Rounding is set to zero.
+    /// Returns velocities in physical units and ground axes. They are scaled so that the largest
+    /// rotation is 1, or the fastest translation if no body rotates. Rounding is set to zero.
     fn velocities(&self, v: &[f64]) -> Velocities {
         let space = self.mechanism.space();
         let mut v = v.to_vec();
@@ -370,8 +370,8 @@ impl<'a> Component<'a> {
     }
 }
 
-/// The number of independent rows in each component, if the rows of all components have this rank
-/// together. The largest pivots count, as in a pivoted factorisation of all rows.
+/// Returns the number of independent rows in each component, if the rows of all components have
+/// this rank together. The largest pivots count, as in a pivoted factorisation of all rows.
 pub(super) fn shared_rank(pivots: &[Vec<f64>], rank: usize) -> Vec<usize> {
     let all = pivots.iter().enumerate();
     let mut all: Vec<(f64, usize)> = all

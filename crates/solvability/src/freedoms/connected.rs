@@ -1,4 +1,4 @@
-//! Sets of bodies connected by joints: each has its own rank and is described separately.
+//! Sets of bodies connected by joints. Each set has its own rank and is described separately.
 
 use crate::limits::{AT_REST, MOTIONS_REPORTED, ROWS_MAX, SATISFIED};
 use crate::pose::velocity_units;
@@ -18,16 +18,16 @@ struct DescribedMotions {
     too_large: usize,
 }
 
-/// A mechanism with some of the joints, and the sets of bodies that these joints connect.
+/// A mechanism with some of its joints, and the sets of bodies that these joints connect.
 pub(super) struct ConnectedSets<'a> {
     whole: &'a Mechanism,
     joined: Part,
-    /// Bodies of the whole mechanism, ascending; a body without joints is a set of its own.
+    /// Bodies of the whole mechanism, ascending; a body without joints is a separate set.
     sets: Vec<Vec<usize>>,
 }
 
 impl<'a> ConnectedSets<'a> {
-    /// Connects by all joints, with or without the drives.
+    /// Creates the sets that all joints connect, with or without the drives.
     pub(super) fn new(whole: &'a Mechanism, drives: bool) -> Self {
         let groups = whole.layout().groups.iter().enumerate();
         let chosen = groups.filter(|(_, group)| drives || !group.is_drive());
@@ -41,8 +41,8 @@ impl<'a> ConnectedSets<'a> {
         }
     }
 
-    /// A basis of the velocities that the rows allow, if their ranks are known and less than n_v in
-    /// total.
+    /// Returns a basis of the velocities that the rows allow, if their ranks are known and their
+    /// sum is less than n_v.
     pub(super) fn motions(&self, t: f64, q: &[f64], decided: &[PartRank]) -> FreeMotions {
         let rank: usize = decided.iter().map(|part| part.rank).sum();
         let mut described = DescribedMotions::default();
@@ -67,8 +67,8 @@ impl<'a> ConnectedSets<'a> {
         }
     }
 
-    /// Rank of the rows of each set. `None` if the set is too large to separate its rank from that
-    /// of others, or to be analysed further.
+    /// Returns the rank of the rows of each set. The rank is `None` if the set is too large to
+    /// separate its rank from that of other sets, or to be analysed further.
     fn ranks(&self, t: f64, q: &[f64], decided: &[PartRank]) -> Vec<Option<usize>> {
         let layout = self.whole.layout();
         let columns = self.whole.space().n_v();
@@ -127,7 +127,7 @@ impl<'a> ConnectedSets<'a> {
         ranks
     }
 
-    /// The pivots of some rows of a set; the rows are numbered in the whole mechanism.
+    /// Returns the pivots of some rows of a set. The rows are numbered in the whole mechanism.
     fn pivots(&self, set: &[usize], t: f64, q: &[f64], rows: &[usize]) -> Vec<f64> {
         let part = self.part(set);
         let places = |row: &usize| {
@@ -140,22 +140,22 @@ impl<'a> ConnectedSets<'a> {
         Component::new(&part.mechanism, t, &self.coordinates(&part, q)).pivots(&own)
     }
 
-    /// Coordinates of the part of a set, with the counted angles of its joints.
+    /// Returns the coordinates of the part of a set, with the unwrapped angles of its joints.
     fn coordinates(&self, part: &Part, q: &[f64]) -> Vec<f64> {
         let of_whole = &self.joined.places.coordinates;
         let places = part.places.coordinates.iter();
         places.map(|&k| q[of_whole[k]]).collect()
     }
 
-    /// The mechanism of a set of connected bodies; its places refer to the mechanism of the chosen
-    /// joints.
+    /// Returns the mechanism of a set of connected bodies. Its indices refer to the mechanism of
+    /// the chosen joints.
     fn part(&self, set: &[usize]) -> Part {
         let bodies = &self.joined.places.bodies;
         let own = set.iter().filter_map(|b| bodies.binary_search(b).ok());
         self.joined.mechanism.part(&own.collect::<Vec<_>>())
     }
 
-    /// Whether no joint acts on the bodies of a set.
+    /// Returns whether no joint acts on the bodies of a set.
     fn is_alone(&self, set: &[usize]) -> bool {
         let joined = &self.joined.places.bodies;
         set.iter().all(|b| joined.binary_search(b).is_err())
@@ -175,7 +175,7 @@ impl<'a> ConnectedSets<'a> {
             return;
         }
         if self.is_alone(set) {
-            // About the centre of mass, in ground axes.
+            // Motions about the centre of mass, in ground axes.
             let ground = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
             let places = set.iter().flat_map(|&b| self.whole.space().coordinates(b));
             let own: Vec<f64> = places.map(|k| q[k]).collect();
@@ -220,7 +220,7 @@ impl<'a> ConnectedSets<'a> {
         }
     }
 
-    /// The moving bodies of a set with the velocities of their frames.
+    /// Returns the moving bodies of a set with the velocities of their frames.
     fn numbered(
         &self,
         set: &[usize],
@@ -237,7 +237,7 @@ impl<'a> ConnectedSets<'a> {
             .collect()
     }
 
-    /// Describes velocities (n_v each) as motions of connected bodies that span them.
+    /// Describes velocities (n_v values each) as motions of connected bodies that span them.
     pub(super) fn among(&self, t: f64, q: &[f64], velocities: &[Vec<f64>]) -> Vec<FreeMotion> {
         let units = velocity_units(self.whole, scene_size(self.whole, q));
         let scaled = |k: usize, j: usize| (velocities[k][j] / units[j]).abs();
@@ -271,7 +271,7 @@ impl<'a> ConnectedSets<'a> {
         described
     }
 
-    /// Describes velocities (n_v each) of bodies on which no joint acts.
+    /// Describes velocities (n_v values each) of bodies on which no joint acts.
     pub(super) fn alone(&self, q: &[f64], velocities: &[Vec<f64>]) -> Vec<FreeMotion> {
         let (space, frames) = (self.whole.space(), self.whole.frames());
         let size = scene_size(self.whole, q);
@@ -317,22 +317,23 @@ impl<'a> ConnectedSets<'a> {
         described
     }
 
-    /// From the centre of mass of a body to the origin of its frame, in its axes (m).
+    /// Returns the vector from the centre of mass of a body to the origin of its frame, in body
+    /// axes (m).
     fn to_frame(&self, body: usize) -> [f64; 3] {
         self.whole.bodies()[body].from_centre([0.0; 3])
     }
 
-    /// The velocities of the frame of a body at an arm from its centre of mass, whose velocities
-    /// these are.
+    /// Returns the velocities of the frame of a body, given the velocities of its centre of mass.
+    /// `arm` is the vector from the centre of mass.
     fn of_frame(&self, body: usize, arm: [f64; 3], v: Vec<f64>) -> Vec<f64> {
         let space = self.whole.space();
-        // In the plane they are written of the centre of mass.
+        // In the plane, the velocities refer to the centre of mass.
         if space.n_rotations() == 1 || self.whole.bodies()[body].is_centred() {
             return v;
         }
         let centre = Twist::new(space, &v);
         let origin = centre.carried(arm);
-        // The velocity of a point at rest is a sum that is rounded.
+        // The velocity of a point at rest is a sum with rounding errors.
         let largest = centre.speed(0.0).max(origin.less(centre).speed(0.0));
         let mut shown = origin.components(space);
         for k in space.forces() {
@@ -343,7 +344,7 @@ impl<'a> ConnectedSets<'a> {
         shown
     }
 
-    /// Bodies of a set on which a drive acts, as indices into the set.
+    /// Returns the bodies of a set on which a drive acts, as indices into the set.
     fn driven(&self, set: &[usize]) -> Vec<usize> {
         let groups = self.whole.layout().groups.iter();
         let drives = groups.filter(|group| group.is_drive());

@@ -1,4 +1,4 @@
-//! Free motions as reported, and the ranks from which they follow.
+//! Reported free motions, and the ranks from which they follow.
 
 use super::ranks::WithoutDrives;
 
@@ -9,43 +9,43 @@ use super::ranks::WithoutDrives;
 pub struct FreeMotions {
     /// The motions as text and numbers, at most [`MOTIONS_REPORTED`](crate::MOTIONS_REPORTED).
     pub motions: Vec<FreeMotion>,
-    /// Freedoms that are not described. `None` if all are.
+    /// Freedoms that are not described. `None` if all freedoms are described.
     pub left_out: Option<LeftOut>,
 }
 
-/// Freedoms that are only counted.
+/// Freedoms that are counted, but not described.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LeftOut {
-    /// Their number.
+    /// Number of these freedoms.
     pub freedoms: usize,
     /// Reason why they are not described.
     pub reason: String,
 }
 
-/// One free motion. A body that is attached to nothing, and bodies that are joined only to each
-/// other, have all rigid motions in one entry.
+/// One free motion. The rigid motions of a body without joints, and of bodies that are joined only
+/// to each other, form one entry.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FreeMotion {
     /// Description, for example "`crank` turns about `A`; with it `coupler` and `rocker` turn".
     pub text: String,
-    /// One list for each degree of freedom, with the bodies that move: index of the body, and its
-    /// velocities in the order of [`SpaceKind::velocities`](model::SpaceKind) (m/s, rad/s), ground
-    /// axes. In the plane they are those of the centre of mass, in the order of the columns of C;
-    /// in space those of the origin of its frame. The largest rotation is 1, or the fastest
-    /// translation if nothing rotates.
+    /// Moving bodies for each degree of freedom: index of the body, and its velocities in the order
+    /// of [`SpaceKind::velocities`](model::SpaceKind) (m/s, rad/s), in ground axes. In the plane
+    /// these are the velocities of the centre of mass, in the order of the columns of C. In space
+    /// they are the velocities of the origin of the body frame. The largest rotation is 1, or the
+    /// fastest translation if no body rotates.
     pub velocities: Vec<Vec<(usize, Vec<f64>)>>,
 }
 
-/// Rank of rows that have been decided together: those of the whole mechanism, or of a part that
-/// shares no cycle with others.
+/// Rank of rows that are decided together: the rows of the whole mechanism, or of a part that
+/// shares no cycle with other parts.
 pub(crate) struct PartRank {
     /// Rows of the whole mechanism, ascending.
     pub(crate) rows: Vec<usize>,
-    /// Their rank.
+    /// Rank of the rows.
     pub(crate) rank: usize,
-    /// The rank without the rows of drives. `None` if no row is of a drive.
+    /// The rank without the rows of drives. `None` if no row belongs to a drive.
     pub(crate) without_drives: Option<WithoutDrives>,
 }

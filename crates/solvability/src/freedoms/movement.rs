@@ -1,24 +1,24 @@
-//! The velocities of one body as a rotation, a translation or a screw.
+//! Describes the velocities of one body as a rotation, a translation or a screw.
 
 use crate::limits::VISIBLE;
 use model::SpaceKind;
 use model::space::{cross, difference, dot, norm};
 
-/// Velocities of one body, ground axes.
+/// Velocities of one body, in ground axes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Twist {
-    /// Of its centre of mass (m/s).
+    /// Velocity of the centre of mass (m/s).
     pub(super) velocity: [f64; 3],
-    /// Its angular velocity (rad/s).
+    /// Angular velocity (rad/s).
     pub(super) omega: [f64; 3],
 }
 
-/// A line about which a body turns.
+/// A line about which a body rotates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line {
-    /// One of its points (m).
+    /// A point of the line (m).
     pub(super) point: [f64; 3],
-    /// Its direction, a unit vector.
+    /// Direction of the line, a unit vector.
     pub(super) along: [f64; 3],
 }
 
@@ -27,14 +27,14 @@ pub(super) struct Line {
 pub(super) enum Movement {
     /// Rotation about a line.
     Turn(Line),
-    /// Rotation about a line and translation along it by a pitch (m per turn).
+    /// Rotation about a line and translation along it by a pitch (m per revolution).
     Screw(Line, f64),
     /// Translation along a unit vector.
     Slide([f64; 3]),
 }
 
 impl Twist {
-    /// From velocities in the order of [`SpaceKind::velocities`], ground axes.
+    /// Creates a twist from velocities in the order of [`SpaceKind::velocities`], in ground axes.
     pub(super) fn new(space: SpaceKind, v: &[f64]) -> Self {
         let mut twist = Self {
             velocity: [0.0; 3],
@@ -49,14 +49,14 @@ impl Twist {
         twist
     }
 
-    /// Its components, in the order of [`Twist::new`].
+    /// Returns the components, in the order of [`Twist::new`].
     pub(super) fn components(self, space: SpaceKind) -> Vec<f64> {
         let velocities = space.forces().map(|k| self.velocity[space.axis_of(k)]);
         let turns = space.torques().map(|k| self.omega[space.axis_of(k)]);
         velocities.chain(turns).collect()
     }
 
-    /// The same with the velocity of another point, at this arm.
+    /// Returns the twist with the velocity of another point, at this arm.
     pub(super) fn carried(self, arm: [f64; 3]) -> Self {
         let turned = cross(self.omega, arm);
         Self {
@@ -72,14 +72,14 @@ impl Twist {
         }
     }
 
-    /// The larger of its velocity and that of a point at this distance from the axis (m/s).
+    /// Returns the larger of the velocity and that of a point at this distance from the axis (m/s).
     pub(super) fn speed(self, size: f64) -> f64 {
         norm(&self.velocity).max(norm(&self.omega) * size)
     }
 
-    /// How a body with this centre of mass moves in a mechanism of this size. A rotation about a
-    /// line that is 1/[`VISIBLE`] sizes away is a translation, and an advance below [`VISIBLE`] of
-    /// the fastest velocity is none.
+    /// Returns how a body with this centre of mass moves in a mechanism of this size. A rotation
+    /// about a line at a distance of 1/[`VISIBLE`] sizes is a translation. An advance below
+    /// [`VISIBLE`] of the fastest velocity counts as zero.
     pub(super) fn movement(self, centre: [f64; 3], size: f64) -> Movement {
         let Self { velocity, omega } = self;
         let (speed, rate) = (norm(&velocity), norm(&omega));
@@ -101,7 +101,7 @@ impl Twist {
 }
 
 impl Line {
-    /// Its point nearest to the origin of the ground.
+    /// Returns the point of the line that is nearest to the origin of the ground.
     pub(super) fn nearest_to_origin(self) -> [f64; 3] {
         let along = dot(self.along, self.point);
         std::array::from_fn(|k| self.point[k] - along * self.along[k])

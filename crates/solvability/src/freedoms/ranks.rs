@@ -1,32 +1,33 @@
-//! Ranks of some of the rows alone: Φq, Ψ, and all without those of drives.
+//! Ranks of subsets of the rows: Φq, Ψ, and all rows without drives.
 
 use model::Layout;
 use rank::RankStatus;
 
 use crate::error::AnalysisError;
 
-/// Rank and redundancy of the rows without those of drives.
+/// Rank and redundancy of the rows without drives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct WithoutDrives {
-    /// Their rank.
+    /// Rank of these rows.
     pub rank: usize,
     /// Number of rows minus their rank.
     pub redundancy: usize,
 }
 
-/// Ranks of some of the rows alone, whichever way they are decided.
+/// Ranks of subsets of the rows, independent of the method of decision.
 pub(crate) struct PartialRanks {
     pub(crate) holonomic: usize,
     pub(crate) nonholonomic: usize,
     /// `None` if there are no drives.
     pub(crate) without_drives: Option<WithoutDrives>,
-    /// What is undecided of them.
+    /// Descriptions of undecided ranks.
     pub(crate) warnings: Vec<String>,
 }
 
 impl PartialRanks {
-    /// From the rank of all rows, and by `decide` for what is neither nothing nor everything.
+    /// Determines the ranks from the rank of all rows. `decide` is called for a subset that is
+    /// neither empty nor complete.
     pub(crate) fn of(
         layout: &Layout,
         rank: usize,

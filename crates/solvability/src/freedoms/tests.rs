@@ -1,5 +1,5 @@
-//! Mechanisms whose free motions are derived by hand: a point p of a body at r has the velocity v +
-//! ω × (p − r).
+//! Mechanisms whose free motions are derived manually: a point p of a body at r has the velocity
+//! `v + ω × (p − r)`.
 
 use crate::limits::MOTIONS_REPORTED;
 mod space;
@@ -16,7 +16,7 @@ use crate::analyse;
 
 const GROUND: BodyRef = BodyRef::Ground;
 
-/// Allowed difference between computed and derived numbers: rounding.
+/// Permitted difference between computed and derived numbers: rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A bar with its centre of mass at `position`.
@@ -61,8 +61,8 @@ fn pusher(d: &mut Description, name: &str, bodies: [BodyRef; 2], place: [f64; 2]
     );
 }
 
-/// Thirty four-bars on a tower of two parts on a carriage. From their joints the rail is the
-/// farthest, but it moves alone.
+/// Thirty four-bars on a tower of two parts on a carriage. The rail has the largest distance from
+/// their joints, but it moves alone.
 #[test]
 fn the_motion_of_fewest_joints_comes_first() {
     let mut d = Description::new("carriage");
@@ -237,7 +237,7 @@ fn a_wheel_at_its_centre_spins_alone() {
     );
 }
 
-/// Each link turns about its own joint and carries those after it.
+/// Each link rotates about its own joint and carries the links after it.
 #[test]
 fn links_of_a_chain_turn_about_their_own_joints() {
     let mut d = Description::new("arm");
@@ -280,7 +280,7 @@ fn a_body_that_nothing_holds_is_free() {
     assert_eq!(free.motions.motions[1].velocities, expected);
 }
 
-/// Without drives, a drive connects nothing: a body that only a drive holds is then free.
+/// Without drives, a body that only a drive connects to the ground is free.
 #[test]
 fn a_body_that_a_drive_alone_holds_is_free_without_it() {
     let mut d = Description::new("driven stone");
@@ -294,8 +294,8 @@ fn a_body_that_a_drive_alone_holds_is_free_without_it() {
     assert_eq!(texts(&without.motions), ["`stone` is free"]);
 }
 
-/// Two bars pinned only to each other: three freedoms of both together, and one between them,
-/// described by the lighter bar.
+/// Two bars pinned only to each other have three freedoms of both together, and one between them,
+/// which is described by the lighter bar.
 #[test]
 fn bodies_that_hold_only_each_other_are_free_together() {
     let mut d = Description::new("bars");
@@ -350,7 +350,7 @@ fn a_skate_slides_along_its_edge_and_turns_about_it() {
     moves(&free.motions, 1, &[(0, [0.0, -0.2, 1.0])]);
 }
 
-/// Axles whose lines meet in (−1, 3).
+/// Axles whose lines intersect at (−1, 3).
 #[test]
 fn a_car_turns_about_the_point_where_its_axles_meet() {
     let mut d = Description::new("car");
@@ -369,7 +369,7 @@ fn a_car_turns_about_the_point_where_its_axles_meet() {
     moves(&free.motions, 0, &[(0, [3.0, 1.0, 1.0])]);
 }
 
-/// Sun 30 teeth, planet 15, ring 60 at rest: with the carrier at 1/3 the sun turns by 1 and the
+/// Sun 30 teeth, planet 15, fixed ring 60: with the carrier at 1/3, the sun rotates by 1 and the
 /// planet by −1.
 #[test]
 fn wheels_of_a_planetary_gear_turn_together() {
@@ -398,7 +398,7 @@ fn wheels_of_a_planetary_gear_turn_together() {
     moves(&free.motions, 0, &derived);
 }
 
-/// A slide whose tool slides across it: each axis moves separately.
+/// A slide with a tool that slides across it: each axis moves separately.
 #[test]
 fn slides_on_slides_move_along_their_axes() {
     let mut d = Description::new("gantry");
@@ -442,7 +442,7 @@ fn of_many_motions_the_first_are_told() {
     }
     let free = freedoms(&d);
     assert_eq!(free.motions.motions.len(), MOTIONS_REPORTED);
-    let left_out = free.motions.left_out.expect("not all are told");
+    let left_out = free.motions.left_out.expect("not all are listed");
     assert_eq!(left_out.freedoms, 8);
     assert_eq!(left_out.reason, "the first 12 motions are listed");
 }

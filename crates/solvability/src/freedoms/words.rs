@@ -1,5 +1,5 @@
-//! Free motions as sentences: which body turns about which point or axis, which body slides, and
-//! which bodies move with it.
+//! Describes free motions as sentences: which body rotates about which point or axis, which body
+//! slides, and which bodies move with it.
 
 use crate::limits::{NAMED_BODIES, SAME_PLACE, TOLD_MOVEMENTS};
 use model::space::{cross, difference, dot, norm};
@@ -49,7 +49,7 @@ pub(super) fn free(mechanism: &Mechanism, bodies: &[usize]) -> String {
     }
 }
 
-/// How a body on which no joint acts moves.
+/// Describes the motion of a body without joints.
 pub(super) fn alone(mechanism: &Mechanism, body: usize, movement: Movement, size: f64) -> String {
     let name = named(mechanism, &[body]);
     let space = mechanism.space();
@@ -73,8 +73,9 @@ pub(super) fn alone(mechanism: &Mechanism, body: usize, movement: Movement, size
     }
 }
 
-/// How the other bodies move. In space, a few sets of bodies that move as one are told like the
-/// first; of more, and in the plane, it is told which turn and which slide.
+/// Describes the motion of the other bodies. In space, a few sets of bodies that move together are
+/// described like the first body. For more sets, and in the plane, the text only lists which bodies
+/// rotate and which slide.
 fn with_it(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String> {
     if of.mechanism.space().n_rotations() == 1 {
         return verbs(of, v, bodies);
@@ -93,7 +94,7 @@ fn with_it(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String
     said
 }
 
-/// How bodies that move as one move, with the numbers of one of them: "`nut` turns about `A`".
+/// Describes bodies that move together, with the values of one of them: "`nut` turns about `A`".
 fn sentence(of: &Component<'_>, v: &Velocities, one: usize, bodies: &[usize]) -> String {
     let names = named(of.mechanism, bodies);
     let (s, together) = match bodies.len() {
@@ -116,7 +117,7 @@ fn sentence(of: &Component<'_>, v: &Velocities, one: usize, bodies: &[usize]) ->
     }
 }
 
-/// Which bodies turn and which slide, without saying about what and where.
+/// Lists which bodies rotate and which slide, without axis and position.
 fn verbs(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String> {
     let slides = |b: &usize| matches!(movement(of, v, *b), Movement::Slide(_));
     let (sliding, turning): (Vec<usize>, Vec<usize>) = bodies.into_iter().partition(slides);
@@ -129,8 +130,8 @@ fn verbs(of: &Component<'_>, v: &Velocities, bodies: Vec<usize>) -> Vec<String> 
     .collect()
 }
 
-/// The body that is named first: preferably one that slides or turns about a joint, then one on
-/// which a drive acts, then one that is joined to the ground.
+/// Returns the body that is named first: preferably a body that slides or rotates about a joint,
+/// then a body on which a drive acts, then a body that is joined to the ground.
 fn leader(
     of: &Component<'_>,
     driven: &[usize],
@@ -152,7 +153,7 @@ fn leader(
     moving.iter().copied().min_by_key(|&b| rank(b))
 }
 
-/// Whether a body moves as if it were rigidly attached to another.
+/// Returns whether a body moves as if it were rigidly attached to another body.
 fn moves_as(of: &Component<'_>, v: &Velocities, leader: usize, body: usize) -> bool {
     let [own, leads] = [body, leader].map(|b| twist(of, v, b));
     let carried = leads.carried(difference(of.origin(body), of.origin(leader)));
@@ -169,8 +170,9 @@ fn movement(of: &Component<'_>, v: &Velocities, body: usize) -> Movement {
     twist(of, v, body).movement(of.origin(body), of.size)
 }
 
-/// A line about which bodies turn. In the plane, its point: a joint of the bodies, "its centre of
-/// mass", or coordinates. In space, the line through such points and its direction.
+/// Describes a line about which bodies rotate. In the plane, the text names its point: a joint of
+/// the bodies, "its centre of mass", or coordinates. In space, it names the line through such
+/// points and its direction.
 fn about(of: &Component<'_>, bodies: &[usize], line: Line) -> String {
     let through = match (joints_on(of, bodies, line).as_slice(), bodies) {
         ([], [only]) if is_on(of, of.origin(*only), line) => "its centre of mass".to_owned(),
@@ -186,8 +188,9 @@ fn about(of: &Component<'_>, bodies: &[usize], line: Line) -> String {
     }
 }
 
-/// The joint of these bodies that is located on a line; if there are several, the one that
-/// constrains most, and another one that constrains as much at another point of the line.
+/// Returns the joint of these bodies that is on a line. If there are several, it returns the joint
+/// with the most constraints, and another joint with as many constraints at another point of the
+/// line.
 fn joints_on(of: &Component<'_>, bodies: &[usize], line: Line) -> Vec<String> {
     let layout = of.mechanism.layout();
     let holds = |k: usize| {
@@ -210,20 +213,20 @@ fn joints_on(of: &Component<'_>, bodies: &[usize], line: Line) -> Vec<String> {
     first.into_iter().chain(other).map(name).collect()
 }
 
-/// Whether a point lies on a line at the scale of the mechanism.
+/// Returns whether a point is on a line, at the scale of the mechanism.
 fn is_on(of: &Component<'_>, point: [f64; 3], line: Line) -> bool {
     norm(&cross(difference(point, line.point), line.along)) <= SAME_PLACE * of.size
 }
 
-/// "(0.25, −1)" without the quotes, in m.
+/// Formats a point as "(0.25, −1)" without the quotes, in m.
 fn point(of: &Component<'_>, p: [f64; 3], size: f64) -> String {
     components(&p[of.mechanism.space().forces()], size)
 }
 
-/// Names of bodies, with a count instead of a long list.
+/// Returns the names of bodies, with a count in place of a long list.
 fn named(mechanism: &Mechanism, bodies: &[usize]) -> String {
     let name = |&b: &usize| format!("`{}`", mechanism.bodies()[b].name);
-    // If only one name would be replaced by a count, it is named.
+    // If a count would replace only one name, the name is printed.
     let told = if bodies.len() == NAMED_BODIES + 1 {
         NAMED_BODIES + 1
     } else {

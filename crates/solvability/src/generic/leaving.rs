@@ -1,5 +1,5 @@
-//! How a mechanism without its drives leaves a configuration, as far as second order says: the
-//! velocities that it excludes, and the tangents of branches. Velocities are without dimensions.
+//! Determines how a mechanism without its drives can leave a configuration, according to second
+//! order: the excluded velocities, and the tangents of branches. Velocities are dimensionless.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ use crate::second_order::{Continuation, blocked_velocities, second_order};
 /// The joints of a mechanism that constrain its configuration.
 pub(super) struct Leaving<'m> {
     mechanism: Cow<'m, Mechanism>,
-    /// Their places in the mechanism; `None` if they are all of it.
+    /// Indices of the joints in the mechanism; `None` for all joints.
     places: Option<Places>,
     n_v: usize,
     /// Number of velocities that second order excludes at the first configuration.
@@ -21,7 +21,7 @@ pub(super) struct Leaving<'m> {
 }
 
 impl<'m> Leaving<'m> {
-    /// The joints of a mechanism with coordinates q at time t.
+    /// Returns the joints of a mechanism with coordinates q at time t.
     pub(super) fn new(mechanism: &'m Mechanism, t: f64, q: &[f64]) -> Self {
         let layout = mechanism.layout();
         let holds = |k: &usize| {
@@ -45,21 +45,21 @@ impl<'m> Leaving<'m> {
         own
     }
 
-    /// Whether second order excludes velocities at the first configuration.
+    /// Returns whether second order excludes velocities at the first configuration.
     pub(super) fn excludes(&self) -> bool {
         self.excluded > 0
     }
 
-    /// Of the free directions at a configuration, in rows and orthonormal, those that second order
-    /// does not exclude. `None` where it excludes fewer than at the first configuration: another
-    /// branch may begin there.
+    /// Returns the free directions at a configuration (orthonormal, in rows) that second order does
+    /// not exclude. Returns `None` if it excludes fewer velocities than at the first configuration,
+    /// because another branch may begin there.
     pub(super) fn possible(
         &self,
         free: Matrix,
         at: (f64, &[f64]),
         units: &[f64],
     ) -> Option<Matrix> {
-        // What is excluded on a branch is so along all of it.
+        // Velocities that are excluded at a point of a branch are excluded along the whole branch.
         if !self.excludes() || free.nrows() == 0 {
             return Some(free);
         }
@@ -77,8 +77,8 @@ impl<'m> Leaving<'m> {
         Some(rest.transpose().product(&free))
     }
 
-    /// Tangents of the branches that meet at a configuration; empty if second order does not tell
-    /// them apart.
+    /// Returns the tangents of the branches that meet at a configuration. The list is empty if
+    /// second order does not separate the branches.
     pub(super) fn branches(&self, at: (f64, &[f64]), units: &[f64]) -> Vec<Vec<f64>> {
         let found = self.decided(at).and_then(|(q, decision)| {
             let n = self.mechanism.layout().n_v;
@@ -91,7 +91,7 @@ impl<'m> Leaving<'m> {
         }
     }
 
-    /// Velocities of the joints that second order excludes.
+    /// Returns the velocities of the joints that second order excludes.
     fn excluded(&self, at: (f64, &[f64])) -> Vec<Vec<f64>> {
         let found = self.decided(at).and_then(|(q, decision)| {
             blocked_velocities(&self.mechanism, at.0, &q, &decision).ok()
@@ -99,7 +99,8 @@ impl<'m> Leaving<'m> {
         found.unwrap_or_default()
     }
 
-    /// The coordinates of the joints, and their rank; `None` where second order has nothing to say.
+    /// Returns the coordinates of the joints, and their rank; `None` if the second-order analysis
+    /// does not apply.
     fn decided(&self, (t, q): (f64, &[f64])) -> Option<(Vec<f64>, RankDecision)> {
         let layout = self.mechanism.layout();
         if layout.h > 0 || layout.rheonomic {
@@ -115,7 +116,7 @@ impl<'m> Leaving<'m> {
         (has_forms && decision.rank < layout.n_v).then_some((q, decision))
     }
 
-    /// Velocities of the joints as velocities of the mechanism.
+    /// Returns velocities of the joints as velocities of the mechanism.
     fn dimensionless(&self, velocities: Vec<Vec<f64>>, units: &[f64]) -> Vec<Vec<f64>> {
         let of_all = |own: Vec<f64>| {
             let mut all = match &self.places {

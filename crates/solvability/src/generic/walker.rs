@@ -1,5 +1,5 @@
-//! Walks to other configurations along the motions that the constraints allow without the drives,
-//! and the ranks there.
+//! Continuation to other configurations along the motions that the constraints allow without the
+//! drives, and the ranks there.
 
 use linalg::{Matrix, PivotedQr};
 use model::start::{Metric, nearest_configuration, scene_size};
@@ -15,10 +15,10 @@ use crate::pose::dimensionless;
 
 /// Rows of Φ that do not belong to drives.
 pub(super) struct LastingRows {
-    /// Rows that are satisfied at other points.
+    /// Rows that are satisfied at all points.
     held: Vec<usize>,
-    /// Rows that are redundant within a stated tolerance, ascending: at other points they have
-    /// residuals.
+    /// Rows that are redundant within a stated tolerance, ascending. They have residuals at other
+    /// points.
     dropped: Vec<usize>,
 }
 
@@ -32,8 +32,9 @@ impl LastingRows {
         Self { held, dropped }
     }
 
-    /// Whether data within the tolerance explain the residuals of the dropped rows at a point at
-    /// which the others are satisfied. On another branch of the held rows they do not.
+    /// Returns whether data within the tolerance explain the residuals of the dropped rows at a
+    /// point where the other rows are satisfied. On another branch of the satisfied rows they do
+    /// not.
     fn agree(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> bool {
         if self.dropped.is_empty() {
             return true;
@@ -43,7 +44,7 @@ impl LastingRows {
         let held = PivotedQr::of_rows(c.select_rows(&self.held));
         let blocks = mechanism.data().blocks(&s);
         self.dropped.iter().all(|&row| {
-            // The dependency `row − Σ t_k·row k` of the held rows k.
+            // The dependency is `row − Σ t_k·row k` of the satisfied rows k.
             let mut t = c.row(row).to_vec();
             held.q_transpose_mul(&mut t);
             t.truncate(self.held.len());
@@ -62,7 +63,7 @@ impl LastingRows {
     }
 }
 
-/// Walks along the motions that the constraints allow without the drives.
+/// Continuation along the motions that the constraints allow without the drives.
 pub(super) struct Walker<'m> {
     pub(super) mechanism: &'m Mechanism,
     pub(super) rows: LastingRows,
@@ -70,14 +71,14 @@ pub(super) struct Walker<'m> {
     pub(super) units: Vec<f64>,
     pub(super) size: f64,
     pub(super) leaving: Leaving<'m>,
-    /// Whether a constraint that is not a drive depends on time.
+    /// Whether a constraint other than a drive depends on time.
     pub(super) moves_time: bool,
 }
 
 impl Walker<'_> {
-    /// The last point of one walk, if it moved away from the start.
+    /// Returns the last point of one continuation, if it moved away from the start.
     pub(super) fn walk_from(&self, from: &(f64, Vec<f64>), walk: usize) -> Option<(f64, Vec<f64>)> {
-        // Different step lengths prevent the walks from returning to the start.
+        // Different step lengths prevent the continuations from returning to the start.
         let stride = GENERIC_STEP * (1.0 + 0.5 * spread(walk + 1));
         let (mut t, mut q) = from.clone();
         let mut before = from.clone();
@@ -93,14 +94,14 @@ impl Walker<'_> {
             }
             let ahead = match &heading {
                 None => mixed(&directions, walk),
-                // The projection of the last step onto the free directions.
+                // Projects the last step onto the free directions.
                 Some(last) => directions.transpose_times(&directions.times(last)),
             };
             let step = |ahead: Vec<f64>| {
                 let there = self.step((t, &q), &kept, &ahead, stride)?;
                 Some((there, ahead))
             };
-            // Where branches meet, a mixture of their directions may lead nowhere.
+            // Where branches meet, a mixture of their directions may not be a possible motion.
             let next = step(ahead).or_else(|| {
                 let mut branches = match heading {
                     None => self.leaving.branches((t, &q), &self.units),
@@ -120,8 +121,8 @@ impl Walker<'_> {
         ((t, &q) != (from.0, &from.1)).then_some((t, q))
     }
 
-    /// The configuration after a step along a velocity without dimensions, of the stride or of a
-    /// halved one.
+    /// Returns the configuration after a step along a dimensionless velocity. The length is the
+    /// stride or a halved one.
     fn step(
         &self,
         (t, q): (f64, &[f64]),
@@ -151,8 +152,8 @@ impl Walker<'_> {
                     !self.moves_time && self.apart(&there, &moved) > GENERIC_STRAYED * length;
                 (!has_strayed).then_some(there)
             };
-            // Where rows stay redundant, those that are kept determine more digits: the others
-            // hold a rotation that they block only to the root of rounding.
+            // If rows remain redundant, the kept rows determine more digits. The other rows
+            // restrict a rotation that they block only to the square root of rounding.
             let there = on(kept).filter(|there| self.hold(later, there));
             let there = there.or_else(|| on(&self.rows.held))?;
             self.rows
@@ -161,7 +162,7 @@ impl Walker<'_> {
         })
     }
 
-    /// Whether all rows that are held are satisfied to rounding.
+    /// Returns whether all required rows are satisfied to rounding.
     fn hold(&self, t: f64, q: &[f64]) -> bool {
         let s = crate::pose::evaluated(self.mechanism, t, q);
         let scales = self.mechanism.scales(&s);
@@ -169,8 +170,8 @@ impl Walker<'_> {
         held.all(|&i| s.phi[i].abs() <= GENERIC_HOLDS * scales.position(i))
     }
 
-    /// Basis of the dimensionless velocities that the held rows of Φq allow, one velocity in each
-    /// row, and independent rows among them.
+    /// Returns a basis of the dimensionless velocities that these rows of Φq allow, one velocity in
+    /// each row, and the independent rows.
     fn free_directions(&self, t: f64, q: &[f64]) -> Option<(Matrix, Vec<usize>)> {
         let s = crate::pose::evaluated(self.mechanism, t, q);
         let mut phi_q = self
@@ -191,7 +192,7 @@ impl Walker<'_> {
         Some((free.transpose(), rows.collect()))
     }
 
-    /// The rank of the compared rows at a point, if it is decided there.
+    /// Returns the rank of the compared rows at a point, if it is decided there.
     pub(super) fn elsewhere(
         &self,
         (t, q): &(f64, Vec<f64>),
@@ -199,15 +200,16 @@ impl Walker<'_> {
     ) -> Option<(OtherConfiguration, DecidedRows)> {
         let mechanism = self.mechanism;
         let mut s = crate::pose::evaluated(mechanism, *t, q);
-        // Drives were left out of the walk, and have other values at this configuration. A row that
-        // was left out because it is redundant within a tolerance has to agree there with the
-        // others.
+        // The continuation omitted drives, which have other values at this configuration. A row
+        // that was omitted because it is redundant within a tolerance has to agree with the other
+        // rows there.
         let drives = mechanism.layout().groups.iter().filter(|g| g.is_drive());
         for rows in drives.map(|g| g.rows.holonomic.clone()) {
             s.phi[rows].fill(0.0);
         }
         let (decision, c) = if self.leaving.excludes() {
-            // Rows that block a rotation at second order hold it to the root of rounding only.
+            // Rows that block a rotation at second order restrict it only to the square root of
+            // rounding.
             let known = f64::EPSILON.sqrt();
             let c = dimensionless(mechanism, &s, scene_size(mechanism, q)).select_rows(compared);
             (rank::decide(&c, rank::Accuracy::Absolute(known)).ok()?, c)
@@ -226,34 +228,36 @@ impl Walker<'_> {
             .then_some((point, DecidedRows { decision, c }))
     }
 
-    /// The largest component of a displacement, as a fraction of the size of the mechanism or in
-    /// radians.
+    /// Returns the largest component of a displacement, as a fraction of the size of the mechanism
+    /// or in radians.
     fn length(&self, d: impl Iterator<Item = f64>) -> f64 {
         d.zip(&self.units)
             .map(|(d, unit)| (d / unit / self.size).abs())
             .fold(0.0, f64::max)
     }
 
-    /// The distance of two configurations, in the same measure.
+    /// Returns the distance of two configurations, as a fraction of the size of the mechanism or in
+    /// radians.
     pub(super) fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
         self.length(self.mechanism.difference_of(a, b).into_iter())
     }
 }
 
-/// Whether a constraint that is not a drive depends on time.
+/// Returns whether a constraint other than a drive depends on time.
 pub(super) fn has_lasting_function(mechanism: &Mechanism) -> bool {
     let mut groups = mechanism.layout().groups.iter();
     groups.any(|g| g.spec.rheonomic && !g.is_drive())
 }
 
-/// A combination of all directions with coefficients that do not repeat.
+/// Returns a combination of all directions with coefficients that do not repeat.
 fn mixed(directions: &Matrix, walk: usize) -> Vec<f64> {
     let first = walk * directions.nrows() + 1;
     let coefficients: Vec<f64> = (0..directions.nrows()).map(|i| spread(first + i)).collect();
     directions.transpose_times(&coefficients)
 }
 
-/// Numbers spread evenly between −½ and ½: the fractional parts of multiples of the golden ratio.
+/// Returns numbers that are spread evenly between −½ and ½: the fractional parts of multiples of
+/// the golden ratio.
 fn spread(k: usize) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     (GOLDEN * k as f64).fract() - 0.5

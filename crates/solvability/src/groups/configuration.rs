@@ -1,5 +1,5 @@
-//! A mechanism at a configuration whose rank has been decided. It gives the verdicts on the numbers
-//! of its reactions.
+//! A mechanism at a configuration with a decided rank, which returns verdicts on the numbers of its
+//! reactions.
 
 use crate::pose::{dimensionless, evaluated, uncertainty};
 use std::borrow::Cow;
@@ -36,7 +36,7 @@ impl<'a> Configuration<'a> {
         Self::of(Cow::Borrowed(mechanism), t, q, decision)
     }
 
-    /// Decides the rank of C at a configuration, as [`crate::decide`].
+    /// Decides the rank of C at a configuration, like [`crate::decide`].
     ///
     /// # Errors
     /// - [`AnalysisError::Rank`]: C is not finite.
@@ -56,7 +56,7 @@ impl<'a> Configuration<'a> {
         })
     }
 
-    /// Like [`Self::new`], for a mechanism that the caller gives away.
+    /// Works like [`Self::new`], for a mechanism whose ownership passes to the configuration.
     pub(crate) fn of(
         mechanism: Cow<'a, Mechanism>,
         t: f64,
@@ -101,36 +101,36 @@ impl<'a> Configuration<'a> {
         })
     }
 
-    /// The reaction numbers as linear forms.
+    /// Returns the numbers of reactions as linear forms.
     #[must_use]
     pub fn reactions(&self) -> &ReactionForms<'a> {
         &self.reactions
     }
 
-    /// Φ and C at the configuration.
+    /// Returns the scratch with Φ and C at the configuration.
     #[must_use]
     pub fn scratch(&self) -> &Scratch {
         &self.reactions.s
     }
 
-    /// The size of the mechanism there (m).
+    /// Returns the size of the mechanism at the configuration (m).
     #[must_use]
     pub fn size(&self) -> f64 {
         self.reactions.size
     }
 
-    /// Rows and columns of the mechanism.
+    /// Returns the rows and columns of the mechanism.
     pub(crate) fn layout(&self) -> &Layout {
         self.reactions.mechanism.layout()
     }
 
-    /// What can be said of the multipliers.
+    /// Returns the solvability of the multipliers.
     #[must_use]
     pub fn solvability(&self) -> &Solvability {
         &self.solvability
     }
 
-    /// The verdict on a number.
+    /// Returns the verdict on a number.
     ///
     /// # Errors
     /// [`RequestError::Length`]: the form belongs to another mechanism.

@@ -4,14 +4,14 @@ use crate::matrices::QueryError;
 use model::codes::Code;
 use model::{ConstraintId, Mechanism, System};
 
-/// Reason why a request cannot be answered.
+/// Reason why a request is rejected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RequestError {
     /// A joint or drive that does not exist.
     #[error("there is no joint or drive {id}; the mechanism has {reactions}, counted from 0")]
     UnknownReaction {
-        /// Its number, from 0.
+        /// Number of the joint or drive, from 0.
         id: usize,
         /// Number of reactions.
         reactions: usize,
@@ -23,13 +23,13 @@ pub enum RequestError {
         reaction: String,
         /// Name of the requested component.
         component: String,
-        /// Names of its components.
+        /// Names of the components of the reaction.
         available: String,
     },
     /// A body that does not exist.
     #[error("there is no body {body}; the mechanism has {bodies}, counted from 0")]
     UnknownBody {
-        /// Its number, from 0.
+        /// Number of the body, from 0.
         body: usize,
         /// Number of bodies.
         bodies: usize,
@@ -37,22 +37,21 @@ pub enum RequestError {
     /// A row that does not exist.
     #[error("there is no row {row}; the matrix has {rows}, counted from 0")]
     UnknownRow {
-        /// Its number, from 0.
+        /// Number of the row, from 0.
         row: usize,
         /// Number of rows.
         rows: usize,
     },
     /// Too many rows are on common cycles.
     #[error(
-        "{joints} are on common cycles with {rows} rows in all: this question takes matrices of all of them, which is possible up to {most} rows; other \
-         parts of the mechanism can be asked"
+        "{joints} are on common cycles with {rows} rows in total; this question is possible up to {most} rows. Other parts of the mechanism can be analysed"
     )]
     Large {
         /// The first joints and drives of the part.
         joints: String,
-        /// Number of their rows.
+        /// Number of rows of the part.
         rows: usize,
-        /// Largest number of rows that is possible.
+        /// Largest permitted number of rows.
         most: usize,
     },
     /// The solvability belongs to another constraint matrix.
@@ -79,7 +78,7 @@ pub enum RequestError {
     Length {
         /// Name of the argument.
         argument: &'static str,
-        /// Its length.
+        /// Length of the argument.
         found: usize,
         /// The length it must have.
         expected: usize,
@@ -87,7 +86,7 @@ pub enum RequestError {
 }
 
 impl RequestError {
-    /// Its code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -104,8 +103,8 @@ impl RequestError {
     }
 }
 
-/// The error for a joint or drive that does not exist, or else for a component that it does not
-/// have.
+/// Returns the error for a joint or drive that does not exist, or otherwise for a component that it
+/// does not have.
 pub(crate) fn unknown_component(
     mechanism: &Mechanism,
     id: ConstraintId,

@@ -1,5 +1,5 @@
-//! A number that is linear in the multipliers, with the size of the terms that are summed: a
-//! component, a sum of components, a moment about a point, a resultant.
+//! A number that is linear in the multipliers, with the size of the terms in its sum: a component,
+//! a sum of components, a moment about a point, or a resultant.
 
 use linalg::Matrix;
 
@@ -10,8 +10,9 @@ use crate::verdict::Judgement;
 
 /// `ℓᵀ·λ` over all rows, a sum of terms.
 ///
-/// The sizes decide what is rounding: if terms cancel, the remainder is compared with the terms,
-/// not with itself. So a total that vanishes identically is unique, whatever digits remain.
+/// The sizes determine the rounding: if terms cancel, the remainder is compared with the terms, not
+/// with itself. A total that vanishes identically is therefore unique, even if rounding leaves a
+/// remainder.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -38,7 +39,7 @@ pub struct LinearForm {
 }
 
 impl LinearForm {
-    /// The form that is zero, for a matrix with this many rows.
+    /// Returns the form zero, for a matrix with this many rows.
     #[must_use]
     pub fn zero(rows: usize) -> Self {
         Self {
@@ -50,7 +51,8 @@ impl LinearForm {
     /// Adds `coefficient·λ_row` for each pair.
     ///
     /// # Errors
-    /// [`RequestError::UnknownRow`], [`RequestError::NotFinite`]; in this case nothing is added.
+    /// [`RequestError::UnknownRow`], [`RequestError::NotFinite`]. If there is an error, the form
+    /// does not change.
     pub fn add(&mut self, terms: &[(usize, f64)]) -> Result<(), RequestError> {
         let rows = self.coefficients.len();
         let coefficients: Vec<f64> = terms.iter().map(|(_, c)| *c).collect();
@@ -71,7 +73,7 @@ impl LinearForm {
         }
     }
 
-    /// The part of the form that belongs to these rows.
+    /// Returns the part of the form that belongs to these rows.
     pub(super) fn only(&self, rows: &[usize]) -> Self {
         let mut part = Self::zero(self.coefficients.len());
         for &i in rows {
@@ -86,16 +88,16 @@ impl LinearForm {
         self.sizes[row] += size;
     }
 
-    /// ℓ, one coefficient for each row.
+    /// Returns ℓ, one coefficient for each row.
     #[must_use]
     pub fn coefficients(&self) -> &[f64] {
         &self.coefficients
     }
 
-    /// `ℓᵀ·λ`
+    /// Returns `ℓᵀ·λ`.
     ///
     /// # Panics
-    /// If there is not one multiplier for each row.
+    /// Panics if the number of multipliers differs from the number of rows.
     #[must_use]
     pub fn value(&self, lambda: &[f64]) -> f64 {
         let rows = self.coefficients.len();
@@ -111,19 +113,19 @@ impl LinearForm {
             .sum()
     }
 
-    /// Its values along the columns of a null space.
+    /// Returns the values of the form along the columns of a null space.
     pub(crate) fn along_null_space(&self, solvability: &Solvability) -> Vec<f64> {
         solvability.along_null_space(&self.coefficients)
     }
 
-    /// Sum of the sizes of its terms, for multipliers of these sizes.
+    /// Returns the sum of the sizes of the terms, for multipliers of these sizes.
     pub(crate) fn size(&self, of_row: impl Fn(usize) -> f64) -> f64 {
         let sizes = self.sizes.iter().enumerate();
         sizes.map(|(i, size)| size * of_row(i)).sum()
     }
 
-    /// Verdict on the number: unique iff `ℓᵀ·Z = 0`. The margin is relative to the size of the
-    /// terms, both for equilibrated rows.
+    /// Returns the verdict on the number: unique iff `ℓᵀ·Z = 0`. The margin is relative to the size
+    /// of the terms. Both are computed for equilibrated rows.
     ///
     /// # Errors
     /// [`RequestError::Length`]: the matrix has another number of rows.
@@ -140,8 +142,8 @@ impl LinearForm {
         Ok(solvability.component(&self.map_of(&all), 0, all)?)
     }
 
-    /// The part of the form that belongs to these rows, as the first row of a map. A component is
-    /// compared with the largest row of its map; the second row holds the sizes.
+    /// Returns the part of the form that belongs to these rows, as the first row of a map. A
+    /// component is compared with the largest row of its map; the second row contains the sizes.
     pub(crate) fn map_of(&self, rows: &[usize]) -> Matrix {
         let largest = match self.sizes.iter().fold(0.0, |a: f64, &b| a.max(b)) {
             0.0 => 1.0,
@@ -151,14 +153,14 @@ impl LinearForm {
         Matrix::from_fn(both.len(), rows.len(), |k, i| both[k][rows[i]] / largest)
     }
 
-    /// Whether a term belongs to this row.
+    /// Returns whether a term belongs to this row.
     pub(crate) fn has_term(&self, row: usize) -> bool {
         self.sizes[row] != 0.0
     }
 
-    /// `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the equilibrated
-    /// matrix, and the norm that was divided by (1 for a form without terms): the margin as a
-    /// vector.
+    /// Returns `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the
+    /// equilibrated matrix. This is the margin as a vector. The second value is the divisor (1 for
+    /// a form without terms).
     pub(crate) fn image(&self, free: &FreeMultipliers<'_>) -> (Vec<f64>, f64) {
         let scaled = |x: &[f64]| -> Vec<f64> {
             let pairs = x.iter().zip(free.row_factor.iter());

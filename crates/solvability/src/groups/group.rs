@@ -9,16 +9,15 @@ use super::error::RequestError;
 pub enum Group {
     /// The reactions of these joints and drives together: unique iff every one of them is unique.
     Members(Vec<ConstraintId>),
-    /// These joints and drives as if they were one joint: unique iff their total wrench on each
-    /// body is unique.
+    /// These joints and drives as one joint: unique iff their total wrench on each body is unique.
     OneJoint(Vec<ConstraintId>),
     /// `Σ coefficient · component`: one number.
     Combination(Vec<Term>),
-    /// `Σ coefficient · wrench`, each wrench as it acts on the first body of its joint, torques
-    /// about the place of the first one.
+    /// `Σ coefficient · wrench`, with each wrench on the first body of its joint. Torques refer to
+    /// the reference point of the first joint.
     WrenchSum(Vec<(f64, ConstraintId)>),
-    /// The total of all joints and drives that act on these bodies, torques about the origin of the
-    /// first body. It is unique by the Newton-Euler equations.
+    /// The total of all joints and drives that act on these bodies. Torques refer to the origin of
+    /// the first body. The total is unique by the Newton-Euler equations.
     Resultant(Vec<usize>),
 }
 
@@ -33,14 +32,14 @@ pub struct Term {
     pub coefficient: f64,
 }
 
-/// A group without members.
+/// Error for a group without members.
 pub(crate) const NO_REACTION: RequestError = RequestError::Empty {
     of: "joint or drive",
 };
 
 impl Group {
-    /// The names of its numbers: `sum`, or the components of a wrench. Several separate reactions
-    /// have none.
+    /// Returns the names of the numbers: `sum`, or the components of a wrench. A group of several
+    /// separate reactions has no numbers.
     #[must_use]
     pub fn number_names(&self, space: SpaceKind) -> &'static [&'static str] {
         match self {
@@ -50,8 +49,8 @@ impl Group {
         }
     }
 
-    /// The part of the group that belongs to some of the joints and drives, in numbers of theirs;
-    /// `None` if no part does.
+    /// Returns the part of the group that belongs to some of the joints and drives, with the ids of
+    /// that selection; `None` if the group has no such part.
     #[must_use]
     pub fn share(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Option<Self> {
         let ids = |ids: &[ConstraintId]| ids.iter().filter_map(|&id| own(id)).collect::<Vec<_>>();
@@ -76,7 +75,7 @@ impl Group {
         (!share.is_empty()).then_some(share)
     }
 
-    /// Whether a joint or drive takes part in it by its name.
+    /// Returns whether the group lists this joint or drive.
     #[must_use]
     pub fn has(&self, id: ConstraintId) -> bool {
         self.share(|own| (own == id).then_some(own)).is_some()

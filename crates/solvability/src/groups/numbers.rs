@@ -8,7 +8,7 @@ use super::group::Group;
 use super::reactions::ReactionForms;
 use crate::choices::ChosenValues;
 
-/// Groups whose numbers are computed at one pose after the other.
+/// Groups whose numbers are computed at successive configurations.
 pub struct GroupNumbers<'m> {
     mechanism: &'m Mechanism,
     groups: Vec<Group>,
@@ -18,7 +18,7 @@ pub struct GroupNumbers<'m> {
 }
 
 impl<'m> GroupNumbers<'m> {
-    /// Groups of a mechanism whose coordinates are q somewhere.
+    /// Creates groups of a mechanism. The coordinates q define its size.
     #[must_use]
     pub fn new(mechanism: &'m Mechanism, q: &[f64], groups: &[Group]) -> Self {
         Self {
@@ -29,17 +29,17 @@ impl<'m> GroupNumbers<'m> {
         }
     }
 
-    /// The groups.
+    /// Returns the groups.
     #[must_use]
     pub fn groups(&self) -> &[Group] {
         &self.groups
     }
 
-    /// All numbers at time t and coordinates q, group by group in the order of
+    /// Returns all numbers at time t and coordinates q, group by group in the order of
     /// [`Group::number_names`] (N, N·m), for multipliers of all rows.
     ///
     /// # Errors
-    /// As [`crate::judge_groups`].
+    /// Same errors as [`crate::judge_groups`].
     pub fn at(
         &mut self,
         t: f64,

@@ -1,5 +1,6 @@
-//! The numbers of reactions at one pose, as linear forms of the multipliers: components, sums of
-//! them, sums of wrenches, resultants. This module does not determine which of them are unique.
+//! The numbers of reactions at one configuration, as linear forms of the multipliers: components,
+//! sums of components, sums of wrenches, and resultants. This module does not determine which of
+//! them are unique.
 
 use std::borrow::Cow;
 
@@ -11,7 +12,7 @@ use super::error::{RequestError, check, check_finite, unknown_component};
 use super::form::LinearForm;
 use super::group::{Group, NO_REACTION, Term};
 
-/// A mechanism at a pose, from which the linear forms of its reactions are computed.
+/// A mechanism at a configuration, from which the linear forms of its reactions are computed.
 pub struct ReactionForms<'a> {
     pub(crate) mechanism: Cow<'a, Mechanism>,
     pub(crate) s: Cow<'a, Scratch>,
@@ -20,7 +21,7 @@ pub struct ReactionForms<'a> {
 }
 
 impl<'a> ReactionForms<'a> {
-    /// Those at the pose of a scratch, for a mechanism of this size.
+    /// Returns the forms at the configuration of a scratch, for a mechanism of this size.
     pub(crate) fn at(mechanism: &'a Mechanism, s: &'a Scratch, size: f64) -> Self {
         Self {
             mechanism: Cow::Borrowed(mechanism),
@@ -29,7 +30,7 @@ impl<'a> ReactionForms<'a> {
         }
     }
 
-    /// The origin of a body's frame, global components (m).
+    /// Returns the origin of the frame of a body, in global components (m).
     ///
     /// # Errors
     /// [`RequestError::UnknownBody`]
@@ -41,7 +42,7 @@ impl<'a> ReactionForms<'a> {
         Ok(self.s.bodies.origin(body))
     }
 
-    /// The point where the reaction of a joint or drive is reported, global components (m).
+    /// Returns the reference point of the reaction of a joint or drive, in global components (m).
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`]
@@ -50,7 +51,8 @@ impl<'a> ReactionForms<'a> {
         Ok(self.mechanism.reactions(&self.s).place(id))
     }
 
-    /// The force of a reaction along a direction (global components; a unit vector gives N).
+    /// Returns the force of a reaction along a direction (global components; a unit vector gives
+    /// N).
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::NotFinite`]
@@ -67,8 +69,8 @@ impl<'a> ReactionForms<'a> {
         Ok(form)
     }
 
-    /// The torque of a reaction along a direction (a unit vector gives N·m), about a point, all in
-    /// ground axes. In the plane only its z component counts.
+    /// Returns the torque of a reaction along a direction (a unit vector gives N·m), about a point,
+    /// all in ground axes. In the plane, only the z component of the direction counts.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::NotFinite`]
@@ -94,7 +96,7 @@ impl<'a> ReactionForms<'a> {
         Ok(form)
     }
 
-    /// A component of a reaction by its name: one of the components of its space, or the named
+    /// Returns a component of a reaction by its name: a component of the space, or the named
     /// component of the definition.
     ///
     /// # Errors
@@ -126,8 +128,8 @@ impl<'a> ReactionForms<'a> {
         Ok(form)
     }
 
-    /// The total of all reactions on a set of bodies: all components, torques about a point in
-    /// ground axes. A body that is listed twice counts once.
+    /// Returns the total of all reactions on a set of bodies: all components, with torques about a
+    /// point in ground axes. A body that is listed twice counts once.
     ///
     /// # Errors
     /// [`RequestError::UnknownBody`], [`RequestError::Empty`], [`RequestError::NotFinite`]
@@ -166,7 +168,7 @@ impl<'a> ReactionForms<'a> {
         Ok(forms)
     }
 
-    /// `coefficient` times all components of a reaction about a point, added to their forms.
+    /// Adds `coefficient` times all components of a reaction about a point to their forms.
     pub(super) fn add_reaction(
         &self,
         forms: &mut [LinearForm],
@@ -217,7 +219,7 @@ impl<'a> ReactionForms<'a> {
         }
     }
 
-    /// A form for each component.
+    /// Returns a zero form for each component.
     fn zeros(&self) -> Vec<LinearForm> {
         vec![self.zero(); self.mechanism.space().n_v()]
     }
@@ -242,16 +244,16 @@ impl<'a> ReactionForms<'a> {
         &self.mechanism.layout().groups[id.0].rows
     }
 
-    /// The numbers of a group, with their names: the `sum` of a combination; all components of
-    /// wrenches. A group of several separate reactions has none.
+    /// Returns the numbers of a group with their names: the `sum` of a combination, or all
+    /// components of wrenches. A group of several separate reactions has no numbers.
     ///
     /// # Errors
-    /// As [`crate::judge_groups`].
+    /// Same errors as [`crate::judge_groups`].
     pub fn numbers(&self, group: &Group) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
         self.numbers_about(group, self.about(group)?)
     }
 
-    /// Like [`Self::numbers`], with T of wrenches about this point.
+    /// Works like [`Self::numbers`], with the torques T of wrenches about this point.
     pub(crate) fn numbers_about(
         &self,
         group: &Group,
@@ -269,7 +271,7 @@ impl<'a> ReactionForms<'a> {
         })
     }
 
-    /// The point about which T of a sum of wrenches or a resultant is taken.
+    /// Returns the reference point for the torques T of a sum of wrenches or a resultant.
     pub(crate) fn about(&self, group: &Group) -> Result<Option<[f64; 3]>, RequestError> {
         match group {
             Group::WrenchSum(terms) => terms.first().map(|&(_, id)| self.place(id)).transpose(),
@@ -278,10 +280,10 @@ impl<'a> ReactionForms<'a> {
         }
     }
 
-    /// `Σ coefficient · component`
+    /// Returns `Σ coefficient · component`.
     ///
     /// # Errors
-    /// As [`crate::judge_groups`].
+    /// Same errors as [`crate::judge_groups`].
     pub fn combination(&self, terms: &[Term]) -> Result<LinearForm, RequestError> {
         if terms.is_empty() {
             return Err(RequestError::Empty { of: "term" });
@@ -298,10 +300,11 @@ impl<'a> ReactionForms<'a> {
         Ok(sum)
     }
 
-    /// All components of `Σ coefficient · wrench`, torques about the place of the first reaction.
+    /// Returns all components of `Σ coefficient · wrench`, with torques about the reference point
+    /// of the first reaction.
     ///
     /// # Errors
-    /// As [`crate::judge_groups`].
+    /// Same errors as [`crate::judge_groups`].
     pub fn wrench_sum(
         &self,
         terms: &[(f64, ConstraintId)],
@@ -344,7 +347,7 @@ impl<'a> ReactionForms<'a> {
     }
 }
 
-/// A direction of wrenches, ground axes.
+/// A direction of wrenches, in ground axes.
 #[derive(Clone, Copy)]
 struct WrenchDirection {
     force: [f64; 3],
@@ -352,7 +355,7 @@ struct WrenchDirection {
 }
 
 impl WrenchDirection {
-    /// The unit vector of a component.
+    /// Returns the unit vector of a component.
     fn component(space: SpaceKind, component: usize) -> Self {
         let mut along = Self {
             force: [0.0; 3],

@@ -1,4 +1,4 @@
-//! Verdicts on rows whose left null space is known: all rows of a matrix, or those of one joint in
+//! Verdicts on rows with a given left null space: all rows of a matrix, or the rows of one joint in
 //! a large mechanism.
 //!
 //! This module does not compute the null space.
@@ -17,10 +17,10 @@ use crate::verdict::{Judgement, Verdict, worst};
 pub(crate) struct Basis {
     /// The equilibrated rows, m × n. Columns without an entry may be omitted.
     pub(crate) c: Matrix,
-    /// Their rows of an orthonormal basis of the left null space, or of random combinations of one,
-    /// m × p.
+    /// The rows of an orthonormal basis of the left null space, or of random combinations of it, m
+    /// × p.
     pub(crate) z: Matrix,
-    /// Accuracy of both.
+    /// Accuracy of `c` and `z`.
     pub(crate) known: RowAccuracy,
     /// The left null space modulo primes, if the entries are exact.
     pub(crate) exact: Option<ExactNullSpace>,
@@ -35,8 +35,8 @@ pub(crate) struct RowAccuracy {
     pub(crate) row_factor: Vec<f64>,
     /// Uncertainty of each row of Z (norm).
     pub(crate) row_noise: Vec<f64>,
-    /// The part of it that does not come from the tolerance stated by the scene; empty if the scene
-    /// states none.
+    /// Part of `row_noise` that does not come from the tolerance stated by the scene. It is empty
+    /// if the scene states no tolerance.
     pub(crate) row_rounding: Vec<f64>,
     /// Uncertainty of any single coefficient.
     pub(crate) tolerance: f64,
@@ -52,19 +52,19 @@ pub(crate) struct RowAccuracy {
 }
 
 impl Basis {
-    /// Verdict on the multiplier of one row: unique iff `Z_i = 0`.
+    /// Returns the verdict on the multiplier of one row: unique iff `Z_i = 0`.
     ///
     /// # Errors
-    /// If there is no such row.
+    /// Returns an error if the row does not exist.
     pub(crate) fn row(&self, i: usize) -> Result<Judgement, QueryError> {
         self.multipliers([i])
     }
 
-    /// Verdict on all multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than
-    /// [`Basis::group`] if the rows depend on each other.
+    /// Returns the verdict on all multipliers of a group of rows: unique iff `Z_X = 0`. This
+    /// condition is stronger than that of [`Basis::group`] if the rows depend on each other.
     ///
     /// # Errors
-    /// If a row does not exist.
+    /// Returns an error if a row does not exist.
     pub(crate) fn multipliers(
         &self,
         rows: impl IntoIterator<Item = usize>,
@@ -74,7 +74,8 @@ impl Basis {
             let noise = self.noise(std::iter::once((i, 1.0)));
             self.judge(norm(self.z.row(i)), noise, |z| z.annihilates([(i, 1.0)]))
         });
-        // Each row has its own noise: what is certain of one must not get lost in that of another.
+        // Each row has its own noise: a large noise of one row must not hide a certain result of
+        // another.
         let judged: Vec<Judgement> = judged.collect();
         let margin = judged.iter().map(|j| j.margin).fold(0.0, f64::hypot);
         let unique = Judgement::new(Verdict::Unique, 0.0);
@@ -82,19 +83,19 @@ impl Basis {
         Ok(Judgement { margin, ..worst })
     }
 
-    /// `B_X = C_Xᵀ·Z_X` (n × p) of a group of rows, equilibrated.
+    /// Returns `B_X = C_Xᵀ·Z_X` (n × p) of a group of equilibrated rows.
     ///
     /// # Errors
-    /// If a row does not exist.
+    /// Returns an error if a row does not exist.
     pub(crate) fn b_x(&self, rows: impl IntoIterator<Item = usize>) -> Result<Matrix, QueryError> {
         Ok(self.product(&self.set(rows)?))
     }
 
-    /// Verdict on the reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖
-    /// (Frobenius).
+    /// Returns the verdict on the reaction of a group of rows: unique iff `B_X = 0`; the margin is
+    /// ‖B_X‖ (Frobenius).
     ///
     /// # Errors
-    /// If a row does not exist.
+    /// Returns an error if a row does not exist.
     pub(crate) fn group(
         &self,
         rows: impl IntoIterator<Item = usize>,
@@ -110,11 +111,11 @@ impl Basis {
         Ok(self.judge(margin, noise, |z| z.wrench_vanishes(&rows)))
     }
 
-    /// Verdict on a linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin
-    /// is relative to ‖ℓ‖, both for equilibrated rows.
+    /// Returns the verdict on a linear combination `ℓᵀ·λ` of all multipliers: unique iff
+    /// `ℓᵀ·Z = 0`. The margin is relative to ‖ℓ‖. Both are computed for equilibrated rows.
     ///
     /// # Errors
-    /// If there are not m coefficients, or one is not finite.
+    /// Returns an error if the number of coefficients is not m, or if a coefficient is not finite.
     pub(crate) fn combination(&self, l: &[f64]) -> Result<Judgement, QueryError> {
         let rows: Vec<usize> = (0..self.c.nrows()).collect();
         check_coefficients(l, rows.len())?;
@@ -126,10 +127,11 @@ impl Basis {
         }))
     }
 
-    /// A reaction `W·λ_X`. Column l of W belongs to row l of the list.
+    /// Returns the reaction `W·λ_X`. Column l of W belongs to row l of the list.
     ///
     /// # Errors
-    /// If a row does not exist, or W does not have a column for each row, or is not finite.
+    /// Returns an error if a row does not exist, if W does not have a column for each row, or if W
+    /// is not finite.
     pub(crate) fn mapped<'a>(
         &'a self,
         map: &'a Matrix,
@@ -138,8 +140,8 @@ impl Basis {
         MultiplierMap::new(self, map, self.list(rows)?)
     }
 
-    /// Whether no dependency reaches these rows: then all that follows from their multipliers is
-    /// unique.
+    /// Returns whether no dependency contains these rows. If so, all numbers that follow from their
+    /// multipliers are unique.
     pub(crate) fn is_free_of(&self, rows: &[usize]) -> bool {
         let size = rows.iter().map(|&i| norm(self.z.row(i)));
         let size = size.fold(0.0, f64::hypot);
@@ -152,9 +154,9 @@ impl Basis {
         is_known && size <= least && reading == CoefficientReading::Zero
     }
 
-    /// The rank of some of the rows, ascending, from the dependencies of all: those that need no
-    /// other row, `z = 0` there, are as many as `p − rank Z_other`. `None` if the rank of all is
-    /// undecided, or that of Z_other unclear.
+    /// Returns the rank of some of the rows (ascending) from the dependencies of all rows. The
+    /// dependencies without other rows (`z = 0` there) number `p − rank Z_other`. Returns `None` if
+    /// the rank of all rows is undecided, or if the rank of Z_other is unclear.
     pub(crate) fn rank_of(&self, rows: &[usize]) -> Option<usize> {
         if self.known.status != RankStatus::Decided {
             return None;
@@ -175,12 +177,14 @@ impl Basis {
         Some(self.z.nrows() - other.len() + tied - self.z.ncols())
     }
 
-    /// Accuracy of a map: that of the entries of C, which are evaluated at the same poses.
+    /// Returns the accuracy of a map, which is the accuracy of the entries of C, because both are
+    /// evaluated at the same configuration.
     pub(super) fn rounding_of_map(&self) -> f64 {
         (rank::NOISE_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP)
     }
 
-    /// Number of pivots that are certainly not zero, provided that all others certainly are zero.
+    /// Returns the number of pivots that are certainly not zero, provided that all others certainly
+    /// are zero.
     pub(super) fn clear_rank(&self, qr: &PivotedQr, noise: f64) -> Result<usize, QueryError> {
         let mut rank = 0;
         for pivot in qr.r_diagonal().map(f64::abs) {
@@ -202,7 +206,7 @@ impl Basis {
         Ok(rank)
     }
 
-    /// The rows in the given order, checked to exist.
+    /// Returns the rows in the given order, after a check that they exist.
     fn list(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
         let m = self.c.nrows();
         rows.into_iter()
@@ -216,7 +220,7 @@ impl Basis {
             .collect()
     }
 
-    /// The rows in ascending order, each once, checked to exist.
+    /// Returns the rows in ascending order without repetition, after a check that they exist.
     fn set(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
         let mut rows = self.list(rows)?;
         rows.sort_unstable();
@@ -236,8 +240,8 @@ impl Basis {
         b
     }
 
-    /// Adds `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` to a row of p numbers and returns the norm. Adds nothing if w =
-    /// 0.
+    /// Adds `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` to a row of p numbers and returns the norm. The row does not
+    /// change if w = 0.
     pub(super) fn scaled_row(&self, w: &[f64], rows: &[usize], out: &mut [f64]) -> f64 {
         let weights = || {
             rows.iter()
@@ -255,8 +259,8 @@ impl Basis {
         size
     }
 
-    /// Noise of a combination of rows of Z with these weights. Z is `[−T̃, I]` in a basis in which
-    /// no row is longer.
+    /// Returns the noise of a combination of rows of Z with these weights. In a basis where no row
+    /// is longer, Z is `[−T̃, I]`.
     fn noise(&self, weights: impl Iterator<Item = (usize, f64)>) -> Noise {
         let rounding = &self.known.row_rounding;
         weights.fold(Noise::default(), |noise, (i, weight)| Noise {
@@ -267,7 +271,7 @@ impl Basis {
         })
     }
 
-    /// Noise of `wᵀ·D_r·Z_X / size`.
+    /// Returns the noise of `wᵀ·D_r·Z_X / size`.
     pub(super) fn noise_of_row(&self, w: &[f64], rows: &[usize], size: f64) -> Noise {
         if size == 0.0 {
             return Noise::default();
@@ -276,7 +280,7 @@ impl Basis {
         self.noise(rows.iter().zip(w).map(scaled))
     }
 
-    /// Verdict on a margin that consists of coefficients of Z with this noise.
+    /// Returns the verdict on a margin that consists of coefficients of Z with this noise.
     pub(super) fn judge(
         &self,
         margin: f64,
@@ -286,7 +290,7 @@ impl Basis {
         match (&self.exact, &self.known.status) {
             (Some(z), _) => Judgement::exact(margin, vanishes(z)),
             (None, RankStatus::Undecided(doubt)) => Judgement::without_rank(margin, doubt),
-            // Independent rows: there is nothing that could be uncertain.
+            // If the rows are independent, no verdict is uncertain.
             (None, _) if self.z.ncols() == 0 => Judgement::new(Verdict::Unique, 0.0),
             (None, _) => {
                 let reading = self.known.readings.read(margin, noise.known);
@@ -299,9 +303,9 @@ impl Basis {
 /// Bounds on the error of a margin.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Noise {
-    /// With all uncertainty of the data.
+    /// Bound with the whole uncertainty of the data.
     pub(super) known: f64,
-    /// Without the tolerance stated by the scene; infinite if the scene states none.
+    /// Bound without the tolerance stated by the scene; infinite if the scene states no tolerance.
     pub(super) rounding: f64,
 }
 

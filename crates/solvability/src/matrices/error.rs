@@ -1,6 +1,6 @@
 //! Errors of requests to a matrix.
 
-/// Reason why a request cannot be answered.
+/// Reason why a request is rejected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum QueryError {
@@ -33,7 +33,7 @@ pub enum QueryError {
     NonFinite {
         /// Index of the coefficient.
         index: usize,
-        /// Its value.
+        /// Value of the coefficient.
         value: f64,
     },
     /// The rank of the matrix is undecided.

@@ -1,4 +1,4 @@
-//! A reaction `W·λ_X`: which of its components and directions are the same in all solutions.
+//! Decides which components and directions of a reaction `W·λ_X` are the same in all solutions.
 //!
 //! The rows and their null space come from `basis`, and W from `mechanism`.
 
@@ -35,7 +35,7 @@ pub(crate) struct MultiplierMap<'a> {
     images: Matrix,
     /// Norms of the rows of `W·D_r⁻¹`; zero if a row is only rounding relative to the others.
     sizes: Vec<f64>,
-    /// The largest of them.
+    /// The largest entry of `sizes`.
     largest: f64,
     /// Uncertainty of the entries of W within a stated tolerance.
     wobble: Option<Matrix>,
@@ -78,8 +78,8 @@ impl<'a> MultiplierMap<'a> {
 
     /// Applies a stated tolerance to the components. The first `forces` components belong to a
     /// force, the others to a torque. The uncertainty of the direction of a force or couple (an
-    /// angle) and of its line of action (a length) makes the components uncertain; a component that
-    /// is much smaller than the others of its vector within this uncertainty counts as zero.
+    /// angle) and of its line of action (a length) makes the components uncertain. A component
+    /// counts as zero if it is much smaller than the others of its vector within this uncertainty.
     #[must_use]
     pub(crate) fn with_forces(mut self, forces: usize) -> Self {
         let (Some(turns), None) = (&self.basis.known.row_turn, &self.basis.exact) else {
@@ -103,7 +103,7 @@ impl<'a> MultiplierMap<'a> {
         };
         self.wobble = Some(Matrix::from_fn(k, self.rows.len(), wobble));
         for vector in vectors {
-            // The torque of the plane has no direction.
+            // The torque of a planar mechanism has no variable direction.
             if vector.start == forces && vector.len() < 2 {
                 continue;
             }
@@ -127,7 +127,7 @@ impl<'a> MultiplierMap<'a> {
         self
     }
 
-    /// Norm of row k of `W·Z_X`, relative to the largest row of W.
+    /// Returns the norm of row k of `W·Z_X`, relative to the largest row of W.
     fn margin(&self, k: usize) -> f64 {
         match self.largest {
             // Zero divided by zero: a map of zeros has no reaction.
@@ -136,13 +136,13 @@ impl<'a> MultiplierMap<'a> {
         }
     }
 
-    /// Verdict on component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the
-    /// largest row of W. A row of W that is only rounding relative to the others counts as zero,
-    /// unless the entries are exact. If it counts as zero only within a stated tolerance, the
-    /// verdict says so and keeps its margin.
+    /// Returns the verdict on component `k`: unique iff row k of `W·Z_X` is zero. The margin is
+    /// relative to the largest row of W. A row of W that is only rounding relative to the others
+    /// counts as zero, unless the entries are exact. If it counts as zero only within a stated
+    /// tolerance, the verdict states this and keeps its margin.
     ///
     /// # Errors
-    /// If there is no such component.
+    /// Returns an error if the component does not exist.
     pub(crate) fn component(&self, k: usize) -> Result<Judgement, QueryError> {
         if k >= self.sizes.len() {
             return Err(QueryError::ComponentOutOfRange {
@@ -178,11 +178,11 @@ impl<'a> MultiplierMap<'a> {
         })
     }
 
-    /// Whether component `k` is zero for all multipliers: row k of W is so small relative to the
-    /// largest one that the component is unique for this reason alone.
+    /// Returns whether component `k` is zero for all multipliers. If so, row k of W is so small
+    /// relative to the largest one that the component is unique for this reason alone.
     ///
     /// # Errors
-    /// As [`MultiplierMap::component`].
+    /// Same errors as [`MultiplierMap::component`].
     pub(crate) fn is_zero(&self, k: usize) -> Result<bool, QueryError> {
         let judged = self.component(k)?;
         let size = self.sizes[k];
@@ -201,11 +201,11 @@ impl<'a> MultiplierMap<'a> {
         Ok(own == CoefficientReading::NonZero)
     }
 
-    /// Directions in which the reaction is unique: a basis of the left null space of `W·Z_X`. Unit
-    /// vectors with k entries whose largest entry is positive.
+    /// Returns the directions in which the reaction is unique: a basis of the left null space of
+    /// `W·Z_X`. The directions are unit vectors with k entries, the largest of which is positive.
     ///
     /// # Errors
-    /// If the number of directions is undecided.
+    /// Returns an error if the number of directions is undecided.
     pub(crate) fn unique_directions(&self) -> Result<Vec<Vec<f64>>, QueryError> {
         if let RankStatus::Undecided(doubt) = self.basis.known.status {
             return Err(QueryError::Rank(doubt));
@@ -232,11 +232,12 @@ impl<'a> MultiplierMap<'a> {
             .collect())
     }
 
-    /// The largest part of the reaction, in the unit of margins, that had to count as zero within a
-    /// stated tolerance for the unique directions; zero if there is none.
+    /// Returns the largest component of the reaction, in the unit of margins, that counts as zero
+    /// within a stated tolerance so that the directions are unique. It is zero if there is no such
+    /// component.
     ///
     /// # Errors
-    /// As [`MultiplierMap::unique_directions`].
+    /// Same errors as [`MultiplierMap::unique_directions`].
     pub(crate) fn directions_left_out(&self) -> Result<f64, QueryError> {
         let none = self
             .within_tolerance
@@ -262,8 +263,8 @@ impl<'a> MultiplierMap<'a> {
         Ok(left.fold(0.0, f64::max))
     }
 
-    /// The unique directions along which a reaction is possible: perpendicular to the directions
-    /// along which it is zero for all multipliers.
+    /// Returns the unique directions in which a reaction is possible. They are perpendicular to the
+    /// directions in which it is zero for all multipliers.
     pub(crate) fn live_directions(&self, unique: &[Vec<f64>]) -> Vec<Vec<f64>> {
         if unique.is_empty() {
             return Vec::new();
@@ -283,13 +284,13 @@ impl<'a> MultiplierMap<'a> {
         (0..live).map(|j| normalised(column(j), rounding)).collect()
     }
 
-    /// Components of unit vectors up to this size are rounding.
+    /// Returns the largest component of a unit vector that is rounding.
     fn nothing(&self) -> f64 {
         self.basis.known.tolerance.min(LARGEST_ROUNDING)
     }
 
-    /// Orthonormal basis of the left null space of W, one vector in each column. The rank is
-    /// determined from rows scaled to equal size.
+    /// Returns an orthonormal basis of the left null space of W, one vector in each column. The
+    /// rank is determined from rows scaled to equal size.
     fn idle_directions(&self) -> Matrix {
         let k = self.sizes.len();
         let equal = Matrix::from_fn(k, self.rows.len(), |i, j| match self.sizes[i] {
@@ -307,7 +308,7 @@ impl<'a> MultiplierMap<'a> {
         PivotedQr::of_columns(&idle).q_columns(0..k - rank)
     }
 
-    /// Factor from components of equal size back to the units of the map.
+    /// Returns the factor from components of equal size back to the units of the map.
     fn scale(&self, i: usize) -> f64 {
         match self.sizes[i] {
             0.0 => 1.0,
@@ -315,7 +316,7 @@ impl<'a> MultiplierMap<'a> {
         }
     }
 
-    /// Noise of row k of `W·D_r·Z_X / size`.
+    /// Returns the noise of row k of `W·D_r·Z_X / size`.
     fn noise(&self, k: usize, size: f64) -> Noise {
         let of_rows = self.basis.noise_of_row(self.map.row(k), &self.rows, size);
         match &self.wobble {
@@ -335,7 +336,7 @@ fn unit(n: usize, i: usize) -> Vec<f64> {
     (0..n).map(|k| if k == i { 1.0 } else { 0.0 }).collect()
 }
 
-/// The unit vector along x, the largest entry positive, rounding set to zero.
+/// Returns the unit vector along x with a positive largest entry. Rounding is set to zero.
 fn normalised(mut x: Vec<f64>, rounding: f64) -> Vec<f64> {
     let largest = x
         .iter()

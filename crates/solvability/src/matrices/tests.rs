@@ -1,11 +1,11 @@
-//! Verdicts computed by hand, exact verdicts that rounding would leave undecided, and requests that
-//! are errors.
+//! Manually calculated verdicts, exact verdicts that rounding would leave undecided, and requests
+//! that are errors.
 
 use super::*;
 use crate::verdict::Verdict;
 
-/// Rows 0 and 1 hold the left end of a bar (x, y, φ), rows 2 and 3 the right end, 2 further on; the
-/// last row is `x = y·ε`.
+/// Rows 0 and 1 fix the left end of a bar (x, y, φ), and rows 2 and 3 the right end at a distance
+/// of 2. The last row is `x = y·ε`.
 fn bar(epsilon: f64) -> Matrix {
     Matrix::from_rows(&[
         [1.0, 0.0, 0.0],
@@ -15,7 +15,7 @@ fn bar(epsilon: f64) -> Matrix {
     ])
 }
 
-/// However small ε, rows 0, 1 and 2 depend on each other: row 2 = row 0 + ε·row 1.
+/// For every ε, rows 0, 1 and 2 depend on each other: row 2 = row 0 + ε·row 1.
 #[test]
 fn exact_verdicts_have_no_smallest_number() {
     for epsilon in [1e-6, 1e-12, 1e-18, 1e-100, 1e-300, 5e-324] {
@@ -75,7 +75,7 @@ fn rounded_verdicts_are_undecided_near_zero() {
     assert_eq!(verdict(1e-8), Verdict::NotUnique);
 }
 
-/// A residual of 1e-6 makes coefficients uncertain by 1e-4: nothing is called unique on such
+/// A residual of 1e-6 makes coefficients uncertain by 1e-4: no reaction counts as unique with such
 /// evidence.
 #[test]
 fn poor_evidence_calls_nothing_unique() {
@@ -160,7 +160,7 @@ fn empty_matrices() {
     }
 }
 
-/// A knife edge in the plane has one multiplier and two components: along the edge the force is
+/// A knife edge in the plane has one multiplier and two components. Along the edge the force is
 /// always zero, which is not reported as a unique direction.
 #[test]
 fn directions_without_a_reaction_are_left_out() {
@@ -197,8 +197,9 @@ fn directions_without_a_reaction_are_left_out() {
     }
 }
 
-/// Rows 0 and 1 are the same, and of row 2 a force has the direction (1, ε). The data are known so
-/// badly that coefficients of 1e-3 may be rounding, but not the part ε of a direction.
+/// Rows 0 and 1 are the same, and a force of row 2 has the direction (1, ε). The accuracy of the
+/// data is so low that coefficients of 1e-3 may be rounding, but not the component ε of a
+/// direction.
 #[test]
 fn a_part_of_a_direction_is_told_however_uncertain_coefficients_are() {
     let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);

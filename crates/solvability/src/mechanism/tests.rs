@@ -1,4 +1,5 @@
-//! A joint that is not unique has a component that says so, whatever its definition.
+//! Every joint with a non-unique reaction has a component that shows this, for any definition of
+//! the joint.
 
 use joints::spec::{Shape, Spec};
 use joints::{Argument, Plane, Space3, space3};
@@ -9,7 +10,7 @@ use model::{
 
 use crate::{ReactionVerdict, Verdict, analyse};
 
-/// Numbers that look random, from −1 to 1.
+/// Pseudo-random numbers from −1 to 1.
 struct Draw(u64);
 
 impl Draw {
@@ -29,7 +30,7 @@ impl Draw {
     }
 }
 
-/// A point with an axis there and a direction across, all in ground axes.
+/// A point with an axis and a perpendicular direction, all in ground axes.
 struct Place {
     at: [f64; 3],
     axis: [f64; 3],
@@ -39,7 +40,7 @@ struct Place {
 /// A point of the ground in the frame of a body.
 type Local<'l> = &'l dyn Fn(BodyRef, [f64; 3]) -> [f64; 3];
 
-/// The arguments of a definition at a place; functions of time are separate.
+/// The arguments of a definition at a point; functions of time are separate.
 fn arguments(
     spec: &Spec,
     bodies: &[BodyRef],
@@ -63,7 +64,7 @@ fn arguments(
     let mut points = 0.0;
     let one = |parameter: &joints::spec::Parameter| match parameter.shape {
         Shape::Point { slot } => {
-            // Points that must be apart are some way along and across the axis.
+            // Points that must be separate have a distance along and across the axis.
             points += f64::from(u8::from(spec.points_apart));
             let there = |k: usize| at[k] + 0.3 * points * (axis[k] + across[k]);
             vector(local(bodies[slot], std::array::from_fn(there)))
@@ -85,7 +86,7 @@ fn arguments(
     spec.parameters.iter().map(one).collect()
 }
 
-/// A space with a mechanism in it for this test.
+/// A space together with a mechanism for this test.
 trait Loops: BodySpace {
     const IS_PLANE: bool;
 
@@ -155,7 +156,7 @@ impl Loops for Space3 {
     }
 }
 
-/// Different bodies for the slots of a definition; a single one is not the ground.
+/// Selects different bodies for the slots of a definition; a single body is not the ground.
 fn pick(draw: &mut Draw, slots: usize) -> Vec<BodyRef> {
     let mut all = vec![
         BodyRef::Body(0),
@@ -171,15 +172,16 @@ fn pick(draw: &mut Draw, slots: usize) -> Vec<BodyRef> {
         .collect()
 }
 
-/// Whether a reaction that is not unique shows it in none of its components.
+/// Returns whether no component of a non-unique reaction shows that it is not unique.
 fn is_silent(r: &ReactionVerdict) -> bool {
     let mut components = r.components.iter();
     r.wrench.verdict == Verdict::NotUnique
         && components.all(|c| c.judgement.verdict == Verdict::Unique)
 }
 
-/// Each kind twice at one place, with another kind, and with couplings of all measures of both
-/// places in a row: the number of reactions of each kind that are not unique.
+/// Builds mechanisms with each kind twice at one point, with another kind, and with couplings of
+/// all joint coordinates of both points in a row. Returns the number of non-unique reactions of
+/// each kind.
 fn not_unique<S: Loops>(draw: &mut Draw, kind: &str, other: &str) -> Vec<(&'static str, usize)> {
     let registry = Registry::standard();
     let mut d = S::start(draw);
@@ -276,8 +278,9 @@ fn what_is_not_unique_has_a_component_that_is_not_in_space() {
     all_kinds::<Space3>();
 }
 
-/// A swing of two arms whose seat does not turn, by two couplings and by the parallelogram: the
-/// coupling of the seat loads the seat and the ground, and the arm between them not at all.
+/// A swing of two arms whose seat does not rotate, because of two couplings and of the
+/// parallelogram. The coupling of the seat loads the seat and the ground, but not the arm between
+/// them.
 #[test]
 fn a_coupling_in_a_loop_has_its_own_load() {
     let mut d = Description::new("swing");

@@ -1,4 +1,4 @@
-//! Points about which moments are unique, against free wrenches that are known by hand.
+//! Points about which moments are unique, compared with manually derived free wrenches.
 
 use joints::space3::{Axes, Distance, Fixed, Revolute};
 use model::{BodyRef, ConstraintId, Mechanism, SpatialBody, SpatialDescription};
@@ -31,8 +31,8 @@ fn asked(d: &SpatialDescription, ask: impl FnOnce(&Configuration<'_>)) {
     ask(&Configuration::new(&mechanism, 0.0, &q, &decision).expect("a configuration"));
 }
 
-/// A body that is welded to the ground twice over one bar: the free wrench is a pull along the bar,
-/// from (1, 1, 0) to (1, 3, 0), so that moments are unique about the points of the line x = 1,
+/// A body that is welded to the ground twice over one bar. The free wrench is a tension along the
+/// bar, from (1, 1, 0) to (1, 3, 0), so that moments are unique about the points of the line x = 1,
 /// z = 0.
 #[test]
 fn points_of_a_line_are_the_nearest() {
@@ -69,8 +69,8 @@ fn points_of_a_line_are_the_nearest() {
     });
 }
 
-/// Two coaxial hinges hold a door: besides two couples the pull along the axis is free, so that no
-/// point has a unique moment.
+/// Two coaxial hinges carry a door. In addition to two couples, the force along the axis is free,
+/// so that no point has a unique moment.
 #[test]
 fn a_couple_has_no_centre() {
     let mut d = SpatialDescription::new("door");
@@ -84,7 +84,7 @@ fn a_couple_has_no_centre() {
     });
 }
 
-/// Where the force is unique, or all is, no other point is told.
+/// If the force or the whole reaction is unique, no other point is reported.
 #[test]
 fn nothing_is_told_where_the_point_makes_no_difference() {
     let mut d = SpatialDescription::new("pendulum");

@@ -1,9 +1,9 @@
-//! The smallest change of the data that satisfies linear equations. Its size is that of the point,
-//! direction or number that changes most, relative to the uncertainty of that datum.
+//! Computes the smallest change of the data that satisfies linear equations. The size of a change
+//! is that of the point, direction or number that changes most, relative to its uncertainty.
 //!
-//! `s* = min max_P |x_P|` under `target + Σ_P a_P·x_P = 0`, by Lawson's iteration: least squares
-//! with weights that grow where the change is largest. Each iteration gives a lower bound, the
-//! weighted mean of the relative changes, and an upper bound, the largest of them.
+//! Lawson's iteration solves `s* = min max_P |x_P|` under `target + Σ_P a_P·x_P = 0`. It uses least
+//! squares with weights that grow where the change is largest. Each iteration gives a lower bound,
+//! the weighted mean of the relative changes, and an upper bound, the largest of them.
 //!
 //! Source: C. L. Lawson, Contributions to the theory of linear least maximum approximation, thesis,
 //! UCLA (1961); all components of a vector have the same weight.
@@ -14,7 +14,7 @@ use linalg::Lu;
 /// One equation. Changes are relative to the uncertainty of the data.
 #[derive(Clone, Debug)]
 pub(super) struct Equation {
-    /// The value that has to vanish.
+    /// The value that must be zero.
     pub(super) target: f64,
     /// Rounding of the target and of the coefficients: an additional change that only this equation
     /// has, of relative size up to one.
@@ -39,14 +39,14 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// A value between the bounds.
+    /// Returns a value between the bounds.
     pub(super) fn middle(self) -> f64 {
         (self.low * self.high).sqrt()
     }
 }
 
-/// Bounds `s*` from below and above; they are close together unless the iteration stalls. Equations
-/// that no change of data can satisfy give a large value.
+/// Returns bounds of `s*`. They are close together unless the iteration stalls. Equations that no
+/// change of data can satisfy give a large value.
 pub(super) fn least_change(equations: &[Equation]) -> Bounds {
     let e = equations.len();
     let blocks = equations.first().map_or(0, |first| first.parts.len());
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn one_equation_is_shared_by_all() {
-        // 6 = 1·x₁ + 2·x₂ + |(0, 3)·x₃|: all change by 1.
+        // For 6 = 1·x₁ + 2·x₂ + |(0, 3)·x₃|, all data change by 1.
         is_near(
             least_change(&[equation(
                 6.0,
@@ -150,7 +150,8 @@ mod tests {
         );
     }
 
-    /// As before, beside two hundred numbers that need no change: they do not lower the bounds.
+    /// The previous equations with two hundred additional numbers that need no change: they do not
+    /// lower the bounds.
     #[test]
     fn numbers_that_need_no_change_stay_out_of_the_bounds() {
         let mut parts = vec![[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
@@ -162,7 +163,8 @@ mod tests {
 
     #[test]
     fn a_point_has_one_change_in_both_directions() {
-        // x = 3, y = 4 of one point: 5, of two numbers: 4.
+        // For x = 3 and y = 4, the change is 5 if they belong to one point, and 4 if they are two
+        // numbers.
         let (x, y) = ([[1.0, 0.0, 0.0]], [[0.0, 1.0, 0.0]]);
         is_near(least_change(&[equation(3.0, &x), equation(4.0, &y)]), 5.0);
         let (x, y) = ([[1.0, 0.0, 0.0], [0.0; 3]], [[0.0; 3], [1.0, 0.0, 0.0]]);

@@ -1,15 +1,16 @@
-//! How positions and velocities change with the data while some rows stay satisfied, and how this
-//! adds up along a walk.
+//! Computes how positions and velocities change with the data while some rows stay satisfied, and
+//! how these changes add up along a continuation path.
 //!
-//! If rows `C_K·x = y` stay satisfied, x follows y by `C_K⁺·y`. A gradient g with respect to x
-//! splits into one with respect to y, `λ = C_K⁺ᵀ·g`, and one along the motions that the rows leave
-//! free, `g − C_Kᵀ·λ`.
+//! If rows `C_K·x = y` stay satisfied, x follows y by `C_K⁺·y`. A gradient g with respect to x has
+//! two parts: `λ = C_K⁺ᵀ·g` with respect to y, and `g − C_Kᵀ·λ` along the motions that the rows
+//! leave free.
 //!
-//! A pose at the end of a walk depends on the data along the whole path: each step goes along a
-//! velocity v that the kept rows allow, `C_K·v = 0`, which changes by `δv = −C_K⁺·δ(C_K·v)`, so
-//! that `δq⁺ = δq + δv`, with `Φ_K(q⁺) = 0`. Nonholonomic rows constrain velocities only, so
-//! changes along the path add up and are never corrected. A gradient with respect to the last pose
-//! is carried backwards to the data and to the pose at which the walk began.
+//! A configuration at the end of a continuation depends on the data along the whole path. Each step
+//! follows a velocity v that the kept rows allow, `C_K·v = 0`. This velocity changes by
+//! `δv = −C_K⁺·δ(C_K·v)`, so that `δq⁺ = δq + δv`, with `Φ_K(q⁺) = 0`. Nonholonomic rows constrain
+//! only velocities, so changes along the path add up and are never corrected. A gradient with
+//! respect to the last configuration is propagated backwards to the data and to the first
+//! configuration.
 
 use crate::limits::FOLLOWED;
 use crate::pose::dimensionless;
@@ -26,14 +27,14 @@ pub(super) struct FollowedRows {
 }
 
 impl FollowedRows {
-    /// Takes factored rows of a scaled C.
+    /// Creates the rows from factored rows of a scaled C.
     pub(super) fn new(qr: PivotedQr, rows: Vec<(usize, f64)>, columns: Vec<f64>) -> Self {
         Self { rows, columns, qr }
     }
 
-    /// Splits a gradient with respect to coordinates into one with respect to the values of the
-    /// rows, one number for each of `rows` rows of the mechanism, and one along the motions that
-    /// the rows leave free (physical units).
+    /// Splits a gradient with respect to coordinates into two gradients (physical units). One is
+    /// with respect to the values of the rows: one number for each of `rows` rows of the mechanism.
+    /// The other is along the motions that the rows leave free.
     pub(super) fn split(&self, gradient: &[f64], rows: usize) -> (Vec<f64>, Vec<f64>) {
         let mut answer: Vec<f64> = gradient
             .iter()
@@ -58,7 +59,7 @@ impl FollowedRows {
         (lambda, free)
     }
 
-    /// The smallest velocity by which the unscaled rows change by `y` (physical units).
+    /// Returns the smallest velocity by which the unscaled rows change by `y` (physical units).
     pub(super) fn answer(&self, y: &[f64]) -> Vec<f64> {
         let scaled = |&k: &usize| y[k] * self.rows[k].1;
         let mut x: Vec<f64> = self.qr.permutation().iter().map(scaled).collect();
@@ -68,7 +69,7 @@ impl FollowedRows {
         x.iter().zip(&self.columns).map(|(x, f)| x * f).collect()
     }
 
-    /// A matrix with the singular values of `C_K⁺·A`, both scaled.
+    /// Returns a matrix with the singular values of `C_K⁺·A`, both scaled.
     pub(super) fn through(&self, a: &Matrix) -> Matrix {
         let mut columns = a.select_rows(self.qr.permutation()).transpose();
         for j in 0..columns.nrows() {
@@ -77,7 +78,7 @@ impl FollowedRows {
         columns
     }
 
-    /// The velocity closest to `v` that the rows allow.
+    /// Returns the velocity closest to `v` that the rows allow.
     fn allowed(&self, v: &[f64]) -> Vec<f64> {
         let mut x: Vec<f64> = v.iter().zip(&self.columns).map(|(v, f)| v / f).collect();
         self.qr.q_transpose_mul(&mut x);
@@ -87,14 +88,14 @@ impl FollowedRows {
     }
 }
 
-/// One step of a walk on nonholonomic rows.
+/// One step of a continuation on nonholonomic rows.
 pub(super) struct Step {
-    /// The first pose of the step, and its middle.
+    /// Scratch at the start of the step and at its middle.
     first: Scratch,
     middle: Scratch,
     /// Displacement (physical units).
     moved: Vec<f64>,
-    /// The holonomic kept rows at the first pose, and all kept rows in the middle.
+    /// The holonomic kept rows at the start of the step, and all kept rows in the middle.
     positions: FollowedRows,
     velocities: FollowedRows,
 }
@@ -102,13 +103,13 @@ pub(super) struct Step {
 /// Numbers of substeps, tried one after the other until two results agree.
 const SUBSTEPS: [usize; 4] = [2, 4, 6, 8];
 
-/// The mechanism and the kept rows of a walk.
+/// The mechanism and the kept rows of a continuation.
 #[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
     pub(super) mechanism: &'a Mechanism,
     /// Kept rows of the mechanism.
     pub(super) kept: &'a [usize],
-    /// Velocities that correspond to 1 without dimensions.
+    /// Velocities with the dimensionless value 1.
     pub(super) units: &'a [f64],
     /// Size of the mechanism (m).
     pub(super) size: f64,
@@ -116,7 +117,7 @@ pub(super) struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// C without dimensions at a configuration.
+    /// Returns the dimensionless C at a configuration.
     pub(super) fn at(&self, q: &[f64]) -> (Scratch, Matrix) {
         let s = crate::pose::evaluated(self.mechanism, self.t, q);
         let c = dimensionless(self.mechanism, &s, self.size);
@@ -129,19 +130,20 @@ impl Ground<'_> {
         FollowedRows::new(factored, own, self.units.to_vec())
     }
 
-    /// The kept rows of Φ.
+    /// Returns the kept rows of Φ.
     pub(super) fn holonomic(&self) -> Vec<usize> {
         let m = self.mechanism.layout().m;
         self.kept.iter().copied().filter(|&i| i < m).collect()
     }
 
-    /// Whether nonholonomic rows are kept, so that positions depend on the path.
+    /// Returns whether nonholonomic rows are kept, so that positions depend on the path.
     pub(super) fn is_led(&self) -> bool {
         self.kept.iter().any(|&i| i >= self.mechanism.layout().m)
     }
 
-    /// The pose reached by velocities that all kept rows allow, at each place those closest to
-    /// `moved`. Returns `None` if they change too fast to be followed.
+    /// Returns the configuration after a motion whose velocities all kept rows allow. At each point
+    /// the motion uses the allowed velocity closest to `moved`. Returns `None` if the velocities
+    /// change too fast for the continuation.
     ///
     /// Source: the modified midpoint rule, extrapolated; E. Hairer, S. P. Nørsett, G. Wanner,
     /// Solving Ordinary Differential Equations I, section II.9 (1993).
@@ -203,9 +205,10 @@ impl Ground<'_> {
 }
 
 impl Step {
-    /// Carries a gradient back over the step: from one with respect to the pose after the step,
-    /// along the free motions there, to one with respect to the pose before it. The effect of the
-    /// data on the step is added to `data`.
+    /// Propagates a gradient backwards over the step. The given gradient is with respect to the
+    /// configuration after the step, along the free motions there. The result is the gradient with
+    /// respect to the configuration before the step. The effect of the data on the step is added to
+    /// `data`.
     pub(super) fn carry_back(&self, mechanism: &Mechanism, pose: &mut Vec<f64>, data: &mut [f64]) {
         let rows = mechanism.layout().rows();
         let (lambda, _) = self.velocities.split(pose, rows);

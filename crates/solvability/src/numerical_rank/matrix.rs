@@ -1,5 +1,5 @@
-//! C of the intended mechanism: a force or lever arm that is shorter than its uncertainty counts as
-//! zero.
+//! Constraint matrix C of the intended mechanism. A force or lever arm that is smaller than its
+//! uncertainty counts as zero.
 //!
 //! Forces and levers are compared as vectors, never by their components, which depend on the axes.
 //! A vector is the block of the force rows or of the moment rows of a joint, in the columns of the
@@ -11,21 +11,21 @@ use std::ops::Range;
 use linalg::{DdMatrix, Matrix, Scaling, equilibrate_blocks};
 use model::{ConfigurationAccuracy, Mechanism, Scratch, SpaceKind, System};
 
-/// C without dimensions, with the uncertainty of its entries.
+/// Dimensionless C, with the uncertainty of its entries.
 #[derive(Clone, Debug)]
 pub(crate) struct UncertainMatrix {
-    /// (m + h) × n_v; forces and levers that count as zero are set to zero.
+    /// Matrix of size (m + h) × n_v; forces and levers that count as zero are set to zero.
     pub(crate) c: Matrix,
     /// Uncertainty of the entries; zero for entries that were set to zero.
     pub(crate) uncertainty: Matrix,
-    /// Places of the entries that have been set to zero.
+    /// Row and column of the entries that have been set to zero.
     zeros: Vec<(usize, usize)>,
     row_blocks: Vec<usize>,
     col_blocks: Vec<usize>,
 }
 
 impl UncertainMatrix {
-    /// Evaluates C at the pose of the scratch, in which Φ and C have been evaluated, for a
+    /// Evaluates C at the configuration of the scratch, in which Φ and C have been evaluated, for a
     /// mechanism of this size.
     pub(crate) fn new(
         mechanism: &Mechanism,
@@ -40,7 +40,7 @@ impl UncertainMatrix {
         Self::of(mechanism, dimensionless(mechanism, s, size), uncertainty)
     }
 
-    /// Starts from C without dimensions and the uncertainty of its entries.
+    /// Starts from the dimensionless C and the uncertainty of its entries.
     pub(crate) fn of(mechanism: &Mechanism, c: Matrix, uncertainty: Matrix) -> Self {
         let mut uncertain = Self {
             col_blocks: (0..c.ncols())
@@ -96,10 +96,10 @@ impl UncertainMatrix {
         }
     }
 
-    /// Scaling with one factor for the translation of each body, one for its rotation, one for the
-    /// force rows of each joint, and one for its moment rows. A lever determines the scale of its
-    /// body only if it is far larger than its uncertainty: the rounding that is left of larger
-    /// terms must never be scaled up to size one. The rank does not depend on scales.
+    /// Returns a scaling with one factor for the translation of each body, one for its rotation,
+    /// one for the force rows of each joint, and one for its moment rows. A lever determines the
+    /// scale of its body only if it is far larger than its uncertainty. Otherwise the rounding of
+    /// larger terms could be scaled up to size one. The rank does not depend on scales.
     pub(crate) fn scaling(&self) -> Scaling {
         let significant = |i: usize, j: usize| match self.c[(i, j)] {
             c if c.abs() > rank::SIGNIFICANT * self.uncertainty[(i, j)] => c,
@@ -109,8 +109,8 @@ impl UncertainMatrix {
         equilibrate_blocks(&c, &self.row_blocks, &self.col_blocks)
     }
 
-    /// The same matrix in double-double, given all its entries; entries set to zero here are set to
-    /// zero there.
+    /// Returns the same matrix in double-double, given all its entries. Entries that are zero here
+    /// are set to zero there.
     pub(crate) fn extended(&self, mut c: DdMatrix) -> DdMatrix {
         for &(i, j) in &self.zeros {
             c[(i, j)] = linalg::Dd::ZERO;
@@ -118,7 +118,7 @@ impl UncertainMatrix {
         c
     }
 
-    /// Whether a force or lever has been set to zero.
+    /// Returns whether a force or lever has been set to zero.
     pub(crate) fn has_zeros(&self) -> bool {
         !self.zeros.is_empty()
     }
@@ -136,13 +136,13 @@ impl UncertainMatrix {
     }
 }
 
-/// The block of each column: translation or rotation of its body.
+/// Returns the block of each column: translation or rotation of its body.
 fn col_block(space: SpaceKind, j: usize) -> usize {
     2 * space.body_of(j) + usize::from(space.is_rotation(j))
 }
 
-/// The block of each row: the force rows or the moment rows of its joint, on one level. The rows of
-/// a block are adjacent; rows of the same kind that are not adjacent form different blocks.
+/// Returns the block of each row: the force rows or the moment rows of its joint, on one level. The
+/// rows of a block are adjacent; rows of the same kind that are not adjacent form different blocks.
 fn row_blocks(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
     let kind = |row: usize| (layout.owners[row], row < layout.m, layout.is_angular(row));

@@ -1,9 +1,11 @@
-//! The error of the data (m) that is necessary for a lower rank, at one pose and at all poses of a
-//! walk; and the least rank of data within a stated tolerance.
+//! Computes the smallest error of the data (m) for a lower rank, at one configuration and at all
+//! configurations of a continuation. It also computes the lowest rank of data within a stated
+//! tolerance.
 //!
-//! Rows that nearly depend on others at a pose are dropped together, so that the mechanism moves
-//! away from the pose on rows that are certainly independent. The poses reached show which of the
-//! dropped rows are independent in general: these are kept again, one rank after the other.
+//! Rows that nearly depend on others at a configuration are dropped together, so that the mechanism
+//! moves away from it on rows that are certainly independent. At the configurations that it
+//! reaches, the dropped rows that are independent in general are determined. These rows are kept
+//! again, one rank after the other.
 
 use crate::limits::{CLEAR_ENTRY, CURVED, PAIRS, WALKED};
 use linalg::{Matrix, Scaling};
@@ -15,26 +17,27 @@ use super::pose::{Candidate, Gradient, Pose, most_independent_of};
 use super::share::{Question, StatedTolerance, equation, pairs, rounding};
 use super::walk::{Walk, walk};
 
-/// The error of the data that is necessary for a rank that is lower by one (m; angles times the
+/// The smallest error of the data for a rank that is lower by one (m; angles are multiplied by the
 /// size).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearness {
-    /// At this pose only.
+    /// Error at this configuration only.
     pub(crate) here: f64,
-    /// For one change of the data at all poses of a walk: from this change on, a row is redundant.
-    /// Infinite if no change makes it redundant.
+    /// Error for one change of the data at all configurations of a continuation: from this change
+    /// upwards, a row is redundant. It is infinite if no change makes a row redundant.
     pub(crate) everywhere: f64,
-    /// A lower bound on that change if nonholonomic rows are kept: they constrain no position, so
-    /// other poses are reached from a start that has the same uncertainty as the data. Equal to
-    /// [`everywhere`](Self::everywhere) otherwise.
+    /// A lower bound of this error if nonholonomic rows are kept. Such rows constrain no position,
+    /// so other configurations are reached from a start with the uncertainty of the data. Otherwise
+    /// it equals [`everywhere`](Self::everywhere).
     pub(crate) at_least: f64,
-    /// Whether the walk found enough poses to distinguish a redundancy from a singular pose.
+    /// Whether the continuation found enough configurations to distinguish a redundancy from a
+    /// singular configuration.
     pub(crate) is_walked: bool,
-    /// Whether only angles change, because a tolerance is stated for them alone.
+    /// Whether only angles change, because a tolerance is stated only for angles.
     pub(crate) by_angles: bool,
 }
 
-/// The least rank of data within a tolerance.
+/// The lowest rank of data within a tolerance.
 pub(super) struct LeastRank {
     pub(super) rank: usize,
     /// Distance of the data from this rank, or from one rank less if the rank does not drop.
@@ -45,16 +48,16 @@ pub(super) struct LeastRank {
 /// Whether the rank is one less.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Certainty {
-    /// Decided.
+    /// The rank is decided.
     Decided,
-    /// Undecided: the rank is one less from a change of this length on (m), which is close to the
+    /// Undecided: the rank is one less for changes above this length (m), which is close to the
     /// tolerance.
     From(f64),
-    /// Undecided: other poses could not be examined.
+    /// Undecided: other configurations could not be examined.
     OtherPoses,
 }
 
-/// A lower rank, examined at a pose.
+/// A lower rank, examined at a configuration.
 struct Lower<'q> {
     question: &'q Question<'q>,
     blocks: Vec<DataBlock>,
@@ -62,25 +65,26 @@ struct Lower<'q> {
     scaled: Matrix,
     scaling: Scaling,
     dimensions: Scaling,
-    /// Rows that would be kept, numbered among the analysed rows.
+    /// Rows that would be kept, as indices of the analysed rows.
     kept: Vec<usize>,
     /// Unit of changes (m), and the corresponding change of each block.
     least: f64,
     known: Vec<f64>,
     by_angles: bool,
-    /// The change that lowers the rank by one at this pose only (m).
+    /// The change that lowers the rank by one at this configuration only (m).
     here: f64,
 }
 
 impl Question<'_> {
-    /// The distance of the data from one rank less than `rank`, if it is at most `limit` (m).
+    /// Returns the distance of the data from one rank less than `rank`, if it is at most `limit`
+    /// (m).
     pub(super) fn nearness(&self, rank: usize, limit: f64) -> Option<Nearness> {
         let lower = self.lower(rank.checked_sub(1)?, limit)?;
         Some(lower.near(&lower.walked(), &lower.kept))
     }
 
-    /// The least rank up to `rank` of data within the tolerance, and their distance from it if that
-    /// is at most `limit` (m).
+    /// Returns the lowest rank up to `rank` of data within the tolerance, and their distance from
+    /// it if that is at most `limit` (m).
     pub(super) fn least_rank(
         &self,
         rank: usize,
@@ -113,7 +117,8 @@ impl Question<'_> {
             } else {
                 asked.near(&asked.walked(), &asked.kept)
             };
-            // Rows that are kept again may be singular at this pose, so that no motion is possible.
+            // Rows that are kept again may be singular at this configuration, so that no motion is
+            // possible.
             let is_unknown = !own.is_walked && share(own.everywhere) <= rank::BEYOND_DOUBT;
             let near = if is_unknown && lower > first {
                 asked.near(&away, &lowest.kept)
@@ -143,8 +148,8 @@ impl Question<'_> {
         stays(last)
     }
 
-    /// The dropped rows, beginning with those that are most independent of the kept ones at the
-    /// last pose of the walk.
+    /// Returns the dropped rows, beginning with the rows that are most independent of the kept rows
+    /// at the last configuration of the continuation.
     fn most_independent(&self, lowest: &Lower<'_>, away: &Walk) -> Vec<usize> {
         let scaled = match away.farthest() {
             None => lowest.scaled.clone(),
@@ -156,8 +161,8 @@ impl Question<'_> {
         most_independent_of(&scaled, &lowest.kept)
     }
 
-    /// Examines the rank `lower` on the rows that are most independent at this pose. Returns `None`
-    /// if its distance is above `limit` (m).
+    /// Examines the rank `lower` on the rows that are most independent at this configuration.
+    /// Returns `None` if its distance is above `limit` (m).
     fn lower(&self, lower: usize, limit: f64) -> Option<Lower<'_>> {
         let (scaled, scaling) = self.uniform(self.s);
         let candidate = Candidate::of_rank(&scaled, lower);
@@ -194,11 +199,12 @@ impl Question<'_> {
         let parts = blocks.iter().zip(&unit);
         let parts = parts.map(|(block, unit)| block.change(&gradient.data, *unit));
         let least = weakest.abs() / parts.sum::<f64>();
-        // The rank stays if no datum changes it.
+        // The rank does not change if no datum changes it.
         if least.is_nan() || least > limit {
             return None;
         }
-        // Relative to what a single entry would need, so that rounding does not interfere.
+        // The unit is relative to the change that a single entry needs, so that rounding does not
+        // interfere.
         let least = least.max(self.size * f64::EPSILON);
         let mut lower = Lower {
             question: self,
@@ -225,12 +231,12 @@ impl Lower<'_> {
         kept.iter().map(|&k| self.question.places[k]).collect()
     }
 
-    /// The walk on the rows that would be kept.
+    /// Returns the continuation on the rows that would be kept.
     fn walked(&self) -> Walk {
         walk(self.question, &self.rows(&self.kept))
     }
 
-    /// The distance of the data, at poses at which the rows `held` are satisfied.
+    /// Returns the distance of the data, at configurations where the rows `held` are satisfied.
     fn near(&self, walked: &Walk, held: &[usize]) -> Nearness {
         let m = self.question.mechanism.layout().m;
         let is_led = self.rows(held).iter().any(|&row| row >= m);
@@ -258,9 +264,9 @@ impl Lower<'_> {
         let mut everywhere = change(reach);
         let mut certain = reach;
         if let Some(stated) = self.question.tolerance() {
-            // A full rank rests on poses that the intended mechanism has whatever its data are
-            // within the tolerance; a redundancy on poses that it has up to the change of the data
-            // that makes a row redundant.
+            // A full rank requires configurations that the intended mechanism has for all data
+            // within the tolerance. A redundancy requires configurations that it has up to the
+            // change of the data that makes a row redundant.
             let is_full = |length: f64| length > rank::BEYOND_DOUBT * stated.metres;
             if is_full(everywhere) && (known == reach || is_full(change(known))) {
                 certain = known;
@@ -287,11 +293,12 @@ impl Lower<'_> {
         }
     }
 
-    /// The equations that must hold at the pose of the scratch, reached by a path on the rows
-    /// `held`.
+    /// Returns the equations that must be satisfied at the configuration of the scratch, which is
+    /// reached by a path on the rows `held`.
     fn at(&self, s: &Scratch, held: &[usize], way: &[&Step]) -> Vec<PoseEquation> {
         let question = self.question;
-        // Uses the scaling of the first pose, so that all equations have the same unit.
+        // All equations use the scaling of the first configuration, so that they have the same
+        // unit.
         let scaled = self.scaling.apply(&question.dimensionless(s));
         let candidate = Candidate::of_rows(&scaled, self.kept.clone());
         let matrices = (&scaled, &self.dimensions, &self.scaling);
@@ -306,16 +313,16 @@ impl Lower<'_> {
         let is_first = std::ptr::eq(s, question.s);
         let noise = if is_first { rounding(&scaled) } else { WALKED };
         let mut asked = self.asked(&pose, way, noise);
-        // Rows that are kept but not held may be violated at other poses; there only the rank is
-        // examined, which is no larger where they are satisfied.
+        // Rows that are kept but not in `held` may be violated at other configurations. There, only
+        // the rank is examined. It is not larger where these rows are satisfied.
         if is_first || held == self.kept {
             asked.extend(self.misfits(&pose, noise));
         }
         asked
     }
 
-    /// The equations for the entries. With nonholonomic rows the pose depends on the data along the
-    /// path, from the start on, which has the uncertainty of the data.
+    /// Returns the equations for the entries. With nonholonomic rows, the configuration depends on
+    /// the data along the path and on the start, which has the uncertainty of the data.
     fn asked(&self, pose: &Pose<'_>, way: &[&Step], noise: f64) -> Vec<PoseEquation> {
         let question = self.question;
         let (blocks, known) = (&self.blocks[..], &self.known[..]);
@@ -334,8 +341,8 @@ impl Lower<'_> {
         pairs(pose).map(of_pair).collect()
     }
 
-    /// The equations for residuals: rows that depend on each other must also agree. Equations of
-    /// lengths are divided by the size.
+    /// Returns the equations for residuals: rows that depend on each other must also be consistent.
+    /// Equations of lengths are divided by the size.
     fn misfits(&self, pose: &Pose<'_>, noise: f64) -> Vec<PoseEquation> {
         let question = self.question;
         let (blocks, known) = (&self.blocks[..], &self.known[..]);
@@ -353,8 +360,8 @@ impl Lower<'_> {
             .collect()
     }
 
-    /// The fraction of `least` by which the data have to change, if the second-order terms of
-    /// changes up to `share` of it are left open.
+    /// Returns the fraction of `least` by which the data have to change, if second-order terms of
+    /// changes up to `share` of it are unknown.
     fn change(&self, poses: &[&[PoseEquation]], share: f64, start: Start) -> f64 {
         let curved = CURVED * (self.least / self.question.size).powi(2) * share.min(1.0);
         let equations = poses.iter().copied().flatten();
@@ -363,15 +370,15 @@ impl Lower<'_> {
     }
 }
 
-/// Uncertainty of the pose at which a walk begins.
+/// Uncertainty of the configuration at which a continuation begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Start {
     Known,
-    /// The same as that of the data.
+    /// The uncertainty of the data.
     AsData,
 }
 
-/// An equation that must hold at a pose.
+/// An equation that must be satisfied at a configuration.
 struct PoseEquation {
     equation: Equation,
     /// Unit of the equation (m, or 1 for an entry).
@@ -381,7 +388,7 @@ struct PoseEquation {
 }
 
 impl PoseEquation {
-    /// The equation with the second-order terms of a change left open.
+    /// Returns the equation with unknown second-order terms of a change.
     fn loose(&self, curved: f64, start: Start) -> Equation {
         let mut equation = self.equation.clone();
         equation.rounding = equation.rounding.max(curved * self.unit);

@@ -1,11 +1,13 @@
-//! One pose of a mechanism: how close C is to a lower rank there, and how this depends on the data.
+//! Computes how close C is to a lower rank at one configuration of a mechanism, and how this
+//! depends on the data.
 //!
-//! With r' kept rows K, the rank is r' iff `S = C_D·V` vanishes, V the null space of C_K; with
-//! `U = [−Tᵀ; I]`, `T = C_D·C_K⁺`, it is `Uᵀ·C·V`, and changes with the data to first order by
-//! `Uᵀ·δC·V`. δC has two parts: the change of points and directions at a fixed pose, and the change
-//! of the pose, which follows the data so that the kept rows of Φ stay satisfied:
-//! `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, with no component along the free motions. Φ_K is not zero if
-//! rows contradict each other within a tolerance and the start distributes the residual among them.
+//! With r' kept rows K, the rank is r' iff `S = C_D·V` vanishes, where V is the null space of C_K.
+//! With `U = [−Tᵀ; I]` and `T = C_D·C_K⁺`, S equals `Uᵀ·C·V` and changes with the data to first
+//! order by `Uᵀ·δC·V`. δC has two parts: the change of points and directions at a fixed
+//! configuration, and the change of the configuration. The configuration follows the data so that
+//! the kept rows of Φ stay satisfied: `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, with no component along the
+//! free motions. Φ_K is not zero if rows contradict each other within a tolerance and the start
+//! distributes the residual among them.
 
 use crate::limits::{HOLONOMIC, RESOLVED};
 use linalg::{Matrix, PivotedQr, RowBasis, Scaling, kernels, small_svd};
@@ -13,11 +15,11 @@ use model::{DataSlopes, ForceDerivatives, Mechanism, Scratch, System};
 
 use super::follow::FollowedRows;
 
-/// A pose, with the rows and columns kept for a lower rank.
+/// A configuration, with the rows and columns kept for a lower rank.
 pub(super) struct Pose<'a> {
     mechanism: &'a Mechanism,
     s: &'a Scratch,
-    /// Derivatives of its rows with respect to the data.
+    /// Derivatives of the rows with respect to the data.
     slopes: DataSlopes<'a>,
     /// Rows of the mechanism in the scaled C.
     places: &'a [usize],
@@ -37,7 +39,7 @@ pub(super) struct Pose<'a> {
 pub(super) struct Candidate {
     /// The r' kept rows.
     pub(super) kept: Vec<usize>,
-    /// Their factors, in this order.
+    /// Factors of the kept rows, in this order.
     pub(super) factored: PivotedQr,
     left: Matrix,
     right: Matrix,
@@ -45,18 +47,18 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    /// The motions that the kept rows leave free, one in each row, the one that the other rows
-    /// resist most first.
+    /// Returns the motions that the kept rows leave free, one in each row. The motion that the
+    /// other rows constrain most comes first.
     pub(super) fn into_free(self) -> Matrix {
         self.right
     }
 
-    /// The largest entry that must vanish.
+    /// Returns the largest entry that must vanish.
     pub(super) fn weakest(&self) -> f64 {
         self.sigma.first().copied().unwrap_or(0.0)
     }
 
-    /// Keeps the most independent rows, as many as the rank.
+    /// Keeps the most independent rows; their number is the rank.
     pub(super) fn of_rank(scaled: &Matrix, rank: usize) -> Self {
         Self::of(RowBasis::most_independent(scaled.clone(), rank))
     }
@@ -99,7 +101,7 @@ impl Candidate {
     }
 }
 
-/// The other rows of a scaled C, the most independent of the kept ones first.
+/// Returns the other rows of a scaled C, the rows that are most independent of the kept rows first.
 pub(super) fn most_independent_of(scaled: &Matrix, kept: &[usize]) -> Vec<usize> {
     let own = RowBasis::of_rows(scaled, kept.to_vec());
     let others = own.dropped();
@@ -111,8 +113,8 @@ pub(super) fn most_independent_of(scaled: &Matrix, kept: &[usize]) -> Vec<usize>
     rest.permutation().iter().map(|&j| others[j]).collect()
 }
 
-/// An orthonormal basis that begins with the given singular vectors; those that are only rounding
-/// are replaced.
+/// Returns an orthonormal basis that begins with the given singular vectors. Singular vectors that
+/// are only rounding are replaced.
 fn complete(columns: &Matrix, sigma: &[f64]) -> Matrix {
     let n = columns.nrows();
     let largest = sigma.iter().copied().fold(0.0, f64::max);
@@ -138,17 +140,17 @@ fn complete(columns: &Matrix, sigma: &[f64]) -> Matrix {
 
 /// Gradient of one entry of `Uᵀ·C·V`.
 pub(super) struct Gradient {
-    /// With respect to the numbers of the constraints.
+    /// Derivatives with respect to the numbers of the constraints.
     pub(super) data: Vec<f64>,
-    /// With respect to the coordinates, along the motions that the kept rows leave free (physical
-    /// units), n_v values.
+    /// Derivatives with respect to the coordinates, along the motions that the kept rows leave free
+    /// (physical units), n_v values.
     pub(super) pose: Vec<f64>,
-    /// Change of the entry if the pose is moved onto the kept rows, with the data fixed.
+    /// Change of the entry if the configuration moves onto the kept rows and the data are fixed.
     pub(super) onto_kept: f64,
 }
 
 impl Gradient {
-    /// The gradient of a sum of entries with these weights.
+    /// Returns the gradient of a sum of entries with these weights.
     pub(super) fn sum(entries: &[Self], weights: &[f64]) -> Self {
         let total = |of: &dyn Fn(&Self) -> &[f64]| {
             let mut total = vec![0.0; entries.first().map_or(0, |entry| of(entry).len())];
@@ -167,9 +169,9 @@ impl Gradient {
 }
 
 impl<'a> Pose<'a> {
-    /// Evaluates the pose of the scratch, in which C has been evaluated; `scaled` holds the rows
-    /// `places` of C, scaled by `dimensions` and then by `scaling`. Positions follow the data on
-    /// the kept rows.
+    /// Evaluates the configuration of the scratch, in which C has been evaluated. `scaled` contains
+    /// the rows `places` of C, scaled by `dimensions` and then by `scaling`. Positions follow the
+    /// data on the kept rows.
     pub(super) fn new(
         mechanism: &'a Mechanism,
         s: &'a Scratch,
@@ -181,8 +183,7 @@ impl<'a> Pose<'a> {
         Self::held(mechanism, s, places, matrices, candidate, &held)
     }
 
-    /// Like [`Self::new`], with positions that follow the data on other rows, which are
-    /// independent.
+    /// Works like [`Self::new`], with positions that follow the data on other independent rows.
     pub(super) fn held(
         mechanism: &'a Mechanism,
         s: &'a Scratch,
@@ -223,7 +224,7 @@ impl<'a> Pose<'a> {
         }
     }
 
-    /// `u_aᵀ·C·v_b` (scaled) at satisfied kept rows, and its gradient.
+    /// Returns `u_aᵀ·C·v_b` (scaled) at satisfied kept rows, and its gradient.
     pub(super) fn entry(&self, a: usize, b: usize) -> (f64, Gradient) {
         let here = if a == b {
             self.sigma.get(a).copied().unwrap_or(0.0)
@@ -234,8 +235,9 @@ impl<'a> Pose<'a> {
         (here + gradient.onto_kept, gradient)
     }
 
-    /// `u_aᵀ·Φ` and its gradient with respect to the numbers of the constraints. Returns `None` if
-    /// nonholonomic rows take part: a dependency of velocities implies nothing about positions.
+    /// Returns `u_aᵀ·Φ` and its gradient with respect to the numbers of the constraints. Returns
+    /// `None` if nonholonomic rows take part, because a dependency of velocities implies nothing
+    /// about positions.
     pub(super) fn misfit(&self, a: usize) -> Option<(f64, Vec<f64>)> {
         let u = self.spread(self.left.row(a));
         let (holonomic, others) = u.split_at(self.mechanism.layout().m);
@@ -253,7 +255,7 @@ impl<'a> Pose<'a> {
         Some((target, gradient))
     }
 
-    /// Weights of all rows of the mechanism, from scaled weights of the analysed rows.
+    /// Returns weights of all rows of the mechanism, from scaled weights of the analysed rows.
     fn spread(&self, scaled: &[f64]) -> Vec<f64> {
         let mut u = vec![0.0; self.mechanism.layout().rows()];
         for ((&row, weight), factor) in self.places.iter().zip(scaled).zip(&self.rows) {
@@ -262,12 +264,12 @@ impl<'a> Pose<'a> {
         u
     }
 
-    /// The gradient of `uᵀ·C·v` (scaled); u has one entry for each analysed row.
+    /// Returns the gradient of `uᵀ·C·v` (scaled); u has one entry for each analysed row.
     pub(super) fn gradient_between(&self, u: &[f64], v: &[f64]) -> Gradient {
         self.gradient_at(&self.forces(u), v)
     }
 
-    /// The forces `Cᵀ·u` of weights of the analysed rows.
+    /// Returns the forces `Cᵀ·u` for weights u of the analysed rows.
     pub(super) fn forces(&self, u: &[f64]) -> Forces {
         let u = self.spread(u);
         Forces {
@@ -276,7 +278,7 @@ impl<'a> Pose<'a> {
         }
     }
 
-    /// Like [`Self::gradient_between`], for forces that meet several velocities.
+    /// Works like [`Self::gradient_between`], for forces that are combined with several velocities.
     pub(super) fn gradient_at(&self, forces: &Forces, v: &[f64]) -> Gradient {
         let v: Vec<f64> = v.iter().zip(&self.columns).map(|(x, f)| x * f).collect();
         let mut data = vec![0.0; self.mechanism.data().count()];
@@ -298,7 +300,8 @@ impl<'a> Pose<'a> {
     }
 }
 
-/// Weights of all rows of the mechanism, and how their forces on the bodies change with the pose.
+/// Weights of all rows of the mechanism, and the derivatives of their forces on the bodies with
+/// respect to the configuration.
 pub(super) struct Forces {
     u: Vec<f64>,
     derivatives: ForceDerivatives,
@@ -309,7 +312,7 @@ mod tests {
     use super::*;
 
     /// The second vector belongs to a singular value that is rounding of zero, and is not
-    /// orthogonal to the first.
+    /// orthogonal to the first vector.
     #[test]
     fn singular_vectors_of_rounding_are_replaced() {
         let columns = Matrix::from_rows(&[[1.0, 0.6], [0.0, 0.8], [0.0, 0.0]]);

@@ -1,8 +1,8 @@
-//! The rank that follows from C and the uncertainty of its data.
+//! Decides the rank from C and the uncertainty of its data.
 //!
-//! Singular values below the uncertainty of the entries are zero; those far above are not. Between
-//! these bounds the data decide: by what fraction of their uncertainty would they have to be wrong
-//! for the lower rank?
+//! Singular values below the uncertainty of the entries are zero, and values far above it are not
+//! zero. Between these bounds, the decision compares the error of the data that the lower rank
+//! requires with their uncertainty.
 
 use crate::limits::{CLEAR_OF_NOISE, CLEAR_OF_ROUNDING, CONFIRMED, NEAR_TOLD};
 use linalg::Scaling;
@@ -12,7 +12,7 @@ use super::UncertainMatrix;
 use super::near::{Certainty, Nearness};
 use super::share::{Question, StatedTolerance};
 
-/// The result.
+/// Result of the decision.
 pub(crate) struct Reading {
     pub(crate) rank: RankReading,
     /// Distance of the data from one rank less, if it is small enough to be reported.
@@ -22,7 +22,7 @@ pub(crate) struct Reading {
 }
 
 impl UncertainMatrix {
-    /// The reading of a rank that is known otherwise; `None` if the uncertainty hides it.
+    /// Returns the evidence for a rank from another source; `None` if the uncertainty hides it.
     pub(crate) fn of_rank(&self, rank: usize) -> Option<RankReading> {
         let scaling = self.scaling();
         let scaled = Spectrum::of(scaling.apply(&self.c));
@@ -40,7 +40,7 @@ impl UncertainMatrix {
         })
     }
 
-    /// Uncertainty of all scaled entries together.
+    /// Returns the uncertainty of all scaled entries together.
     fn noise(&self, scaling: &Scaling) -> f64 {
         let (m, n) = (self.c.nrows() as f64, self.c.ncols() as f64);
         let rounding = rank::NOISE_FACTOR * f64::EPSILON * (m * n).sqrt();
@@ -48,7 +48,7 @@ impl UncertainMatrix {
         uncertainty.frobenius_norm().max(rounding)
     }
 
-    /// Reads the rank and records its evidence.
+    /// Determines the rank and records its evidence.
     pub(crate) fn read(&self, question: &Question<'_>) -> Reading {
         let scaling = self.scaling();
         let scaled = Spectrum::of(scaling.apply(&self.c));
@@ -58,14 +58,14 @@ impl UncertainMatrix {
         let upper = above(noise);
         let clear = above(CLEAR_OF_ROUNDING.max(CLEAR_OF_NOISE * noise)).min(upper);
         let (mut rank, mut status) = (upper, RankStatus::Decided);
-        // Search for the least rank that the data allow.
+        // The loop searches for the lowest rank that the data allow.
         for lower in clear..upper {
             let share = question.share_of_rounding(scaled.matrix(), &scaling, lower);
             if share.high < (1.0 / rank::BEYOND_DOUBT) {
                 rank = lower;
                 break;
             }
-            // Rounding is irrelevant if a tolerance is stated: then the walk decides.
+            // Rounding is irrelevant if a tolerance is stated; the continuation then decides.
             if share.low <= rank::BEYOND_DOUBT && question.tolerance().is_none() {
                 status = RankStatus::Undecided(Doubt::WithinRounding {
                     lower,
@@ -131,8 +131,7 @@ impl UncertainMatrix {
                 scaling,
                 matrix: scaled,
                 noise,
-                // A value that is not zero is the same in double-double, apart from the rounding in
-                // `f64`.
+                // A nonzero value is the same in double-double, except for the rounding in `f64`.
                 separation: sigma_r.map_or(0.0, |sigma_r| CONFIRMED * sigma_r),
                 grounds,
             },
@@ -142,8 +141,8 @@ impl UncertainMatrix {
     }
 }
 
-/// The status "undecided whether the rank is one less": from a change of length `from` on (m), or
-/// because other poses could not be examined.
+/// Returns the status "undecided whether the rank is one less". The cause is a change of length
+/// `from` (m), or other configurations that could not be examined.
 fn open(
     question: &Question<'_>,
     stated: StatedTolerance,

@@ -1,4 +1,4 @@
-//! The error of the data, as a fraction of their uncertainty, that is necessary for a lower rank,
+//! Computes the error of the data, as a fraction of their uncertainty, that a lower rank requires,
 //! and the change of dependencies within the uncertainty.
 
 use std::ops::Range;
@@ -13,7 +13,7 @@ use rank::RankDecision;
 use super::cone::{Bounds, Equation, least_change};
 use super::pose::{Candidate, Forces, Gradient, Pose};
 
-/// A mechanism at a pose, with the rows that are analysed.
+/// A mechanism at a configuration, with the rows to analyse.
 pub(crate) struct Question<'a> {
     pub(crate) mechanism: &'a Mechanism,
     /// Scratch in which Φ and C have been evaluated at q.
@@ -31,14 +31,14 @@ pub(crate) struct StatedTolerance {
     /// The largest tolerance of a point or a length; if none is stated, the largest tolerance of an
     /// angle times the size (m).
     pub(super) metres: f64,
-    /// Whether it comes from an angle.
+    /// Whether the value comes from an angle.
     pub(super) by_angles: bool,
 }
 
 impl Question<'_> {
-    /// The fraction of its rounding by which the most changed datum would have to change for the
-    /// rank `lower` at this pose. `scaled` is C of this question, with dimensions removed and then
-    /// scaled by `scaling`.
+    /// Returns the change of the most changed datum for the rank `lower` at this configuration, as
+    /// a fraction of its rounding. `scaled` is the dimensionless C of this question, scaled by
+    /// `scaling`.
     pub(super) fn share_of_rounding(
         &self,
         scaled: &Matrix,
@@ -67,8 +67,8 @@ impl Question<'_> {
         least_change(&equations)
     }
 
-    /// Coefficients of an entry with respect to the position and rotation of each body, for changes
-    /// of this length (m).
+    /// Returns coefficients of an entry with respect to the position and rotation of each body, for
+    /// changes of this length (m).
     pub(super) fn by_place(&self, gradient: &[f64], length: f64, by_angles: bool) -> Vec<[f64; 3]> {
         let place = if by_angles { 0.0 } else { length };
         let turn = length / self.size;
@@ -76,8 +76,8 @@ impl Question<'_> {
         bodies.flat_map(|by| self.parts(by, place, turn)).collect()
     }
 
-    /// Coefficients with respect to the position and rotation of each body at the start, for
-    /// changes of the size of their rounding.
+    /// Returns coefficients with respect to the position and rotation of each body at the start,
+    /// for changes of the size of their rounding.
     fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 3]> {
         let columns = self.mechanism.space().n_v();
         let (reach, at) = (|body| self.mechanism.reach(body), &self.s.bodies);
@@ -90,7 +90,8 @@ impl Question<'_> {
         of_body.collect()
     }
 
-    /// Coefficients of the translation and of the rotation of a body, for changes of this size.
+    /// Returns coefficients of the translation and of the rotation of a body, for changes of this
+    /// size.
     fn parts(&self, by: &[f64], place: f64, turn: f64) -> [[f64; 3]; 2] {
         let (by_place, by_turn) = by.split_at(self.mechanism.space().n_translations());
         let scaled = |by: &[f64], unit: f64| -> [f64; 3] {
@@ -99,8 +100,9 @@ impl Question<'_> {
         [scaled(by_place, place), scaled(by_turn, turn)]
     }
 
-    /// The largest tolerance that the scene states for a point or a length; or for an angle, if it
-    /// states none for lengths, whose uncertainty is then their rounding.
+    /// Returns the largest tolerance that the scene states for a point or a length. If it states
+    /// tolerances only for angles, the function returns the largest of these, and lengths are
+    /// uncertain by rounding.
     pub(crate) fn tolerance(&self) -> Option<StatedTolerance> {
         let blocks = self.mechanism.data().blocks(self.s);
         let largest = |unit: DataUnit| {
@@ -114,10 +116,11 @@ impl Question<'_> {
         }
     }
 
-    /// How much some rows of the left null space of the scaled C change within the uncertainty of
-    /// the data at fixed rank: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`, for an orthonormal basis Z, and for the
-    /// dependency of each dropped row relative to its largest coefficient. One value for each row,
-    /// zero for rows that are not listed in `asked`.
+    /// Returns the change of some rows of the left null space of the scaled C within the
+    /// uncertainty of the data at fixed rank: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`. The change is computed for
+    /// an orthonormal basis Z, and for the dependency of each dropped row relative to its largest
+    /// coefficient. The result has one value for each row, zero for rows that are not listed in
+    /// `asked`.
     pub(crate) fn rows_within_data(
         &self,
         scaled: &Matrix,
@@ -134,11 +137,11 @@ impl Question<'_> {
         let blocks = self.mechanism.data().blocks(self.s);
         let z = rank::orthonormal(decision).transpose();
         let forces: Vec<Forces> = (0..z.nrows()).map(|k| pose.forces(z.row(k))).collect();
-        // The single dependencies in this basis; gradients are linear in them.
+        // The separate dependencies in this basis; gradients are linear in them.
         let single = single(decision).transpose().product(&z.transpose());
         let mut known = vec![0.0; scaled.nrows()];
         for &i in asked {
-            // C⁺·e_i, as the smallest solution of the kept rows of C·y = e_i − Z·Zᵀ·e_i.
+            // Computes C⁺·e_i as the smallest solution of the kept rows of C·y = e_i − Z·Zᵀ·e_i.
             let mut y = vec![0.0; scaled.ncols()];
             for (y, &k) in y.iter_mut().zip(factored.permutation()) {
                 let own = if kept[k] == i { 1.0 } else { 0.0 };
@@ -164,10 +167,10 @@ impl Question<'_> {
         known
     }
 
-    /// The angle by which the force of each row rotates within the uncertainty of the data,
-    /// including the change of pose that follows from it, and the length by which its line of
-    /// action shifts, which is determined by two points. A row without a force has a couple; in
-    /// space it rotates, too, in its body and with it.
+    /// Returns, for each row, the angle by which its force rotates within the uncertainty of the
+    /// data, including the resulting change of the configuration. The second value is the length by
+    /// which the line of action of the force shifts; two points determine this line. A row without
+    /// a force has a couple. In space, a couple also rotates within its body and with it.
     pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<[f64; 2]> {
         let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, decision.rank);
@@ -187,7 +190,7 @@ impl Question<'_> {
             }
             let mut own = vec![0.0; scaled.nrows()];
             own[i] = 1.0;
-            // Unit vectors across the force: one in the plane, two in space.
+            // Unit vectors perpendicular to the force: one in the plane, two in space.
             let n = columns.len();
             let vector = Matrix::from_fn(n, 1, |k, _| row[columns.start + k]);
             let directions = PivotedQr::of_columns(&vector).q_columns(1..n);
@@ -216,7 +219,7 @@ impl Question<'_> {
         (0..scaled.nrows()).map(|i| [of_row(i), shift]).collect()
     }
 
-    /// C with one unit for all lengths; the largest entry of each row is near one.
+    /// Returns C with one unit for all lengths; the largest entry of each row is near one.
     pub(super) fn uniform(&self, s: &Scratch) -> (Matrix, Scaling) {
         let c = self.dimensionless(s);
         let mut scaling = Scaling::identity(c.nrows(), c.ncols());
@@ -234,9 +237,10 @@ impl Question<'_> {
         dimensionless(self.mechanism, s, self.size).select_rows(self.places)
     }
 
-    /// Change of a block that counts as one metre: for an angle, the angle that moves a point at
-    /// the size of the mechanism by that. With a tolerance (m), the tolerance of each block
-    /// relative to it; a block without tolerance changes by its rounding.
+    /// Returns the change of a block that corresponds to one metre. For an angle, it is the angle
+    /// that moves a point at the size of the mechanism by one metre. With a tolerance (m), it is
+    /// the tolerance of the block relative to that tolerance; a block without tolerance changes by
+    /// its rounding.
     pub(super) fn unit(&self, block: &DataBlock, tolerance: Option<f64>) -> f64 {
         match (tolerance, block.unit) {
             (Some(tolerance), _) => block.known_to() / tolerance,
@@ -246,7 +250,8 @@ impl Question<'_> {
     }
 }
 
-/// The dependency of each dropped row in terms of the scaled rows, with largest coefficient 1.
+/// Returns the dependency of each dropped row in terms of the scaled rows, with largest coefficient
+/// 1.
 fn single(decision: &RankDecision) -> Matrix {
     let t = decision.equilibrated_dependence();
     let mut z = Matrix::zeros(decision.rank + decision.redundancy, decision.redundancy);
@@ -260,7 +265,7 @@ fn single(decision: &RankDecision) -> Matrix {
     z
 }
 
-/// The pairs of directions whose entries must vanish.
+/// Returns the pairs of directions whose entries must vanish.
 pub(super) fn pairs(pose: &Pose<'_>) -> impl Iterator<Item = (usize, usize)> {
     let (left, right) = (pose.left.nrows().min(PAIRS), pose.right.nrows().min(PAIRS));
     (0..left).flat_map(move |a| (0..right).map(move |b| (a, b)))
@@ -270,8 +275,8 @@ pub(super) fn rounding(scaled: &Matrix) -> f64 {
     ENTRY_ROUNDINGS * f64::EPSILON * (scaled.nrows() as f64 * scaled.ncols() as f64).sqrt()
 }
 
-/// The equation for a value that must vanish; the coefficients are for changes of blocks by their
-/// uncertainty.
+/// Returns the equation for a value that must vanish. Its coefficients are for changes of blocks by
+/// their uncertainty.
 pub(super) fn equation(
     target: f64,
     gradient: &[f64],

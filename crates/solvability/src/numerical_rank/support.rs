@@ -1,10 +1,10 @@
-//! Which rows certainly belong to a dependency, if the data have a stated tolerance.
+//! Determines which rows certainly belong to a dependency, if the data have a stated tolerance.
 //!
 //! A dependency `row s = Σ t_k·row k` over independent rows K that contain all of its other rows
-//! has one coefficient for each row of K, which is zero for rows outside the dependency. With the
-//! rank held it changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`, z the dependency itself. If such
-//! a change makes a coefficient zero, or a zero coefficient different from zero, it is undecided
-//! which rows depend on each other.
+//! has one coefficient for each row of K, which is zero for rows outside the dependency. At
+//! constant rank, the coefficient changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`, where z is the
+//! dependency itself. If such a change makes a coefficient zero, or a zero coefficient different
+//! from zero, it is undecided which rows depend on each other.
 
 use linalg::{Matrix, PivotedQr};
 use model::System;
@@ -15,19 +15,19 @@ use super::share::Question;
 
 /// A dependency expressed in independent rows that contain its other rows.
 struct Fundamental {
-    /// Independent rows, ascending, as many as the rank.
+    /// Independent rows, ascending; their number is the rank.
     kept: Vec<usize>,
-    /// Their coefficients.
+    /// Coefficients of these rows.
     t: Vec<f64>,
     /// The dependency `e_s − Σ t_k·e_k`, one value for each row.
     z: Vec<f64>,
-    /// `(C_K⁺)ᵀ`
+    /// Transposed pseudoinverse `(C_K⁺)ᵀ`.
     inverse: Matrix,
 }
 
 impl Fundamental {
-    /// Factors a dependency of the scaled C. Returns `None` if its rows without the one of largest
-    /// coefficient are not independent in `f64`.
+    /// Factors a dependency of the scaled C. Returns `None` if its rows, except the row with the
+    /// largest coefficient, are not independent in `f64`.
     fn new(scaled: &Matrix, decision: &RankDecision, circuit: &Circuit) -> Option<Self> {
         let rank = decision.rank;
         let size = |(&row, z): (&usize, &f64)| (z / decision.scaling.row_factor(row)).abs();
@@ -71,7 +71,8 @@ impl Fundamental {
 }
 
 impl Question<'_> {
-    /// Rows of the dependencies that are undecided because of a stated tolerance; ascending.
+    /// Returns the rows of dependencies that are undecided because of a stated tolerance,
+    /// ascending.
     pub(crate) fn open_rows(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<usize> {
         if decision.redundancy == 0 || !decision.is_decided() {
             return Vec::new();

@@ -1,6 +1,6 @@
-//! Mechanisms near a lower rank, with the change of data that lowers it. Sources of the numbers:
-//! the same cone program solved by another method (linear programming over coordinates, poses by
-//! finite differences), or by hand if a test says so.
+//! Mechanisms near a lower rank, with the change of data that lowers it. The expected numbers come
+//! from another solution of the same cone program (linear programming over coordinates,
+//! configurations by finite differences), or from manual calculation if a test states this.
 
 use joints::{Distance, Line, PointOnLine, Revolute};
 use model::{Body, BodyRef, Description, Function, Mechanism};
@@ -17,8 +17,8 @@ fn bar(name: &str, [x, y]: [f64; 2], angle: f64) -> Body {
     }
 }
 
-/// Three parallel cranks of half a metre on one coupler; the ground pin of the third is displaced
-/// by `off` along the base, and the hole of the crank is at the pin.
+/// Three parallel cranks of half a metre on one coupler. The ground pin of the third crank is
+/// displaced by `off` along the base, and the hole of the crank is at the pin.
 fn three_cranks(off: f64) -> Description {
     let angle = 0.7_f64;
     let (c, s) = (0.5 * angle.cos(), 0.5 * angle.sin());
@@ -44,8 +44,8 @@ fn three_cranks(off: f64) -> Description {
     d
 }
 
-/// A four-bar near its dead centre: crank and coupler enclose only `angle`, and the rocker is held
-/// by a bar across it.
+/// A four-bar near its dead centre: crank and coupler enclose only `angle`, and a bar across the
+/// rocker fixes it.
 fn held_four_bar(angle: f64) -> Description {
     let (a, b, c, g) = (0.2_f64, 0.5, 0.4, 0.6);
     let turn = (((a + b) * (a + b) + g * g - c * c) / (2.0 * (a + b) * g)).acos() + angle;
@@ -94,8 +94,8 @@ fn lower_rank(analysis: &Analysis) -> [Option<f64>; 2] {
     [certificate.lower_rank_here, certificate.lower_rank_from]
 }
 
-/// The misfit has to vanish at all poses, and the eight points between the first and the third
-/// crank share it: an eighth each.
+/// The constraint violation has to vanish at all configurations. The eight points between the first
+/// and the third crank share it, an eighth each.
 #[test]
 fn a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on() {
     assert_eq!(analysed(&three_cranks(0.0)).decision.rank, 11);
@@ -117,8 +117,8 @@ fn a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on() {
     }
 }
 
-/// A pin that is off by a nanometre: the change of data is that of the misfit still, and not of the
-/// rounding of the entries.
+/// A pin with an error of one nanometre: the required change of data is still that of the
+/// constraint violation, and not that of the rounding of the entries.
 #[test]
 fn a_misfit_above_the_rounding_of_entries_is_one_of_data() {
     let [Some(here), _] = lower_rank(&analysed(&three_cranks(1e-9))) else {
@@ -127,8 +127,8 @@ fn a_misfit_above_the_rounding_of_entries_is_one_of_data() {
     assert!((here / 7.92e-11 - 1.0).abs() < 0.06, "{here}");
 }
 
-/// A beam on rollers at 0, 1 and ε: `row 2 = (1 − ε)·row 0 + ε·row 1`. What the rounding of the
-/// data makes of a row is asked where its coefficient is neither noise nor beyond doubt.
+/// A beam on rollers at 0, 1 and ε: `row 2 = (1 − ε)·row 0 + ε·row 1`. The effect of the rounding
+/// of the data on a row is computed if its coefficient is neither noise nor certainly nonzero.
 #[test]
 fn data_are_asked_about_small_coefficients_that_are_no_noise() {
     let beam = |epsilon: f64| {
@@ -176,8 +176,8 @@ fn within(mut description: Description, tolerance: f64) -> Description {
     description
 }
 
-/// The third crank is redundant from a twentieth of a millimetre on; a third of that and three
-/// times that are decided.
+/// The third crank is redundant above a twentieth of a millimetre. Tolerances of a third of this
+/// value and three times this value are decided.
 #[test]
 fn a_tolerance_decides_what_is_redundant() {
     for (tolerance, rank) in [(1.2e-5, Some(12)), (5e-5, None), (1e-3, Some(11))] {
@@ -194,7 +194,7 @@ fn a_tolerance_decides_what_is_redundant() {
     let certificate = analysis.evidence().certificate.clone();
     let certificate = certificate.expect("certified");
     assert_eq!(certificate.grounds, rank::Grounds::WithinTolerance);
-    // Without a misfit all bearings share their load, as they do here.
+    // Without a constraint violation all bearings share their load, as they do here.
     for reaction in &analysis.reactions {
         assert_eq!(
             reaction.wrench.verdict,
@@ -205,7 +205,7 @@ fn a_tolerance_decides_what_is_redundant() {
     }
 }
 
-/// Near a dead centre a row is redundant at one pose only: no tolerance drops it.
+/// Near a dead centre, a row is redundant at one configuration only: no tolerance drops it.
 #[test]
 fn a_tolerance_drops_no_row_for_a_pose() {
     for angle in [1e-4, 1e-3] {
@@ -215,9 +215,9 @@ fn a_tolerance_drops_no_row_for_a_pose() {
     }
 }
 
-/// A truss whose five bars on one line are displaced from it by `off`, and two oblique bars. One of
-/// the three bars at the hinge of a body has its hole displaced by the same length. Of the seven
-/// rows, one is redundant for all positions of the points, and one more if they are in line.
+/// A truss with five bars that are displaced from one line by `off`, and two oblique bars. One of
+/// the three bars at the hinge of a body has its hole displaced by the same length. One of the
+/// seven rows is redundant for all positions of the points, and one more if they are collinear.
 #[test]
 fn rows_that_are_nearly_redundant_at_a_pose_are_left_out_together() {
     let truss = |off: f64| {
@@ -332,8 +332,9 @@ fn cylinders(digits: Option<i32>) -> Description {
     d
 }
 
-/// The mechanism has the same verdicts for any number of digits of its axes: those of the exact
-/// mechanism. If the digits leave a slide a fraction of the free force, its margin is reported.
+/// The mechanism has the same verdicts for any number of digits of its axes: the verdicts of the
+/// exact mechanism. If the digits assign a fraction of the free force to a slide, the margin of the
+/// slide is reported.
 #[test]
 fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     let verdicts = |analysis: &Analysis| -> Vec<&'static str> {
@@ -358,8 +359,8 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     };
     let exact = analysed(&cylinders(None));
     let exact = verdicts(&exact);
-    // Joints in order, then the drives: the force is in both cylinders, and the slides do not carry
-    // any of it.
+    // The joints come first, then the drives. The force is in both cylinders, and the slides carry
+    // no part of it.
     let [u, n] = ["unique", "not_unique"];
     assert_eq!(exact, [n, n, u, n, n, u, n, n, n]);
     for (digits, least, most) in [
@@ -393,10 +394,11 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     }
 }
 
-/// Two slides between the ground and one body, whose forces act on lines this far apart, in a scene
-/// of two metres: `n_B − n_A` rotates the body by that lever, which the angle rows balance. A lever
-/// that is zero within the tolerance is left out and its size reported; if it may be zero, it is
-/// undecided whether the angle rows belong to the dependency; a large one is part of it.
+/// Two slides between the ground and one body, whose forces act on lines at this distance, in a
+/// scene of two metres. The combination `n_B − n_A` rotates the body by that lever, which the angle
+/// rows balance. A lever that is zero within the tolerance is omitted, and its size is reported. If
+/// the lever may be zero, it is undecided whether the angle rows belong to the dependency. A large
+/// lever is part of it.
 #[test]
 fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
     let judged = |apart: f64, tolerance: f64| {
@@ -408,14 +410,14 @@ fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
         }
         d.tolerance.length = Some(tolerance);
         let found = analysed(&d);
-        let is_open = found.warnings.iter().any(|w| w.contains("it is open"));
+        let is_open = found.warnings.iter().any(|w| w.contains("it is undecided"));
         let rows: Vec<usize> = found.dependencies.iter().map(|d| d.rows.len()).collect();
         let left = found.dependencies.iter().map(|d| d.left_out);
         (rows, is_open, left.fold(0.0, f64::max))
     };
     let (rows, is_open, left) = judged(1e-4, 1e-2);
     assert_eq!((rows, is_open), (vec![2, 2], false));
-    // 1e-4 m of two metres, to the powers of two by which rows are scaled.
+    // The lever is 1e-4 m of two metres, up to the powers of two by which rows are scaled.
     assert!((1e-5..4e-4).contains(&left), "{left:e}");
     assert_eq!(judged(0.0, 1e-2), (vec![2, 2], false, 0.0));
     let (rows, is_open, _) = judged(0.02, 1e-2);
@@ -494,7 +496,7 @@ fn axle(angle: f64) -> Description {
 }
 
 /// Both directions have to be perpendicular to the axle, so one of them rotates by the whole
-/// difference. No tolerance of lengths is stated, so they keep their rounding.
+/// difference. No tolerance of lengths is stated, so lengths are uncertain by rounding.
 #[test]
 fn an_angle_tolerance_counts_alone() {
     let judged = |tolerance: model::Tolerance| {
@@ -533,7 +535,7 @@ fn an_angle_tolerance_counts_alone() {
     };
     let text = doubt.to_string();
     assert!(
-        text.contains("with data known to 5.0e-5 rad the rank is 1 or 2"),
+        text.contains("with data accurate to 5.0e-5 rad the rank is 1 or 2"),
         "{text}"
     );
 
@@ -580,14 +582,14 @@ fn data_that_contradict_each_other_within_the_tolerance_are_assembled() {
         );
     }
     let (residual, analysis) = clamped(Some(1e-4)).expect("it is assembled");
-    // The residual of both pins is half of the misfit.
+    // The residual of both pins is half of the constraint violation.
     assert!((residual - 2.5e-5).abs() < 1e-8, "{residual:e}");
     assert!(analysis.decision.is_decided());
     assert_eq!(
         (analysis.decision.rank, analysis.decision.redundancy),
         (3, 1)
     );
-    // Along the bar the pins press against each other.
+    // The pins can push against each other along the bar.
     let verdicts = analysis.reactions.iter().map(|r| {
         let components = r.components.iter();
         components

@@ -1,11 +1,12 @@
-//! Poses that a mechanism reaches on its kept rows: a redundancy exists at all of them, a
-//! singularity at one only.
+//! Continuation of a mechanism on its kept rows to other configurations. A redundancy exists at all
+//! of these configurations, a singularity only at one.
 //!
-//! Within a stated tolerance the intended mechanism has other data, and is at a pose nearby. To
-//! first order data within the tolerance move a pose by up to δq, on which C_K changes by δC_K. By
-//! the theorem of Newton and Kantorovich the pose certainly exists if `‖C_K⁺·δC_K‖ ≤ ½`; beyond,
-//! the first order says nothing: near a singular pose of the kept rows a walk may go on along a
-//! branch that the intended mechanism does not have.
+//! Within a stated tolerance, the intended mechanism has other data, and a nearby configuration. To
+//! first order, data within the tolerance move a configuration by up to δq, and C_K changes along
+//! this displacement by δC_K. By the theorem of Newton and Kantorovich, the configuration certainly
+//! exists if `‖C_K⁺·δC_K‖ ≤ ½`. Beyond this limit, the first order gives no result: near a singular
+//! configuration of the kept rows, a continuation may follow a branch that the intended mechanism
+//! does not have.
 //!
 //! Source: P. Deuflhard, Newton Methods for Nonlinear Problems (2004), section 2.1, for the form
 //! that does not depend on the scales of the rows.
@@ -23,14 +24,14 @@ use super::follow::{Ground, Step};
 use super::pose::Candidate;
 use super::share::Question;
 
-/// Poses of a mechanism.
+/// Configurations that a continuation has reached.
 pub(super) struct Walk {
     sides: [Side; 2],
-    /// Whether nothing can move.
+    /// Whether no motion is possible.
     is_still: bool,
 }
 
-/// Poses on one side of the first pose.
+/// Configurations on one side of the first one.
 #[derive(Default)]
 struct Side {
     /// Steps, if nonholonomic rows are kept.
@@ -38,19 +39,20 @@ struct Side {
     stops: Vec<Stop>,
 }
 
-/// A pose.
+/// A configuration of the continuation.
 struct Stop {
-    /// Its coordinates.
+    /// Coordinates of the configuration.
     q: Vec<f64>,
-    /// The number of steps that lead there.
+    /// Number of steps to this configuration.
     steps: usize,
-    /// `‖C_K⁺·δC_K‖` for data within the stated tolerance; zero without one.
+    /// `‖C_K⁺·δC_K‖` for data within the stated tolerance; zero without a tolerance.
     blur: f64,
 }
 
 impl Walk {
-    /// Coordinates of each pose of one side, and the steps that lead to it, the last one first; no
-    /// steps if only holonomic rows are kept, because these determine every pose directly.
+    /// Returns the coordinates of each configuration of one side, and the steps that lead to it,
+    /// the last step first. There are no steps if only holonomic rows are kept, because these rows
+    /// determine every configuration directly.
     pub(super) fn poses(
         &self,
         side: usize,
@@ -60,19 +62,19 @@ impl Walk {
         stops.iter().map(move |stop| (&*stop.q, steps(stop)))
     }
 
-    /// The last pose.
+    /// Returns the last configuration.
     pub(super) fn farthest(&self) -> Option<&[f64]> {
         let last = self.sides.iter().rev().find_map(|side| side.stops.last());
         last.map(|stop| &*stop.q)
     }
 
-    /// The number of poses on each side.
+    /// Returns the number of configurations on each side.
     pub(super) fn reach(&self) -> [usize; 2] {
         self.sides.each_ref().map(|side| side.stops.len())
     }
 
-    /// The number of poses on each side up to the first one that data within the tolerance move too
-    /// far for the first order.
+    /// Returns the number of configurations on each side before the first one that data within the
+    /// tolerance move too far for the first order.
     pub(super) fn known_reach(&self) -> [usize; 2] {
         self.sides.each_ref().map(|side| {
             let known = side.stops.iter().take_while(|stop| stop.blur <= KNOWN_POSE);
@@ -80,8 +82,8 @@ impl Walk {
         })
     }
 
-    /// The reach without the pose that data move farthest and those beyond it, if changes of this
-    /// share of the tolerance move it too far for the first order.
+    /// Returns the reach without the configuration that data move farthest and without those beyond
+    /// it, if changes of this share of the tolerance move it too far for the first order.
     pub(super) fn shorter(&self, reach: [usize; 2], share: f64) -> Option<[usize; 2]> {
         let of_side = |k: usize| {
             let stops = self.sides[k].stops[..reach[k]].iter().enumerate();
@@ -94,14 +96,15 @@ impl Walk {
         (blur * share > KNOWN_POSE).then_some(reach)
     }
 
-    /// Whether all poses of one side are within reach, or nothing can move.
+    /// Returns whether all configurations of one side are within reach, or no motion is possible.
     pub(super) fn is_complete(&self, reach: [usize; 2]) -> bool {
         self.is_still || reach.contains(&WALK_POSES)
     }
 }
 
-/// Up to six poses on both sides of the pose of the question, on the kept rows of Φ, along
-/// velocities that all kept rows allow: mainly the velocity that only the dropped rows prevent.
+/// Returns up to six configurations on both sides of the given one, on the kept rows of Φ. The
+/// continuation follows velocities that all kept rows allow: mainly the velocity that only the
+/// dropped rows prevent.
 pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
     let (mechanism, size) = (question.mechanism, question.size);
     let ground = Ground {
@@ -143,8 +146,8 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
     Walk { sides, is_still }
 }
 
-/// `‖C_K⁺·δC_K‖` of the kept rows of Φ, where data within their uncertainty move the pose such that
-/// one of its coordinates moves farthest.
+/// Returns `‖C_K⁺·δC_K‖` of the kept rows of Φ. Data within their uncertainty move the
+/// configuration such that one of its coordinates moves as far as possible.
 fn blur(ground: &Ground<'_>, q: &[f64]) -> f64 {
     let (mechanism, data) = (ground.mechanism, ground.mechanism.data());
     let rows = ground.holonomic();
@@ -190,12 +193,12 @@ fn blur(ground: &Ground<'_>, q: &[f64]) -> f64 {
         *x -= here;
     }
     let blur = singular_values(&followed.through(&change)).first().copied();
-    // A change that is not a number is no small one.
+    // A change that is not a number counts as infinite.
     blur.map_or(0.0, |blur| if blur.is_nan() { f64::INFINITY } else { blur })
 }
 
-/// One step, which is recorded if nonholonomic rows are kept. Returns `None` if the step cannot be
-/// made.
+/// Performs one step, which is recorded if nonholonomic rows are kept. Returns `None` if the step
+/// fails.
 fn step(
     ground: &Ground<'_>,
     (side, stride): (f64, f64),
@@ -206,7 +209,7 @@ fn step(
     let s = crate::pose::evaluated(mechanism, ground.t, q);
     let free = free_directions(&dimensionless(mechanism, &s, ground.size), ground.kept);
     let direction = match heading.take() {
-        // The projection of the last step onto the free directions.
+        // Projects the last step onto the free directions.
         Some(last) => free.transpose_times(&free.times(&last)),
         None => mixed(&free, side),
     };
@@ -237,13 +240,13 @@ fn step(
     Some(taken)
 }
 
-/// Velocities without dimensions that the kept rows allow, one in each row, the one that the other
-/// rows resist most first.
+/// Returns dimensionless velocities that the kept rows allow, one in each row. The velocity that
+/// the other rows constrain most comes first.
 fn free_directions(c: &Matrix, kept: &[usize]) -> Matrix {
     Candidate::of_rows(c, kept.to_vec()).into_free()
 }
 
-/// The first direction with a small part of the others, so that every freedom moves.
+/// Returns the first direction with a small part of the others, so that every freedom moves.
 fn mixed(free: &Matrix, side: f64) -> Vec<f64> {
     let share = |k: usize| match k {
         0 => side,

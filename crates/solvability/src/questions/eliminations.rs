@@ -1,4 +1,5 @@
-//! Which rows may be deleted without a change of motion: combinations of such sets of the parts.
+//! Determines which rows may be deleted without a change of motion, by combining the sets of rows
+//! of the parts.
 
 use model::codes::Code;
 use std::borrow::Cow;
@@ -11,7 +12,7 @@ use crate::groups::RequestError;
 use crate::make_unique::{DeletableRows, Proposals, make_unique};
 use crate::parts::ListedRows;
 
-/// Reason why it cannot be determined what may be deleted.
+/// Reason why the deletable rows cannot be determined.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EliminationError {
@@ -21,7 +22,7 @@ pub enum EliminationError {
     /// A part is too large.
     #[error(transparent)]
     Request(#[from] RequestError),
-    /// The number of sets, a product over the parts, is too large to be counted.
+    /// The number of sets, which is a product over the parts, is too large.
     #[error(
         "{parts} parts of the mechanism have their own sets, and the product of their numbers is more than 3.4e38"
     )]
@@ -32,7 +33,7 @@ pub enum EliminationError {
 }
 
 impl EliminationError {
-    /// Its code; see [`model::codes`].
+    /// Returns the error code; see [`model::codes`].
     #[must_use]
     pub fn code(&self) -> Code {
         match self {
@@ -43,12 +44,12 @@ impl EliminationError {
 }
 
 impl Questions<'_> {
-    /// The number of sets of rows that can be deleted without a change of motion; each set has as
-    /// many rows as the degree of redundancy.
+    /// Returns the number of sets of rows that can be deleted without a change of motion. The
+    /// number of rows in each set is the degree of redundancy.
     ///
     /// # Errors
-    /// If the rank of a part or one of its sets is undecided, a part is too large, or the number of
-    /// sets is too large.
+    /// Returns an error if the rank of a part or one of its sets is undecided, if a part is too
+    /// large, or if the number of sets is too large.
     pub fn eliminations(&self) -> Result<u128, EliminationError> {
         let mut product = 1_u128;
         for k in self.redundant() {
@@ -60,7 +61,7 @@ impl Questions<'_> {
         Ok(product)
     }
 
-    /// Parts that have dependent rows or an undecided rank.
+    /// Returns the parts that have dependent rows or an undecided rank.
     fn redundant(&self) -> impl Iterator<Item = usize> {
         let parts = self.parts().iter().enumerate();
         parts
@@ -71,11 +72,12 @@ impl Questions<'_> {
             .map(|(k, _)| k)
     }
 
-    /// The first of these sets, rows from 0. The sets of the parts are combined like the digits of
-    /// a number.
+    /// Returns the first `limit` sets of [`Self::eliminations`], with rows counted from 0. The sets
+    /// of the parts are combined like the digits of a number.
     ///
     /// # Errors
-    /// If the rank of a part or one of its sets is undecided, or a part is too large.
+    /// Returns an error if the rank of a part or one of its sets is undecided, or if a part is too
+    /// large.
     pub fn elimination_sets(&self, limit: usize) -> Result<Vec<Vec<usize>>, EliminationError> {
         let mut sets = vec![Vec::new()];
         sets.truncate(limit);
@@ -96,12 +98,12 @@ impl Questions<'_> {
         Ok(sets)
     }
 
-    /// The smallest deletions that make a reaction unique without a change of motion; they are in
-    /// the part of the reaction.
+    /// Returns the smallest deletions that make a reaction unique without a change of motion. They
+    /// are in the part of the reaction.
     ///
     /// # Errors
-    /// If the rank of the part or an answer is undecided, an allowed row does not exist, or the
-    /// part is too large.
+    /// Returns an error if the rank of the part or the effect of a deletion is undecided, if an
+    /// allowed row does not exist, or if the part is too large.
     pub fn make_unique(
         &self,
         id: ConstraintId,

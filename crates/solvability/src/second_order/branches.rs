@@ -1,17 +1,18 @@
-//! Other solutions of the quadratic equations, by Gauss–Newton iterations on the unit sphere from
-//! many starts.
+//! Finds other solutions of the quadratic equations by Gauss–Newton iterations on the unit sphere
+//! from many starts.
 
 use crate::limits::{BRANCH_ITERATIONS, BRANCH_RESIDUAL, BRANCH_STARTS, OTHER_BRANCH, SAME_BRANCH};
 use linalg::{Matrix, least_squares_step};
 
 use super::forms::Forms;
 
-/// Largest number of branches listed: the number of solutions if all are simple.
+/// Returns the largest number of listed branches: the number of solutions if all are simple.
 fn most(forms: &Forms) -> usize {
     (1 << forms.y()) - 1
 }
 
-/// Unit vectors a with `aᵀ·M_s·a = 0` for all forms that are not the motion itself, up to sign.
+/// Returns unit vectors a with `aᵀ·M_s·a = 0` for all forms that differ from the motion itself, up
+/// to sign.
 pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> = Vec::new();
     for start in 0..BRANCH_STARTS * most(forms) {
@@ -34,9 +35,9 @@ pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
     found
 }
 
-/// A unit vector as starting point; no two starts are the same.
+/// Returns a unit vector as starting point; no two starts are the same.
 pub(super) fn starting_point(n: usize, start: usize) -> Vec<f64> {
-    // Square roots of primes: their multiples are evenly distributed in all directions together.
+    // Multiples of square roots of primes are evenly distributed in all directions together.
     const PRIMES: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
     let place = (start + 1) as f64;
     unit(
@@ -60,7 +61,7 @@ fn unit(mut a: Vec<f64>) -> Vec<f64> {
     a
 }
 
-/// The solution to which the iteration converges from a.
+/// Returns the solution to which the iteration converges from a.
 pub(super) fn solve(forms: &[Matrix], mut a: Vec<f64>) -> Option<Vec<f64>> {
     let (n, equations) = (a.len(), forms.len() + 1);
     let weights = vec![1.0; n];
@@ -75,12 +76,12 @@ pub(super) fn solve(forms: &[Matrix], mut a: Vec<f64>) -> Option<Vec<f64>> {
             }
         }
         let met = residual.iter().all(|r| r.abs() <= BRANCH_RESIDUAL);
-        // The last row keeps the length fixed.
+        // The last row keeps the length constant.
         jacobian.row_mut(equations - 1).copy_from_slice(&a);
         let step = least_squares_step(&jacobian, &residual, &weights, f64::EPSILON).ok()?;
         a.iter_mut().zip(&step).for_each(|(a, d)| *a += d);
         a = unit(a);
-        // One more step after the residual has reached rounding.
+        // After the residual has reached rounding, one more step follows.
         if met {
             return Some(a);
         }

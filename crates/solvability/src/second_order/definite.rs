@@ -1,13 +1,14 @@
-//! A proof that no other velocity exists: a combination of the forms that does not contain the
-//! motion and is positive definite in the new motions, `Σ w_s·M_s = [0 0; 0 G]` with `yᵀ·G·y > 0`.
-//! Then y = 0. For one new motion the proof exists whenever the statement is true.
+//! Proves that no other velocity exists. The proof is a combination of the forms that does not
+//! contain the motion and is positive definite in the new motions, `Σ w_s·M_s = [0 0; 0 G]` with
+//! `yᵀ·G·y > 0`. It implies y = 0. For one new motion the proof exists whenever the statement is
+//! true.
 
 use crate::limits::{BLOCKED_CORRECTIONS, FORM_NOISE, MARGIN};
 use linalg::Matrix;
 
 use super::forms::Forms;
 
-/// Whether such a combination was found.
+/// Returns whether such a combination was found.
 pub(super) fn is_blocked(forms: &Forms) -> bool {
     let (x, y) = (forms.x(), forms.y());
     let mixed = Matrix::from_fn(forms.matrices.len(), x * y, |s, e| {
@@ -32,7 +33,7 @@ pub(super) fn is_blocked(forms: &Forms) -> bool {
     has_definite_combination(&definite, y)
 }
 
-/// Orthonormal vectors w with `wᵀ·mixed = 0`.
+/// Returns orthonormal vectors w with `wᵀ·mixed = 0`.
 fn combinations(decision: &rank::RankDecision) -> Vec<Vec<f64>> {
     let mut z = rank::orthonormal(decision);
     for i in 0..z.nrows() {
@@ -45,8 +46,8 @@ fn combinations(decision: &rank::RankDecision) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Perceptron: while there is a y with too small `yᵀ·G·y`, G moves towards the matrices that are
-/// positive for this y.
+/// Performs the perceptron iteration: while a y with too small `yᵀ·G·y` exists, G moves towards the
+/// matrices that are positive for this y.
 pub(super) fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
     let mut w: Vec<f64> = matrices
         .iter()
@@ -72,7 +73,8 @@ pub(super) fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
     false
 }
 
-/// A unit vector u with `uᵀ·G·u ≤ 0`, from `G = L·D·Lᵀ`. Returns `None` if G is positive definite.
+/// Returns a unit vector u with `uᵀ·G·u ≤ 0`, from `G = L·D·Lᵀ`. Returns `None` if G is positive
+/// definite.
 fn not_positive(mut g: Matrix) -> Option<Vec<f64>> {
     let n = g.nrows();
     for j in 0..n {

@@ -1,9 +1,9 @@
 //! The second-order equations as quadratic forms `aᵀ·M_s·a = 0`, one for each self-stress.
 //!
 //! Γ is quadratic in the velocities and in the rate of time, 1. With `v = x₀·v_in + N·(x₁, y)` it
-//! becomes homogeneous: `a = (x₀, x₁, y)`, with x₀ the rate of time (only if there are functions of
-//! time), x₁ the regular motions and y the new ones. Both are orthonormal in dimensionless
-//! velocities.
+//! becomes homogeneous in `a = (x₀, x₁, y)`. Here x₀ is the rate of time (only if there are
+//! functions of time), x₁ are the regular motions and y the new ones. Both are orthonormal in
+//! dimensionless velocities.
 
 use crate::limits::{FORM_ROUNDING, FORMS_MAX, REGULAR};
 use crate::pose::{dimensionless, evaluated, velocity_units};
@@ -16,19 +16,19 @@ use super::undetermined::SecondOrderDoubt;
 
 /// The forms, divided by their largest coefficient.
 pub(super) struct Forms {
-    /// Number of coordinates x, those of the motion itself.
+    /// Number of coordinates x of the motion itself.
     x: usize,
-    /// Symmetric, (x + y) × (x + y), with zeros in the block of x.
+    /// Symmetric matrices (x + y) × (x + y), with zeros in the block of x.
     pub(super) matrices: Vec<Matrix>,
-    /// Rows: the velocity that belongs to each coordinate of a.
+    /// The velocity for each coordinate of a, one in each row.
     basis: Vec<Vec<f64>>,
     /// Whether the first coordinate is the rate of time.
     driven: bool,
 }
 
 impl Forms {
-    /// The forms at a state; the columns of `regular` may be any velocities that span the regular
-    /// motions.
+    /// Creates the forms at a state. The columns of `regular` may be any velocities that span the
+    /// regular motions.
     pub(super) fn new(
         mechanism: &Mechanism,
         t: f64,
@@ -41,7 +41,7 @@ impl Forms {
         Self::of(mechanism, (t, q, v), decision, regular, driven)
     }
 
-    /// The forms of the velocities with `C·v = 0` alone: functions of time are held.
+    /// Creates only the forms of the velocities with `C·v = 0`, with locked functions of time.
     pub(super) fn held(
         mechanism: &Mechanism,
         t: f64,
@@ -71,7 +71,7 @@ impl Forms {
         let units = velocity_units(mechanism, size);
         let c = dimensionless(mechanism, &s, size);
         let n = c.ncols();
-        // Velocities without dimensions that satisfy C·w = 0, one in each row.
+        // Dimensionless velocities that satisfy C·w = 0, one in each row.
         let kept = decision.scaling.apply(&c).select_rows(&decision.kept);
         let mut null = PivotedQr::of_rows(kept).q_columns(decision.rank..n);
         for k in 0..n {
@@ -112,27 +112,28 @@ impl Forms {
         Ok(found)
     }
 
-    /// Number of coordinates.
+    /// Returns the number of coordinates.
     pub(super) fn len(&self) -> usize {
         self.basis.len()
     }
 
-    /// Number of x.
+    /// Returns the number of coordinates x.
     pub(super) fn x(&self) -> usize {
         self.x
     }
 
-    /// Number of y.
+    /// Returns the number of coordinates y.
     pub(super) fn y(&self) -> usize {
         self.len() - self.x
     }
 
-    /// Whether the first coordinate is the rate of time, which is not zero.
+    /// Returns whether the first coordinate is the rate of time, which is not zero.
     pub(super) fn is_driven(&self) -> bool {
         self.driven
     }
 
-    /// The velocity of a solution: scaled to the true rate of time, or to the speed of the motion.
+    /// Returns the velocity of a solution, scaled to the true rate of time, or to the speed of the
+    /// motion.
     pub(super) fn velocity(&self, a: &[f64]) -> Vec<f64> {
         let scale = if self.driven { 1.0 / a[0] } else { 1.0 };
         let mut sum = vec![0.0; self.basis[0].len()];
@@ -144,9 +145,9 @@ impl Forms {
         sum
     }
 
-    /// Extracts the forms from values of Γ; returns the size of the terms that are summed, or of
-    /// those that there would be if every body moved as fast as the motions do: bodies at rest move
-    /// by rounding, and the forms of that are rounding too.
+    /// Extracts the forms from values of Γ and returns the size of the summed terms. If this is
+    /// larger, it returns the size of the terms for bodies that all move as fast as the motions.
+    /// Computed velocities of bodies at rest are rounding, and so are their forms.
     fn evaluate(
         &mut self,
         mechanism: &Mechanism,
@@ -154,7 +155,7 @@ impl Forms {
         stresses: &[Vec<f64>],
         (size, natural): (f64, &[f64]),
     ) -> f64 {
-        // Without a drive and without freedom there is no velocity at all.
+        // Without a drive and without freedom, no velocity exists.
         let origin = if self.driven {
             self.basis[0].clone()
         } else {
@@ -170,7 +171,7 @@ impl Forms {
         mechanism.gamma(s);
         let moving = stresses.iter().map(|z| size_of(z, natural, s));
         let mut terms = moving.fold(0.0, f64::max);
-        // z·Γ at zero velocity plus a sum of motions.
+        // The value z·Γ at zero velocity plus a sum of motions.
         let mut values = |motions: &[(usize, f64)]| -> Vec<f64> {
             let mut v = origin.clone();
             for &(i, sign) in motions {
@@ -216,7 +217,8 @@ impl Forms {
         terms
     }
 
-    /// Divides by the largest coefficient and checks that the motion itself is a solution.
+    /// Divides the forms by the largest coefficient and checks that the motion itself is a
+    /// solution.
     fn normalise(&mut self, terms: f64) -> Result<(), SecondOrderDoubt> {
         let largest = self
             .matrices
@@ -249,7 +251,7 @@ impl Forms {
     }
 }
 
-/// Orthonormal coordinates, the first of which span the columns, and their number.
+/// Returns orthonormal coordinates and the number of leading coordinates that span the columns.
 fn split(columns: &Matrix) -> Result<(Matrix, usize), SecondOrderDoubt> {
     let decision = rank::decide(columns, rank::Accuracy::Absolute(REGULAR))
         .map_err(SecondOrderDoubt::Regular)?;
@@ -262,8 +264,8 @@ fn split(columns: &Matrix) -> Result<(Matrix, usize), SecondOrderDoubt> {
     }
 }
 
-/// Basis of the left null space, for the unscaled rows of C. Rows that are in no dependency are
-/// exactly zero: what rounding left of them would be a form where there is no other.
+/// Returns a basis of the left null space for the unscaled rows of C. Rows that are in no
+/// dependency are exactly zero. Otherwise their rounding would define a form that does not exist.
 fn self_stresses(decision: &RankDecision) -> Vec<Vec<f64>> {
     let mut z = rank::orthonormal(decision);
     let none = rank::support_tolerance(decision);

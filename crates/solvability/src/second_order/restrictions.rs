@@ -1,8 +1,8 @@
-//! What second order says of the velocities with `C·v = 0`, while functions of time are held.
+//! Second-order restrictions on the velocities with `C·v = 0`, while functions of time are locked.
 //!
-//! The velocities that no form contains are unrestricted: second order excludes none of them. The
-//! others are orthogonal to these and fall apart into sets of bodies that joints connect, because
-//! self-stresses do. Each set is decided alone.
+//! The velocities that no form contains are unrestricted: second order does not exclude them. The
+//! other velocities are orthogonal to these. They split into sets of bodies that joints connect,
+//! because self-stresses do. Each set is decided separately.
 
 use crate::limits::{FORM_NOISE, OWN_SHARE};
 use linalg::{Matrix, PivotedQr, small_svd};
@@ -14,15 +14,16 @@ use super::undetermined::SecondOrderDoubt;
 use super::zeros::{CommonZero, common_zero, is_transversal};
 use crate::pose::velocity_units;
 
-/// What second order says of velocities with `C·v = 0`.
+/// Second-order result for velocities with `C·v = 0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SecondOrder {
-    /// No combination of them satisfies the second-order equations: no motion has such a velocity.
+    /// No combination of the velocities satisfies the second-order equations: no motion has such a
+    /// velocity.
     Blocked,
-    /// Some of them satisfy the equations, and do so if coefficients change a little.
+    /// Some of the velocities satisfy the equations, also for slightly different coefficients.
     Free,
-    /// Neither is proved.
+    /// Neither statement is proved.
     Undecided,
 }
 
@@ -33,8 +34,8 @@ pub enum SecondOrder {
 pub struct RestrictedVelocities {
     /// The bodies, ascending.
     pub bodies: Vec<usize>,
-    /// A basis of the velocities, n_v each, orthonormal without dimensions; they are orthogonal to
-    /// the velocities that no equation contains.
+    /// A basis of the velocities, n_v values each, orthonormal in dimensionless form. They are
+    /// orthogonal to the velocities that no equation contains.
     pub velocities: Vec<Vec<f64>>,
     /// The decision.
     pub second_order: SecondOrder,
@@ -51,24 +52,25 @@ pub struct Restrictions {
     pub restricted: Vec<RestrictedVelocities>,
     /// Number of independent velocities that no equation contains.
     pub unrestricted: usize,
-    /// Why there are no equations, although there may be restrictions.
+    /// Reason why there are no equations, although there may be restrictions.
     pub undetermined: Option<SecondOrderDoubt>,
 }
 
-/// What second order says of an acceleration from rest.
+/// Second-order result for an acceleration from rest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum AccelerationVerdict {
-    /// It satisfies the equations, and there is such an acceleration if coefficients change a
-    /// little.
+    /// The acceleration satisfies the equations, and such an acceleration also exists for slightly
+    /// different coefficients.
     Possible,
-    /// It does not satisfy them.
+    /// The acceleration does not satisfy the equations.
     Excluded,
-    /// Neither is proved.
+    /// Neither statement is proved.
     Undecided,
 }
 
 impl RestrictedVelocities {
-    /// What second order says of an acceleration from rest with these coordinates, not all zero.
+    /// Returns the second-order result for an acceleration from rest with these coordinates, which
+    /// are not all zero.
     pub(crate) fn accelerated(&self, along: &[f64]) -> AccelerationVerdict {
         let length = along.iter().map(|x| x * x).sum::<f64>().sqrt();
         let a: Vec<f64> = along.iter().map(|x| x / length).collect();
@@ -87,8 +89,8 @@ impl RestrictedVelocities {
 }
 
 impl Restrictions {
-    /// Whether second order excludes every velocity: `None` if it does not decide. Without free
-    /// velocities there is nothing to exclude.
+    /// Returns whether second order excludes every velocity; `None` if it does not decide. Without
+    /// free velocities, the result is that it excludes every velocity.
     #[must_use]
     pub fn exclude_all(&self) -> Option<bool> {
         let mut decisions = self.restricted.iter().map(|r| r.second_order);
@@ -104,7 +106,7 @@ impl Restrictions {
         decisions.all(|d| d == SecondOrder::Blocked).then_some(true)
     }
 
-    /// A basis of the velocities with this decision, n_v each.
+    /// Returns a basis of the velocities with this result, n_v values each.
     #[must_use]
     pub fn velocities(&self, second_order: SecondOrder) -> Vec<Vec<f64>> {
         let sets = self.restricted.iter();
@@ -112,7 +114,7 @@ impl Restrictions {
         sets.flat_map(|set| set.velocities.clone()).collect()
     }
 
-    /// The restrictions by forms without a motion of their own.
+    /// Creates the restrictions from forms without a motion of their own.
     pub(super) fn of(forms: &Forms, mechanism: &Mechanism, q: &[f64]) -> Self {
         let basis = restricted(forms);
         let sets = sets(forms, &basis, mechanism, q);
@@ -141,7 +143,7 @@ impl Restrictions {
     }
 }
 
-/// Orthonormal rows that span the coordinates that the forms contain.
+/// Returns orthonormal rows that span the coordinates that the forms contain.
 fn restricted(forms: &Forms) -> Matrix {
     let (n, count) = (forms.len(), forms.matrices.len());
     let stacked = Matrix::from_fn(n * count, n, |k, j| forms.matrices[k / n][(k % n, j)]);
@@ -150,7 +152,7 @@ fn restricted(forms: &Forms) -> Matrix {
     qr.q_columns(0..rank).transpose()
 }
 
-/// The same coordinates, apart for each set of connected bodies: orthonormal rows.
+/// Returns these coordinates separately for each set of connected bodies, as orthonormal rows.
 fn sets(
     forms: &Forms,
     basis: &Matrix,
@@ -172,8 +174,8 @@ fn sets(
             .iter()
             .flat_map(|&b| mechanism.space().columns_of(b))
             .collect();
-        // What of each coordinate moves these bodies, in coordinates of the forms. The sum over the
-        // sets is direct, so each singular value is one or zero.
+        // Part of each coordinate that moves these bodies, in coordinates of the forms. The sum
+        // over the sets is direct, so each singular value is one or zero.
         let own = Matrix::from_fn(moving.len(), all.len(), |k, l| {
             columns.iter().map(|&j| moving[k][j] * all[l][j]).sum()
         });

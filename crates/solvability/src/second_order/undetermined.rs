@@ -7,12 +7,12 @@ use rank::{Doubt, RankError};
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum SecondOrderDoubt {
-    /// There are more new motions than are examined.
+    /// The number of new motions exceeds the largest number that is examined.
     #[error("{found} new motions at once, more than the {most} that are examined")]
     Kernel {
         /// Number of new motions.
         found: usize,
-        /// Largest number that is examined.
+        /// Largest number of motions that is examined.
         most: usize,
     },
     /// The number of regular motions is undecided.
@@ -21,7 +21,7 @@ pub enum SecondOrderDoubt {
     /// The regular motions exceed the range of numbers.
     #[error("the given regular motions cannot be compared: {0}")]
     Regular(RankError),
-    /// The quadratic equations are empty.
+    /// All quadratic equations are zero.
     #[error("all motions are compatible to second order; terms of third order would decide")]
     NoTerms,
     /// The given motion does not solve the equations.
@@ -31,10 +31,10 @@ pub enum SecondOrderDoubt {
     Irregular {
         /// Largest value of an equation, relative to its largest coefficient.
         residual: f64,
-        /// Largest value that is accepted.
+        /// Largest accepted value.
         tolerance: f64,
     },
-    /// Neither a proof that no other velocity exists nor another velocity was found.
+    /// The search found neither a proof that no other velocity exists nor another velocity.
     #[error("no other velocity was found, and no combination of self-stresses excludes one")]
     Open,
 }

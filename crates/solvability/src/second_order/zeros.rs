@@ -1,14 +1,15 @@
-//! Do quadratic forms have a common real zero other than the origin?
+//! Decides whether quadratic forms have a common real zero other than the origin.
 //!
-//! Each of the three results is a proof for every set of forms whose coefficients differ from the
-//! given ones by at most a stated error, or the result is that nothing is proved:
+//! The first two of the three results are proofs. They apply to every set of forms whose
+//! coefficients differ from the given ones by at most a stated error:
 //!
-//! - [`CommonZero::None`]: a combination of the forms is definite, or boxes cover the sphere in
-//!   each of which some combination has no zero ([`covering`]).
+//! - [`CommonZero::None`]: a combination of the forms is definite, or boxes cover the sphere and
+//!   some combination has no zero in each of them ([`covering`]).
 //! - [`CommonZero::Transversal`]: an interval Newton test finds a zero at which the gradients of
 //!   the forms are independent ([`transversal`]).
-//! - [`CommonZero::Undecided`]: double zeros, and as many independent forms as unknowns with a
-//!   common zero. Arbitrarily small changes of the coefficients remove them.
+//! - [`CommonZero::Undecided`]: no proof. Examples are double zeros, and as many independent forms
+//!   as unknowns with a common zero. Arbitrarily small changes of the coefficients remove such
+//!   zeros.
 //!
 //! Source of the test: R. Krawczyk, Newton-Algorithmen zur Bestimmung von Nullstellen mit
 //! Fehlerschranken, Computing 4 (1969) 187–201.
@@ -27,18 +28,18 @@ use independent::Independent;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CommonZero {
-    /// They have none.
+    /// The forms have no common zero.
     None,
-    /// They have one near this unit vector, and forms with slightly different coefficients do, too.
+    /// The forms have a common zero near this unit vector, also with slightly different
+    /// coefficients.
     Transversal(Vec<f64>),
-    /// Neither is proved within the error of the coefficients.
+    /// Neither statement is proved within the error of the coefficients.
     Undecided,
 }
 
-/// Decides whether symmetric matrices M_s (d × d, finite) have a common zero a ≠ 0 of
-/// `aᵀ·M_s·a`, if each coefficient may be wrong by `error` (absolute; the forms are used as they
-/// are). Without forms, or if all of them are zero, nothing is transversal: the result is
-/// undecided.
+/// Decides whether symmetric matrices M_s (d × d, finite) have a common zero a ≠ 0 of `aᵀ·M_s·a`,
+/// if each coefficient may be wrong by `error` (absolute; the forms are used as they are). Without
+/// forms, or if all of them are zero, no zero is transversal, and the result is undecided.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -53,7 +54,7 @@ pub enum CommonZero {
 /// ```
 ///
 /// # Panics
-/// If the matrices are not square and of one size.
+/// Panics if the matrices are not square or have different sizes.
 #[must_use]
 pub fn common_zero(forms: &[Matrix], error: f64) -> CommonZero {
     let unknowns = forms.first().map_or(0, Matrix::ncols);
@@ -76,8 +77,8 @@ pub fn common_zero(forms: &[Matrix], error: f64) -> CommonZero {
     CommonZero::Undecided
 }
 
-/// Whether a test proves that the forms have a common zero near a, at which their gradients are
-/// independent.
+/// Returns whether a test proves that the forms have a common zero near a, at which their gradients
+/// are independent.
 pub(super) fn is_transversal(forms: &[Matrix], error: f64, a: &[f64]) -> bool {
     transversal::is_proved(&Independent::of(forms, a.len(), error), a)
 }

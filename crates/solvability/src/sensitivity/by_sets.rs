@@ -1,7 +1,7 @@
-//! Changes of numbers that may depend on several sets of connected bodies, set by set.
+//! Computes changes of numbers that may depend on several sets of connected bodies, set by set.
 //!
-//! Different sets have different data, so the largest change of a sum is the largest of those of
-//! its shares.
+//! Different sets have different data, so the largest change of a sum is the largest change of its
+//! shares.
 
 use model::{ConstraintId, Mechanism, System};
 
@@ -15,9 +15,9 @@ use crate::row_decision::RowDecision;
 
 /// The share of one set in a number.
 struct Share {
-    /// Place of the number in the list.
+    /// Index of the number in the list.
     number: usize,
-    /// How many of its terms belong to the set.
+    /// Number of its terms that belong to the set.
     terms: usize,
     change: Change,
 }
@@ -33,14 +33,14 @@ enum SetError {
     Equations(#[from] ChoiceError),
 }
 
-/// The largest change of each number, and why some are not known.
+/// The largest change of each number, and reasons why some changes are not known.
 pub(super) struct Changes {
     pub(super) each: Vec<Option<Change>>,
     pub(super) left_out: Vec<String>,
 }
 
-/// The largest change of each number at time t, coordinates q and velocities v, one set of
-/// connected bodies after the other. `None` if a share is not known.
+/// Returns the largest change of each number at time t, coordinates q and velocities v, one set of
+/// connected bodies after the other. The change is `None` if a share is not known.
 pub(super) fn changes(
     mechanism: &Mechanism,
     state: (f64, &[f64], &[f64]),
@@ -81,7 +81,7 @@ pub(super) fn changes(
     }
 }
 
-/// The numbers that contain the reaction of each joint or drive.
+/// Returns the numbers that contain the reaction of each joint or drive.
 fn by_joint(mechanism: &Mechanism, numbers: &[ReactionNumber]) -> Vec<Vec<usize>> {
     let mut of_joint = vec![Vec::new(); mechanism.layout().groups.len()];
     for (k, number) in numbers.iter().enumerate() {
@@ -94,7 +94,7 @@ fn by_joint(mechanism: &Mechanism, numbers: &[ReactionNumber]) -> Vec<Vec<usize>
     of_joint
 }
 
-/// The numbers that contain reactions of a part, ascending.
+/// Returns the numbers that contain reactions of a part, ascending.
 fn within(extent: &Extent, part: &Mechanism, of_joint: &[Vec<usize>]) -> Vec<usize> {
     let groups = 0..part.layout().groups.len();
     let mut own: Vec<usize> = groups
@@ -121,7 +121,7 @@ fn of_set(
         return Err(SetError::Loads);
     }
     let kept = own_kept(kept, extent, part);
-    // In the numbers of the set.
+    // The numbers in the numbering of the set.
     let own: Vec<ReactionNumber> = wanted.iter().map(|&k| numbers[k].within(extent)).collect();
     let mut shares = if part.layout().rows() <= ROWS_MAX {
         let places: Vec<usize> = (0..own.len()).collect();
@@ -136,7 +136,8 @@ fn of_set(
     Ok(shares)
 }
 
-/// The rows of the whole mechanism (ascending) that belong to this part, numbered in the part.
+/// Returns the rows of the whole mechanism (ascending) that belong to this part, numbered in the
+/// part.
 fn own_kept(kept: &[usize], extent: &Extent, part: &Mechanism) -> Vec<usize> {
     let is_kept = |&row: &usize| kept.binary_search(&extent.row(row)).is_ok();
     (0..part.layout().rows()).filter(is_kept).collect()
@@ -149,8 +150,8 @@ fn place(change: &mut Change, extent: &Extent) {
     }
 }
 
-/// The shares of connected bodies in these numbers, with respect to all data of these bodies.
-/// `places` are the places of the numbers in a list of the caller.
+/// Returns the shares of connected bodies in these numbers, with respect to all data of these
+/// bodies. `places` are the indices of the numbers in a list of the caller.
 fn of_joined(
     joined: &JoinedBodies<'_>,
     t: f64,
@@ -169,8 +170,8 @@ fn of_joined(
     Ok(shares.map(share).collect())
 }
 
-/// Like [`of_joined`], part by part, each with respect to its own data; parts that are too large
-/// are left out.
+/// Works like [`of_joined`], part by part, each with respect to its own data; parts that are too
+/// large are omitted.
 fn by_parts(
     joined: &JoinedBodies<'_>,
     t: f64,

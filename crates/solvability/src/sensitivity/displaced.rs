@@ -1,7 +1,7 @@
-//! Near a limit position of its bodies, first order is not enough: the smallest singular value of
-//! the kept rows goes to zero with the root of the datum, and reactions grow with its inverse.
-//! There the mechanism with the displaced datum is solved. Bodies follow by the smallest motion,
-//! and velocities by the smallest change; loads are held.
+//! Solves the mechanism with a displaced datum near a limit position of its bodies, where the first
+//! order is not enough. There the smallest singular value of the kept rows approaches zero with the
+//! square root of the datum, and reactions grow with its inverse. Bodies follow by the smallest
+//! motion, and velocities by the smallest change; loads are constant.
 
 use linalg::{KeptRowSaddle, Matrix, least_squares_step};
 use model::{ConstraintId, Mechanism, System};
@@ -9,7 +9,7 @@ use model::{ConstraintId, Mechanism, System};
 use super::number::ReactionNumber;
 use crate::limits::{FOLLOW_CORRECTIONS, FOLLOW_END, FOLLOW_FIRST, FOLLOW_JUMP, FOLLOW_STEPS};
 
-/// The equations of connected bodies at one instant, whose data move.
+/// The equations of connected bodies at one instant, with variable data.
 pub(super) struct DisplacedEquations<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) t: f64,
@@ -25,9 +25,9 @@ pub(super) struct DisplacedEquations<'a> {
 }
 
 impl DisplacedEquations<'_> {
-    /// The largest changes of numbers from these values on the way to other data. `data` are all
-    /// numbers of the constraints after a share of the displacement; bodies follow in several
-    /// steps. `None` if no pose near the one before satisfies the rows.
+    /// Returns the largest changes of numbers from these values on the path to other data. `data`
+    /// returns all numbers of the constraints after a share of the displacement; bodies follow in
+    /// several steps. Returns `None` if no configuration near the previous one satisfies the rows.
     pub(super) fn changes(
         &self,
         numbers: &[ReactionNumber],
@@ -36,7 +36,7 @@ impl DisplacedEquations<'_> {
     ) -> Option<Vec<f64>> {
         let (mut q, mut at, mut rate) = (self.q.to_vec(), 0.0, f64::INFINITY);
         let mut changes = vec![0.0_f64; values.len()];
-        // The first step is short: it shows how fast bodies move.
+        // The first step is short, because it shows how fast the bodies move.
         let all = (1..=FOLLOW_STEPS).map(|k| k as f64 / FOLLOW_STEPS as f64);
         for share in std::iter::once(FOLLOW_FIRST).chain(all) {
             let displaced = self.mechanism.with_numbers(&data(share));
@@ -46,7 +46,7 @@ impl DisplacedEquations<'_> {
             }
             rate = moved.max(FOLLOW_END) / (share - at);
             at = share;
-            // Where the displaced mechanism passes nearest to a lower rank, a number is largest.
+            // A number is largest where the displaced mechanism is nearest to a lower rank.
             let there = self.solved(&displaced, &q, numbers)?;
             for (change, (there, value)) in changes.iter_mut().zip(there.iter().zip(values)) {
                 *change = change.max((there - value).abs());
@@ -55,20 +55,21 @@ impl DisplacedEquations<'_> {
         Some(changes)
     }
 
-    /// These rows at the pose of the scratch, without dimensions.
+    /// Returns these rows at the configuration of the scratch in dimensionless form.
     fn rows(&self, mechanism: &Mechanism, s: &model::Scratch, rows: &[usize]) -> Matrix {
         let c = mechanism.layout().dense(s).select_rows(rows);
         Matrix::from_fn(c.nrows(), c.ncols(), |i, j| c[(i, j)] * self.units[j])
     }
 
-    /// The smallest x without dimensions with `rows·x = −missed`.
+    /// Returns the smallest dimensionless x with `rows·x = −missed`.
     fn least(&self, rows: &Matrix, missed: &[f64]) -> Option<Vec<f64>> {
         let weights = vec![1.0; self.units.len()];
         let x = least_squares_step(rows, missed, &weights, f64::EPSILON).ok()?;
         x.iter().all(|x| x.is_finite()).then_some(x)
     }
 
-    /// Moves coordinates onto the kept holonomic rows; returns how far, in sizes.
+    /// Moves coordinates onto the kept holonomic rows; returns the distance in sizes of the
+    /// mechanism.
     fn follow(&self, mechanism: &Mechanism, q: &mut [f64]) -> Option<f64> {
         let m = mechanism.layout().m;
         let holonomic = &self.kept[..self.kept.partition_point(|&i| i < m)];
@@ -95,7 +96,7 @@ impl DisplacedEquations<'_> {
         None
     }
 
-    /// The values of numbers at coordinates that satisfy the kept rows.
+    /// Returns the values of numbers at coordinates that satisfy the kept rows.
     fn solved(
         &self,
         mechanism: &Mechanism,

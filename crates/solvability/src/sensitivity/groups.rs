@@ -1,4 +1,5 @@
-//! Sensitivities of groups: of a sum as a whole, not of its terms.
+//! Sensitivities of groups. The sensitivity of a sum is that of the sum as a whole, not that of its
+//! terms.
 
 use model::Mechanism;
 
@@ -8,27 +9,28 @@ use crate::choices::ChoiceError;
 use crate::groups::{Group, GroupVerdict};
 use crate::value::Sensitivity;
 
-/// Sensitivities of the numbers of a group that are unique.
+/// Sensitivities of the unique numbers of a group.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GroupSensitivities {
-    /// Those of its numbers by their names, as [`Group::number_names`]. The terms of a sum change
-    /// together: what changes them may cancel in the sum.
+    /// Sensitivities of its numbers by their names, as in [`Group::number_names`]. The terms of a
+    /// sum change together, so their changes may cancel in the sum.
     pub numbers: Vec<(&'static str, Sensitivity)>,
-    /// The largest of them; of several separate reactions the largest of theirs, if all are unique.
-    /// `None` if nothing is unique, or if it is not known.
+    /// The largest sensitivity of the group. For several separate reactions, it is the largest
+    /// sensitivity of these reactions, if all are unique. `None` if no number is unique, or if the
+    /// sensitivity is not known.
     pub whole: Option<Sensitivity>,
 }
 
 impl GroupSensitivities {
-    /// The sensitivity of a number that is unique, by its name.
+    /// Returns the sensitivity of a unique number, by its name.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<&Sensitivity> {
         let mut numbers = self.numbers.iter();
         numbers.find(|(known, _)| *known == name).map(|(_, s)| s)
     }
 
-    /// Whether one of its numbers is fragile.
+    /// Returns whether one of its numbers is sensitive to data (fragile).
     #[must_use]
     pub fn is_fragile(&self) -> bool {
         self.whole.as_ref().is_some_and(Sensitivity::is_fragile)
@@ -40,7 +42,7 @@ impl Analysis {
     /// and the sensitivities of all reactions.
     ///
     /// # Errors
-    /// As [`Self::sensitivities`].
+    /// Same errors as [`Self::sensitivities`].
     pub fn group_sensitivities(
         &self,
         mechanism: &Mechanism,
@@ -78,7 +80,7 @@ impl Analysis {
     }
 }
 
-/// The unique numbers of a group, with their names.
+/// Returns the unique numbers of a group, with their names.
 fn unique_numbers(
     mechanism: &Mechanism,
     group: &Group,

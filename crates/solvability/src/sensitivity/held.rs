@@ -1,5 +1,5 @@
-//! How numbers of reactions change with the pose and the data if the multipliers stay as they are:
-//! the directions of rows and the places of joints move.
+//! Computes how numbers of reactions change with the configuration and the data at constant
+//! multipliers: the directions of rows and the reference points of joints move.
 
 use std::collections::BTreeMap;
 
@@ -12,9 +12,9 @@ use crate::limits::SLOPE_STEP;
 /// Derivatives of one number at fixed multipliers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HeldSlopes {
-    /// By velocity directions of the pose.
+    /// Derivatives with respect to velocity directions of the configuration.
     pub(super) by_pose: Vec<(usize, f64)>,
-    /// By the numbers of the constraints.
+    /// Derivatives with respect to the numbers of the constraints.
     pub(super) by_data: Vec<(usize, f64)>,
 }
 
@@ -29,8 +29,8 @@ pub(super) struct HeldMultipliers<'a> {
 }
 
 impl HeldMultipliers<'_> {
-    /// The derivatives of these numbers, by central differences of values at neighbouring poses and
-    /// of mechanisms that store neighbouring data.
+    /// Returns the derivatives of these numbers, by central differences of values at neighbouring
+    /// configurations and of mechanisms that store neighbouring data.
     pub(super) fn slopes(
         &self,
         numbers: &[ReactionNumber],
@@ -90,7 +90,8 @@ impl HeldMultipliers<'_> {
         }
     }
 
-    /// The data of a joint change its own reaction only.
+    /// Returns the derivatives with respect to the data of a joint, which change only its own
+    /// reaction.
     fn by_data(
         &self,
         numbers: &[ReactionNumber],
@@ -118,7 +119,7 @@ impl HeldMultipliers<'_> {
                 for place in block.numbers.clone() {
                     let [plus, minus] = [step, -step].map(|step| {
                         stored[place - first] = all[place] + step;
-                        // Axes turn from where they are, so each value has its own copy.
+                        // Axes rotate from their current position, so each value has its own copy.
                         let mut copy = self.mechanism.copy_of(ConstraintId(joint));
                         copy.set_numbers(&stored);
                         let reactions = self.mechanism.reactions(&s).with(&copy);
@@ -133,7 +134,7 @@ impl HeldMultipliers<'_> {
         }
     }
 
-    /// The contributions of these joints to the numbers that contain them.
+    /// Returns the contributions of these joints to the numbers that contain them.
     fn values(
         &self,
         reactions: Reactions<'_>,
@@ -153,7 +154,8 @@ impl HeldMultipliers<'_> {
     }
 }
 
-/// Slopes between two lists of values of the same numbers, two steps apart; zeros are left out.
+/// Returns slopes between two lists of values of the same numbers, two steps apart; zeros are
+/// omitted.
 fn slopes(
     plus: Vec<(usize, f64)>,
     minus: Vec<(usize, f64)>,

@@ -22,7 +22,7 @@ use crate::choices::ChoiceError;
 use crate::value::{Datum, Sensitivity};
 
 /// Angle between the directions of successive unit loads (rad): the golden angle, which is far from
-/// every simple fraction of a turn.
+/// every simple fraction of a revolution.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// The solved equations of connected bodies at one instant.
@@ -35,21 +35,21 @@ pub(super) struct SolvedEquations<'a> {
     saddle: KeptRowSaddle,
     lambda: Vec<f64>,
     slopes: Slopes,
-    /// The equations with displaced data, where a pose of lower rank is near.
+    /// The equations with displaced data, if a configuration of lower rank is near.
     displaced: Option<DisplacedEquations<'a>>,
     /// Points, directions and numbers, with the displacement of each.
     blocks: Vec<(DataBlock, f64)>,
-    /// Largest applied or inertial load (N; torques divided by the size).
+    /// Largest applied or inertial load (N); torques are divided by the size.
     load: f64,
     work: Work,
 }
 
-/// Derivatives of the constraints with respect to pose, velocities and data. Applied loads stay as
-/// they are.
+/// Derivatives of the constraints with respect to configuration, velocities and data, at constant
+/// applied loads.
 struct Slopes {
     derivatives: model::Derivatives,
     by_data: DataGradients,
-    /// Factored kept rows of C, if anything depends on velocities, and of Φ, with columns in
+    /// Factored kept rows of C, if the result depends on velocities, and of Φ, with columns in
     /// velocity units.
     c: Option<Follow>,
     phi_q: Follow,
@@ -112,8 +112,8 @@ impl<'a> SolvedEquations<'a> {
         let mut load = largest_load(mechanism, &joined.force, &a, size);
         let (mut mass, mut force) = (mechanism.mass().to_vec(), joined.force.to_vec());
         if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
-            // At rest and with equal masses: without a load there is no reference for speed or
-            // mass.
+            // The bodies are at rest and have equal masses: without a load there is no reference
+            // for speed or mass.
             v = Cow::Owned(vec![0.0; n]);
             mechanism.twist(&v, &mut s);
             gamma.fill(0.0);
@@ -171,7 +171,7 @@ impl<'a> SolvedEquations<'a> {
         })
     }
 
-    /// The largest change of each number with one datum.
+    /// Returns the largest change of each number with one datum.
     pub(super) fn changes(
         &mut self,
         numbers: &[ReactionNumber],
@@ -203,8 +203,8 @@ impl<'a> SolvedEquations<'a> {
         Ok(changes)
     }
 
-    /// Takes the changes of the mechanisms with displaced data into account, the strongest data
-    /// first. Numbers that are fragile to first order stay as they are.
+    /// Includes the changes of the mechanisms with displaced data, the most influential data first.
+    /// Numbers that are sensitive to first order do not change.
     fn displace(
         &self,
         numbers: &[ReactionNumber],
@@ -246,7 +246,8 @@ impl<'a> SolvedEquations<'a> {
                     }
                     let other = match &there {
                         Some(changes) => changes[k],
-                        // Without a pose a number that the datum moves is none.
+                        // If no configuration exists, a number that depends on the datum has no
+                        // value.
                         None if own.numbers.contains(&k) && share >= FIRST_ORDER => change.whole(),
                         None => 0.0,
                     };
@@ -259,7 +260,8 @@ impl<'a> SolvedEquations<'a> {
         }
     }
 
-    /// The data that change a number with this gradient nearly as much as the largest change.
+    /// Returns the data that change a number with this gradient nearly as much as the largest
+    /// change.
     fn strongest(&self, (number, change): (usize, &Change), gradient: &[f64]) -> Vec<Displacement> {
         let each = self.blocks.iter().enumerate();
         let strong = each.filter_map(|(k, (block, moved))| {
@@ -274,7 +276,7 @@ impl<'a> SolvedEquations<'a> {
         strong.collect()
     }
 
-    /// The largest change of a number with this gradient.
+    /// Returns the largest change of a number with this gradient.
     fn change(&self, number: &ReactionNumber, gradient: &[f64]) -> Change {
         let changes = self.blocks.iter();
         let changes: Vec<f64> = changes
@@ -284,7 +286,7 @@ impl<'a> SolvedEquations<'a> {
         let mut changed = changes.iter();
         let first = changed.position(|change| SAME_EFFECT * change >= largest);
         let by = first.filter(|_| largest > 0.0);
-        // NaN if the equations are too nearly singular.
+        // The gradient is NaN if the equations are too nearly singular.
         let is_known = changes.iter().all(|change| change.is_finite());
         Change {
             largest: if is_known { largest } else { f64::NAN },
@@ -294,7 +296,7 @@ impl<'a> SolvedEquations<'a> {
         }
     }
 
-    /// The contributions of these joints to a number, for these multipliers.
+    /// Returns the contributions of these joints to a number, for these multipliers.
     fn value(
         &self,
         number: &ReactionNumber,
@@ -308,7 +310,7 @@ impl<'a> SolvedEquations<'a> {
         joints.into_iter().map(of_joint).sum()
     }
 
-    /// The gradient of a number by all numbers of the constraints.
+    /// Returns the gradient of a number with respect to all numbers of the constraints.
     fn gradient(
         &mut self,
         number: &ReactionNumber,
@@ -334,13 +336,13 @@ impl<'a> SolvedEquations<'a> {
         }
         let slopes = &self.slopes;
         let d = &slopes.derivatives;
-        // Through the velocities, which follow the data and the pose.
+        // Contribution through the velocities, which follow the data and the configuration.
         if let Some(c) = &slopes.c {
             w.by_pose.fill(0.0);
             add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
             c.multipliers(&mut w.by_pose, &mut w.w_v);
         }
-        // Through the pose, which follows the data.
+        // Contribution through the configuration, which follows the data.
         w.by_pose.fill(0.0);
         for &(column, slope) in &held.by_pose {
             w.by_pose[column] += slope;
@@ -362,11 +364,11 @@ impl<'a> SolvedEquations<'a> {
 /// The largest change of a number of reactions with one datum.
 #[derive(Clone, Debug)]
 pub(super) struct Change {
-    /// The change; NaN if the equations are too nearly singular.
+    /// The largest change; NaN if the equations are too nearly singular.
     pub(super) largest: f64,
-    /// The datum; `None` if nothing changes the number.
+    /// The datum with the largest change; `None` if no datum changes the number.
     pub(super) by: Option<Datum>,
-    /// The number.
+    /// Value of the number.
     pub(super) value: f64,
     /// The largest load in the unit of the number.
     pub(super) load: f64,
@@ -374,10 +376,10 @@ pub(super) struct Change {
 
 /// A datum that moves in the direction in which it changes some numbers most.
 struct Displacement {
-    /// Places of the numbers.
+    /// Indices of the numbers.
     numbers: Vec<usize>,
     block: usize,
-    /// Unit vector.
+    /// Direction of the displacement, a unit vector.
     by: [f64; 3],
     /// The largest of their changes to first order, as a share.
     share: f64,
@@ -401,12 +403,12 @@ fn datum(block: &DataBlock, moved: f64) -> Datum {
 }
 
 impl Change {
-    /// What it is a share of: the number, or the load.
+    /// Returns the reference value of the share: the number, or the load.
     fn whole(&self) -> f64 {
         self.value.abs().max(self.load)
     }
 
-    /// The change as a share; NaN if it is not known.
+    /// Returns the change as a share; NaN if it is not known.
     fn share(&self) -> f64 {
         match self.by {
             None if self.largest == 0.0 => 0.0,
@@ -414,14 +416,14 @@ impl Change {
         }
     }
 
-    /// The change as a fraction; `None` if it is not known.
+    /// Returns the change as a fraction; `None` if it is not known.
     pub(super) fn relative(self) -> Option<Sensitivity> {
         let change = self.share();
         let by = self.by;
         change.is_finite().then_some(Sensitivity { change, by })
     }
 
-    /// The change of a sum of two numbers that depend on different data.
+    /// Returns the change of a sum of two numbers that depend on different data.
     pub(super) fn and(self, other: Self) -> Self {
         let (value, load) = (self.value + other.value, self.load.max(other.load));
         let larger = if other.largest > self.largest || other.largest.is_nan() {
@@ -471,7 +473,7 @@ impl Follow {
     }
 }
 
-/// `y ← y + factor·Aᵀ·x`
+/// Computes `y ← y + factor·Aᵀ·x`.
 fn add_transposed(
     matrix: impl Iterator<Item = (usize, usize, f64)>,
     x: &[f64],
@@ -483,8 +485,8 @@ fn add_transposed(
     }
 }
 
-/// The largest applied or inertial force on a body (N), torques divided by the size. Forces and
-/// torques count as vectors: single components depend on the axes.
+/// Returns the largest applied or inertial force on a body (N); torques are divided by the size.
+/// Forces and torques count as vectors, because single components depend on the axes.
 fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f64 {
     let inertial: Vec<f64> = mechanism.mass().iter().zip(a).map(|(m, a)| m * a).collect();
     let space = mechanism.space();
@@ -498,7 +500,7 @@ fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f
     bodies.map(of_body).fold(0.0, f64::max)
 }
 
-/// Whether rows of length one, with columns in these units, are near a lower rank.
+/// Returns whether rows of length one, with columns in these units, are near a lower rank.
 fn is_near_limit(rows: &Matrix, units: &[f64]) -> bool {
     let mut scaled = Matrix::from_fn(rows.nrows(), units.len(), |i, j| rows[(i, j)] * units[j]);
     for i in 0..rows.nrows() {
@@ -509,8 +511,9 @@ fn is_near_limit(rows: &Matrix, units: &[f64]) -> bool {
     weakest.is_some_and(|weakest| weakest.sigma < NEAR_LIMIT)
 }
 
-/// Velocities of one unit: 1 m/s, and the rate that moves a point at the size of the mechanism as
-/// fast. They weigh motions, so they are not rounded: a sensitivity does not depend on units.
+/// Returns velocities of one unit: 1 m/s, and the rate that moves a point at the size of the
+/// mechanism as fast. They are weights of motions and are not rounded, because a sensitivity must
+/// not depend on units.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let kinds = mechanism.layout().column_kinds();
     let unit = |kind: &ColumnKind| match kind {
@@ -520,8 +523,8 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     kinds.iter().map(unit).collect()
 }
 
-/// The length to which manufacturing accuracy refers for the bodies of a joint (m): several times
-/// their reach; infinite if the reach is not known.
+/// Returns the length to which manufacturing accuracy refers for the bodies of a joint (m): several
+/// times their reach, or infinity if the reach is not known.
 fn piece(mechanism: &Mechanism, group: usize) -> f64 {
     let bodies = mechanism.layout().groups[group].bodies.iter();
     let reach = bodies
@@ -533,7 +536,7 @@ fn piece(mechanism: &Mechanism, group: usize) -> f64 {
     }
 }
 
-/// The force (N) that would stop the fastest body within the size of the mechanism.
+/// Returns the force (N) that would stop the fastest body within the size of the mechanism.
 fn largest_stop(mechanism: &Mechanism, v: &[f64], size: f64) -> f64 {
     let kinds = mechanism.layout().column_kinds();
     let of = |((m, v), kind): ((&f64, &f64), &ColumnKind)| {
@@ -547,7 +550,7 @@ fn largest_stop(mechanism: &Mechanism, v: &[f64], size: f64) -> f64 {
     each.map(of).fold(0.0, f64::max)
 }
 
-/// A force of 1 N on each body, and a torque of up to 1 N times the size.
+/// Returns a force of 1 N on each body, and a torque of up to 1 N times the size.
 fn unit_loads(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let kinds = mechanism.layout().column_kinds();
     let number = |(j, kind): (usize, &ColumnKind)| {

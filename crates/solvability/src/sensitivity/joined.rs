@@ -1,5 +1,5 @@
-//! Bodies connected by joints, examined set by set, so that a machine has the same result alone and
-//! among others.
+//! Analyses bodies connected by joints set by set, so that a machine has the same result alone and
+//! among other machines.
 //!
 //! Springs do not connect sets: the force of a spring is a load.
 
@@ -12,7 +12,7 @@ use crate::parts::{Extent, Partition};
 
 /// A set of bodies with the joints between them, and the forces on it.
 pub(super) struct JoinedBodies<'a> {
-    /// The mechanism of the set; without forces, unless it is the whole mechanism.
+    /// The mechanism of the set. It has no forces, unless it is the whole mechanism.
     pub(super) mechanism: &'a Mechanism,
     /// Joints, bodies and rows of the set in the whole mechanism.
     pub(super) extent: &'a Extent,
@@ -24,8 +24,8 @@ pub(super) struct JoinedBodies<'a> {
 }
 
 impl JoinedBodies<'_> {
-    /// A part of the set with its own joints, given a solution of the whole set: the forces of the
-    /// other joints on its bodies become constant loads.
+    /// Returns a part of the set with its own joints, given a solution of the whole set. The forces
+    /// of the other joints on its bodies become constant loads.
     pub(super) fn of_part<'b>(
         &self,
         part: &'b Mechanism,
@@ -56,7 +56,8 @@ impl JoinedBodies<'_> {
     }
 }
 
-/// The sets of joints and drives on bodies that they connect. Those that move no body are in none.
+/// Returns the sets of joints and drives on bodies that they connect. Joints that move no body
+/// belong to no set.
 fn sets(mechanism: &Mechanism) -> Partition {
     let groups = &mechanism.layout().groups;
     let all: Vec<usize> = (0..groups.len()).collect();

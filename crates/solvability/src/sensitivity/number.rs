@@ -1,5 +1,5 @@
-//! Numbers that are linear in the reactions: components, directions, sums, moments. Each can be
-//! evaluated at any pose and for any data, so it changes as the reported number does.
+//! Numbers that are linear in the reactions: components, directions, sums, moments. Each number can
+//! be evaluated at any configuration and for any data, so it changes like the reported number.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ pub struct ReactionNumber {
     terms: Vec<ReactionTerm>,
 }
 
-/// One reaction, multiplied by a fixed vector or read in axes that follow the pose.
+/// One reaction, multiplied by a fixed vector or resolved in axes that follow the configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct ReactionTerm {
     joint: ConstraintId,
@@ -26,7 +26,8 @@ struct ReactionTerm {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
-    /// `force·F + torque·T` with fixed directions, T about a fixed point or about the place.
+    /// `force·F + torque·T` with fixed directions; T is taken about a fixed point or about the
+    /// reference point.
     Along {
         force: [f64; 3],
         torque: [f64; 3],
@@ -34,13 +35,13 @@ enum Kind {
     },
     /// The named component of the definition.
     Named,
-    /// A component in axes that follow the pose, as index of [`SpaceKind::components_in`].
+    /// A component in axes that follow the configuration, as index of [`SpaceKind::components_in`].
     InFrame { frame: Frame, component: usize },
 }
 
 impl ReactionNumber {
-    /// A component of a reaction by its name: one of the components of the space, or the named
-    /// component of the definition.
+    /// Returns a component of a reaction by its name: one of the components of the space, or the
+    /// named component of the definition.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`]
@@ -54,10 +55,10 @@ impl ReactionNumber {
         Ok(number)
     }
 
-    /// `Σ direction[k]·component[k]`, with the components by their names.
+    /// Returns `Σ direction[k]·component[k]`, with the components given by their names.
     ///
     /// # Errors
-    /// As [`Self::component`].
+    /// Same errors as [`Self::component`].
     pub fn direction<'n>(
         mechanism: &Mechanism,
         id: ConstraintId,
@@ -75,24 +76,25 @@ impl ReactionNumber {
         Ok(Self::along(id, force, torque, about))
     }
 
-    /// The moment of a reaction along a fixed direction about a fixed point (m), ground axes.
+    /// Returns the moment of a reaction along a fixed direction about a fixed point (m), in ground
+    /// axes.
     #[must_use]
     pub fn moment(id: ConstraintId, along: [f64; 3], about: [f64; 3]) -> Self {
         Self::along(id, [0.0; 3], along, Some(about))
     }
 
-    /// A component of a reaction in a frame, as index of [`SpaceKind::components_in`]. The axes
-    /// follow the pose.
+    /// Returns a component of a reaction in a frame, given its index in
+    /// [`SpaceKind::components_in`]. The axes follow the configuration.
     #[must_use]
     pub fn in_frame(id: ConstraintId, frame: Frame, component: usize) -> Self {
         Self::of(id, 1.0, Kind::InFrame { frame, component })
     }
 
-    /// The numbers of a sum with their names, as [`crate::ReactionForms::numbers`]; moments about
-    /// this fixed point. Groups of separate reactions and resultants have none.
+    /// Returns the numbers of a sum with their names, as in [`crate::ReactionForms::numbers`], with
+    /// moments about this fixed point. Groups of separate reactions and resultants have no numbers.
     ///
     /// # Errors
-    /// As [`Self::component`].
+    /// Same errors as [`Self::component`].
     pub fn of_group(
         mechanism: &Mechanism,
         group: &Group,
@@ -186,17 +188,17 @@ impl ReactionNumber {
         Ok(())
     }
 
-    /// The joints and drives of its terms, each once, ascending.
+    /// Returns the joints and drives of its terms, each once, ascending.
     pub(super) fn joints(&self) -> BTreeSet<usize> {
         self.terms.iter().map(|term| term.joint.0).collect()
     }
 
-    /// Number of its terms.
+    /// Returns the number of terms of this number.
     pub(super) fn terms(&self) -> usize {
         self.terms.len()
     }
 
-    /// Its terms that belong to a part, with the numbers of the part.
+    /// Returns its terms that belong to a part, in the numbering of the part.
     pub(super) fn within(&self, extent: &Extent) -> Self {
         let own = self.terms.iter().filter_map(|term| {
             let joint = ConstraintId(extent.own_group(term.joint.0)?);
@@ -207,8 +209,8 @@ impl ReactionNumber {
         }
     }
 
-    /// What a load of 1 N counts in it: 1 for forces, the size (m) for torques; of several terms
-    /// the largest.
+    /// Returns the value of a load of 1 N in this number: 1 for forces, the size (m) for torques.
+    /// For several terms, it is the largest value.
     pub(super) fn unit(&self, mechanism: &Mechanism, size: f64) -> f64 {
         let space = mechanism.space();
         let of = |term: &ReactionTerm| {
@@ -224,7 +226,7 @@ impl ReactionNumber {
         self.terms.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// The contribution of one joint or drive with this reaction.
+    /// Returns the contribution of one joint or drive with this reaction.
     pub(super) fn of_joint(
         &self,
         reactions: Reactions<'_>,
@@ -253,8 +255,8 @@ fn of_component(
     }
 }
 
-/// Whether the named component of a definition is a torque: no row of it has a force in its
-/// reaction.
+/// Returns whether the named component of a definition is a torque. If so, no row of the joint has
+/// a force in its reaction.
 fn turns(group: &model::reaction::ConstraintGroup) -> bool {
     !(0..group.rows.len()).any(|row| group.pushes(row))
 }
@@ -278,7 +280,7 @@ fn value(reactions: Reactions<'_>, id: ConstraintId, kind: Kind, reaction: &Reac
             };
             let space = reactions.space();
             let is_force = space.forces().contains(&component);
-            // In the plane a torque has the direction of z in all axes.
+            // In the plane, the direction of a torque is z in all axes.
             let along = match (is_force, space.n_rotations()) {
                 (false, 1) => [0.0, 0.0, 1.0],
                 _ => axes[component % axes.len()],

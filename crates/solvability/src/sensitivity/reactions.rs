@@ -12,35 +12,36 @@ use crate::judged::ReactionVerdict;
 use crate::value::{Datum, Sensitivity, change_in_words};
 use crate::words;
 
-/// Sensitivities of the numbers of one reaction that are unique.
+/// Sensitivities of the unique numbers of one reaction.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionSensitivities {
-    /// Those of components by their names, as in [`crate::ComponentVerdict`]; also that of the
-    /// named component of the definition, such as `N` of a knife edge or `drive`.
+    /// Sensitivities of components by their names, as in [`crate::ComponentVerdict`]. They include
+    /// the named component of the definition, such as `N` of a knife edge or `drive`.
     pub components: Vec<(&'static str, Sensitivity)>,
-    /// Those of [`ReactionVerdict::live_directions`]; `None` for one that is not known.
+    /// Sensitivities of [`ReactionVerdict::live_directions`]; `None` for a direction whose
+    /// sensitivity is not known.
     pub directions: Vec<Option<Sensitivity>>,
     /// Whether the reaction is unique as a whole.
     pub is_whole: bool,
 }
 
 impl ReactionSensitivities {
-    /// The sensitivity of a component that is unique, by its name.
+    /// Returns the sensitivity of a unique component, by its name.
     #[must_use]
     pub fn component(&self, name: &str) -> Option<&Sensitivity> {
         let mut components = self.components.iter();
         components.find(|(known, _)| *known == name).map(|(_, s)| s)
     }
 
-    /// The largest of the components.
+    /// Returns the largest sensitivity of the components.
     #[must_use]
     pub fn largest(&self) -> Option<&Sensitivity> {
         let components = self.components.iter().map(|(_, s)| s);
         components.reduce(|a, b| if b.change > a.change { b } else { a })
     }
 
-    /// Whether all components are fragile that change at all.
+    /// Returns whether all components that change at all are sensitive to data.
     fn is_all_fragile(&self) -> bool {
         let mut components = self.components.iter();
         components.all(|(_, s)| s.is_fragile() || s.by.is_none())
@@ -51,15 +52,15 @@ impl ReactionSensitivities {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sensitivities {
-    /// Those of joints and drives in the order of their rows. They are empty for a reaction without
-    /// a unique component, and where they cannot be computed.
+    /// Sensitivities of joints and drives in the order of their rows. They are empty for a reaction
+    /// without a unique component, and for a reaction whose sensitivities cannot be computed.
     pub each: Vec<ReactionSensitivities>,
     /// Sentences on unique reactions whose sensitivity cannot be computed, with the reason.
     pub left_out: Vec<String>,
 }
 
 impl Sensitivities {
-    /// Sensitivities that are not known, for this number of joints and drives; the sentence is the
+    /// Creates unknown sensitivities for this number of joints and drives; the sentence is the
     /// reason.
     #[must_use]
     pub fn unknown(reactions: usize, reason: Option<String>) -> Self {
@@ -69,21 +70,22 @@ impl Sensitivities {
         }
     }
 
-    /// The sensitivity of a component of a reaction: one of the components of the space, or the
-    /// named component of the definition. `None` if it is not unique, identically zero or not
-    /// known.
+    /// Returns the sensitivity of a component of a reaction: a component of the space, or the named
+    /// component of the definition. Returns `None` if the component is not unique, or identically
+    /// zero, or if its sensitivity is not known.
     #[must_use]
     pub fn component(&self, id: ConstraintId, name: &str) -> Option<&Sensitivity> {
         self.each.get(id.0)?.component(name)
     }
 
-    /// The largest sensitivity of the unique components of a reaction. `None` if it has none.
+    /// Returns the largest sensitivity of the unique components of a reaction. `None` if there is
+    /// no sensitivity.
     #[must_use]
     pub fn reaction(&self, id: ConstraintId) -> Option<&Sensitivity> {
         self.each.get(id.0)?.largest()
     }
 
-    /// Adds those of the determined components of reactions.
+    /// Adds the sensitivities of the determined components of reactions.
     pub fn add_to(&self, reactions: &mut [ReactionValues]) {
         for reaction in reactions {
             for (name, value) in &mut reaction.components {
@@ -92,16 +94,16 @@ impl Sensitivities {
         }
     }
 
-    /// The reactions with a fragile component.
+    /// Returns the reactions with a component that is sensitive to data (fragile).
     pub fn fragile(&self) -> impl Iterator<Item = (ConstraintId, &Sensitivity)> {
         let each = self.each.iter().enumerate();
         let known = each.filter_map(|(k, all)| Some((ConstraintId(k), all.largest()?)));
         known.filter(|(_, s)| s.is_fragile())
     }
 
-    /// Sentences on what is fragile: one sentence for reactions and components whose largest change
-    /// comes from the same point. The name of a reaction without a component stands for all of
-    /// them.
+    /// Returns sentences on the components that are sensitive to data. One sentence covers all
+    /// reactions and components whose largest change comes from the same point. The name of a
+    /// reaction without a component stands for all of its components.
     #[must_use]
     pub fn sentences(&self, layout: &Layout) -> Vec<String> {
         let fragile = self.fragile().map(|(id, _)| id);
@@ -111,13 +113,14 @@ impl Sensitivities {
         )
     }
 
-    /// The same of one joint or drive.
+    /// Returns these sentences for one joint or drive.
     #[must_use]
     pub fn sentences_of(&self, id: ConstraintId, layout: &Layout) -> Vec<String> {
         sentences(self.fragile_names(id, layout), layout)
     }
 
-    /// What is fragile of a reaction, with names for sentences: the whole, or else components.
+    /// Returns the sensitive parts of a reaction, with names for sentences: the whole reaction, or
+    /// otherwise components.
     fn fragile_names(&self, id: ConstraintId, layout: &Layout) -> Vec<(String, Sensitivity)> {
         let Some(all) = self.each.get(id.0) else {
             return Vec::new();
@@ -138,7 +141,7 @@ impl Sensitivities {
     }
 }
 
-/// One sentence for all names whose largest change comes from the same datum.
+/// Returns one sentence for all names whose largest change comes from the same datum.
 fn sentences(
     fragile: impl IntoIterator<Item = (String, Sensitivity)>,
     layout: &Layout,
@@ -165,10 +168,10 @@ fn sentences(
     groups.into_iter().map(sentence).collect()
 }
 
-/// Which number of a reaction is computed.
+/// Key of the computed number of a reaction.
 enum NumberKey {
     Component(&'static str),
-    /// The live direction at this place of the list.
+    /// The live direction with this index in the list.
     Direction(usize),
 }
 
@@ -178,8 +181,8 @@ impl Analysis {
     /// bodies connected by joints and drives is examined separately, with its own size and loads,
     /// on the `rayon` thread pool of the caller. In sets with too many rows for dense matrices,
     /// each part on common cycles is examined with its own data and size, under the loads from the
-    /// rest of the set. Parts that are themselves too large, or whose rank is undecided, are left
-    /// out.
+    /// rest of the set. Parts that are themselves too large, or whose rank is undecided, are
+    /// omitted.
     ///
     /// # Errors
     /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
@@ -217,10 +220,11 @@ impl Analysis {
         Ok(all)
     }
 
-    /// The sensitivity of each of these numbers, which must be unique; `None` if it is not known.
+    /// Returns the sensitivity of each of these numbers, which must be unique; `None` if it is not
+    /// known.
     ///
     /// # Errors
-    /// As [`Self::sensitivities`].
+    /// Same errors as [`Self::sensitivities`].
     pub fn sensitivities_of(
         &self,
         mechanism: &Mechanism,
@@ -267,7 +271,8 @@ impl ReactionSensitivities {
     }
 }
 
-/// The component along which a direction of a reaction is, if it is along one.
+/// Returns the component that is parallel to a direction of a reaction, if there is such a
+/// component.
 fn aligned(reaction: &ReactionVerdict, direction: &[f64]) -> Option<&'static str> {
     let mut terms = direction.iter().zip(&reaction.components);
     let (_, component) = terms.find(|(x, _)| **x != 0.0)?;
@@ -275,8 +280,8 @@ fn aligned(reaction: &ReactionVerdict, direction: &[f64]) -> Option<&'static str
     is_alone.then_some(component.name)
 }
 
-/// The unique numbers of a reaction: its components, the named component of its definition, and
-/// directions that are along none of the components.
+/// Returns the unique numbers of a reaction: its components, the named component of its definition,
+/// and directions that are not parallel to a component.
 fn numbers_of(
     mechanism: &Mechanism,
     reaction: &ReactionVerdict,

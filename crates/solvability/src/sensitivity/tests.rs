@@ -1,4 +1,4 @@
-//! Sensitivities computed by hand and by differences.
+//! Sensitivities, compared with manual calculations and with difference quotients.
 
 use crate::limits::MOVED;
 use joints::{Distance, KnifeEdge, Line, PointOnLine, Revolute, RevoluteAngleDrive};
@@ -46,8 +46,8 @@ fn beam() -> Mechanism {
     Mechanism::build(&d).expect("it builds")
 }
 
-/// dR/dL = −W·c/L², dR/da = −W·(L − c)/L² if the pin moves along the beam: 3/8 of the weight per
-/// metre, and the point moves by 0.2 mm.
+/// The derivatives are dR/dL = −W·c/L², and dR/da = −W·(L − c)/L² if the pin moves along the beam:
+/// 3/8 of the weight per metre. The point moves by 0.2 mm.
 #[test]
 fn a_beam_by_hand() {
     let mechanism = beam();
@@ -69,8 +69,8 @@ fn a_beam_by_hand() {
     }
 }
 
-/// The beam on two rollers, which rolls along them with 1 m/s: what carries a weight of a
-/// ten-millionth of what would stop the beam depends on the data as what carries any weight.
+/// A beam on two rollers rolls along them with 1 m/s. A weight of a ten-millionth of the load that
+/// would stop the beam has the same relative sensitivity as any other weight.
 #[test]
 fn a_small_load_beside_a_fast_motion_is_a_load() {
     for gravity in [10.0, 1e-7] {
@@ -92,8 +92,8 @@ fn a_small_load_beside_a_fast_motion_is_a_load() {
     }
 }
 
-/// Numbers of a crank of 0.3 m with a rod of 0.8 m whose end moves on an oblique line; each pair is
-/// a point or a direction.
+/// Data of a crank of 0.3 m with a rod of 0.8 m whose end moves on an oblique line. Each pair is a
+/// point or a direction.
 const POINTS: [[f64; 2]; 6] = [
     [0.02, -0.01], // A on the ground
     [-0.15, 0.0],  // A on the crank
@@ -106,7 +106,8 @@ const POINTS: [[f64; 2]; 6] = [
 /// Direction of the line (rad).
 const LINE: f64 = 0.2;
 
-/// A driven crank; its start is rotated by `turned`, so that the pose is determined at each time.
+/// A driven crank. Its start is rotated by `turned`, so that the configuration is determined at
+/// each time.
 fn slider_crank(points: [[f64; 2]; 6], line: f64, turned: f64) -> Mechanism {
     let mut d = Description::new("slider-crank");
     d.gravity = [0.3, -9.81];
@@ -158,8 +159,8 @@ fn solved(a: &Matrix, b: &[f64], transposed: bool) -> Vec<f64> {
     (0..n).map(|i| m[(i, n)] / m[(i, i)]).collect()
 }
 
-/// State and reactions (force, torque) at a time, by Newton's method from the described pose and
-/// two square systems.
+/// State and reactions (force, torque) at a time, by Newton's method from the described
+/// configuration and two square systems.
 fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]>) {
     let layout = mechanism.layout();
     let mut s = mechanism.scratch();
@@ -196,9 +197,9 @@ fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]
     (q, v, each)
 }
 
-/// The largest change of a component of each reaction due to one pair of numbers that moves by 1e-4
-/// of the size, or a direction that rotates by 1e-4 rad. The reference uses central differences of
-/// mechanisms built with other numbers, at rest and moving.
+/// Computes the largest change of a component of each reaction due to one pair of numbers that
+/// moves by 1e-4 of the size, or a direction that rotates by 1e-4 rad. The reference uses central
+/// differences of mechanisms built with other numbers, at rest and moving.
 #[test]
 fn sensitivities_are_those_of_mechanisms_built_with_other_numbers() {
     const H: f64 = 1e-6;
@@ -276,7 +277,7 @@ fn load(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64], size: f64) -> f64 {
     largest(&inertial).max(largest(&s.force))
 }
 
-/// A body between two edges whose normals differ by a small angle: without weight, a unit load is
+/// A body between two edges whose normals differ by a small angle. Without weight, a unit load is
 /// used, and the reactions are proportional to the inverse of the angle.
 #[test]
 fn without_any_load_unit_loads_are_asked() {
@@ -372,9 +373,9 @@ fn sentences_are_for_people() {
     }
 }
 
-/// A door in space: the hinge carries its weight and a moment of the weight times its width. What
-/// one moved point changes, as a share of both and in the axes of the door, depends neither on the
-/// axes of the ground nor on the unit of length.
+/// A door in space: the hinge carries its weight, and a moment of the weight times its width. The
+/// change due to one moved point, as a share of both and in the axes of the door, depends neither
+/// on the axes of the ground nor on the unit of length.
 #[test]
 fn in_space_moments_are_compared_with_forces_by_the_size() {
     let turns = [
@@ -384,7 +385,7 @@ fn in_space_moments_are_compared_with_forces_by_the_size() {
         [0.8, -0.4, 0.2, 0.4],
     ];
     let mut changes: Vec<Vec<f64>> = Vec::new();
-    // The least motion that follows the data has rotations in units of a power of two.
+    // The smallest motion that follows the data has rotations in units of a power of two.
     for length in [1.0, 1024.0, 1.0 / 1024.0] {
         for turn in turns {
             let moved = Pose::new([0.0; 3], turn);
@@ -413,8 +414,8 @@ fn in_space_moments_are_compared_with_forces_by_the_size() {
     assert!(changes.iter().all(are_same), "{changes:?}");
 }
 
-/// The load of a force that calls a function stays as it is, so no derivative of it is needed. If
-/// it has no value, sensitivities are left out with the reason, and the verdicts stay.
+/// The load of a force that calls a function is constant, so no derivative of it is needed. If it
+/// has no value, sensitivities are omitted with the reason, and the verdicts do not change.
 #[test]
 fn a_called_force_is_a_load() {
     let of = |torque: f64| {
@@ -442,9 +443,9 @@ fn a_called_force_is_a_load() {
     assert!(why.ends_with("the applied forces are not finite"), "{why}");
 }
 
-/// A plate on two pins half a millimetre apart, with its mass centre a metre away: no pin is
-/// unique, but the vertical force of each is, W·c/e, and it changes by the share moved/e. Their sum
-/// is the weight, whatever the data.
+/// A plate on two pins half a millimetre apart, with its mass centre at a distance of one metre.
+/// Neither pin is unique, but the vertical force of each pin is unique: W·c/e, with a relative
+/// change of moved/e. Their sum is the weight, for any data.
 #[test]
 fn a_component_may_be_fragile_alone() {
     let (apart, arm, weight) = (5e-4, 1.0, 10.0);
@@ -469,7 +470,7 @@ fn a_component_may_be_fragile_alone() {
         assert_eq!(analysis.reactions[k].wrench.verdict.word(), "not_unique");
         assert_eq!(all.component(id, "Fx"), None);
         let found = all.component(id, "Fy").expect("unique").change;
-        // Of W·c/e, by a change of e.
+        // The change of W·c/e due to a change of e.
         let expected = weight * arm / apart * (moved / apart) / force;
         assert!((found / expected - 1.0).abs() < 1e-6, "{found} {expected}");
         assert!(all.reaction(id).is_some_and(Sensitivity::is_fragile));
@@ -491,8 +492,8 @@ fn a_component_may_be_fragile_alone() {
     assert!(found.change < 1e-6, "{found:?}");
 }
 
-/// A body that is suspended from a guide and a stiff spring of given free length: the tension of
-/// the spring is a load, and the guide is determined as well as without it.
+/// A body that is suspended from a guide and a stiff spring of given free length. The tension of
+/// the spring is a load, and the guide is determined as well as without the spring.
 #[test]
 fn a_stiff_spring_makes_no_tree_fragile() {
     for stiffness in [1e3, 1e9] {
@@ -505,7 +506,7 @@ fn a_stiff_spring_makes_no_tree_fragile() {
         };
         d.joint("arm", &[GROUND, body], arm);
         let spring = joints::SpringDamper::new([1.0, 2.0], [0.5, 0.0], stiffness, 0.0);
-        // It is stretched by a ten-thousandth of a newton per unit of stiffness.
+        // The spring is stretched by a ten-thousandth of a newton per unit of stiffness.
         let length = 0.5_f64.hypot(2.0);
         let spring = spring.with_free_length(length - 10.0 / stiffness);
         d.force("spring", &[GROUND, body], spring);
@@ -515,8 +516,8 @@ fn a_stiff_spring_makes_no_tree_fragile() {
     }
 }
 
-/// Two bodies that fall freely with a hinge between them: its reaction is zero, and no point of it
-/// changes that.
+/// Two bodies in free fall with a hinge between them: its reaction is zero for any position of its
+/// points.
 #[test]
 fn a_reaction_of_zero_does_not_change() {
     let mut d = Description::new("falling");
@@ -539,9 +540,9 @@ fn a_reaction_of_zero_does_not_change() {
     assert!(each[0].change < 1e-12, "{each:?}");
 }
 
-/// A bob on two bars of length ℓ that hang lower than their pins by s: each carries m·g·ℓ/(2·s),
-/// and s² = ℓ² − c² for pins 2·c apart. If a pin moves by 0.2 mm, bars over a sag of 3.5 cm carry
-/// more by 9.3 %, not by the 8.2 % of first order.
+/// A bob on two bars of length ℓ that hang lower than their pins by s: each bar carries
+/// m·g·ℓ/(2·s), and s² = ℓ² − c² for pins at a distance of 2·c. If a pin moves by 0.2 mm, the force
+/// of bars with a sag of 3.5 cm increases by 9.3 %; the first order gives 8.2 %.
 #[test]
 fn near_its_limit_a_reaction_changes_by_more_than_first_order() {
     for sag in [0.033, 0.034, 0.035] {

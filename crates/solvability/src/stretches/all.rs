@@ -1,4 +1,4 @@
-//! The verdicts of a motion on all joints and drives, put together and taken apart.
+//! Combines and splits the verdicts of a motion on all joints and drives.
 
 use model::{ConstraintId, Mechanism, System};
 
@@ -10,7 +10,7 @@ use crate::parts::Extent;
 use crate::verdict::Verdict;
 
 impl Stretches {
-    /// Everything unique from begin to end.
+    /// Creates verdicts that are unique from start to end.
     #[must_use]
     pub fn unique(mechanism: &Mechanism, extent: [f64; 2], groups: &[Group]) -> Self {
         let track = || VerdictTrack::constant(extent, Verdict::Unique);
@@ -37,7 +37,7 @@ impl Stretches {
         }
     }
 
-    /// Those with these verdicts on the components, in the order of joints and drives.
+    /// Creates the result from these verdicts on the components, in the order of joints and drives.
     pub(crate) fn of_components(
         mechanism: &Mechanism,
         extent: [f64; 2],
@@ -51,7 +51,7 @@ impl Stretches {
         stretches
     }
 
-    /// Those of the joints and drives of a part, in its numbers, without groups.
+    /// Returns the verdicts on the joints and drives of a part, in its numbering, without groups.
     pub(crate) fn of_part(&self, extent: &Extent, groups: usize) -> Self {
         let own = (0..groups).map(|own| ReactionStretches {
             id: ConstraintId(own),
@@ -64,20 +64,21 @@ impl Stretches {
         }
     }
 
-    /// The verdicts on all components, in the order of joints and drives.
+    /// Returns the verdicts on all components, in the order of joints and drives.
     pub(crate) fn components(&self) -> impl Iterator<Item = &VerdictTrack> {
         let own = self.reactions.iter();
         own.flat_map(|reaction| reaction.components.iter().map(|(_, track)| track))
     }
 
-    /// The same, to be changed; [`Self::sum_up`] makes those on whole reactions of them.
+    /// Returns mutable verdicts on all components. [`Self::sum_up`] recomputes the verdicts on
+    /// whole reactions from them.
     pub(crate) fn components_mut(&mut self) -> impl Iterator<Item = &mut VerdictTrack> {
         let own = self.reactions.iter_mut();
         own.flat_map(|reaction| reaction.components.iter_mut().map(|(_, track)| track))
     }
 
-    /// The verdicts on joints and drives on the stretches that contain this time; `None` outside
-    /// the motion.
+    /// Returns the verdicts on joints and drives on the intervals that contain this time; `None`
+    /// outside the motion.
     ///
     /// ```
     /// # use joints::Revolute;
@@ -108,8 +109,8 @@ impl Stretches {
         (from <= t && t <= to).then(|| self.reactions.iter().map(of).collect())
     }
 
-    /// Takes the verdicts of some of the joints and drives, with their places in the whole. Each
-    /// group of theirs is a share of one of the whole.
+    /// Copies the verdicts of some of the joints and drives to their indices in the whole
+    /// mechanism. Each of their groups is a share of a group of the whole mechanism.
     pub fn take(&mut self, own: &Self, places: &[usize], shares: &[usize]) {
         for (found, &place) in own.reactions.iter().zip(places) {
             self.reactions[place] = ReactionStretches {
@@ -125,7 +126,7 @@ impl Stretches {
         }
     }
 
-    /// Sets the verdicts on whole reactions and groups by those on their numbers.
+    /// Computes the verdicts on whole reactions and groups from the verdicts on their numbers.
     pub fn sum_up(&mut self, groups: &[Group]) {
         for reaction in &mut self.reactions {
             let own: Vec<&VerdictTrack> = reaction.components.iter().map(|(_, t)| t).collect();

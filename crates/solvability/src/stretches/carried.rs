@@ -1,10 +1,11 @@
-//! The verdicts at instants of a motion on kept rows, read from what the motion has factored.
+//! Determines the verdicts at instants of a motion on kept rows, from the factors that the
+//! simulation has computed.
 //!
-//! The rank is that of the regime of the motion and is not decided again. Kept rows that are
-//! factored give vectors of the left null space in plain numbers; how accurate these are is known
-//! from the last full decision, which is made for the accuracy of the motion. What they leave open
-//! is decided in full at the first, second, fourth, eighth … of these instants in a stretch; the
-//! others say nothing of it.
+//! The rank is that of the current motion and is not decided again. Factored kept rows give vectors
+//! of the left null space. The accuracy of these vectors follows from the last full decision, which
+//! uses the accuracy of the motion. Verdicts that the vectors leave undecided are decided in full
+//! at the first, second, fourth, eighth … of these instants in an interval. The other instants give
+//! no verdict on these numbers.
 
 use std::borrow::Cow;
 
@@ -25,17 +26,17 @@ use crate::pose::evaluated;
 use crate::sparse::SparseDecision;
 use crate::verdict::Verdict;
 
-/// The verdicts of a motion of a mechanism, collected while it goes.
+/// The verdicts of a motion of a mechanism, collected during the simulation.
 pub struct CarriedVerdicts<'m> {
     mechanism: &'m Mechanism,
     /// Length that makes C dimensionless (m).
     size: f64,
     accuracy: ConfigurationAccuracy,
-    /// The same at the start, which is stored.
+    /// Accuracy of the configuration at the start, which is stored.
     at_start: ConfigurationAccuracy,
     parts: Vec<OpenPart<'m>>,
     groups: Vec<Group>,
-    /// What is judged.
+    /// Numbers that have verdicts.
     numbers: Vec<JudgedNumber>,
     recorder: VerdictRecorder,
 }
@@ -50,10 +51,11 @@ struct OpenPart<'m> {
     /// Rows in the mechanism, ascending.
     rows: Vec<usize>,
     redundancy: usize,
-    /// Accuracy of vectors of its left null space, from the last full decision for the accuracy
-    /// of the motion.
+    /// Accuracy of vectors of the left null space, from the last full decision for the accuracy of
+    /// the motion.
     known: Option<Accuracy>,
-    /// Number of states since the last cut at which these vectors left a number open.
+    /// Number of states since the last interval boundary at which these vectors left a number
+    /// undecided.
     open: usize,
 }
 
@@ -73,16 +75,17 @@ pub struct CarriedState<'s> {
     pub t: f64,
     /// Coordinates, which satisfy the constraints.
     pub q: &'s [f64],
-    /// Φ and C have been evaluated here.
+    /// Scratch in which Φ and C have been evaluated at this state.
     pub scratch: &'s Scratch,
-    /// Dependencies of the rows of C, `Cᵀ·z = 0`, over all rows in SI units: of each dropped row,
-    /// or of [`crate::CARRIED_VECTORS`] sums of them with random weights.
+    /// Dependencies of the rows of C, `Cᵀ·z = 0`, over all rows in SI units: one for each dropped
+    /// row, or [`crate::CARRIED_VECTORS`] sums of them with random weights.
     pub dependencies: &'s [Vec<f64>],
 }
 
 impl<'m> CarriedVerdicts<'m> {
-    /// For a motion from the coordinates q at time t that drops these rows, integrated with a
-    /// relative tolerance. Returns `None` if no row is dropped: then everything is unique.
+    /// Prepares verdicts for a motion from the coordinates q at time t that drops these rows. The
+    /// motion is integrated with a relative tolerance. Returns `None` if no row is dropped, because
+    /// everything is then unique.
     #[must_use]
     pub fn new(
         mechanism: &'m Mechanism,
@@ -121,14 +124,13 @@ impl<'m> CarriedVerdicts<'m> {
         Some(carried)
     }
 
-    /// Leaves out instants that differ from their stretch, such as the start: what is read there is
-    /// read with the accuracy of the motion, and serves the next instants.
+    /// Omits instants that differ from their interval, such as the start. The verdicts at these
+    /// instants have only the accuracy of the motion, and are used for the next instants.
     pub fn leave_out_instants(&mut self) {
         self.at_start = self.accuracy;
     }
 
-    /// Takes the verdicts at a state. Where C cannot be analysed they are undecided, with the
-    /// reason.
+    /// Adds the verdicts at a state. If C cannot be analysed, they are undecided, with the reason.
     pub fn look(&mut self, at: &CarriedState<'_>, looked: InstantOrder) {
         let verdicts = self.verdicts(at).unwrap_or_else(|error| {
             let reason = error.to_string();
@@ -137,13 +139,13 @@ impl<'m> CarriedVerdicts<'m> {
         self.recorder.see(at.t, looked, verdicts);
     }
 
-    /// The joints and drives with neither a determined force nor a determined torque at the last
-    /// state, apart from such as are zero under any load.
+    /// Returns the joints and drives with neither a determined force nor a determined torque at the
+    /// last state. Components that are zero under any load are ignored.
     #[must_use]
     pub fn without_determined(&self) -> Vec<ConstraintId> {
         let layout = self.mechanism.layout();
         let (space, joints) = (layout.space, layout.groups.len());
-        // By joint, whether its force and its torque are free.
+        // Whether the force and the torque of each joint are free.
         let mut free: Vec<[Option<bool>; 2]> = vec![[None; 2]; joints];
         for (k, number) in self.numbers.iter().enumerate() {
             if let JudgedNumber::Component(id, name) = number
@@ -161,7 +163,7 @@ impl<'m> CarriedVerdicts<'m> {
         layout.constraint_ids().filter(is_open).collect()
     }
 
-    /// Whether a verdict was left open at the last state.
+    /// Returns whether a verdict was undecided at the last state.
     #[must_use]
     pub fn has_open(&self) -> bool {
         let mut all = 0..self.numbers.len();
@@ -169,15 +171,15 @@ impl<'m> CarriedVerdicts<'m> {
         !all.all(is_decided)
     }
 
-    /// Takes note of a state that says nothing of others: the rank drops there.
+    /// Adds a state without verdicts on its interval, because the rank drops there.
     pub fn pass(&mut self, t: f64, looked: InstantOrder) {
         let nothing = vec![None; self.recorder.numbers()];
         self.recorder.see(t, looked, nothing);
     }
 
-    /// The verdicts at one instant on the components of the parts with redundant rows; those of all
-    /// others are unique. Nothing is recorded. Without a state the rank is lower at the instant,
-    /// and they are undecided.
+    /// Returns the verdicts at one instant on the components of the parts with redundant rows; the
+    /// other verdicts are unique. The verdicts are not recorded. Without a state, the rank is lower
+    /// at the instant, and the verdicts are undecided.
     pub fn components_at(
         &mut self,
         at: Option<&CarriedState<'_>>,
@@ -218,19 +220,19 @@ impl<'m> CarriedVerdicts<'m> {
         Ok(verdicts)
     }
 
-    /// Begins another stretch.
+    /// Starts another interval.
     pub fn cut(&mut self, t: f64) {
         self.parts.iter_mut().for_each(|part| part.open = 0);
         self.recorder.cut(t);
     }
 
-    /// Whether nothing has been looked at since this time.
+    /// Returns whether no state has been examined since this time.
     #[must_use]
     pub fn is_blank_since(&self, t: f64) -> bool {
         self.recorder.is_blank_since(t)
     }
 
-    /// The linear forms of the numbers of all groups at a pose.
+    /// Returns the linear forms of the numbers of all groups at a configuration.
     fn forms(&self, at: &CarriedState<'_>) -> Result<Vec<LinearForm>, AnalysisError> {
         if self.groups.is_empty() {
             return Ok(Vec::new());
@@ -246,7 +248,8 @@ impl<'m> CarriedVerdicts<'m> {
         Ok(forms.map(|(_, form)| form).collect())
     }
 
-    /// The numbers that are judged, part by part: components of its joints, then those of groups.
+    /// Returns the numbers that have verdicts, part by part: components of joints, then numbers of
+    /// groups.
     fn all_numbers(&self) -> Vec<JudgedNumber> {
         let layout = self.mechanism.layout();
         let mut numbers = Vec::new();
@@ -264,7 +267,7 @@ impl<'m> CarriedVerdicts<'m> {
         numbers
     }
 
-    /// The verdicts from begin to end.
+    /// Returns the verdicts from start to end.
     #[must_use]
     pub fn finish(self, extent: [f64; 2]) -> Stretches {
         let mut stretches = Stretches::unique(self.mechanism, extent, &self.groups);
@@ -289,14 +292,14 @@ impl<'m> CarriedVerdicts<'m> {
     }
 }
 
-/// A number that is judged.
+/// A number that has a verdict.
 enum JudgedNumber {
     Component(ConstraintId, &'static str),
     Group(usize, &'static str),
 }
 
 impl OpenPart<'_> {
-    /// The verdicts on its numbers at a state.
+    /// Returns the verdicts on its numbers at a state.
     fn verdicts(
         &mut self,
         whole: &Mechanism,
@@ -312,7 +315,8 @@ impl OpenPart<'_> {
             if found.iter().all(Verdict::is_decided) {
                 return Ok(found.into_iter().map(Some).collect());
             }
-            // A full decision takes as long as many steps: it is made at ever larger distances.
+            // A full decision takes as long as many steps, so the distance between these decisions
+            // increases.
             self.open += 1;
             if !self.open.is_power_of_two() {
                 let told = found.into_iter().map(|v| v.is_decided().then_some(v));
@@ -322,8 +326,9 @@ impl OpenPart<'_> {
         self.decided(whole, at, known, forms)
     }
 
-    /// The verdicts by a full decision at a state; `None` each if the rank there is not that of
-    /// the motion: then the instant lies at a singular configuration and says nothing of others.
+    /// Returns the verdicts of a full decision at a state. Each verdict is `None` if the rank there
+    /// differs from that of the motion: the instant is then a singular configuration and has no
+    /// verdict on its interval.
     fn decided(
         &mut self,
         whole: &Mechanism,
@@ -334,7 +339,7 @@ impl OpenPart<'_> {
         let q = self.extent.coordinates(at.q);
         let query = |source| AnalysisError::Query { time: at.t, source };
         let (found, accuracy) = if self.rows.len() <= ROWS_MAX {
-            // A configuration that is only accurate to the motion gains nothing in double-double.
+            // For a configuration with the accuracy of the motion, double-double has no advantage.
             let s = evaluated(&self.mechanism, at.t, &q);
             let rows = if known == ConfigurationAccuracy::AsStored {
                 UncertainRows::new(&self.mechanism, at.t, &q, known)?
@@ -393,13 +398,13 @@ impl OpenPart<'_> {
         })
     }
 
-    /// The answers of an instant that says nothing of others.
+    /// Returns the result for an instant without verdicts on its interval.
     fn nothing(&self, forms: &[LinearForm]) -> Verdicts {
         let own = all_components(self.mechanism.layout()).count();
         vec![None; own + forms.len()]
     }
 
-    /// The accuracy by a decision whose columns have these exponents of two.
+    /// Returns the accuracy of a decision whose columns have these exponents of two.
     fn accuracy(
         &self,
         whole: &Mechanism,
@@ -420,8 +425,9 @@ impl OpenPart<'_> {
         }
     }
 
-    /// The vectors of the left null space that the motion has, orthonormal in equilibrated rows,
-    /// with the accuracy of the last full decision, or as accurate as `Cᵀ·z = 0` holds.
+    /// Returns vectors of the left null space from the motion, orthonormal in equilibrated rows.
+    /// Their accuracy is that of the last full decision, or that with which `Cᵀ·z = 0` is
+    /// satisfied.
     fn carried_basis(
         &self,
         whole: &Mechanism,
@@ -433,13 +439,15 @@ impl OpenPart<'_> {
         let own: Vec<&[f64]> = at.dependencies.iter().map(Vec::as_slice).collect();
         let columns = own.len().min(self.redundancy);
         let z = orthonormal(&own, &self.rows, &known.row_factor, columns);
-        // Dependencies may be almost parallel: what their orthonormal vectors miss is more.
+        // Dependencies may be almost parallel, which increases the error of their orthonormal
+        // vectors.
         let missed = (0..columns).map(|j| self.missed(whole, at, (&z, j), accuracy));
         let off = missed.fold(0.0, f64::max) / accuracy.sigma.min(1.0);
         for noise in &mut known.row_noise {
             *noise = noise.max(rank::NOISE_FACTOR * off);
         }
-        // Of many dependencies some combinations are there, each with its share of their size.
+        // If there are many dependencies, only some combinations are available, each with its share
+        // of their size.
         let share = (self.redundancy as f64 / columns as f64).sqrt();
         let z = if share > 1.0 {
             Matrix::from_fn(m, columns, |i, j| share * z[(i, j)])
@@ -454,7 +462,7 @@ impl OpenPart<'_> {
         }
     }
 
-    /// ‖Cᵀ·z‖ of a vector in equilibrated rows of the part.
+    /// Returns ‖Cᵀ·z‖ of a vector in equilibrated rows of the part.
     fn missed(
         &self,
         whole: &Mechanism,
@@ -474,8 +482,8 @@ impl OpenPart<'_> {
         sums.map(|(sum, factor)| sum * factor).fold(0.0, f64::hypot)
     }
 
-    /// The verdicts on all numbers of the part, with a basis for rows of the part. A basis of all
-    /// rows may be given for some of them.
+    /// Returns the verdicts on all numbers of the part, with a basis for rows of the part. For some
+    /// of the rows, a basis of all rows may be given.
     fn judged<'b>(
         &self,
         whole: &Mechanism,
@@ -506,7 +514,8 @@ impl OpenPart<'_> {
     }
 }
 
-/// Where these rows of a part are in a basis: of all rows, or of these alone.
+/// Returns the indices of these rows of a part in a basis, which covers all rows or only these
+/// rows.
 fn places(basis: &Basis, rows: &[usize], all: usize) -> Vec<usize> {
     if basis.z.nrows() == all {
         rows.to_vec()

@@ -1,4 +1,5 @@
-//! Collects what was seen of numbers at instants of a run, and cuts the run into stretches.
+//! Collects the verdicts on numbers at instants of a simulation, and divides the simulation into
+//! intervals.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -6,37 +7,38 @@ use std::ops::Range;
 use super::{SpecialInstant, VerdictStretch, VerdictTrack, worst};
 use crate::verdict::Verdict;
 
-/// What an instant is to the run.
+/// Position of an instant in the simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InstantOrder {
-    /// The next instant in the order of time.
+    /// The next instant in chronological order.
     Next,
-    /// An instant ahead, the next of several in the order of time: earlier ones may follow.
+    /// A later instant, the next one of several in chronological order; earlier instants may
+    /// follow.
     Ahead,
 }
 
-/// The verdicts at an instant, one for each number; `None` where the instant says nothing of
-/// others.
+/// The verdicts at an instant, one for each number; `None` if the instant gives no verdict on its
+/// interval.
 pub(super) type Verdicts = Vec<Option<Verdict>>;
 
-/// The verdicts on some numbers at instants of a run.
+/// The verdicts on some numbers at instants of a simulation.
 #[derive(Clone, Debug)]
 pub struct VerdictRecorder {
     times: Vec<f64>,
     numbers: Vec<VerdictHistory>,
     cuts: Vec<f64>,
-    /// Instants ahead, until all before them are known.
+    /// Later instants, stored until all earlier instants are known.
     ahead: VecDeque<(f64, Verdicts)>,
 }
 
-/// The verdicts on one number, each with the first instant at which it was seen again.
+/// The verdicts on one number, each with the first instant at which it occurred again.
 #[derive(Clone, Debug, Default)]
 struct VerdictHistory {
     changes: Vec<(usize, Option<Verdict>)>,
 }
 
 impl VerdictRecorder {
-    /// A recorder of this many numbers.
+    /// Creates a recorder of this many numbers.
     #[must_use]
     pub fn new(numbers: usize) -> Self {
         Self {
@@ -47,8 +49,8 @@ impl VerdictRecorder {
         }
     }
 
-    /// Takes the verdicts at an instant, one for each number; `None` at an instant that says
-    /// nothing of others. Of two at the same time the first counts.
+    /// Adds the verdicts at an instant, one for each number; `None` if the instant gives no verdict
+    /// on its interval. If two instants have the same time, the first one counts.
     pub fn see(&mut self, t: f64, looked: InstantOrder, verdicts: Vec<Option<Verdict>>) {
         match looked {
             InstantOrder::Ahead => self.ahead.push_back((t, verdicts)),
@@ -59,12 +61,12 @@ impl VerdictRecorder {
         }
     }
 
-    /// Begins another stretch at this time.
+    /// Starts another interval at this time.
     pub fn cut(&mut self, t: f64) {
         self.cuts.push(t);
     }
 
-    /// The verdict on a number at the last instant that was seen.
+    /// Returns the verdict on a number at the last examined instant.
     pub(super) fn latest(&self, number: usize) -> Option<&Verdict> {
         match self.ahead.back() {
             Some((_, verdicts)) => verdicts[number].as_ref(),
@@ -72,12 +74,12 @@ impl VerdictRecorder {
         }
     }
 
-    /// Number of numbers.
+    /// Returns the number of recorded numbers.
     pub(super) fn numbers(&self) -> usize {
         self.numbers.len()
     }
 
-    /// Whether no instant after this time has been seen.
+    /// Returns whether no instant after this time has been examined.
     #[must_use]
     pub fn is_blank_since(&self, t: f64) -> bool {
         let is_before = |seen: &f64| *seen <= t;
@@ -85,7 +87,7 @@ impl VerdictRecorder {
             && self.ahead.iter().all(|(ahead, _)| is_before(ahead))
     }
 
-    /// Takes what was seen ahead up to this time.
+    /// Adds the stored later instants up to this time.
     fn catch_up(&mut self, t: f64) {
         while let Some((ahead, verdicts)) = self.ahead.pop_front_if(|(ahead, _)| *ahead <= t) {
             self.take(ahead, verdicts);
@@ -105,7 +107,7 @@ impl VerdictRecorder {
         }
     }
 
-    /// The verdicts on each number from begin to end.
+    /// Returns the verdicts on each number from start to end.
     #[must_use]
     pub fn finish(mut self, [from, to]: [f64; 2]) -> Vec<VerdictTrack> {
         self.catch_up(f64::INFINITY);
@@ -118,7 +120,7 @@ impl VerdictRecorder {
             .chain([to])
             .collect();
         let times = &self.times;
-        // Instants that belong to each stretch, and those of them inside.
+        // Instants that belong to each interval, and the instants inside it.
         let last = ends.len() - 2;
         let pieces: Vec<RecordedStretch> = (0..=last)
             .map(|k| {
@@ -143,23 +145,23 @@ impl VerdictRecorder {
     }
 }
 
-/// A stretch with its instants.
+/// A time interval with its instants.
 struct RecordedStretch {
     ends: [f64; 2],
-    /// All that belong to it.
+    /// All instants that belong to it.
     own: Range<usize>,
-    /// Those between its ends.
+    /// The instants between the ends of the interval.
     inside: Range<usize>,
 }
 
 impl VerdictHistory {
-    /// The verdict at an instant.
+    /// Returns the verdict at an instant.
     fn at(&self, index: usize) -> Option<&Verdict> {
         let begun = self.changes.partition_point(|(k, _)| *k <= index);
         self.changes[begun.checked_sub(1)?].1.as_ref()
     }
 
-    /// The verdicts at a range of instants, each change once.
+    /// Returns the verdicts at a range of instants, one for each change.
     fn over(&self, range: &Range<usize>) -> impl Iterator<Item = &Verdict> {
         let begun = self.changes.partition_point(|(k, _)| *k <= range.start);
         let ended = self.changes.partition_point(|(k, _)| *k < range.end);
@@ -190,7 +192,8 @@ impl VerdictHistory {
         VerdictTrack::new(stretches, special)
     }
 
-    /// The verdict on a stretch: that of its inside. A run of one instant has that of the instant.
+    /// Returns the verdict on an interval, which is that of its inside. A simulation of one instant
+    /// has the verdict of this instant.
     fn verdict(&self, piece: &RecordedStretch) -> Verdict {
         let [from, to] = piece.ends;
         let range = if from == to {
@@ -201,7 +204,7 @@ impl VerdictHistory {
         let mut seen = self.over(range).peekable();
         if seen.peek().is_none() {
             let reason =
-                format!("nothing was judged between the events at {from:.6e} s and {to:.6e} s");
+                format!("no state was analysed between the events at {from:.6e} s and {to:.6e} s");
             return Verdict::Undecided { reason };
         }
         worst(seen).clone()

@@ -1,4 +1,4 @@
-//! Stretches from instants that are written by hand.
+//! Time intervals, derived from given instants.
 
 use super::recorder::VerdictRecorder;
 use super::*;
@@ -12,7 +12,7 @@ fn undecided() -> Verdict {
     }
 }
 
-/// One number seen at these instants, with cuts, over a run.
+/// One number examined at these instants during a simulation with these interval boundaries.
 fn track(extent: [f64; 2], cuts: &[f64], seen: &[(f64, Verdict)]) -> VerdictTrack {
     let mut recorder = VerdictRecorder::new(1);
     cuts.iter().for_each(|&t| recorder.cut(t));
@@ -32,7 +32,8 @@ fn special(track: &VerdictTrack) -> Vec<(f64, &'static str)> {
     each.map(|s| (s.time, s.verdict.word())).collect()
 }
 
-/// Three cranks that start upright: unique there only. The start decides nothing.
+/// Three cranks that start upright. The reactions are unique only at the start, which does not
+/// affect the verdict.
 #[test]
 fn the_start_is_a_special_instant() {
     let found = track([0.0, 2.0], &[], &[(0.0, U), (1.0, N), (2.0, N)]);
@@ -42,7 +43,8 @@ fn the_start_is_a_special_instant() {
     assert!(found.determined().is_empty());
 }
 
-/// The other way round: a start, an end and an event where more is open than on the way.
+/// The opposite case: at a start, an end and an event more verdicts are undecided or not unique
+/// than in between.
 #[test]
 fn instants_on_cuts_decide_nothing() {
     let seen = [(0.0, N), (0.5, U), (1.0, N), (1.5, U), (2.0, N)];
@@ -56,8 +58,8 @@ fn instants_on_cuts_decide_nothing() {
     assert_eq!(special(&found), expected);
 }
 
-/// A steered wheel that is held straight up to 1 s: one verdict before, another after; the row on
-/// the cut belongs to the stretch that begins there.
+/// A steered wheel that is kept straight up to 1 s. The verdicts before and after this time differ,
+/// and the row at the boundary belongs to the later interval.
 #[test]
 fn a_cut_divides_the_run() {
     let seen = [(0.0, U), (0.5, U), (1.0, U), (1.5, N), (2.0, N)];
@@ -81,7 +83,7 @@ fn one_instant_that_is_not_unique_decides_and_an_undecided_one_leaves_open() {
     assert_eq!(special(&found), [(1.0, "undecided")]);
 }
 
-/// Where nothing was seen nothing is said.
+/// An interval without examined instants is undecided.
 #[test]
 fn a_stretch_without_an_instant_is_undecided() {
     let found = track([0.0, 3.0], &[1.0, 2.0], &[(0.5, U), (1.0, U), (2.5, U)]);
@@ -91,7 +93,7 @@ fn a_stretch_without_an_instant_is_undecided() {
         (2.0, 3.0, "unique"),
     ];
     assert_eq!(words(&found), expected);
-    // An instant at which the rank drops says nothing of others.
+    // An instant at which the rank drops gives no verdict on its interval.
     let mut recorder = VerdictRecorder::new(1);
     recorder.see(1.0, InstantOrder::Next, vec![None]);
     let found = recorder.finish([0.0, 2.0]).remove(0);
@@ -115,7 +117,7 @@ fn instants_ahead_take_their_place_in_time() {
     see(0.5, InstantOrder::Ahead, N);
     see(1.0, InstantOrder::Ahead, U);
     see(0.7, InstantOrder::Next, U);
-    // The row at the end of the step is that end.
+    // The row at the end of the step is the end itself.
     see(1.0, InstantOrder::Next, N);
     see(1.5, InstantOrder::Ahead, U);
     let found = recorder.finish([0.0, 2.0]).remove(0);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde::{Serialize, Serializer};
 
-/// Names the choice that a number depends on.
+/// Name of the choice on which a number depends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Label(Arc<str>);
@@ -23,7 +23,7 @@ impl Serialize for Label {
 }
 
 impl Label {
-    /// A label with this text.
+    /// Creates a label with this text.
     pub(crate) fn new(text: impl Into<Arc<str>>) -> Self {
         Self(text.into())
     }

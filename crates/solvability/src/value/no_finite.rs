@@ -1,10 +1,10 @@
-//! Why reactions have no finite value.
+//! Reasons why reactions have no finite value.
 
 use model::ConstraintId;
 use model::words::listed;
 use serde::Serialize;
 
-/// Reactions of connected bodies that have no finite value, because the loads push along a freedom
+/// Reactions of connected bodies that have no finite value, because the loads act along a freedom
 /// that second order excludes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -13,15 +13,15 @@ pub struct NoFiniteReaction {
     /// The joints and drives.
     #[serde(skip)]
     pub reactions: Vec<ConstraintId>,
-    /// Their rows of C, from 0, ascending.
+    /// Rows of C of these joints and drives, from 0, ascending.
     #[serde(skip)]
     pub rows: Vec<usize>,
-    /// The freedom, in words.
+    /// Description of the freedom as text.
     pub freedom: String,
-    /// The loads that push along it: `gravity`, names of forces in backquotes, `inertia`.
+    /// The loads that act along it: `gravity`, names of forces in backquotes, `inertia`.
     pub loads: Vec<String>,
-    /// Whether it is proved that no finite reactions exist; otherwise it is not decided whether
-    /// they do. As data only where it is not.
+    /// Whether it is proved that no finite reactions exist; otherwise their existence is undecided.
+    /// The field is serialised only if it is false.
     #[serde(skip_serializing_if = "std::clone::Clone::clone")]
     pub decided: bool,
 }

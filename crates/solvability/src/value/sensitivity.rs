@@ -1,20 +1,20 @@
-//! How strongly a number of a reaction depends on the data, and how this is stated.
+//! Sensitivity of a number of a reaction to the data, and its text.
 
 use crate::limits::{BEYOND, FRAGILE, MANY};
 use model::{ConstraintId, DataUnit, Layout};
 
-/// Changes of a number of reactions with one point.
+/// Change of a number of a reaction with one point.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sensitivity {
-    /// Largest change, relative to the larger of the number and of the largest applied or inertial
-    /// load, which is multiplied by the size for moments.
+    /// Largest change, relative to the larger of the number and the largest applied or inertial
+    /// load. For moments, the load is multiplied by the size.
     pub change: f64,
-    /// The datum with the largest effect. `None` if nothing changes the number.
+    /// The datum with the largest effect. `None` if no datum changes the number.
     pub by: Option<Datum>,
 }
 
-/// A point, direction or number of a joint or drive, and by how much it is moved.
+/// A point, direction or number of a joint or drive, and its displacement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Datum {
@@ -26,19 +26,20 @@ pub struct Datum {
     pub moved: f64,
     /// Unit of the displacement.
     pub unit: DataUnit,
-    /// Whether it is a single number, not a point or a direction.
+    /// Whether the datum is a single number and not a point or a direction.
     pub is_number: bool,
 }
 
 impl Sensitivity {
-    /// Whether the number is fragile: it changes by more than the limit.
+    /// Returns whether the number is sensitive to data (fragile): it changes by more than the
+    /// limit.
     #[must_use]
     pub fn is_fragile(&self) -> bool {
         self.change > FRAGILE
     }
 
-    /// The change as it is stated, to three digits: an estimate of first order has no more accurate
-    /// ones.
+    /// Returns the change as printed, to three digits: a first-order estimate has no more accurate
+    /// digits.
     #[must_use]
     pub fn stated(&self) -> f64 {
         format!("{:.2e}", self.change)
@@ -46,8 +47,8 @@ impl Sensitivity {
             .unwrap_or(self.change)
     }
 
-    /// A sentence about the reaction or number of this name: that it is unique but changes, by how
-    /// much, and with which datum.
+    /// Returns a sentence about the reaction or number of this name. It states that the number is
+    /// unique but changes, by how much, and with which datum.
     #[must_use]
     pub fn sentence(&self, reaction: &str, layout: &Layout) -> String {
         match &self.by {
@@ -62,19 +63,33 @@ impl Sensitivity {
 }
 
 impl Datum {
-    /// The displacement as a condition of the sentence.
+    /// Returns the displacement as a condition of the sentence.
     pub(crate) fn condition(&self, layout: &Layout) -> String {
-        let (what, verb) = match (self.is_number, self.unit) {
-            (true, _) => ("", "changes"),
-            (false, DataUnit::Length) => ("point ", "moves"),
-            (false, DataUnit::Angle) => ("direction ", "turns"),
+        let verb = match (self.is_number, self.unit) {
+            (true, _) => "changes",
+            (false, DataUnit::Length) => "moves",
+            (false, DataUnit::Angle) => "turns",
         };
         let moved = match self.unit {
             DataUnit::Length => length(self.moved),
             DataUnit::Angle => format!("{:.1e} rad", self.moved),
         };
-        let joint = &layout.groups[self.joint.0].name;
-        format!("{what}`{}` of `{joint}` {verb} by {moved}", self.name)
+        format!("{} {verb} by {moved}", self.subject(layout))
+    }
+
+    /// Describes the datum for a sentence: a point by its body, other data by their keys.
+    fn subject(&self, layout: &Layout) -> String {
+        let group = &layout.groups[self.joint.0];
+        match group.slot_of_point(self.name) {
+            Some(slot) => match group.bodies.len() {
+                1 => format!("the point of `{}`", group.name),
+                _ => {
+                    let body = ["first", "second", "third", "fourth"][slot.min(3)];
+                    format!("the point of `{}` on its {body} body", group.name)
+                }
+            },
+            None => format!("`{}` of `{}`", self.name, group.name),
+        }
     }
 }
 
@@ -96,7 +111,7 @@ pub(crate) fn change_in_words(change: f64, reactions: usize) -> String {
     format!("would change by {up_to}{times} {whose} size")
 }
 
-/// A number with as many significant digits as the precision of the format states.
+/// A number, formatted with as many significant digits as the precision of the format states.
 struct Digits(f64);
 
 impl std::fmt::Display for Digits {
@@ -112,7 +127,7 @@ impl std::fmt::Display for Digits {
     }
 }
 
-/// A small length as text.
+/// Formats a small length.
 #[must_use]
 pub fn length(metres: f64) -> String {
     match metres.abs() {

@@ -1,4 +1,4 @@
-//! The known answer for a generated mechanism at its start.
+//! The known results for a generated mechanism at its start.
 
 /// Sizes and ranks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,7 +20,7 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// The answer for planar bodies with these rows, of which `redundancy` are dependent on the
+    /// The result for planar bodies with these rows, of which `redundancy` are dependent on the
     /// others.
     pub(super) fn new(
         bodies: usize,
@@ -47,11 +47,11 @@ impl Answer {
 pub struct FreeReaction {
     /// Name of the joint.
     pub name: String,
-    /// The part that is not determined.
+    /// The undetermined part of the reaction.
     pub free: Free,
 }
 
-/// The part of a reaction that is not determined; the rest is determined.
+/// The undetermined part of a reaction; the rest is determined.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Free {
     /// The force, in every direction.

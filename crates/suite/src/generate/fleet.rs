@@ -1,9 +1,9 @@
-//! Copies of the robot with its trolley in a row; neighbours are coupled by a spring with a damper
-//! between their platforms.
+//! Copies of the robot with its trolley in a row; a spring with a damper couples the platforms of
+//! neighbours.
 //!
 //! Forces do not change the rank: each copy has 21 coordinates, 22 rows, rank 20 and the verdicts
 //! of the single robot. All have the same start and the same steering, so the springs keep their
-//! lengths, and every copy moves as the single robot does.
+//! lengths, and every copy moves like the single robot.
 
 use std::io;
 
@@ -13,7 +13,7 @@ use super::answer::{Answer, Free, FreeReaction};
 use super::family::Family;
 use super::text::SceneText;
 
-/// Joints of the robot whose reactions are not unique while it drives straight, and only across the
+/// Joints of the robot whose reactions are not unique in straight motion, and only across the
 /// direction of travel.
 const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
@@ -133,15 +133,16 @@ impl Family for Fleet {
 mod tests {
     use super::*;
 
-    /// Every name and every point is found: the test fails after a change of the robot's file that
-    /// this module does not handle.
+    /// Every name and every point is found: the test fails after a change of the file of the robot
+    /// that this module does not handle.
     #[test]
     fn the_robot_is_taken_apart() {
         let fleet = Fleet::new(1);
         let count = |is: fn(&Piece) -> bool| fleet.robot.iter().filter(|piece| is(piece)).count();
-        // 21 names of elements, two bodies of eight joints, one of five, the joint of the drive.
+        // There are 21 names of elements, two bodies of eight joints, one body of five, and the
+        // joint of the drive.
         assert_eq!(count(|piece| matches!(piece, Piece::Name)), 21 + 16 + 5 + 1);
-        // Seven bodies and thirteen joints.
+        // There are seven bodies and thirteen joints.
         assert_eq!(count(|piece| matches!(piece, Piece::Y(_))), 7 + 13);
         let text: String = fleet
             .robot

@@ -1,19 +1,19 @@
-//! A square lattice of N × N cells that hangs from a corner: a rod for each side, pinned at the
+//! A square lattice of N × N cells hangs from a corner. It has a rod for each side, pinned at the
 //! nodes, and braces along the diagonals of cells in blocks.
 //!
-//! Without braces, opposite sides of each cell stay parallel, so that every column of cells has one
-//! angle, every row of cells another one, and these 2·N angles are the freedoms. A brace ties the
-//! angle of its column to that of its row (Bolker and Crapo, Bracing rectangular frameworks I, SIAM
-//! J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are edges between rows and columns). Each
-//! braced block of 2 × 2 cells has four braces between two rows and two columns: three of them make
-//! four angles equal, and the fourth is redundant. So k braced blocks leave `2·N − 3·k` freedoms
-//! and a redundancy of k.
+//! Without braces, opposite sides of each cell remain parallel, so that every column of cells has
+//! one angle, every row of cells has another one, and these 2·N angles are the freedoms. A brace
+//! makes the angle of its column equal to that of its row (Bolker and Crapo, Bracing rectangular
+//! frameworks I, SIAM J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are edges between rows
+//! and columns). Each braced block of 2 × 2 cells has four braces between two rows and two columns:
+//! three of them make four angles equal, and the fourth is redundant. So k braced blocks leave
+//! `2·N − 3·k` freedoms and a redundancy of k.
 //!
 //! Without any load, the braces of a block can carry tensions in the ratio `1, −1, −1, 1` (times
-//! √2): on each line of rods, the forces along it then sum to zero at both ends, so the sides of
-//! the block balance them, and nothing outside the block is loaded. A pin that connects two rods of
-//! a node carries the sum for the rods before it in the node's list. That is a whole number along
-//! each direction, computed in [`Lattice::free`] without rounding.
+//! √2). On each line of rods, the forces along it then sum to zero at both ends, so the sides of
+//! the block balance them, and no rod outside the block is loaded. A pin that connects two rods of
+//! a node carries the sum for the rods before it in the list of the node. This sum is an integer
+//! along each direction, computed in [`Lattice::free`] without rounding.
 
 use std::io;
 
@@ -32,18 +32,18 @@ const ROD_MASS: f64 = 1.0;
 
 pub(super) struct Lattice {
     n: usize,
-    /// The braced ones of the blocks along the diagonal.
+    /// The braced blocks among those along the diagonal.
     braced: Share,
 }
 
 /// A rod that starts at a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rod {
-    /// To the next column.
+    /// Rod to the next column.
     Across([usize; 2]),
-    /// To the next row, downwards.
+    /// Rod to the next row, downwards.
     Down([usize; 2]),
-    /// To the next column and row.
+    /// Rod to the next column and row.
     Brace([usize; 2]),
 }
 
@@ -71,7 +71,8 @@ impl Rod {
         }
     }
 
-    /// Its tension in the self-stress of a block (number from 0 along the diagonal).
+    /// Returns the tension of the rod in the self-stress of a block (number from 0 along the
+    /// diagonal).
     fn pull(self, block: usize) -> i32 {
         /// By column and line, for horizontal rods; for vertical ones exchange column and line.
         const SIDES: [[i32; 3]; 2] = [[-1, 1, 0], [0, 1, -1]];
@@ -150,7 +151,7 @@ impl Lattice {
             .collect()
     }
 
-    /// The part of the reaction of the pin number `pin` (from 0) of a node that is not determined:
+    /// Returns the undetermined part of the reaction of the pin number `pin` (from 0) of a node:
     /// the sum of the tensions, without any load, of the rods before it, including its own.
     fn free(&self, [c, r]: [usize; 2], meeting: &[(Rod, i32)], pin: usize) -> Option<Free> {
         let near = [c / BLOCK, (c / BLOCK).wrapping_sub(1)];
@@ -181,7 +182,7 @@ impl Lattice {
 impl Family for Lattice {
     fn answer(&self) -> Answer {
         let (rods, nodes) = (self.n_rods(), (self.n + 1) * (self.n + 1));
-        // One pin less than rods at each node, and the hook.
+        // Each node has one pin fewer than rods, and the hook is one more joint.
         let joints = 2 * rods - nodes + 1;
         Answer::new(rods, joints, 0, 2 * joints, self.braced.chosen)
     }
@@ -264,7 +265,7 @@ mod tests {
                 }
                 assert_eq!(sum, [0, 0], "node {node:?}, block {block}");
             }
-            // Four braces and eight sides, each counted at both ends.
+            // There are four braces and eight sides, each counted at both ends.
             assert_eq!(stretched, 24);
         }
     }
@@ -276,8 +277,8 @@ mod tests {
             let answer = lattice.answer();
             let pins = lattice.nodes().map(|node| lattice.meeting(node).len() - 1);
             assert_eq!(answer.joints, pins.sum::<usize>() + 1);
-            // Independent strips by the theory of braces, compared with coordinates minus
-            // independent rows.
+            // The theory of braces gives independent strips; the test compares them with
+            // coordinates minus independent rows.
             assert_eq!(answer.mobility, 2 * n - 3 * (n / 2));
         }
     }

@@ -1,5 +1,5 @@
-//! The N-four-bar: N + 1 unit uprights on the ground, N unit rods between their tops, all loops
-//! parallelograms. The uprights are vertical at the start, and their tops move at 1 m/s.
+//! The N-four-bar has N + 1 unit uprights on the ground and N unit rods between their tops; all
+//! loops are parallelograms. The uprights are vertical at the start, and their tops move at 1 m/s.
 //!
 //! The motion is described by one angle: with θ from the upward vertical, for every upright,
 //! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ` for rods of 1 kg and 1 m. No row is redundant
@@ -17,7 +17,7 @@ use super::text::{BodyText, SceneText};
 /// Gravity (m/s²).
 pub const GRAVITY: f64 = 9.81;
 
-/// Last time of the run (s).
+/// End time of the run (s).
 const T_END: f64 = 5.0;
 
 pub(super) struct NFourBar {
@@ -30,7 +30,7 @@ impl NFourBar {
     }
 }
 
-/// θ̈ of N loops at the angle θ from the upward vertical (rad/s²).
+/// Returns θ̈ of N loops at the angle θ from the upward vertical (rad/s²).
 ///
 /// ```
 /// use suite::generate::n_four_bar::{GRAVITY, acceleration};

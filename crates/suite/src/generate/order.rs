@@ -14,7 +14,7 @@ use super::text::SceneText;
 /// Largest scene that is written (bytes).
 pub const LARGEST: f64 = 1e10;
 
-/// Number of occurrences of names: the element's own name, and those that it refers to.
+/// Number of occurrences of names: the name of the element, and those to which it refers.
 const NAMES: f64 = 3.0;
 
 /// A family of mechanisms.
@@ -22,8 +22,8 @@ const NAMES: f64 = 3.0;
 pub enum Kind {
     /// Loops of unit rods in a row, one freedom.
     NFourBar,
-    /// A chain of parallelogram cells, each on the coupler of the one before; three cranks make a
-    /// cell redundant.
+    /// A chain of parallelogram cells, each on the coupler of the previous one; a third crank makes
+    /// a cell redundant.
     Parallelograms,
     /// A square lattice of rods that hangs from a corner, some of its cells braced.
     Lattice,
@@ -34,7 +34,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them.
+    /// All families.
     pub const ALL: &'static [Self] = &[
         Self::NFourBar,
         Self::Parallelograms,
@@ -43,7 +43,7 @@ impl Kind {
         Self::Random,
     ];
 
-    /// Its name.
+    /// Returns the name of the family.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -55,7 +55,7 @@ impl Kind {
         }
     }
 
-    /// The unit that its n counts.
+    /// Returns the unit that n counts in this family.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -67,7 +67,8 @@ impl Kind {
         }
     }
 
-    /// The fraction of its cells that are redundant by default; `None` if there is no choice.
+    /// Returns the fraction of the cells that are redundant by default; `None` if there is no
+    /// choice.
     fn share(self) -> Option<f64> {
         match self {
             Self::NFourBar | Self::Fleet => None,
@@ -91,8 +92,8 @@ impl Kind {
         }
     }
 
-    /// A sample size from which larger sizes are estimated: some hundreds of bodies, and enough of
-    /// them to average random differences.
+    /// Returns a sample size from which larger sizes are estimated: some hundreds of bodies, and
+    /// enough of them to average random differences.
     fn sample(self) -> usize {
         match self {
             Self::Lattice => 20,
@@ -143,12 +144,12 @@ pub struct Order {
 pub enum GenerateError {
     /// The scene would be empty.
     Empty {
-        /// The family.
+        /// The family of the request.
         kind: Kind,
     },
     /// The file would be too large.
     TooLarge {
-        /// The family.
+        /// The family of the request.
         kind: Kind,
         /// The requested size.
         n: usize,
@@ -160,11 +161,11 @@ pub enum GenerateError {
         /// The given value.
         value: f64,
     },
-    /// An option that the family does not have.
+    /// The family does not have this option.
     Unused {
-        /// The family.
+        /// The family of the request.
         kind: Kind,
-        /// The option.
+        /// Name of the option.
         option: &'static str,
         /// The reason why it does not apply.
         reason: &'static str,
@@ -206,7 +207,7 @@ impl std::fmt::Display for GenerateError {
 impl std::error::Error for GenerateError {}
 
 impl Order {
-    /// A request for a size of a family, with the defaults.
+    /// Creates a request for a size of a family, with the defaults.
     #[must_use]
     pub fn of(kind: Kind, n: usize) -> Self {
         Self {
@@ -266,8 +267,8 @@ impl Order {
     }
 }
 
-/// The estimated size of a scene (bytes): that of a small one of its family, extrapolated, plus the
-/// longer numbers in its names.
+/// Returns the estimated size of a scene (bytes): the size of a small scene of its family,
+/// extrapolated, plus the longer numbers in its names.
 fn estimate(kind: Kind, n: usize, seed: u64, share: f64) -> f64 {
     let sample = n.min(kind.sample());
     let small = Generator {
@@ -300,7 +301,7 @@ impl Write for Count {
     }
 }
 
-/// A scene that can be written, and its known answer.
+/// A scene that can be written, and its known results.
 pub struct Generator {
     kind: Kind,
     n: usize,
@@ -337,7 +338,7 @@ impl Generator {
     /// Writes the scene, buffered.
     ///
     /// # Errors
-    /// If the writer fails.
+    /// Returns an error if the writer fails.
     pub fn write(&self, out: impl Write) -> io::Result<()> {
         let mut out = BufWriter::with_capacity(1 << 16, out);
         let mut scene = SceneText::new(&mut out);

@@ -1,13 +1,13 @@
 //! A chain of parallelogram cells: the cranks of each cell are mounted on the coupler of the
-//! previous one, the first ones on the ground.
+//! previous one, and the first cranks on the ground.
 //!
 //! A cell with two cranks has 9 coordinates and 8 independent rows: its coupler moves on a circle
 //! and does not rotate. A third crank adds three coordinates and four rows, and does not change
-//! that motion: 11 of the 12 rows are independent. Without any load its three cranks, which are
-//! parallel, can carry axial forces in the ratio 1 : −2 : 1: force and torque on both couplers
-//! vanish, so the rest of the chain is not loaded. So each cell with three cranks has a redundancy
-//! of one that involves only its own six revolutes, along the cranks; perpendicular to the cranks
-//! their reactions are determined by the accelerations of the cranks.
+//! that motion: 11 of the 12 rows are independent. Without any load its three parallel cranks can
+//! carry axial forces in the ratio 1 : −2 : 1. Force and torque on both couplers vanish, so the
+//! rest of the chain is not loaded. So each cell with three cranks has a redundancy of one that
+//! involves only its own six revolutes, along the cranks. Perpendicular to the cranks the
+//! accelerations of the cranks determine their reactions.
 
 use std::io;
 
@@ -42,16 +42,16 @@ struct Cell {
     /// Direction of the cranks, from the lower to the upper end if they are not horizontal.
     direction: [f64; 2],
     length: f64,
-    /// Centre of the coupler below; for the first cell, the place on the ground.
+    /// Centre of the coupler below; for the first cell, the reference point on the ground.
     base: [f64; 2],
-    /// Height of the pivots above it.
+    /// Height of the pivots above this centre.
     rise: f64,
-    /// Centre of its own coupler.
+    /// Centre of the coupler of the cell.
     coupler: [f64; 2],
 }
 
 impl Cell {
-    /// Both ends of a crank.
+    /// Returns both ends of a crank.
     fn ends(&self, crank: usize) -> [[f64; 2]; 2] {
         let across = DISTANCE * (crank as f64 - 0.5 * (self.n_cranks as f64 - 1.0));
         let low = [self.base[0] + across, self.base[1] + self.rise];
@@ -68,8 +68,8 @@ impl Parallelograms {
         }
     }
 
-    /// The cells in their order. Cranks lean back towards the origin, so that a chain of any length
-    /// stays in a small region.
+    /// Returns the cells in their order. Cranks lean back towards the origin, so that a chain of
+    /// any length is in a small region.
     fn cells(&self) -> impl Iterator<Item = Cell> + '_ {
         let mut numbers = Numbers::new(self.seed);
         let (mut base, mut rise) = ([0.0; 2], 0.0);

@@ -13,7 +13,7 @@ pub(super) fn step(point: [f64; 2], length: f64, direction: [f64; 2]) -> [f64; 2
     ]
 }
 
-/// Halfway between two points.
+/// Returns the midpoint of two points.
 pub(super) fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }

@@ -1,10 +1,10 @@
-//! Random modules, each on a body of an earlier one or on the ground, with known redundancy.
+//! Random modules, each on a body of an earlier module or on the ground, with known redundancy.
 //!
 //! A module adds bodies and joints to one existing body. Its joints constrain its own bodies
-//! relative to that body, so a combination of its rows that vanishes on its own bodies also
+//! relative to that body. A combination of its rows that vanishes on its own bodies therefore also
 //! vanishes on that body, because the rows are invariant under rigid motions of the whole. Hence C
-//! is block triangular, its redundancy is the sum of those of the modules, and the same holds for
-//! the reactions without loads.
+//! is block triangular, and its redundancy is the sum of the redundancies of the modules. The same
+//! is true of the reactions without loads.
 //!
 //! | module | bodies | rows | redundancy | not unique |
 //! | --- | --- | --- | --- | --- |
@@ -35,7 +35,7 @@ pub(super) struct Random {
 /// A body on which later modules may be mounted.
 #[derive(Clone, Copy)]
 struct Place {
-    /// Its module, and the name of the body in it; `None` for the ground.
+    /// Module of the body, and the name of the body in it; `None` for the ground.
     body: Option<(usize, &'static str)>,
     at: [f64; 2],
     angle: f64,
@@ -79,7 +79,7 @@ struct Module {
     redundancy: usize,
 }
 
-/// A joint of a module, between the body below or one of its own and one of its own.
+/// A joint of a module, between the body below or one of its own bodies and one of its own bodies.
 struct JointText {
     name: &'static str,
     bodies: [Of; 2],
@@ -92,7 +92,7 @@ struct JointText {
 enum Of {
     /// The body on which the module is mounted.
     Below,
-    /// A body of its own.
+    /// A body of the module.
     Own(&'static str),
 }
 
@@ -101,7 +101,7 @@ enum JointKind {
     Revolute,
     /// Axis in the frame of the first body.
     Translational([f64; 2]),
-    /// Normal in the frame of the second body; the first one has no effect.
+    /// Normal in the frame of the second body; the first body has no effect.
     KnifeEdge([f64; 2]),
 }
 
@@ -220,13 +220,13 @@ impl Module {
         });
     }
 
-    /// A rod of 1 kg/m from one point to another.
+    /// Adds a rod of 1 kg/m from one point to another.
     fn bar(&mut self, name: &'static str, from: [f64; 2], to: [f64; 2]) {
         let mass = (to[0] - from[0]).hypot(to[1] - from[1]);
         self.bodies.push((name, BodyText::rod(mass, from, to)));
     }
 
-    /// One rod, on pins along it.
+    /// Adds one rod, on pins along it.
     fn rod(
         &mut self,
         at: [f64; 2],
@@ -247,7 +247,7 @@ impl Module {
         }
     }
 
-    /// One block that slides on guides of one direction.
+    /// Adds one block that slides on guides of one direction.
     fn slider(
         &mut self,
         at: [f64; 2],
@@ -270,7 +270,8 @@ impl Module {
         }
     }
 
-    /// Two cranks that are one metre apart, and a rod between their tops: never all in one line.
+    /// Adds two cranks that are one metre apart, and a rod between their tops: they are never all
+    /// in one line.
     fn four_bar(&mut self, at: [f64; 2], length: f64, numbers: &mut Numbers) {
         let other = [at[0] + 1.0, at[1]];
         let mut up = || direction(numbers.within(0.9, 2.2));
@@ -286,7 +287,7 @@ impl Module {
         self.joint("top-b", [b, coupler], other_top, pin, None);
     }
 
-    /// Three parallel cranks half a metre apart under a horizontal coupler.
+    /// Adds three parallel cranks half a metre apart under a horizontal coupler.
     fn three_cranks(&mut self, at: [f64; 2], length: f64, up: [f64; 2]) {
         const CRANKS: [[&str; 3]; 3] = [
             ["crank-a", "foot-a", "top-a"],
@@ -307,7 +308,7 @@ impl Module {
         }
     }
 
-    /// A separate body on two wheels with a common axle.
+    /// Adds a separate body on two wheels with a common axle.
     fn cart(&mut self, at: [f64; 2], turned: f64) {
         let [x, y] = direction(turned);
         let axle = [-y, x];

@@ -8,7 +8,7 @@ pub(super) struct Share {
 }
 
 impl Share {
-    /// The number nearest to this fraction (0 to 1) of all.
+    /// Selects the number nearest to this fraction (0 to 1) of all cells.
     pub(super) fn of(all: usize, share: f64) -> Self {
         #[expect(
             clippy::cast_sign_loss,
@@ -22,12 +22,12 @@ impl Share {
         }
     }
 
-    /// Whether a cell is selected: two thirds are yes, yes, no, yes, yes, no, …
+    /// Whether a cell is selected: for two thirds the sequence is yes, yes, no, yes, yes, no, …
     pub(super) fn has(self, cell: usize) -> bool {
         self.before(cell + 1) > self.before(cell)
     }
 
-    /// Number of selected cells among the first ones, rounded upwards.
+    /// Returns the number of selected cells among the first ones, rounded upwards.
     fn before(self, cells: usize) -> u128 {
         (cells as u128 * self.chosen as u128).div_ceil(self.all.max(1) as u128)
     }

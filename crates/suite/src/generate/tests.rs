@@ -1,5 +1,5 @@
-//! Tests of the text alone. Ranks and verdicts are compared in the package `tests`, which can read
-//! scenes.
+//! Tests only the text of the scenes. Ranks and verdicts are compared in the package `tests`, which
+//! can read scenes.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -13,7 +13,7 @@ fn text(order: &Order) -> String {
     String::from_utf8(out).expect("UTF-8")
 }
 
-/// Texts in the values of a key.
+/// Returns texts in the values of a key.
 fn texts<'t>(scene: &'t str, key: &'t str) -> impl Iterator<Item = &'t str> {
     let values = scene.lines().filter_map(move |line| {
         let (found, value) = line.split_once(" = ")?;

@@ -20,8 +20,8 @@ pub(super) struct BodyText {
 }
 
 impl BodyText {
-    /// A thin uniform rod from one point to another, at rest: inertia m·L²/12, x-axis along the
-    /// rod.
+    /// Returns a thin uniform rod from one point to another, at rest: inertia m·L²/12, x-axis along
+    /// the rod.
     pub(super) fn rod(mass: f64, from: [f64; 2], to: [f64; 2]) -> Self {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         Self {
@@ -39,7 +39,7 @@ impl<'w> SceneText<'w> {
         Self { out }
     }
 
-    /// One line of a comment.
+    /// Writes one line of a comment.
     pub(super) fn comment(&mut self, line: &str) -> io::Result<()> {
         writeln!(self.out, "# {line}")
     }
@@ -62,7 +62,7 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// A body; zeros that are the default of the format are omitted.
+    /// Writes a body; zeros that are the default of the format are omitted.
     pub(super) fn body(&mut self, name: impl Display, body: &BodyText) -> io::Result<()> {
         let BodyText {
             mass,
@@ -88,7 +88,7 @@ impl<'w> SceneText<'w> {
         Ok(())
     }
 
-    /// A revolute between two bodies at a global point.
+    /// Writes a revolute joint between two bodies at a global point.
     pub(super) fn revolute(
         &mut self,
         name: impl Display,
@@ -102,7 +102,7 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// A translational joint at a global point, its axis in the frame of the first body.
+    /// Writes a translational joint at a global point, its axis in the frame of the first body.
     pub(super) fn translational(
         &mut self,
         name: impl Display,
@@ -118,7 +118,7 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// A knife edge at a global point, its normal in the frame of the body.
+    /// Writes a knife edge at a global point, its normal in the frame of the body.
     pub(super) fn knife_edge(
         &mut self,
         name: impl Display,
@@ -133,7 +133,7 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// The duration of the run.
+    /// Writes the duration of the run.
     pub(super) fn run_to(&mut self, t_end: f64) -> io::Result<()> {
         writeln!(self.out, "\n[simulate]\nt_end = {t_end:?}")
     }

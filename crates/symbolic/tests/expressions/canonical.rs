@@ -1,4 +1,4 @@
-//! Canonical form: it does not depend on the order of construction.
+//! Tests the canonical form: it does not depend on the order of construction.
 
 use pfaff_symbolic::{Expr, Function, Graph, Node, Printer, Program, Scalar};
 use proptest::prelude::*;
@@ -110,8 +110,8 @@ fn has_duplicates(handles: impl Iterator<Item = Expr>) -> bool {
     list.len() < n
 }
 
-/// `x + y`, `x + y + z`, `x·y`, `x·y·z`, `2·x·y`: each is the beginning of another one, or differs
-/// by a number.
+/// The expressions are `x + y`, `x + y + z`, `x·y`, `x·y·z`, `2·x·y`: each is the beginning of
+/// another one, or differs by a number.
 fn similar(g: &mut Graph, k: usize) -> Expr {
     let [x, y, z] = INPUTS.map(|name| g.symbol(name));
     match k {
@@ -162,7 +162,7 @@ fn nested_sums_stay_nested_but_their_difference_is_zero() {
 #[test]
 fn terms_and_factors_are_ordered_by_first_use_of_their_inputs() {
     let mut g = Graph::new();
-    // Deliberately not in alphabetical order.
+    // The order is not alphabetical on purpose.
     let (z, a) = (g.symbol("z"), g.symbol("a"));
     let one = g.number(1.0);
     let sum = g.sum(&[(1.0, one), (1.0, a), (1.0, z)]);

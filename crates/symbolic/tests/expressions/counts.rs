@@ -1,4 +1,4 @@
-//! Operations of small programs, counted by hand.
+//! Compares operation counts of small programs with counts by hand.
 
 use pfaff_symbolic::{Counts, Expr, Function, Graph, Op, Program};
 
@@ -8,7 +8,7 @@ fn counts(g: &Graph, outputs: &[Expr]) -> Counts {
 
 #[test]
 fn a_shared_square_is_counted_once() {
-    // x²·y and x²·z: x·x, ·y, ·z
+    // The program is x²·y and x²·z, with the products x·x, ·y, ·z.
     let mut g = Graph::new();
     let (x, y, z) = (g.symbol("x"), g.symbol("y"), g.symbol("z"));
     let outputs = [y, z].map(|e| g.product(1.0, &[(x, 2), (e, 1)]));
@@ -29,7 +29,7 @@ fn a_cube_uses_the_square() {
 
 #[test]
 fn a_point_of_a_turned_body() {
-    // [x + (a·cos − b·sin), y + (a·sin + b·cos)]
+    // The program is [x + (a·cos − b·sin), y + (a·sin + b·cos)].
     let mut g = Graph::new();
     let [x, y, cos, sin, a, b] = ["x", "y", "cos", "sin", "a", "b"].map(|name| g.symbol(name));
     let (a_cos, b_sin) = (g.mul(a, cos), g.mul(b, sin));
@@ -46,7 +46,7 @@ fn a_point_of_a_turned_body() {
 
 #[test]
 fn a_unit_vector_shares_its_length() {
-    // x/√(x² + y²), y/√(x² + y²)
+    // The program is x/√(x² + y²), y/√(x² + y²).
     let mut g = Graph::new();
     let (x, y) = (g.symbol("x"), g.symbol("y"));
     let (xx, yy) = (g.mul(x, x), g.mul(y, y));
@@ -67,7 +67,7 @@ fn a_unit_vector_shares_its_length() {
 
 #[test]
 fn several_denominators_are_one_quotient() {
-    // a/(b·c)
+    // The program is a/(b·c).
     let mut g = Graph::new();
     let (a, b, c) = (g.symbol("a"), g.symbol("b"), g.symbol("c"));
     let e = g.product(1.0, &[(a, 1), (b, -1), (c, -1)]);

@@ -1,4 +1,4 @@
-//! Derivatives compared with dual numbers, and derivations with a closed form.
+//! Compares derivatives with dual numbers, and derivations with a closed form.
 
 use pfaff_symbolic::{Derivation, Function, Graph};
 use proptest::prelude::*;
@@ -32,7 +32,8 @@ proptest! {
         prop_assume!(tolerance.is_finite());
         prop_assert!(ours.agrees(dual), "{ours:?} instead of {dual:?}");
         // The rest is a test of relative accuracy; too many ill-conditioned points make the test
-        // fail. Where terms cancel to zero there is none, only rounding, which was judged above.
+        // fail. If terms cancel to zero there is no relative accuracy but only rounding, which was
+        // checked above.
         if dual.value != 0.0 {
             prop_assume!(tolerance <= RELATIVE * dual.value.abs());
             prop_assert!((ours.value - dual.value).abs() <= RELATIVE * dual.value.abs());
@@ -68,7 +69,7 @@ proptest! {
     }
 }
 
-/// A planar rotation by φ: `D(cos φ) = −sin φ`, `D(sin φ) = cos φ`.
+/// A planar rotation by φ has `D(cos φ) = −sin φ`, `D(sin φ) = cos φ`.
 fn turn(g: &mut Graph) -> Derivation {
     let (cos, sin) = (g.symbol("cos"), g.symbol("sin"));
     let minus_sin = g.neg(sin);
@@ -81,7 +82,7 @@ fn turning_twice_gives_minus_the_original() {
     let turn = turn(&mut g);
     let (cos, sin) = (g.symbol("cos"), g.symbol("sin"));
     let (a, b, c) = (g.symbol("a"), g.symbol("b"), g.symbol("c"));
-    // Scaled and nested, as in (a − c)·cos − 3·b·sin.
+    // The expression is scaled and nested, as in (a − c)·cos − 3·b·sin.
     let arm = g.sub(a, c);
     let (arm_cos, b_sin) = (g.mul(arm, cos), g.mul(b, sin));
     let x = g.sum(&[(1.0, arm_cos), (-3.0, b_sin)]);
@@ -129,6 +130,6 @@ fn derivative_of_a_length_is_the_direction() {
     let d = Derivation::partial(&mut g, x).apply(&mut g, length);
     let recip = g.call(Function::RecipOrZero, length);
     assert_eq!(d, g.mul(x, recip));
-    // … and zero where the length is zero.
+    // The value is zero if the length is zero.
     assert_eq!(g.evaluate(d, &|_| 0.0), 0.0);
 }

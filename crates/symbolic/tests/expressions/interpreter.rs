@@ -16,7 +16,7 @@ pub(crate) struct Run {
     pub(crate) counts: Counts,
 }
 
-/// Printed code as text: a function of the inputs, formatted.
+/// Returns printed code as text: a function of the inputs, formatted.
 pub(crate) fn text((statements, outputs): (Vec<TokenStream>, Vec<TokenStream>)) -> String {
     let file = quote! { fn f() { #(#statements)* [#(#outputs),*] } };
     prettyplease::unparse(&syn::parse2(file).expect("printed code is Rust"))
@@ -103,7 +103,7 @@ impl Machine {
                 Ok(value)
             }
             Expr::MethodCall(call) if call.args.is_empty() => {
-                // rustc: "can't call method on ambiguous numeric type" (E0689).
+                // The compiler reports "can't call method on ambiguous numeric type" (E0689).
                 if let Some(x) = literal(&call.receiver) {
                     return Err(format!("method of the bare literal {x}"));
                 }
@@ -131,7 +131,8 @@ impl Machine {
     }
 }
 
-/// The value of a constant: a literal, one with a sign, or an associated constant of `f64`.
+/// Returns the value of a constant: a literal, a literal with a sign, or an associated constant of
+/// `f64`.
 fn constant(e: &Expr) -> Option<f64> {
     match e {
         Expr::Unary(unary) if matches!(unary.op, UnOp::Neg(_)) => constant(&unary.expr).map(|x| -x),
@@ -144,7 +145,7 @@ fn constant(e: &Expr) -> Option<f64> {
     }
 }
 
-/// The value of a literal without suffix, with or without sign and parentheses.
+/// Returns the value of a literal without suffix, with or without sign and parentheses.
 fn literal(e: &Expr) -> Option<f64> {
     match e {
         Expr::Lit(lit) => match &lit.lit {

@@ -1,8 +1,8 @@
-//! The guarantees of the crate, tested through its public interface: canonical form, derivatives,
+//! Tests the guarantees of the crate through its public interface: canonical form, derivatives,
 //! programs and printed code.
 //!
-//! The references are independent of the code under test: [`tree`] stores an expression as it was
-//! written, [`running`] evaluates it on dual numbers with a bound of its rounding error,
+//! The references are independent of the code under test. [`tree`] stores an expression as it was
+//! written, [`running`] evaluates it on dual numbers with a bound of its rounding error, and
 //! [`interpreter`] runs printed code from its text.
 
 mod canonical;

@@ -1,5 +1,5 @@
-//! Printed code: the same values as direct evaluation, exactly the counted operations, and the
-//! text.
+//! Tests printed code: the same values as direct evaluation, exactly the counted operations, and
+//! the text.
 
 use pfaff_symbolic::{Expr, Function, Graph, Printer, Program, Scalar};
 use proptest::prelude::*;
@@ -38,7 +38,7 @@ proptest! {
     }
 }
 
-/// The text of one output without `let`.
+/// Returns the text of one output without `let`.
 fn expression(g: &Graph, e: Expr) -> String {
     let program = Program::new(g, &[e]);
     let (statements, outputs) = Printer::new(g, &program, Scalar::F64, &[]).print();

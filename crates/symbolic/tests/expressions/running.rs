@@ -1,13 +1,14 @@
-//! Dual numbers with error bounds: `num-dual` computes value and derivative, a first-order running
-//! error analysis (Wilkinson; Higham 2002, section 3.3) a bound for the rounding error of each. Two
-//! evaluations of the same mathematics differ by at most the sum of their bounds.
+//! Dual numbers with error bounds: `num-dual` computes value and derivative, and a first-order
+//! running error analysis (Wilkinson; Higham 2002, section 3.3) computes a bound for the rounding
+//! error of each. Two evaluations of the same mathematics differ by at most the sum of their
+//! bounds.
 
 use std::ops::{Add, Div, Mul, Neg};
 
 use num_dual::{Dual64, DualNum};
 use pfaff_symbolic::{Function, Number};
 
-/// Covers terms of second order, and constants that the graph folds in another order.
+/// Factor for terms of second order, and for constants that the graph folds in another order.
 const SAFETY: f64 = 4.0;
 
 /// Above this relative error of an argument the first-order analysis is not valid for `1/u`, `√u`,
@@ -30,7 +31,7 @@ pub(crate) struct Bounded {
 }
 
 impl Bounded {
-    /// The largest difference that rounding can cause.
+    /// Returns the largest difference that rounding can cause.
     pub(crate) fn tolerance(self, other: Self) -> f64 {
         self.error + other.error
     }
@@ -42,7 +43,7 @@ impl Bounded {
 }
 
 impl Running {
-    /// An input; `slope` is 1 for the variable of differentiation and 0 for the others.
+    /// Creates an input; `slope` is 1 for the variable of differentiation and 0 for the others.
     pub(crate) fn input(value: f64, slope: f64) -> Self {
         Self {
             dual: Dual64::new(value, slope),
@@ -71,8 +72,8 @@ impl Running {
         self.chain(self.dual.recip(), f1, f2, u.abs())
     }
 
-    /// `f(self)`; `dual` is the result, and `f1`, `f2` are the first and second derivative at the
-    /// argument.
+    /// Computes `f(self)`; `dual` is the result, and `f1`, `f2` are the first and second derivative
+    /// at the argument.
     fn chain(self, dual: Dual64, f1: f64, f2: f64, scale: f64) -> Self {
         let slope = self.dual.eps;
         let trusted = self.value_error * f64::EPSILON <= FIRST_ORDER * scale;

@@ -1,8 +1,8 @@
-//! The identities that the constructors recognise, one line of algebra each.
+//! Tests the identities that the constructors recognise, one line of algebra each.
 
 use pfaff_symbolic::{Expr, Function, Graph};
 
-/// A graph with inputs `a`, `b`, `c`, `x`.
+/// Returns a graph with inputs `a`, `b`, `c`, `x`.
 fn inputs() -> (Graph, [Expr; 4]) {
     let mut g = Graph::new();
     let inputs = ["a", "b", "c", "x"].map(|name| g.symbol(name));

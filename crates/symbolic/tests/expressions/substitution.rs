@@ -1,4 +1,4 @@
-//! Replacement of inputs.
+//! Tests the replacement of inputs.
 
 use pfaff_symbolic::Graph;
 use proptest::prelude::*;

@@ -1,4 +1,4 @@
-//! An expression as it was written, without simplification by the graph, and random ones.
+//! An expression in its written form, without simplification by the graph, and random expressions.
 
 use pfaff_symbolic::{Expr, Function, Graph, Number};
 use proptest::prelude::*;
@@ -16,13 +16,13 @@ pub(crate) enum Tree {
     Product(Vec<(Tree, i32)>),
     /// `√(1 + u²)`
     Root(Box<Tree>),
-    /// `1/u`, and 0 where `u` is 0.
+    /// The reciprocal `1/u`, or 0 if `u` is 0.
     RecipOrZero(Box<Tree>),
     Sin(Box<Tree>),
     Cos(Box<Tree>),
 }
 
-/// The order in which a tree is converted into nodes. The mathematics is the same.
+/// The order in which a tree is converted into nodes. All orders are mathematically equivalent.
 #[derive(Clone, Copy)]
 pub(crate) enum Order {
     Written,
@@ -78,7 +78,7 @@ impl Tree {
         }
     }
 
-    /// The value, computed by the operations as written.
+    /// Returns the value, computed by the operations as written.
     pub(crate) fn evaluate<T: Number>(&self, inputs: &[T; 3]) -> T {
         match self {
             Tree::Input(k) => inputs[*k],
@@ -118,7 +118,7 @@ fn build_pair(a: &Tree, b: &Tree, g: &mut Graph, order: Order) -> (Expr, Expr) {
     }
 }
 
-/// A graph that contains only the inputs.
+/// Returns a graph that contains only the inputs.
 pub(crate) fn graph() -> Graph {
     let mut g = Graph::new();
     for name in INPUTS {
@@ -127,14 +127,14 @@ pub(crate) fn graph() -> Graph {
     g
 }
 
-/// The value of the input called `name`.
+/// Returns the value of the input called `name`.
 pub(crate) fn input_of<T: Copy>(inputs: &[T; 3], name: &str) -> T {
     let k = INPUTS.iter().position(|n| *n == name);
     inputs[k.expect("only the inputs of INPUTS are used")]
 }
 
-/// Random trees. Constants are powers of two, so that the graph folds them without rounding as long
-/// as no sum of constants is inverted.
+/// Returns random trees. Constants are powers of two, so that the graph folds them without rounding
+/// as long as no sum of constants is inverted.
 pub(crate) fn trees() -> impl Strategy<Value = Tree> {
     let leaf = prop_oneof![
         4 => (0..INPUTS.len()).prop_map(Tree::Input),
@@ -154,7 +154,7 @@ pub(crate) fn trees() -> impl Strategy<Value = Tree> {
     })
 }
 
-/// Random values of the inputs, away from zero.
+/// Returns random values of the inputs, away from zero.
 pub(crate) fn points() -> impl Strategy<Value = [f64; 3]> {
     let coordinate = || prop_oneof![0.5..2.0, -2.0..-0.5];
     [coordinate(), coordinate(), coordinate()]

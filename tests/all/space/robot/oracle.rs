@@ -1,17 +1,17 @@
-//! The constraints of the robot in space, written down once more from its drawing, and what they
-//! determine: nothing here comes from the definitions of joints or from the solvers.
+//! The constraints of the robot in space, derived again from its drawing, and the reactions that
+//! they determine: no part of this module comes from the definitions of joints or from the solvers.
 //!
-//! A row is the wrench that a unit multiplier exerts on the second body, and its opposite on the
-//! first: smooth contacts and hinges do no work in the motions that they allow. In a twist (v of
-//! the mass centre r, ω) in ground axes a wrench (F; M about the origin) has the entries
-//! (F; M − r × F). Ranks are those of singular values (nalgebra). A combination ℓᵀλ is unique iff ℓ
-//! is in the range of C: then complete elimination of the columns of C removes it.
+//! A row is the wrench that a unit multiplier exerts on the second body, and the opposite wrench on
+//! the first. Smooth contacts and hinges do no work in the motions that they allow. In a twist (v
+//! of the mass centre r, ω) in ground axes a wrench (F; M about the origin) has the entries (F; M −
+//! r × F). Ranks are computed from singular values (nalgebra). A combination ℓᵀλ is unique if and
+//! only if ℓ is in the range of C: then complete elimination of the columns of C removes it.
 
 use nalgebra::{DMatrix, Quaternion, UnitQuaternion, Vector3};
 
 type Vector = Vector3<f64>;
 
-/// Body of the drawing by its name, and where it is in the described start, unturned.
+/// Bodies of the drawing by name, with their positions in the described start, without rotation.
 const BODIES: [(&str, [f64; 3]); 12] = [
     ("platform", [0.0, 0.0, 0.12]),
     ("front-knuckle", [0.255, 0.025, 0.09]),
@@ -33,15 +33,15 @@ const LEFT: [f64; 3] = [0.0, 1.0, 0.0];
 /// Radius of the wheels.
 const RADIUS: f64 = 0.08;
 
-/// What a joint holds; directions in the axes of the described start.
+/// Kind of a joint, with directions in the axes of the described start.
 #[derive(Clone, Copy)]
 enum Kind {
     Ball,
-    /// About an axis.
+    /// Hinge about an axis.
     Hinge([f64; 3]),
-    /// With an axis in the first body and one in the second.
+    /// Cross with an axis in the first body and one in the second.
     Cross([f64; 3], [f64; 3]),
-    /// Along an axis.
+    /// Slide along an axis.
     Slide([f64; 3]),
     /// The axial force of a slide.
     Push([f64; 3]),
@@ -49,10 +49,10 @@ enum Kind {
     Wheel,
 }
 
-/// Name, kind, bodies, place in the described start. A wheel has no second body.
+/// Name, kind, bodies, and position in the described start. A wheel has no second body.
 type Joint = (&'static str, Kind, [&'static str; 2], [f64; 3]);
 
-/// The joints in the order of the scene; the drive is the last one.
+/// The joints in the order of the scene; the drive is the last.
 const JOINTS: [Joint; 19] = [
     (
         "A",
@@ -148,16 +148,16 @@ const JOINTS: [Joint; 19] = [
 /// Joints that are pins in the plane.
 const PINS: [&str; 7] = ["A", "B", "C", "D", "E", "F", "G"];
 
-/// How the pins of the plane are made in space.
+/// Model in space of the pins of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Pins {
-    /// As in the scene.
+    /// Joints as in the scene.
     Drawn,
-    /// As hinges with upright axes, all of them.
+    /// All pins are hinges with vertical axes.
     Hinges,
 }
 
-/// A place and a rotation.
+/// A position and a rotation.
 struct Pose {
     place: Vector,
     turn: UnitQuaternion<f64>,
@@ -185,7 +185,7 @@ impl Wrench {
         }
     }
 
-    /// Its six components, the moment about a point.
+    /// Returns the six components of the wrench, with the moment about a point.
     fn about(&self, point: Vector) -> [f64; 6] {
         let moment = self.moment - point.cross(&self.force);
         let [f, m] = [self.force, moment].map(|v| [v.x, v.y, v.z]);
@@ -199,20 +199,20 @@ struct Row {
     wrench: Wrench,
 }
 
-/// What is determined at a configuration.
+/// The determined components at a configuration.
 #[derive(Debug)]
 pub(super) struct Answer {
     pub(super) rows: usize,
-    /// Ranks of the rows that restrict positions, of those that restrict velocities only, and of
-    /// all.
+    /// Ranks of the rows that restrict positions, of the rows that restrict only velocities, and of
+    /// all rows.
     pub(super) ranks: [usize; 3],
-    /// Name of each joint, with the uniqueness of its force and its moment about its place in
-    /// ground axes.
+    /// Name of each joint, with the uniqueness of its force and of its moment about its reference
+    /// point in ground axes.
     pub(super) reactions: Vec<(&'static str, [bool; 6])>,
 }
 
-/// Values of this matrix below `NOTHING` of its largest one vanish, and those above `SOMETHING` do
-/// not; between them there must be none.
+/// Singular values of this matrix below `NOTHING` times its largest one count as zero, and values
+/// above `SOMETHING` do not; between them there must be no value.
 const NOTHING: f64 = 1e-11;
 const SOMETHING: f64 = 1e-7;
 
@@ -231,7 +231,7 @@ fn rank(c: &DMatrix<f64>) -> usize {
     values.iter().filter(has).count()
 }
 
-/// Two directions across a unit vector.
+/// Returns two directions across a unit vector.
 fn across(w: Vector) -> [Vector; 2] {
     let axes = [Vector::x(), Vector::y(), Vector::z()];
     let least = axes.into_iter().min_by(|a, b| {
@@ -242,15 +242,16 @@ fn across(w: Vector) -> [Vector; 2] {
     [u, w.cross(&u)]
 }
 
-/// The rows of the robot with each body at 7 numbers, its place and its quaternion (w, x, y, z).
+/// The rows of the robot; each body has 7 coordinates, its position and its quaternion (w, x, y,
+/// z).
 struct Table {
     rows: Vec<Row>,
-    /// C, and beside it the components of all reactions: each row's wrench about the place of its
-    /// joint.
+    /// The matrix C, followed by the components of all reactions: the wrench of each row about the
+    /// reference point of its joint.
     numbers: DMatrix<f64>,
 }
 
-/// Columns of C.
+/// Number of columns of C.
 const N: usize = 6 * BODIES.len();
 
 impl Table {
@@ -273,7 +274,7 @@ fn table(q: &[f64], pins: Pins) -> Table {
         Pins::Hinges if PINS.contains(name) => Kind::Hinge(UP),
         _ => *kind,
     };
-    // A point and a direction of the described start, carried along by a body.
+    // Moves a point and a direction of the described start with a body.
     let carried = |body: usize, at: [f64; 3]| {
         poses[body].place + poses[body].turn * (Vector::from(at) - Vector::from(BODIES[body].1))
     };
@@ -308,7 +309,7 @@ fn table(q: &[f64], pins: Pins) -> Table {
             Kind::Push(w) => vec![Wrench::line(point, turned(first, w))],
             Kind::Wheel => {
                 let axle = turned(first, LEFT);
-                // The lowest point of the rim: down in the plane of the wheel.
+                // The lowest point of the rim is downwards in the plane of the wheel.
                 let down = -(Vector::z() - axle * axle.z).normalize();
                 place = point + down * RADIUS;
                 let heading = axle.cross(&Vector::z()).normalize();
@@ -346,7 +347,7 @@ fn table(q: &[f64], pins: Pins) -> Table {
     Table { rows, numbers }
 }
 
-/// What is determined at this configuration.
+/// Returns the determined components at this configuration.
 pub(super) fn answer(q: &[f64], pins: Pins) -> Answer {
     let table = table(q, pins);
     let (rows, c) = (&table.rows, table.c());
@@ -372,12 +373,12 @@ pub(super) fn answer(q: &[f64], pins: Pins) -> Answer {
     }
 }
 
-/// Loads that need no force on a body, a basis of all: for each joint its force and its moment
-/// about its place in ground axes.
+/// Returns a basis of all loads that need no force on a body: for each joint its force and its
+/// moment about its reference point in ground axes.
 pub(super) fn idle_loads(q: &[f64], pins: Pins) -> Vec<Vec<(&'static str, [f64; 6])>> {
     let table = table(q, pins);
     let c = table.c();
-    // Multipliers z with Cᵀ·z = 0.
+    // Multipliers z satisfy Cᵀ·z = 0.
     let eigen = (&c * c.transpose()).symmetric_eigen();
     let largest = eigen.eigenvalues.max();
     let squares = eigen.eigenvalues.iter().enumerate();
@@ -393,8 +394,8 @@ pub(super) fn idle_loads(q: &[f64], pins: Pins) -> Vec<Vec<(&'static str, [f64; 
     loads.map(of_joints).collect()
 }
 
-/// The rows that are left of a table after this number of pivots in its first n columns, the
-/// largest entry of all first. In the first n columns nothing is left.
+/// Returns the remaining rows of a table after this number of pivots in its first n columns; each
+/// pivot is the largest entry of all. In the first n columns all remaining entries are zero.
 fn eliminated(mut table: DMatrix<f64>, n: usize, rank: usize) -> DMatrix<f64> {
     for k in 0..rank {
         let (mut at, mut largest) = ((k, k), 0.0);

@@ -1,5 +1,5 @@
-//! A door on two hinges in the plane swings for a second; built in code, without scenes and
-//! reports.
+//! A door on two hinges in the plane swings for a second; the mechanism is described in code,
+//! without scenes and reports.
 
 use std::ops::ControlFlow;
 

@@ -1,4 +1,4 @@
-//! A mechanism without freedom: its state is a function of time.
+//! A mechanism without degrees of freedom: its state is a function of time.
 
 use super::*;
 
@@ -7,7 +7,7 @@ const RATE: f64 = 4.0;
 
 /// A Scotch yoke: a crank with a pin in the slot of a slider on the ground. If the crank has the
 /// angle ω·t, the slider is at r·cos ω·t. The damping is so large that the motion would be stiff if
-/// anything were free.
+/// there were a degree of freedom.
 fn yoke(d: &mut Description) {
     let (crank, slider) = (BodyRef::Body(0), BodyRef::Body(1));
     d.bodies = vec![body("crank", [0.0; 2]), body("slider", [RADIUS, 0.0])];
@@ -45,8 +45,8 @@ fn yoke(d: &mut Description) {
 #[test]
 fn it_is_evaluated_once_at_each_time_of_a_step() {
     let p = scene(yoke);
-    // One evaluation of a step is at a time that has already been evaluated: the last stage is at
-    // the end of the step.
+    // One evaluation of a step is at a time that has already been evaluated, because the last stage
+    // is at the end of the step.
     for (method, again) in [(Method::Dop853, 1), (Method::Dopri5, 1)] {
         let options = MotionOptions { method, ..to(3.0) };
         let wanted = OutputRequest {

@@ -23,14 +23,14 @@ pub(super) struct Calls {
 /// Shared record of the calls.
 pub(super) type Notes = Arc<Mutex<Calls>>;
 
-/// A constraint and its record.
+/// A constraint with its record.
 #[derive(Clone)]
 struct Watched {
     inner: Box<dyn ConstraintKernels>,
     notes: Notes,
 }
 
-/// Replaces a joint by a watched one.
+/// Replaces a joint by a constraint that records its calls.
 pub(super) fn watch(joint: &mut Joint) -> Notes {
     let notes = Notes::default();
     joint.element = Box::new(Watched {
@@ -40,7 +40,7 @@ pub(super) fn watch(joint: &mut Joint) -> Notes {
     notes
 }
 
-/// Takes the record and resets it.
+/// Returns the record and resets it.
 pub(super) fn take(notes: &Notes) -> Calls {
     std::mem::take(&mut notes.lock().expect("nobody panicked"))
 }

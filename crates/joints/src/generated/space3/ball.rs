@@ -15,15 +15,16 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of `radius` about point `s` lies
-/// in the plane and has no velocity along and across a fixed direction of the plane.
+/// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of
+/// `radius` about point `s` is in the plane and has no velocity along a fixed direction of the
+/// plane or across it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ball {
     /// The centre of the ball. Point in the frame of the body (m).
     pub s: [f64; 3],
     /// Radius of the ball. Unit: [`Unit::Radius`].
     pub radius: f64,
-    /// The plane, its normal towards the side of the ball. Longitudinal is the coordinate axis that lies least along the normal, made orthogonal to it, and lateral = normal × longitudinal: x and y on the plane z = 0. Plane of the ground, z = 0 unless it is given.
+    /// The plane, with its normal towards the ball. Longitudinal is the coordinate axis with the smallest component along the normal, made orthogonal to it, and lateral = normal × longitudinal: x and y on the plane z = 0. Plane of the ground, z = 0 unless it is given.
     pub plane: GroundPlane,
 }
 impl Ball {
@@ -52,8 +53,8 @@ impl Constraint<Space3> for Ball {
                 name: "Ball",
                 scene_type: "ball",
                 variant: None,
-                doc: "A ball rolls without slip on a plane of the ground: the lowest point of the sphere of `radius` about point `s` lies in the plane and has no velocity along and across a fixed direction of the plane.",
-                text: "joint! { space Ball(i) {\n    /// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of `radius` about point `s` lies\n    /// in the plane and has no velocity along and across a fixed direction of the plane.\n    params {\n        /// The centre of the ball.\n        s: Point in i,\n        /// Radius of the ball.\n        radius: Radius,\n        /// The plane, its normal towards the side of the ball. Longitudinal is the coordinate axis that lies least along the\n        /// normal, made orthogonal to it, and lateral = normal × longitudinal: x and y on the plane z = 0.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let track = along(plane);\n    let centre = point(i, s);\n    let slip = velocity(centre) - cross(spin(i), n) * radius;\n    require \"the radius is not zero\": radius > 0.0;\n    rows: [contact, longitudinal, lateral];\n    phi: dot(n, centre - start(plane)) - radius;\n    psi: [dot(track, slip), dot(cross(n, track), slip)];\n    component N: n;\n    place: centre - n * radius;\n} }",
+                doc: "A ball rolls without slip on a plane of the ground: the lowest point of the sphere of `radius` about point `s` is in the plane and has no velocity along a fixed direction of the plane or across it.",
+                text: "joint! { space Ball(i) {\n    /// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of\n    /// `radius` about point `s` is in the plane and has no velocity along a fixed direction of the\n    /// plane or across it.\n    params {\n        /// The centre of the ball.\n        s: Point in i,\n        /// Radius of the ball.\n        radius: Radius,\n        /// The plane, with its normal towards the ball. Longitudinal is the coordinate axis with\n        /// the smallest component along the normal, made orthogonal to it, and lateral = normal ×\n        /// longitudinal: x and y on the plane z = 0.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let track = along(plane);\n    let centre = point(i, s);\n    let slip = velocity(centre) - cross(spin(i), n) * radius;\n    require \"the radius is not zero\": radius > 0.0;\n    rows: [contact, longitudinal, lateral];\n    phi: dot(n, centre - start(plane)) - radius;\n    psi: [dot(track, slip), dot(cross(n, track), slip)];\n    component N: n;\n    place: centre - n * radius;\n} }",
                 slots: &["i"],
                 parameters: &[
                     Parameter::required(
@@ -69,7 +70,7 @@ impl Constraint<Space3> for Ball {
                     Parameter::optional(
                         "plane",
                         Shape::GroundPlane,
-                        "The plane, its normal towards the side of the ball. Longitudinal is the coordinate axis that lies least along the normal, made orthogonal to it, and lateral = normal × longitudinal: x and y on the plane z = 0.",
+                        "The plane, with its normal towards the ball. Longitudinal is the coordinate axis with the smallest component along the normal, made orthogonal to it, and lateral = normal × longitudinal: x and y on the plane z = 0.",
                     ),
                 ],
                 points_apart: false,

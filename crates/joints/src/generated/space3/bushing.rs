@@ -8,20 +8,23 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
-/// Springs and dampers along and about the axes of body i between point `s_i` of body i and point `s_j` of body j, at rest at the
-/// start. With d the components in these axes of the vector from the first point to the second one, and θ those of the rotation vector
-/// of body j against body i since the start, `−k·Δd − c·ḋ` and `−k·θ − c·θ̇` act on these six numbers: the springs have the energy
-/// `½·Σ k·Δd² + ½·Σ k·θ²`, and torques are those of this energy. There is no value beyond 3 rad: at half a turn θ would change its sign.
-/// The force on body j acts at its own point; body i takes the opposite force through the same point.
+/// Springs and dampers along and about the axes of body i between point `s_i` of body i and
+/// point `s_j` of body j, without load at the start. Here d are the components, in these axes,
+/// of the vector from the first point to the second one. The components of the rotation vector
+/// of body j relative to body i since the start are θ. The loads `−k·Δd − c·ḋ` and
+/// `−k·θ − c·θ̇` act on these six numbers. The springs have the energy `½·Σ k·Δd² + ½·Σ k·θ²`,
+/// and the torques are those of this energy. Rotations beyond 3 rad have no value, because θ
+/// would change its sign at half a turn. The force on body j acts at its own point; the
+/// opposite force acts on body i at the same point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bushing {
     /// End on body i. Point in the frame of body i (m).
     pub s_i: [f64; 3],
-    /// End on body j; the force on body i acts through this point, too. Point in the frame of body j (m).
+    /// End on body j; the force on body i acts at this point, too. Point in the frame of body j (m).
     pub s_j: [f64; 3],
-    /// Along x, y and z of the frame of body i, and about them. Units: [`Unit::Stiffness`], [`Unit::Stiffness`], [`Unit::Stiffness`], [`Unit::TorsionStiffness`], [`Unit::TorsionStiffness`], [`Unit::TorsionStiffness`].
+    /// Stiffness along x, y and z of the frame of body i, and about these axes. Units: [`Unit::Stiffness`], [`Unit::Stiffness`], [`Unit::Stiffness`], [`Unit::TorsionStiffness`], [`Unit::TorsionStiffness`], [`Unit::TorsionStiffness`].
     pub stiffness: [f64; 6],
-    /// Along x, y and z of the frame of body i, and about them. Units: [`Unit::Damping`], [`Unit::Damping`], [`Unit::Damping`], [`Unit::TorsionDamping`], [`Unit::TorsionDamping`], [`Unit::TorsionDamping`].
+    /// Damping along x, y and z of the frame of body i, and about these axes. Units: [`Unit::Damping`], [`Unit::Damping`], [`Unit::Damping`], [`Unit::TorsionDamping`], [`Unit::TorsionDamping`], [`Unit::TorsionDamping`].
     pub damping: [f64; 6],
     /// Kept from the assembled start; set by `initialise`.
     offset: [f64; 3],
@@ -59,15 +62,15 @@ impl Force<Space3> for Bushing {
             name: "Bushing",
             scene_type: "bushing",
             variant: None,
-            doc: "Springs and dampers along and about the axes of body i between point `s_i` of body i and point `s_j` of body j, at rest at the start. With d the components in these axes of the vector from the first point to the second one, and θ those of the rotation vector of body j against body i since the start, `−k·Δd − c·ḋ` and `−k·θ − c·θ\u{307}` act on these six numbers: the springs have the energy `½·Σ k·Δd² + ½·Σ k·θ²`, and torques are those of this energy. There is no value beyond 3 rad: at half a turn θ would change its sign. The force on body j acts at its own point; body i takes the opposite force through the same point.",
-            text: "force! { space Bushing(i, j) {\n    /// Springs and dampers along and about the axes of body i between point `s_i` of body i and point `s_j` of body j, at rest at the\n    /// start. With d the components in these axes of the vector from the first point to the second one, and θ those of the rotation vector\n    /// of body j against body i since the start, `−k·Δd − c·ḋ` and `−k·θ − c·θ\u{307}` act on these six numbers: the springs have the energy\n    /// `½·Σ k·Δd² + ½·Σ k·θ²`, and torques are those of this energy. There is no value beyond 3 rad: at half a turn θ would change its sign.\n    /// The force on body j acts at its own point; body i takes the opposite force through the same point.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j; the force on body i acts through this point, too.\n        s_j: Point in j,\n        /// Along x, y and z of the frame of body i, and about them.\n        stiffness: [Stiffness, Stiffness, Stiffness, TorsionStiffness, TorsionStiffness, TorsionStiffness],\n        /// Along x, y and z of the frame of body i, and about them.\n        damping: [Damping, Damping, Damping, TorsionDamping, TorsionDamping, TorsionDamping],\n    }\n    initial {\n        offset: Vector in i = local(i, point(j, s_j) - point(i, s_i)),\n        x_0: Vector in i = local(i, vector(j, [1.0, 0.0, 0.0])),\n        y_0: Vector in i = local(i, vector(j, [0.0, 1.0, 0.0])),\n        z_0: Vector in i = local(i, vector(j, [0.0, 0.0, 1.0])),\n    }\n    let d = local(i, point(j, s_j) - point(i, s_i));\n    let x = vector(i, local(i, vector(j, [1.0, 0.0, 0.0])));\n    let y = vector(i, local(i, vector(j, [0.0, 1.0, 0.0])));\n    let z = vector(i, local(i, vector(j, [0.0, 0.0, 1.0])));\n    // 2·sin θ along the axis of the rotation, and its trace, 1 + 2·cos θ.\n    let twice = cross(vector(i, x_0), x) + cross(vector(i, y_0), y) + cross(vector(i, z_0), z);\n    let trace = dot(vector(i, x_0), x) + dot(vector(i, y_0), y) + dot(vector(i, z_0), z);\n    let theta = local(i, twice * (0.5 * angle_over_sine(0.5 * trace - 0.5)));\n    force: -(stiffness[0] * (d[0] - offset[0]) + damping[0] * rate(d[0])) on d[0];\n    force: -(stiffness[1] * (d[1] - offset[1]) + damping[1] * rate(d[1])) on d[1];\n    force: -(stiffness[2] * (d[2] - offset[2]) + damping[2] * rate(d[2])) on d[2];\n    force: -(stiffness[3] * theta[0] + damping[3] * rate(theta[0])) on theta[0];\n    force: -(stiffness[4] * theta[1] + damping[4] * rate(theta[1])) on theta[1];\n    force: -(stiffness[5] * theta[2] + damping[5] * rate(theta[2])) on theta[2];\n} }",
+            doc: "Springs and dampers along and about the axes of body i between point `s_i` of body i and point `s_j` of body j, without load at the start. Here d are the components, in these axes, of the vector from the first point to the second one. The components of the rotation vector of body j relative to body i since the start are θ. The loads `−k·Δd − c·ḋ` and `−k·θ − c·θ\u{307}` act on these six numbers. The springs have the energy `½·Σ k·Δd² + ½·Σ k·θ²`, and the torques are those of this energy. Rotations beyond 3 rad have no value, because θ would change its sign at half a turn. The force on body j acts at its own point; the opposite force acts on body i at the same point.",
+            text: "force! { space Bushing(i, j) {\n    /// Springs and dampers along and about the axes of body i between point `s_i` of body i and\n    /// point `s_j` of body j, without load at the start. Here d are the components, in these axes,\n    /// of the vector from the first point to the second one. The components of the rotation vector\n    /// of body j relative to body i since the start are θ. The loads `−k·Δd − c·ḋ` and\n    /// `−k·θ − c·θ\u{307}` act on these six numbers. The springs have the energy `½·Σ k·Δd² + ½·Σ k·θ²`,\n    /// and the torques are those of this energy. Rotations beyond 3 rad have no value, because θ\n    /// would change its sign at half a turn. The force on body j acts at its own point; the\n    /// opposite force acts on body i at the same point.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j; the force on body i acts at this point, too.\n        s_j: Point in j,\n        /// Stiffness along x, y and z of the frame of body i, and about these axes.\n        stiffness: [Stiffness, Stiffness, Stiffness, TorsionStiffness, TorsionStiffness, TorsionStiffness],\n        /// Damping along x, y and z of the frame of body i, and about these axes.\n        damping: [Damping, Damping, Damping, TorsionDamping, TorsionDamping, TorsionDamping],\n    }\n    initial {\n        offset: Vector in i = local(i, point(j, s_j) - point(i, s_i)),\n        x_0: Vector in i = local(i, vector(j, [1.0, 0.0, 0.0])),\n        y_0: Vector in i = local(i, vector(j, [0.0, 1.0, 0.0])),\n        z_0: Vector in i = local(i, vector(j, [0.0, 0.0, 1.0])),\n    }\n    let d = local(i, point(j, s_j) - point(i, s_i));\n    let x = vector(i, local(i, vector(j, [1.0, 0.0, 0.0])));\n    let y = vector(i, local(i, vector(j, [0.0, 1.0, 0.0])));\n    let z = vector(i, local(i, vector(j, [0.0, 0.0, 1.0])));\n    // 2·sin θ along the axis of the rotation, and its trace, 1 + 2·cos θ.\n    let twice = cross(vector(i, x_0), x) + cross(vector(i, y_0), y) + cross(vector(i, z_0), z);\n    let trace = dot(vector(i, x_0), x) + dot(vector(i, y_0), y) + dot(vector(i, z_0), z);\n    let theta = local(i, twice * (0.5 * angle_over_sine(0.5 * trace - 0.5)));\n    force: -(stiffness[0] * (d[0] - offset[0]) + damping[0] * rate(d[0])) on d[0];\n    force: -(stiffness[1] * (d[1] - offset[1]) + damping[1] * rate(d[1])) on d[1];\n    force: -(stiffness[2] * (d[2] - offset[2]) + damping[2] * rate(d[2])) on d[2];\n    force: -(stiffness[3] * theta[0] + damping[3] * rate(theta[0])) on theta[0];\n    force: -(stiffness[4] * theta[1] + damping[4] * rate(theta[1])) on theta[1];\n    force: -(stiffness[5] * theta[2] + damping[5] * rate(theta[2])) on theta[2];\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required("s_i", Shape::Point { slot: 0 }, "End on body i."),
                 Parameter::required(
                     "s_j",
                     Shape::Point { slot: 1 },
-                    "End on body j; the force on body i acts through this point, too.",
+                    "End on body j; the force on body i acts at this point, too.",
                 ),
                 Parameter::required(
                     "stiffness",
@@ -81,7 +84,7 @@ impl Force<Space3> for Bushing {
                             Unit::TorsionStiffness,
                         ],
                     ),
-                    "Along x, y and z of the frame of body i, and about them.",
+                    "Stiffness along x, y and z of the frame of body i, and about these axes.",
                 ),
                 Parameter::required(
                     "damping",
@@ -95,7 +98,7 @@ impl Force<Space3> for Bushing {
                             Unit::TorsionDamping,
                         ],
                     ),
-                    "Along x, y and z of the frame of body i, and about them.",
+                    "Damping along x, y and z of the frame of body i, and about these axes.",
                 ),
             ],
             points_apart: false,

@@ -15,10 +15,12 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// Point `s_i` of body i and point `s_j` of body j coincide, and both bodies turn about their axes by the same
-/// angle, however these are inclined (a homokinetic joint). With u_i, v_i across the axis of body i and u_j, v_j
-/// across that of body j, which the smallest rotation from the first axis to the second made of u_i, v_i at the
-/// start, `u_i·v_j − v_i·u_j = 0`: the bodies do not turn about the sum of their axes.
+/// Point `s_i` of body i and point `s_j` of body j coincide, and both bodies rotate about their
+/// axes by the same angle. This is true for any inclination of the axes (a homokinetic joint).
+/// The directions u_i, v_i are perpendicular to the axis of body i, and u_j, v_j to the axis of
+/// body j. At the start, the smallest rotation from the first axis to the second maps u_i, v_i
+/// to u_j, v_j. The row `u_i·v_j − v_i·u_j = 0` states that the bodies have no relative
+/// rotation about the sum of their axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstantVelocity {
     /// The centre of the joint on body i. Point in the frame of body i (m).
@@ -27,7 +29,7 @@ pub struct ConstantVelocity {
     pub s_j: [f64; 3],
     /// The axis of body i. Axis, and directions across it, in the frame of body i.
     pub axis: Axes,
-    /// The axis of body j, which need not be parallel to it. Axis, and directions across it, in the frame of body j.
+    /// The axis of body j, which may have any inclination to the axis of body i. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
     /// Kept from the assembled start; set by `initialise`.
     cosine: f64,
@@ -82,8 +84,8 @@ impl Constraint<Space3> for ConstantVelocity {
                 name: "ConstantVelocity",
                 scene_type: "constant-velocity",
                 variant: None,
-                doc: "Point `s_i` of body i and point `s_j` of body j coincide, and both bodies turn about their axes by the same angle, however these are inclined (a homokinetic joint). With u_i, v_i across the axis of body i and u_j, v_j across that of body j, which the smallest rotation from the first axis to the second made of u_i, v_i at the start, `u_i·v_j − v_i·u_j = 0`: the bodies do not turn about the sum of their axes.",
-                text: "joint! { space ConstantVelocity(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide, and both bodies turn about their axes by the same\n    /// angle, however these are inclined (a homokinetic joint). With u_i, v_i across the axis of body i and u_j, v_j\n    /// across that of body j, which the smallest rotation from the first axis to the second made of u_i, v_i at the\n    /// start, `u_i·v_j − v_i·u_j = 0`: the bodies do not turn about the sum of their axes.\n    params {\n        /// The centre of the joint on body i.\n        s_i: Point in i,\n        /// The centre of the joint on body j.\n        s_j: Point in j,\n        /// The axis of body i.\n        axis: Axes in i,\n        /// The axis of body j, which need not be parallel to it.\n        axis_j: Axes in j like axis,\n    }\n    let u = direction(i, axis[0]);\n    let v = direction(i, axis[1]);\n    let u_own = direction(j, axis_j[0]);\n    let v_own = direction(j, axis_j[1]);\n    let k = dot(direction(i, axis[2]), direction(j, axis_j[2]));\n    let even = dot(u, u_own) + dot(v, v_own);\n    let odd = dot(u, v_own) - dot(v, u_own);\n    // Cosine and sine of the angle from u_j to the direction across the axis of body j that is given: the smallest\n    // rotation has even = 1 + k and odd = 0.\n    initial { cosine: Ratio = even / (1.0 + k), sine: Ratio = odd / (1.0 + k) }\n    require \"its axes do not point against each other\": 1.0 + k > 0.000001;\n    rows: [x, y, z, turn];\n    phi: [point(i, s_i) - point(j, s_j), cosine * odd - sine * even];\n    place: point(i, s_i);\n} }",
+                doc: "Point `s_i` of body i and point `s_j` of body j coincide, and both bodies rotate about their axes by the same angle. This is true for any inclination of the axes (a homokinetic joint). The directions u_i, v_i are perpendicular to the axis of body i, and u_j, v_j to the axis of body j. At the start, the smallest rotation from the first axis to the second maps u_i, v_i to u_j, v_j. The row `u_i·v_j − v_i·u_j = 0` states that the bodies have no relative rotation about the sum of their axes.",
+                text: "joint! { space ConstantVelocity(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide, and both bodies rotate about their\n    /// axes by the same angle. This is true for any inclination of the axes (a homokinetic joint).\n    /// The directions u_i, v_i are perpendicular to the axis of body i, and u_j, v_j to the axis of\n    /// body j. At the start, the smallest rotation from the first axis to the second maps u_i, v_i\n    /// to u_j, v_j. The row `u_i·v_j − v_i·u_j = 0` states that the bodies have no relative\n    /// rotation about the sum of their axes.\n    params {\n        /// The centre of the joint on body i.\n        s_i: Point in i,\n        /// The centre of the joint on body j.\n        s_j: Point in j,\n        /// The axis of body i.\n        axis: Axes in i,\n        /// The axis of body j, which may have any inclination to the axis of body i.\n        axis_j: Axes in j like axis,\n    }\n    let u = direction(i, axis[0]);\n    let v = direction(i, axis[1]);\n    let u_own = direction(j, axis_j[0]);\n    let v_own = direction(j, axis_j[1]);\n    let k = dot(direction(i, axis[2]), direction(j, axis_j[2]));\n    let even = dot(u, u_own) + dot(v, v_own);\n    let odd = dot(u, v_own) - dot(v, u_own);\n    // Cosine and sine of the angle from u_j to the given direction across the axis of body j: the\n    // smallest rotation has even = 1 + k and odd = 0.\n    initial { cosine: Ratio = even / (1.0 + k), sine: Ratio = odd / (1.0 + k) }\n    require \"its axes do not point against each other\": 1.0 + k > 0.000001;\n    rows: [x, y, z, turn];\n    phi: [point(i, s_i) - point(j, s_j), cosine * odd - sine * even];\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
@@ -107,7 +109,7 @@ impl Constraint<Space3> for ConstantVelocity {
                             slot: 1,
                             like: Some(2),
                         },
-                        "The axis of body j, which need not be parallel to it.",
+                        "The axis of body j, which may have any inclination to the axis of body i.",
                     ),
                 ],
                 points_apart: false,

@@ -15,8 +15,8 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the axes of both bodies
-/// are parallel: body j slides along the axis and turns about it.
+/// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the
+/// axes of both bodies are parallel: body j slides along the axis and rotates about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cylindrical {
     /// A point of the axis on body i. Point in the frame of body i (m).
@@ -105,8 +105,8 @@ impl Constraint<Space3> for Cylindrical {
                 name: "Cylindrical",
                 scene_type: "cylindrical",
                 variant: None,
-                doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the axes of both bodies are parallel: body j slides along the axis and turns about it.",
-                text: "joint! { space Cylindrical(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the axes of both bodies\n    /// are parallel: body j slides along the axis and turns about it.\n    params {\n        /// A point of the axis on body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the axis.\n        s_j: Point in j,\n        /// The axis on body i.\n        axis: Axes in i,\n        /// The axis on body j.\n        axis_j: Axes in j like axis,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    let w = direction(j, axis_j[2]);\n    rows: [u, v, axis_u, axis_v];\n    phi: [\n        dot(direction(i, axis[0]), d),\n        dot(direction(i, axis[1]), d),\n        dot(direction(i, axis[0]), w),\n        dot(direction(i, axis[1]), w),\n    ];\n    measure displacement: dot(direction(i, axis[2]), d);\n    measure angle: angle(axis, axis_j);\n    place: point(i, s_i);\n} }",
+                doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the axes of both bodies are parallel: body j slides along the axis and rotates about it.",
+                text: "joint! { space Cylindrical(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the\n    /// axes of both bodies are parallel: body j slides along the axis and rotates about it.\n    params {\n        /// A point of the axis on body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the axis.\n        s_j: Point in j,\n        /// The axis on body i.\n        axis: Axes in i,\n        /// The axis on body j.\n        axis_j: Axes in j like axis,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    let w = direction(j, axis_j[2]);\n    rows: [u, v, axis_u, axis_v];\n    phi: [\n        dot(direction(i, axis[0]), d),\n        dot(direction(i, axis[1]), d),\n        dot(direction(i, axis[0]), w),\n        dot(direction(i, axis[1]), w),\n    ];\n    measure displacement: dot(direction(i, axis[2]), d);\n    measure angle: angle(axis, axis_j);\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(

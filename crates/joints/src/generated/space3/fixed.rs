@@ -18,13 +18,13 @@ use crate::spec::{
 /// Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies stay parallel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fixed {
-    /// The place on body i, at which the reaction is reported. Point in the frame of body i (m).
+    /// The point of body i at which the reaction is reported. Point in the frame of body i (m).
     pub s_i: [f64; 3],
-    /// The same place on body j. Point in the frame of body j (m).
+    /// The same point on body j. Point in the frame of body j (m).
     pub s_j: [f64; 3],
     /// Axes of body i. Axis, and directions across it, in the frame of body i.
     pub axes: Axes,
-    /// The axes of body j that are parallel to them. Axis, and directions across it, in the frame of body j.
+    /// The axes of body j, parallel to the axes of body i. Axis, and directions across it, in the frame of body j.
     pub axes_j: Axes,
 }
 impl Fixed {
@@ -81,18 +81,18 @@ impl Constraint<Space3> for Fixed {
                 scene_type: "fixed",
                 variant: None,
                 doc: "Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies stay parallel.",
-                text: "joint! { space Fixed(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies stay parallel.\n    params {\n        /// The place on body i, at which the reaction is reported.\n        s_i: Point in i,\n        /// The same place on body j.\n        s_j: Point in j,\n        /// Axes of body i.\n        axes: Axes in i optional,\n        /// The axes of body j that are parallel to them.\n        axes_j: Axes in j like axes,\n    }\n    let w = direction(j, axes_j[2]);\n    rows: [x, y, z, axis_u, axis_v, turn];\n    phi: [\n        point(i, s_i) - point(j, s_j),\n        dot(direction(i, axes[0]), w),\n        dot(direction(i, axes[1]), w),\n        dot(direction(i, axes[1]), direction(j, axes_j[0])),\n    ];\n    place: point(i, s_i);\n} }",
+                text: "joint! { space Fixed(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies stay parallel.\n    params {\n        /// The point of body i at which the reaction is reported.\n        s_i: Point in i,\n        /// The same point on body j.\n        s_j: Point in j,\n        /// Axes of body i.\n        axes: Axes in i optional,\n        /// The axes of body j, parallel to the axes of body i.\n        axes_j: Axes in j like axes,\n    }\n    let w = direction(j, axes_j[2]);\n    rows: [x, y, z, axis_u, axis_v, turn];\n    phi: [\n        point(i, s_i) - point(j, s_j),\n        dot(direction(i, axes[0]), w),\n        dot(direction(i, axes[1]), w),\n        dot(direction(i, axes[1]), direction(j, axes_j[0])),\n    ];\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
                         "s_i",
                         Shape::Point { slot: 0 },
-                        "The place on body i, at which the reaction is reported.",
+                        "The point of body i at which the reaction is reported.",
                     ),
                     Parameter::required(
                         "s_j",
                         Shape::Point { slot: 1 },
-                        "The same place on body j.",
+                        "The same point on body j.",
                     ),
                     Parameter::optional(
                         "axes",
@@ -105,7 +105,7 @@ impl Constraint<Space3> for Fixed {
                             slot: 1,
                             like: Some(2),
                         },
-                        "The axes of body j that are parallel to them.",
+                        "The axes of body j, parallel to the axes of body i.",
                     ),
                 ],
                 points_apart: false,

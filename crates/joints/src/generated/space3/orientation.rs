@@ -15,12 +15,12 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// The axes of both bodies stay parallel: the bodies do not turn against each other.
+/// The axes of both bodies stay parallel: the bodies do not rotate relative to each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orientation {
     /// Axes of body i. Axis, and directions across it, in the frame of body i.
     pub axes: Axes,
-    /// The axes of body j that are parallel to them. Axis, and directions across it, in the frame of body j.
+    /// The axes of body j, parallel to the axes of body i. Axis, and directions across it, in the frame of body j.
     pub axes_j: Axes,
 }
 impl Orientation {
@@ -58,8 +58,8 @@ impl Constraint<Space3> for Orientation {
                 name: "Orientation",
                 scene_type: "orientation",
                 variant: None,
-                doc: "The axes of both bodies stay parallel: the bodies do not turn against each other.",
-                text: "joint! { space Orientation(i, j) {\n    /// The axes of both bodies stay parallel: the bodies do not turn against each other.\n    params {\n        /// Axes of body i.\n        axes: Axes in i optional,\n        /// The axes of body j that are parallel to them.\n        axes_j: Axes in j like axes,\n    }\n    let w = direction(j, axes_j[2]);\n    rows: [axis_u, axis_v, turn];\n    phi: [\n        dot(direction(i, axes[0]), w),\n        dot(direction(i, axes[1]), w),\n        dot(direction(i, axes[1]), direction(j, axes_j[0])),\n    ];\n    place: origin(i);\n} }",
+                doc: "The axes of both bodies stay parallel: the bodies do not rotate relative to each other.",
+                text: "joint! { space Orientation(i, j) {\n    /// The axes of both bodies stay parallel: the bodies do not rotate relative to each other.\n    params {\n        /// Axes of body i.\n        axes: Axes in i optional,\n        /// The axes of body j, parallel to the axes of body i.\n        axes_j: Axes in j like axes,\n    }\n    let w = direction(j, axes_j[2]);\n    rows: [axis_u, axis_v, turn];\n    phi: [\n        dot(direction(i, axes[0]), w),\n        dot(direction(i, axes[1]), w),\n        dot(direction(i, axes[1]), direction(j, axes_j[0])),\n    ];\n    place: origin(i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::optional(
@@ -73,7 +73,7 @@ impl Constraint<Space3> for Orientation {
                             slot: 1,
                             like: Some(0),
                         },
-                        "The axes of body j that are parallel to them.",
+                        "The axes of body j, parallel to the axes of body i.",
                     ),
                 ],
                 points_apart: false,

@@ -15,8 +15,8 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`, and the normals of both
-/// bodies are parallel.
+/// Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`,
+/// and the normals of both bodies are parallel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Planar {
     /// A point of the plane on body i. Point in the frame of body i (m).
@@ -74,8 +74,8 @@ impl Constraint<Space3> for Planar {
                 name: "Planar",
                 scene_type: "planar",
                 variant: None,
-                doc: "Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`, and the normals of both bodies are parallel.",
-                text: "joint! { space Planar(i, j) {\n    /// Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`, and the normals of both\n    /// bodies are parallel.\n    params {\n        /// A point of the plane on body i.\n        s_i: Point in i,\n        /// The point of body j that stays in the plane.\n        s_j: Point in j,\n        /// The normal of the plane on body i.\n        normal: Axes in i,\n        /// The normal on body j.\n        normal_j: Axes in j like normal,\n    }\n    let w = direction(j, normal_j[2]);\n    rows: [normal, axis_u, axis_v];\n    phi: [\n        dot(direction(i, normal[2]), point(j, s_j) - point(i, s_i)),\n        dot(direction(i, normal[0]), w),\n        dot(direction(i, normal[1]), w),\n    ];\n    place: point(i, s_i);\n} }",
+                doc: "Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`, and the normals of both bodies are parallel.",
+                text: "joint! { space Planar(i, j) {\n    /// Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`,\n    /// and the normals of both bodies are parallel.\n    params {\n        /// A point of the plane on body i.\n        s_i: Point in i,\n        /// The point of body j that stays in the plane.\n        s_j: Point in j,\n        /// The normal of the plane on body i.\n        normal: Axes in i,\n        /// The normal on body j.\n        normal_j: Axes in j like normal,\n    }\n    let w = direction(j, normal_j[2]);\n    rows: [normal, axis_u, axis_v];\n    phi: [\n        dot(direction(i, normal[2]), point(j, s_j) - point(i, s_i)),\n        dot(direction(i, normal[0]), w),\n        dot(direction(i, normal[1]), w),\n    ];\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(

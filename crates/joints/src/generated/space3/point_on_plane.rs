@@ -15,7 +15,7 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`.
+/// Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointOnPlane {
     /// A point of the plane in body i. Point in the frame of body i (m).
@@ -54,8 +54,8 @@ impl Constraint<Space3> for PointOnPlane {
                 name: "PointOnPlane",
                 scene_type: "point-on-plane",
                 variant: None,
-                doc: "Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`.",
-                text: "joint! { space PointOnPlane(i, j) {\n    /// Point `s_j` of body j stays in the plane through point `s_i` of body i across `normal`.\n    params {\n        /// A point of the plane in body i.\n        s_i: Point in i,\n        /// The point of body j that stays in the plane.\n        s_j: Point in j,\n        /// The normal of the plane in body i.\n        normal: Direction in i,\n    }\n    rows: [normal];\n    phi: dot(direction(i, normal), point(j, s_j) - point(i, s_i));\n    place: point(i, s_i);\n} }",
+                doc: "Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`.",
+                text: "joint! { space PointOnPlane(i, j) {\n    /// Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`.\n    params {\n        /// A point of the plane in body i.\n        s_i: Point in i,\n        /// The point of body j that stays in the plane.\n        s_j: Point in j,\n        /// The normal of the plane in body i.\n        normal: Direction in i,\n    }\n    rows: [normal];\n    phi: dot(direction(i, normal), point(j, s_j) - point(i, s_i));\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(

@@ -22,7 +22,7 @@ pub struct Revolute {
     pub s_i: [f64; 3],
     /// The same point on body j. Point in the frame of body j (m).
     pub s_j: [f64; 3],
-    /// The axis on body i, about which body j turns right-handed. Axis, and directions across it, in the frame of body i.
+    /// The axis on body i, about which body j rotates right-handed. Axis, and directions across it, in the frame of body i.
     pub axis: Axes,
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
@@ -88,7 +88,7 @@ impl Constraint<Space3> for Revolute {
                 scene_type: "revolute",
                 variant: None,
                 doc: "Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies are parallel.",
-                text: "joint! { space Revolute(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies are parallel.\n    params {\n        /// A point of the axis on body i.\n        s_i: Point in i,\n        /// The same point on body j.\n        s_j: Point in j,\n        /// The axis on body i, about which body j turns right-handed.\n        axis: Axes in i,\n        /// The axis on body j.\n        axis_j: Axes in j like axis,\n    }\n    let w = direction(j, axis_j[2]);\n    rows: [x, y, z, axis_u, axis_v];\n    phi: [\n        point(i, s_i) - point(j, s_j),\n        dot(direction(i, axis[0]), w),\n        dot(direction(i, axis[1]), w),\n    ];\n    measure angle: angle(axis, axis_j);\n    place: point(i, s_i);\n} }",
+                text: "joint! { space Revolute(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide, and the axes of both bodies are parallel.\n    params {\n        /// A point of the axis on body i.\n        s_i: Point in i,\n        /// The same point on body j.\n        s_j: Point in j,\n        /// The axis on body i, about which body j rotates right-handed.\n        axis: Axes in i,\n        /// The axis on body j.\n        axis_j: Axes in j like axis,\n    }\n    let w = direction(j, axis_j[2]);\n    rows: [x, y, z, axis_u, axis_v];\n    phi: [\n        point(i, s_i) - point(j, s_j),\n        dot(direction(i, axis[0]), w),\n        dot(direction(i, axis[1]), w),\n    ];\n    measure angle: angle(axis, axis_j);\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
@@ -104,7 +104,7 @@ impl Constraint<Space3> for Revolute {
                     Parameter::required(
                         "axis",
                         Shape::Axes { slot: 0, like: None },
-                        "The axis on body i, about which body j turns right-handed.",
+                        "The axis on body i, about which body j rotates right-handed.",
                     ),
                     Parameter::required(
                         "axis_j",
@@ -1501,7 +1501,7 @@ pub struct RevoluteAngleDrive {
     pub s_i: [f64; 3],
     /// The same point on body j. Point in the frame of body j (m).
     pub s_j: [f64; 3],
-    /// The axis on body i, about which body j turns right-handed. Axis, and directions across it, in the frame of body i.
+    /// The axis on body i, about which body j rotates right-handed. Axis, and directions across it, in the frame of body i.
     pub axis: Axes,
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
@@ -1554,7 +1554,7 @@ impl Constraint<Space3> for RevoluteAngleDrive {
                     Parameter::required(
                         "axis",
                         Shape::Axes { slot: 0, like: None },
-                        "The axis on body i, about which body j turns right-handed.",
+                        "The axis on body i, about which body j rotates right-handed.",
                     ),
                     Parameter::required(
                         "axis_j",

@@ -15,8 +15,9 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, the axes of both bodies are
-/// parallel, and body j moves by `pitch` along the axis at each turn about it.
+/// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`. The axes
+/// of both bodies are parallel, and body j moves by `pitch` along the axis for each revolution
+/// about it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Screw {
     /// A point of the axis on body i. Point in the frame of body i (m).
@@ -27,7 +28,7 @@ pub struct Screw {
     pub axis: Axes,
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
-    /// Advance along the axis at one turn, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
+    /// Advance along the axis per revolution, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
     pub pitch: f64,
     /// Cosine and sine of the angle at the assembled start; set by `initialise`.
     turn_0: [f64; 2],
@@ -143,8 +144,8 @@ impl Constraint<Space3> for Screw {
                 name: "Screw",
                 scene_type: "screw",
                 variant: None,
-                doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, the axes of both bodies are parallel, and body j moves by `pitch` along the axis at each turn about it.",
-                text: "joint! { space Screw(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, the axes of both bodies are\n    /// parallel, and body j moves by `pitch` along the axis at each turn about it.\n    params {\n        /// A point of the axis on body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the axis.\n        s_j: Point in j,\n        /// The axis on body i.\n        axis: Axes in i,\n        /// The axis on body j.\n        axis_j: Axes in j like axis,\n        /// Advance along the axis at one turn, right-handed: negative for a left-handed thread.\n        pitch: Length,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    let w = direction(j, axis_j[2]);\n    let along = dot(direction(i, axis[2]), d);\n    turns turn: angle(axis, axis_j);\n    initial { along_0: Length = along }\n    rows: [u, v, axis_u, axis_v, thread];\n    phi: [\n        dot(direction(i, axis[0]), d),\n        dot(direction(i, axis[1]), d),\n        dot(direction(i, axis[0]), w),\n        dot(direction(i, axis[1]), w),\n        along - along_0 - 0.15915494309189535 * pitch * turn,\n    ];\n    measure displacement: along;\n    measure angle: angle(axis, axis_j);\n    place: point(i, s_i);\n} }",
+                doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`. The axes of both bodies are parallel, and body j moves by `pitch` along the axis for each revolution about it.",
+                text: "joint! { space Screw(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`. The axes\n    /// of both bodies are parallel, and body j moves by `pitch` along the axis for each revolution\n    /// about it.\n    params {\n        /// A point of the axis on body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the axis.\n        s_j: Point in j,\n        /// The axis on body i.\n        axis: Axes in i,\n        /// The axis on body j.\n        axis_j: Axes in j like axis,\n        /// Advance along the axis per revolution, right-handed: negative for a left-handed thread.\n        pitch: Length,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    let w = direction(j, axis_j[2]);\n    let along = dot(direction(i, axis[2]), d);\n    turns turn: angle(axis, axis_j);\n    initial { along_0: Length = along }\n    rows: [u, v, axis_u, axis_v, thread];\n    phi: [\n        dot(direction(i, axis[0]), d),\n        dot(direction(i, axis[1]), d),\n        dot(direction(i, axis[0]), w),\n        dot(direction(i, axis[1]), w),\n        along - along_0 - 0.15915494309189535 * pitch * turn,\n    ];\n    measure displacement: along;\n    measure angle: angle(axis, axis_j);\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
@@ -173,7 +174,7 @@ impl Constraint<Space3> for Screw {
                     Parameter::required(
                         "pitch",
                         Shape::Numbers(&[Unit::Length]),
-                        "Advance along the axis at one turn, right-handed: negative for a left-handed thread.",
+                        "Advance along the axis per revolution, right-handed: negative for a left-handed thread.",
                     ),
                 ],
                 points_apart: false,
@@ -1454,7 +1455,7 @@ pub struct ScrewDisplacementDrive {
     pub axis: Axes,
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
-    /// Advance along the axis at one turn, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
+    /// Advance along the axis per revolution, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
     pub pitch: f64,
     /// Cosine and sine of the angle at the assembled start; set by `initialise`.
     turn_0: [f64; 2],
@@ -1537,7 +1538,7 @@ impl Constraint<Space3> for ScrewDisplacementDrive {
                     Parameter::required(
                         "pitch",
                         Shape::Numbers(&[Unit::Length]),
-                        "Advance along the axis at one turn, right-handed: negative for a left-handed thread.",
+                        "Advance along the axis per revolution, right-handed: negative for a left-handed thread.",
                     ),
                     Parameter::required(
                         "motion",
@@ -2221,7 +2222,7 @@ pub struct ScrewAngleDrive {
     pub axis: Axes,
     /// The axis on body j. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
-    /// Advance along the axis at one turn, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
+    /// Advance along the axis per revolution, right-handed: negative for a left-handed thread. Unit: [`Unit::Length`].
     pub pitch: f64,
     /// Cosine and sine of the angle at the assembled start; set by `initialise`.
     turn_0: [f64; 2],
@@ -2298,7 +2299,7 @@ impl Constraint<Space3> for ScrewAngleDrive {
                     Parameter::required(
                         "pitch",
                         Shape::Numbers(&[Unit::Length]),
-                        "Advance along the axis at one turn, right-handed: negative for a left-handed thread.",
+                        "Advance along the axis per revolution, right-handed: negative for a left-handed thread.",
                     ),
                     Parameter::required(
                         "motion",

@@ -15,8 +15,8 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the bodies do not turn
-/// against each other.
+/// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the
+/// bodies do not rotate relative to each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Translational {
     /// A point of the line in body i. Point in the frame of body i (m).
@@ -25,7 +25,7 @@ pub struct Translational {
     pub s_j: [f64; 3],
     /// The line in body i. Axis, and directions across it, in the frame of body i.
     pub axis: Axes,
-    /// The axes of body j that stay parallel to those of body i. Axis, and directions across it, in the frame of body j.
+    /// The axes of body j, which stay parallel to the axes of body i. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
 }
 impl Translational {
@@ -100,8 +100,8 @@ impl Constraint<Space3> for Translational {
                 name: "Translational",
                 scene_type: "translational",
                 variant: None,
-                doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the bodies do not turn against each other.",
-                text: "joint! { space Translational(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the bodies do not turn\n    /// against each other.\n    params {\n        /// A point of the line in body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the line.\n        s_j: Point in j,\n        /// The line in body i.\n        axis: Axes in i,\n        /// The axes of body j that stay parallel to those of body i.\n        axis_j: Axes in j like axis,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    let w = direction(j, axis_j[2]);\n    rows: [u, v, axis_u, axis_v, turn];\n    phi: [\n        dot(direction(i, axis[0]), d),\n        dot(direction(i, axis[1]), d),\n        dot(direction(i, axis[0]), w),\n        dot(direction(i, axis[1]), w),\n        dot(direction(i, axis[1]), direction(j, axis_j[0])),\n    ];\n    measure displacement: dot(direction(i, axis[2]), d);\n    place: point(i, s_i);\n} }",
+                doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the bodies do not rotate relative to each other.",
+                text: "joint! { space Translational(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`, and the\n    /// bodies do not rotate relative to each other.\n    params {\n        /// A point of the line in body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the line.\n        s_j: Point in j,\n        /// The line in body i.\n        axis: Axes in i,\n        /// The axes of body j, which stay parallel to the axes of body i.\n        axis_j: Axes in j like axis,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    let w = direction(j, axis_j[2]);\n    rows: [u, v, axis_u, axis_v, turn];\n    phi: [\n        dot(direction(i, axis[0]), d),\n        dot(direction(i, axis[1]), d),\n        dot(direction(i, axis[0]), w),\n        dot(direction(i, axis[1]), w),\n        dot(direction(i, axis[1]), direction(j, axis_j[0])),\n    ];\n    measure displacement: dot(direction(i, axis[2]), d);\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
@@ -125,7 +125,7 @@ impl Constraint<Space3> for Translational {
                             slot: 1,
                             like: Some(2),
                         },
-                        "The axes of body j that stay parallel to those of body i.",
+                        "The axes of body j, which stay parallel to the axes of body i.",
                     ),
                 ],
                 points_apart: false,
@@ -2341,7 +2341,7 @@ pub struct TranslationalDisplacementDrive {
     pub s_j: [f64; 3],
     /// The line in body i. Axis, and directions across it, in the frame of body i.
     pub axis: Axes,
-    /// The axes of body j that stay parallel to those of body i. Axis, and directions across it, in the frame of body j.
+    /// The axes of body j, which stay parallel to the axes of body i. Axis, and directions across it, in the frame of body j.
     pub axis_j: Axes,
     /// Value of the measure at the assembled start; set by `initialise`.
     measure_0: f64,
@@ -2406,7 +2406,7 @@ impl Constraint<Space3> for TranslationalDisplacementDrive {
                             slot: 1,
                             like: Some(2),
                         },
-                        "The axes of body j that stay parallel to those of body i.",
+                        "The axes of body j, which stay parallel to the axes of body i.",
                     ),
                     Parameter::required(
                         "motion",

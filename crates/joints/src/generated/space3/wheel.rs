@@ -15,12 +15,13 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// A wheel rolls without slip on a plane of the ground: a tube of radius `tube` bent round the circle of `radius` about
-/// point `s` across `axis`, without `tube` this circle alone. Its lowest point, `tube` below that of the circle, lies in
-/// the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the
-/// plane, less `tube`, and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of
-/// velocities are multiplied by h over the radius, so that no quotient is needed; arms are those of a wheel that
-/// touches.
+/// A wheel rolls without slip on a plane of the ground. The wheel is a tube of radius `tube`
+/// around the circle of `radius` about point `s` normal to `axis`; without `tube` it is only
+/// this circle. Its lowest point, `tube` below the lowest point of the circle, is in the plane
+/// and has no velocity along the track (axis × up) or across it. With the height h of the
+/// centre above the plane, minus `tube`, and the slope k = up·axis, the contact condition is
+/// `(h² − radius²·(1 − k²))/(2·radius) = 0`. The velocity rows are multiplied by h/radius, so
+/// that no quotient is needed; the lever arms are those of a wheel that touches the plane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wheel {
     /// The centre of the wheel. Point in the frame of the body (m).
@@ -29,9 +30,9 @@ pub struct Wheel {
     pub axis: Direction,
     /// Radius of the circle that touches the plane, or of the centre circle of the tube. Unit: [`Unit::Radius`].
     pub radius: f64,
-    /// Radius of the tube round this circle (the cross-section of a tyre); 0 if it is not given. Unit: [`Unit::Radius`].
+    /// Radius of the tube around this circle (the cross-section of a tyre); 0 if it is not given. Unit: [`Unit::Radius`].
     pub tube: Option<f64>,
-    /// The plane, its normal towards the side of the wheel. Plane of the ground, z = 0 unless it is given.
+    /// The plane, with its normal towards the wheel. Plane of the ground, z = 0 unless it is given.
     pub plane: GroundPlane,
     /// `tube`, or its value at the assembled start; set by `initialise`.
     tube_0: f64,
@@ -93,8 +94,8 @@ impl Constraint<Space3> for Wheel {
                 name: "Wheel",
                 scene_type: "wheel",
                 variant: None,
-                doc: "A wheel rolls without slip on a plane of the ground: a tube of radius `tube` bent round the circle of `radius` about point `s` across `axis`, without `tube` this circle alone. Its lowest point, `tube` below that of the circle, lies in the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the plane, less `tube`, and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of velocities are multiplied by h over the radius, so that no quotient is needed; arms are those of a wheel that touches.",
-                text: "joint! { space Wheel(i) {\n    /// A wheel rolls without slip on a plane of the ground: a tube of radius `tube` bent round the circle of `radius` about\n    /// point `s` across `axis`, without `tube` this circle alone. Its lowest point, `tube` below that of the circle, lies in\n    /// the plane and has no velocity along the track (axis × up) and across it. With the height h of the centre above the\n    /// plane, less `tube`, and the slope k = up·axis, contact is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The rows of\n    /// velocities are multiplied by h over the radius, so that no quotient is needed; arms are those of a wheel that\n    /// touches.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane, or of the centre circle of the tube.\n        radius: Radius,\n        /// Radius of the tube round this circle (the cross-section of a tyre); 0 if it is not given.\n        tube: Radius = 0.0,\n        /// The plane, its normal towards the side of the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let centre = point(i, s);\n    let h = dot(n, centre - start(plane)) - tube;\n    let k = dot(n, a);\n    let steep = 1.0 - k * k;\n    let along = cross(a, n);\n    let across = cross(n, along);\n    initial { inverse: PerLength = 1.0 / radius }\n    let turned = cross(spin(i), (a * k - n) * (radius * radius) - n * (h * tube));\n    require \"the radius is not zero\": radius > 0.0;\n    require \"the wheel does not lie flat\": steep > 0.000001;\n    require \"the wheel is on the side of the normal of its plane, its centre farther off than `tube`\": h > 0.0;\n    rows: [contact, longitudinal, lateral];\n    phi: (h * h - radius * radius * steep) * (inverse * 0.5);\n    psi: [\n        (h * dot(along, velocity(centre)) + dot(along, turned)) * inverse,\n        (h * dot(across, velocity(centre)) + dot(across, turned)) * inverse,\n    ];\n    component N: n;\n    place: centre - (n - a * k) * (radius / norm(n - a * k)) - n * tube;\n} }",
+                doc: "A wheel rolls without slip on a plane of the ground. The wheel is a tube of radius `tube` around the circle of `radius` about point `s` normal to `axis`; without `tube` it is only this circle. Its lowest point, `tube` below the lowest point of the circle, is in the plane and has no velocity along the track (axis × up) or across it. With the height h of the centre above the plane, minus `tube`, and the slope k = up·axis, the contact condition is `(h² − radius²·(1 − k²))/(2·radius) = 0`. The velocity rows are multiplied by h/radius, so that no quotient is needed; the lever arms are those of a wheel that touches the plane.",
+                text: "joint! { space Wheel(i) {\n    /// A wheel rolls without slip on a plane of the ground. The wheel is a tube of radius `tube`\n    /// around the circle of `radius` about point `s` normal to `axis`; without `tube` it is only\n    /// this circle. Its lowest point, `tube` below the lowest point of the circle, is in the plane\n    /// and has no velocity along the track (axis × up) or across it. With the height h of the\n    /// centre above the plane, minus `tube`, and the slope k = up·axis, the contact condition is\n    /// `(h² − radius²·(1 − k²))/(2·radius) = 0`. The velocity rows are multiplied by h/radius, so\n    /// that no quotient is needed; the lever arms are those of a wheel that touches the plane.\n    params {\n        /// The centre of the wheel.\n        s: Point in i,\n        /// The axis of the wheel.\n        axis: Direction in i,\n        /// Radius of the circle that touches the plane, or of the centre circle of the tube.\n        radius: Radius,\n        /// Radius of the tube around this circle (the cross-section of a tyre); 0 if it is not\n        /// given.\n        tube: Radius = 0.0,\n        /// The plane, with its normal towards the wheel.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let a = direction(i, axis);\n    let centre = point(i, s);\n    let h = dot(n, centre - start(plane)) - tube;\n    let k = dot(n, a);\n    let steep = 1.0 - k * k;\n    let along = cross(a, n);\n    let across = cross(n, along);\n    initial { inverse: PerLength = 1.0 / radius }\n    let turned = cross(spin(i), (a * k - n) * (radius * radius) - n * (h * tube));\n    require \"the radius is not zero\": radius > 0.0;\n    require \"the wheel does not lie flat\": steep > 0.000001;\n    require \"the wheel is on the side of the normal of its plane, its centre farther off than `tube`\": h > 0.0;\n    rows: [contact, longitudinal, lateral];\n    phi: (h * h - radius * radius * steep) * (inverse * 0.5);\n    psi: [\n        (h * dot(along, velocity(centre)) + dot(along, turned)) * inverse,\n        (h * dot(across, velocity(centre)) + dot(across, turned)) * inverse,\n    ];\n    component N: n;\n    place: centre - (n - a * k) * (radius / norm(n - a * k)) - n * tube;\n} }",
                 slots: &["i"],
                 parameters: &[
                     Parameter::required(
@@ -115,12 +116,12 @@ impl Constraint<Space3> for Wheel {
                     Parameter::optional(
                         "tube",
                         Shape::Numbers(&[Unit::Radius]),
-                        "Radius of the tube round this circle (the cross-section of a tyre); 0 if it is not given.",
+                        "Radius of the tube around this circle (the cross-section of a tyre); 0 if it is not given.",
                     ),
                     Parameter::optional(
                         "plane",
                         Shape::GroundPlane,
-                        "The plane, its normal towards the side of the wheel.",
+                        "The plane, with its normal towards the wheel.",
                     ),
                 ],
                 points_apart: false,

@@ -5,7 +5,7 @@
 
 use super::columns::{COLUMNS, substeps, work};
 
-/// A step size is chosen as `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))` times the present one.
+/// The next step size is `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))` times the present one.
 const SAFETY: f64 = 0.94;
 const SAFETY_ERROR: f64 = 0.65;
 /// Factors of h are between `MIN_FACTOR^(1/(2j−1)) / MAX_DIVISOR` and the inverse of
@@ -13,8 +13,8 @@ const SAFETY_ERROR: f64 = 0.65;
 const MIN_FACTOR: f64 = 0.02;
 const MAX_DIVISOR: f64 = 4.0;
 /// The order is lowered if the work per unit of time of the lower order is below the first fraction
-/// of the present work, and raised if that of the present order is below the second fraction of the
-/// lower order's.
+/// of the present work. It is raised if the work of the present order is below the second fraction
+/// of that of the lower order.
 const LOWER_ORDER: f64 = 0.8;
 const HIGHER_ORDER: f64 = 0.9;
 /// Factor of the step size if the columns diverge.
@@ -71,8 +71,8 @@ impl OrderControl {
         self.has_diverged = false;
     }
 
-    /// Decides after column j ≥ 2 of a trial of size |h| with error norm `error`. `is_fresh`: at
-    /// the start or end of a leg, where this control did not choose the step size.
+    /// Decides after column j ≥ 2 of a trial of size |h| with error norm `error`. `is_fresh` is
+    /// true at the start or end of a leg, because this control did not choose the step size there.
     pub(super) fn judge(&mut self, j: usize, h: f64, error: f64, is_fresh: bool) -> Verdict {
         self.last = j;
         if !error.is_finite() || (j > 2 && error > (4.0 * self.previous_error).max(1.0)) {
@@ -91,7 +91,7 @@ impl OrderControl {
         if error <= 1.0 && (is_fresh || j >= k || (j + 1 == k && !self.after_rejection)) {
             return Verdict::Done;
         }
-        // The largest error that the remaining columns can be expected to reduce below 1.
+        // Largest error that the remaining columns can be expected to reduce below 1.
         let hope = if j > k {
             0.0
         } else if j == k {
@@ -108,7 +108,7 @@ impl OrderControl {
         }
     }
 
-    /// The best column after convergence in column c.
+    /// Returns the best column after convergence in column c.
     fn best(&self) -> usize {
         let (c, k, w) = (self.last, self.target, &self.rates);
         let highest = COLUMNS - 1;
@@ -153,7 +153,8 @@ impl OrderControl {
             self.target = best;
             self.sizes[best]
         } else {
-            // One column more than was computed, at the same work per unit of time.
+            // The test considers one more column than was computed, with the same work per unit of
+            // time.
             let rising = c < self.target && self.rates[c] < HIGHER_ORDER * self.rates[c - 1];
             self.target = best;
             let ahead = if rising {

@@ -1,4 +1,4 @@
-//! The answer of `pfaff analyze` for a text, as its document.
+//! Computes the answer of `pfaff analyze` for a text, as its document.
 
 use pfaff::documents::DistributionDocument;
 use pfaff::documents::MakeUniqueDocument;
@@ -17,19 +17,19 @@ const LIMITS: Limits = Limits {
     sets: 1_000,
 };
 
-/// The document of the start, computed as in the command, with `--make-unique` for the first
-/// reactions that are not unique, and reactions of minimum norm.
+/// Returns the document of the start, computed as in the command, with `--make-unique` for the
+/// first reactions that are not unique, and reactions of minimum norm.
 ///
 /// # Errors
-/// The error message if the scene is refused.
+/// Returns the error message if the scene is rejected.
 pub fn answer(text: &str) -> Result<Value, String> {
     answer_of(|| AssembledScene::read("scene.toml", text, &Registry::standard()))
 }
 
-/// The same of a scene that `assembled` makes.
+/// Returns the same document for a scene that `assembled` creates.
 ///
 /// # Errors
-/// The error message if the scene is refused.
+/// Returns the error message if the scene is rejected.
 pub fn answer_of(
     assembled: impl Fn() -> Result<AssembledScene, StudyError>,
 ) -> Result<Value, String> {

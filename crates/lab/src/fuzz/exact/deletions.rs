@@ -1,5 +1,5 @@
-//! The rows that may be deleted: the number of sets of rows without which the motion is unchanged,
-//! and the sets that make a reaction unique.
+//! Compares the rows that may be deleted: the number of sets of rows without which the motion is
+//! unchanged, and the sets that make a reaction unique.
 
 use serde_json::Value;
 
@@ -29,8 +29,8 @@ pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     }
 }
 
-/// Number of sets of rows, in ascending order, that can be deleted together with those of
-/// `deleted`.
+/// Returns the number of sets of rows, in ascending order, that can be deleted together with those
+/// of `deleted`.
 fn count(truth: &Truth, missing: usize, from: usize, deleted: &mut Vec<usize>) -> usize {
     if missing == 0 {
         return usize::from(truth.keeps_motion(deleted));
@@ -57,7 +57,7 @@ fn make_unique(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let name = answer["reaction"].as_str().unwrap_or_default();
     let mut elements = truth.elements.iter();
     let Some(element) = elements.find(|e| e.name == name) else {
-        findings.note(Kind::Sentence, format!("nobody asked for `{name}`"));
+        findings.note(Kind::Sentence, format!("there was no request for `{name}`"));
         return;
     };
     if answer["reason"].is_string() {

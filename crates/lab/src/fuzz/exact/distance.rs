@@ -1,4 +1,5 @@
-//! The rank of an answer for data within a tolerance, judged by their distance from a lower rank.
+//! Compares the rank of an answer for data within a tolerance with their distance from a lower
+//! rank.
 
 use serde_json::Value;
 
@@ -9,39 +10,39 @@ use super::outcome::JudgedStart;
 /// distance times this number, it lowers the rank.
 pub const BEYOND_DOUBT: f64 = 3.0;
 
-/// If the distance exceeds the tolerance by this factor, everything must be decided.
+/// If the distance exceeds the tolerance by this factor, all results must be decided.
 const FAR: f64 = 30.0;
 
 /// A tolerance, and the distance of the data from a lower rank, in one unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Distance {
-    /// The tolerance.
+    /// The stated tolerance.
     pub tolerance: f64,
-    /// No change below this one lowers the rank.
+    /// No change below this value lowers the rank.
     pub to_lower_rank: f64,
-    /// Whether the redundancy is the same at all poses.
+    /// Whether the redundancy is the same at all configurations.
     pub is_permanent: bool,
 }
 
-/// What is left to compare after the rank.
+/// Results that remain to be compared after the rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Left {
-    /// Nothing: the rank is not decided, or another one.
+    /// No results: the rank is not decided, or a different one is also correct.
     Nothing,
-    /// No verdict: coefficients may vanish within the tolerance.
+    /// No verdicts: coefficients may vanish within the tolerance.
     NoVerdict,
-    /// Everything.
+    /// All results.
     Verdicts,
 }
 
 impl Distance {
-    /// Whether a lower rank is so far away that everything must be decided.
+    /// Whether a lower rank is so distant that all results must be decided.
     #[must_use]
     pub fn is_far(self) -> bool {
         self.to_lower_rank >= FAR * self.tolerance
     }
 
-    /// Compares the rank of a document with the right one.
+    /// Compares the rank of a document with the correct one.
     pub fn judge(self, rank: usize, answer: &Value, judged: &mut JudgedStart) -> Left {
         let evidence = &answer["evidence"];
         if evidence["status"] != "decided" {

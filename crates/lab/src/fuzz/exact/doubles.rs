@@ -1,8 +1,8 @@
 //! A drawing in double precision, as a mechanism: Φ and C at any configuration and for any data. It
-//! is not used for verdicts, but for the distance of the data from a lower rank (`near`), and for
-//! the reactions due to loads.
+//! is not used for verdicts; it is used for the distance of the data from a lower rank (`near`),
+//! and for the reactions due to loads.
 //!
-//! It is written from the definitions of the joints, without the crates under test: positions of
+//! It is derived from the definitions of the joints, without the crates under test: positions of
 //! points, and the rate of the quantity that a joint keeps constant.
 
 use pfaff::linalg::Matrix;
@@ -14,9 +14,9 @@ use super::ratio::Ratio;
 /// A point, a direction or a number: numbers that change together.
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// Index of its first number.
+    /// Index of the first number of the block.
     pub first: usize,
-    /// Two for a point or vector, one otherwise.
+    /// Number of values: two for a point or vector, one otherwise.
     pub count: usize,
     /// Whether its change is an angle.
     pub is_angle: bool,
@@ -31,27 +31,29 @@ enum Kept {
         sides: [Side; 2],
         points: [usize; 2],
     },
-    /// `normal·(p_j − p_i)`, the normal turned from an axis of the first body
+    /// The condition is `normal·(p_j − p_i)`, with the normal rotated from an axis of the first
+    /// body.
     Offset {
         sides: [Side; 2],
         points: [usize; 2],
         axis: usize,
     },
-    /// `(|p_j − p_i|² − L²)/(2L)`
+    /// The condition is `(|p_j − p_i|² − L²)/(2L)`.
     Length {
         sides: [Side; 2],
         points: [usize; 2],
         length: usize,
     },
-    /// `φ_j − φ_i − kept`
+    /// The condition is `φ_j − φ_i − kept`.
     Angle { sides: [Side; 2], kept: usize },
-    /// `(φ_2 − φ_3) − ratio·(φ_1 − φ_3) − phase`
+    /// The condition is `(φ_2 − φ_3) − ratio·(φ_1 − φ_3) − phase`.
     Mesh {
         sides: [Side; 3],
         ratio: usize,
         phase: usize,
     },
-    /// `axis·(p_j − p_i) + radius·(φ_j − φ_i) − phase`, the axis of the first body
+    /// The condition is `axis·(p_j − p_i) + radius·(φ_j − φ_i) − phase`, with the axis of the first
+    /// body.
     Rack {
         sides: [Side; 2],
         points: [usize; 2],
@@ -69,7 +71,7 @@ enum Kept {
     },
 }
 
-/// A mechanism in double precision. Angles are multiplied by the mechanism's size, so that all
+/// A mechanism in double precision. Angles are multiplied by the size of the mechanism, so that all
 /// quantities are lengths.
 pub struct Doubles {
     kept: Vec<Kept>,
@@ -79,11 +81,11 @@ pub struct Doubles {
     pub data: Vec<f64>,
     /// Coordinates, `x, y, φ` of each body.
     pub q: Vec<f64>,
-    /// The largest distance of two of its points (m).
+    /// The largest distance between two points of the mechanism (m).
     pub size: f64,
     /// Joint or drive of each row.
     pub links: Vec<usize>,
-    /// m: the holonomic rows come first.
+    /// Number m of holonomic rows, which come first.
     pub holonomic: usize,
 }
 
@@ -95,14 +97,14 @@ struct Place {
     angle: f64,
 }
 
-/// Velocity of the origin, and rotation.
+/// Velocity of the origin, and angular velocity.
 type Twist = [f64; 3];
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// The vector turned by +90°.
+/// Returns the vector rotated by +90°.
 fn quarter([x, y]: [f64; 2]) -> [f64; 2] {
     [-y, x]
 }
@@ -122,7 +124,7 @@ impl Place {
         }
     }
 
-    /// The vector from the origin of the body to a point, in ground components.
+    /// Returns the vector from the origin of the body to a point, in ground components.
     fn arm(&self, d: &[f64], first: usize) -> [f64; 2] {
         let ([c, s], [x, y]) = (self.turn, [d[first], d[first + 1]]);
         [c * x - s * y, s * x + c * y]
@@ -133,7 +135,7 @@ impl Place {
         [self.at[0] + arm[0], self.at[1] + arm[1]]
     }
 
-    /// A unit vector at a given angle in the body.
+    /// Returns a unit vector at a given angle in the body.
     fn direction(&self, d: &[f64], first: usize) -> [f64; 2] {
         let (s, c) = (self.angle + d[first]).sin_cos();
         [c, s]
@@ -284,7 +286,7 @@ impl Kept {
     }
 }
 
-/// Collects the data.
+/// Collects the data of the drawing.
 struct Pen<'a> {
     posed: &'a Posed,
     blocks: Vec<Block>,
@@ -312,14 +314,14 @@ impl Pen<'_> {
         [0, 1].map(|k| self.point(sides[k], p[k]))
     }
 
-    /// A direction in the frame of a side, by its angle there.
+    /// Returns a direction in the frame of a side, by its angle there.
     fn direction(&mut self, side: Side, v: Vector) -> usize {
         let [x, y] = self.posed.vector_in(side, v);
         let k = self.posed.stretch;
         self.add(&[y.rounded(k).atan2(x.rounded(k))], true)
     }
 
-    /// An axis whose normal is this line of force.
+    /// Returns an axis whose normal is this line of force.
     fn axis(&mut self, side: Side, along: Vector) -> usize {
         let [x, y] = self.posed.vector_in(side, along);
         let k = self.posed.stretch;
@@ -441,7 +443,7 @@ impl Pen<'_> {
 }
 
 impl Doubles {
-    /// The drawing as it is written.
+    /// Converts the drawing in its present writing.
     #[must_use]
     pub fn of(posed: &Posed) -> Self {
         let k = posed.stretch;
@@ -486,13 +488,13 @@ impl Doubles {
         }
     }
 
-    /// Rows of C.
+    /// Returns the number of rows of C.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.links.len()
     }
 
-    /// Φ, a length in each row.
+    /// Returns Φ, a length in each row.
     #[must_use]
     pub fn phi(&self, q: &[f64], d: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.holonomic);
@@ -506,7 +508,7 @@ impl Doubles {
         out
     }
 
-    /// C with one unit for all lengths: rotations are multiplied by the size.
+    /// Returns C with one unit for all lengths: rotations are multiplied by the size.
     #[must_use]
     pub fn c(&self, q: &[f64], d: &[f64]) -> Matrix {
         let n = q.len();
@@ -522,7 +524,7 @@ impl Doubles {
         Matrix::from_fn(self.rows(), n, |i, j| columns[j][i])
     }
 
-    /// `C·v` with lengths in all rows.
+    /// Returns `C·v` with lengths in all rows.
     fn rate(&self, q: &[f64], d: &[f64], v: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.rows());
         for kept in &self.kept {
@@ -535,7 +537,7 @@ impl Doubles {
         out
     }
 
-    /// `C·v` for velocities whose rotations are lengths.
+    /// Returns `C·v` for velocities whose rotations are lengths.
     #[must_use]
     pub fn power(&self, q: &[f64], d: &[f64], v: &[f64]) -> Vec<f64> {
         let mut v = v.to_vec();
@@ -556,14 +558,14 @@ impl Doubles {
         }
     }
 
-    /// The change of a number that corresponds to a change of one metre.
+    /// Returns the change of a number that corresponds to a change of one metre.
     #[must_use]
     pub fn unit(&self, block: &Block) -> f64 {
         if block.is_angle { 1.0 / self.size } else { 1.0 }
     }
 }
 
-/// The largest distance of two points or origins of a drawing (m).
+/// Returns the largest distance of two points or origins of a drawing (m).
 #[must_use]
 pub fn extent(posed: &Posed) -> f64 {
     let ties = posed.links.iter().flat_map(|p| p.link.tie.points());

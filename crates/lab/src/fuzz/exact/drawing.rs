@@ -27,24 +27,24 @@ pub struct Drawing {
     pub redundancy: Option<usize>,
     /// Whether theory shows that the rank is the same at all configurations.
     pub has_constant_rank: bool,
-    /// Whether the positions of bodies have errors of one unit in the last place, as those computed
-    /// by a script.
+    /// Whether the positions of bodies have errors of one unit in the last place, like positions
+    /// computed by a script.
     pub is_careless: bool,
 }
 
 /// A joint or drive.
 #[derive(Clone, Debug)]
 pub struct Link {
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
     /// One side (body or ground) for each slot.
     pub sides: Vec<Side>,
-    /// Its kind and position.
+    /// Kind and position of the joint or drive.
     pub tie: Tie,
 }
 
-/// The kind of a joint or drive. `at` is on its last body that has a point, `from` on its first;
-/// `along` is a line of force.
+/// The kind of a joint or drive. The point `at` is on the last body of the joint that has a point,
+/// and `from` on its first; `along` is a line of force.
 #[derive(Clone, Copy, Debug)]
 pub enum Tie {
     /// Both bodies share a point.
@@ -52,7 +52,7 @@ pub enum Tie {
         /// The point.
         at: Vector,
     },
-    /// A weld.
+    /// A rigid connection.
     Fixed {
         /// The reference point.
         at: Vector,
@@ -84,9 +84,9 @@ pub enum Tie {
     },
     /// A massless rod.
     Distance {
-        /// Its end on the first body.
+        /// The end on the first body.
         from: Vector,
-        /// Its end on the second body.
+        /// The end on the second body.
         at: Vector,
     },
     /// Equal rotations.
@@ -98,14 +98,14 @@ pub enum Tie {
     },
     /// A pinion, the second body, on a rack.
     Rack {
-        /// Its centre.
+        /// The centre of the pinion.
         at: Vector,
         /// The direction of the rack.
         along: Vector,
         /// Torque about the centre of a unit force along `along`, in units of the drawing.
         radius: Ratio,
     },
-    /// A wheel or blade.
+    /// A wheel or knife edge.
     KnifeEdge {
         /// The contact point.
         at: Vector,
@@ -119,7 +119,7 @@ pub enum Tie {
         /// The direction.
         along: Vector,
     },
-    /// A wheel, the second body, that rolls as the point of the first moves.
+    /// A wheel, the second body, that rolls while the point of the first moves.
     Rolling {
         /// The point on the first body.
         at: Vector,
@@ -136,7 +136,7 @@ pub enum Tie {
 }
 
 impl Tie {
-    /// Whether it restricts velocities only.
+    /// Whether the element restricts only velocities.
     #[must_use]
     pub fn is_nonholonomic(&self) -> bool {
         matches!(
@@ -145,13 +145,13 @@ impl Tie {
         )
     }
 
-    /// Whether it prescribes a motion.
+    /// Whether the element prescribes a motion.
     #[must_use]
     pub fn is_drive(&self) -> bool {
         matches!(self, Self::AngleDrive { .. })
     }
 
-    /// The points that it names.
+    /// Returns the points that the element contains.
     #[must_use]
     pub fn points(&self) -> Vec<Vector> {
         match *self {
@@ -169,7 +169,7 @@ impl Tie {
         }
     }
 
-    /// Whether its rows are parallel to the axes of the world, so that it can be turned in a
+    /// Whether its rows are parallel to the axes of the world, so that it can be rotated in a
     /// stretched drawing only by multiples of 90°.
     #[must_use]
     pub fn has_axes(&self) -> bool {
@@ -178,7 +178,8 @@ impl Tie {
 }
 
 impl Link {
-    /// The same joint with its first two bodies exchanged. `None` if there is no such joint.
+    /// Returns the same joint with its first two bodies exchanged. Returns `None` if there is no
+    /// such joint.
     #[must_use]
     pub fn swapped(&self) -> Option<Self> {
         let tie = match self.tie {
@@ -205,7 +206,7 @@ impl Link {
 }
 
 impl Drawing {
-    /// An empty drawing.
+    /// Creates an empty drawing.
     #[must_use]
     pub fn new() -> Self {
         Self {
@@ -247,8 +248,8 @@ impl Drawing {
         self.link(&sides, Tie::AngleDrive { joint });
     }
 
-    /// The direction of the line on which a point may move if a force along `u` constrains it:
-    /// perpendicular to `u` after the plane is stretched.
+    /// Returns the direction of the line on which a point may move if a force along `u` constrains
+    /// it: perpendicular to `u` after the plane is stretched.
     #[must_use]
     pub fn across(&self, [x, y]: Vector) -> Vector {
         [Ratio::whole(i64::from(self.stretch)) * y, -x]
@@ -261,7 +262,7 @@ impl Default for Drawing {
     }
 }
 
-/// `p + factor·d`
+/// Returns `p + factor·d`.
 #[must_use]
 pub fn along(p: Vector, factor: Ratio, d: Vector) -> Vector {
     [p[0] + factor * d[0], p[1] + factor * d[1]]

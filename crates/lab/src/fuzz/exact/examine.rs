@@ -1,4 +1,4 @@
-//! Comparison of the answer of the program with exact arithmetic.
+//! Compares the answer of the program with exact arithmetic.
 
 use serde_json::{Value, json};
 
@@ -7,7 +7,7 @@ use super::findings::{Findings, Kind, list, rows, share_of_free};
 use super::truth::Truth;
 use super::{deletions, words};
 
-/// Part of the sentence that a redundancy belongs to this configuration alone.
+/// Part of the sentence that a redundancy exists only at this configuration.
 const ONLY_HERE: &str = "hold at this singular configuration only";
 
 /// Compares a document with the correct results.
@@ -85,7 +85,8 @@ fn ranks(right: &Expected, answer: &Value, findings: &mut Findings) {
     }
 }
 
-/// What the answer says of other configurations: no claim is needed, but none may be wrong.
+/// Compares the statements of the answer about other configurations: no claim is required, but none
+/// may be wrong.
 pub(in crate::fuzz) fn elsewhere(right: &Expected, answer: &Value, findings: &mut Findings) {
     let redundancy = right.redundancy as u64;
     let told = answer["generic"]["redundancy"].as_u64();
@@ -111,7 +112,7 @@ pub(in crate::fuzz) fn elsewhere(right: &Expected, answer: &Value, findings: &mu
     }
 }
 
-/// The kept rows must be independent, and their number must be the rank.
+/// The independent rows must be independent, and their number must be the rank.
 pub(super) fn kept_rows(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let (kept, rank) = (rows(&answer["kept_rows"]), truth.rank());
     if kept.len() != rank || truth.rank_of(&kept) != rank {
@@ -167,7 +168,7 @@ fn of_reaction(right: &ExpectedReaction, answer: &Value, rounding: f64, findings
     directions(right, answer, rounding, findings);
 }
 
-/// The number of unique directions must be correct, and no solution without loads may have a
+/// Compares the number of unique directions, and checks that no solution without loads has a
 /// component along them.
 fn directions(right: &ExpectedReaction, answer: &Value, rounding: f64, findings: &mut Findings) {
     let name = &right.name;

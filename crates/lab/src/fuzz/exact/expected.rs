@@ -1,28 +1,28 @@
-//! The right answer for a mechanism as plain data: what the comparison with an answer reads.
+//! The correct results for a mechanism as plain data, for the comparison with an answer.
 
 use super::truth::{Reaction, Truth};
 use super::wrench::{Element, Meaning, Owner, Wrenches};
 
-/// The right answer.
+/// The correct results for a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
-    /// Number of rows, those of drives included.
+    /// Number of rows, including those of drives.
     pub rows: usize,
     /// The rank of C.
     pub rank: usize,
-    /// Rows minus rank.
+    /// Number of rows minus the rank.
     pub redundancy: usize,
-    /// Velocities minus rank.
+    /// Number of velocities minus the rank.
     pub mobility: usize,
-    /// The rank of the holonomic rows alone, drives included.
+    /// The rank of the holonomic rows alone, including drives.
     pub rank_holonomic: usize,
     /// The rank of the nonholonomic rows alone.
     pub rank_nonholonomic: usize,
-    /// The same without the rows of drives; `None` if there are no drives.
+    /// The ranks without the rows of drives; `None` if there are no drives.
     pub without_drives: Option<WithoutDrives>,
-    /// The redundancy that theory gives, if it does.
+    /// The redundancy according to theory, if it is known.
     pub theory: Option<usize>,
-    /// What is known of the rank at other configurations.
+    /// The rank at other configurations, if it is known.
     pub elsewhere: Elsewhere,
     /// Joints and drives in the order of the file.
     pub reactions: Vec<ExpectedReaction>,
@@ -31,29 +31,29 @@ pub struct Expected {
 /// Ranks without the rows of drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WithoutDrives {
-    /// The rank.
+    /// The rank of the other rows.
     pub rank: usize,
-    /// Rows that are left minus rank.
+    /// Number of the other rows minus their rank.
     pub redundancy: usize,
-    /// Velocities minus rank.
+    /// Number of velocities minus the rank.
     pub mobility: usize,
 }
 
 /// The rank at almost all other configurations that the holonomic rows without drives allow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Elsewhere {
-    /// The same as at this one.
+    /// The rank is the same as at this configuration.
     Same,
-    /// The same, or a lower one if data within a stated tolerance have it.
+    /// The rank is the same, or a lower one if data within a stated tolerance have the lower rank.
     NotHigher,
-    /// A higher one: this configuration is singular.
+    /// The rank is higher: this configuration is singular.
     Higher,
-    /// Not known.
+    /// The rank is unknown.
     Unknown,
 }
 
 impl Elsewhere {
-    /// In words.
+    /// Returns a description of the value.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -65,19 +65,20 @@ impl Elsewhere {
     }
 }
 
-/// The right verdict.
+/// The correct verdict.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// The same in all solutions.
+    /// The value is the same in all solutions.
     Unique,
-    /// Not the same in all solutions.
+    /// The value is not the same in all solutions.
     NotUnique,
-    /// Not the same in all solutions, but data within the stated tolerance may make it so.
+    /// The value is not the same in all solutions, but data within the stated tolerance may make it
+    /// so.
     Open,
 }
 
 impl Verdict {
-    /// Whether it is the same in all solutions.
+    /// Whether the value is the same in all solutions.
     #[must_use]
     pub fn is_unique(self) -> bool {
         self == Self::Unique
@@ -94,53 +95,54 @@ impl From<bool> for Verdict {
     }
 }
 
-/// What is unique of the reaction of a joint or drive: a wrench on its first body, about its place
-/// on that body, in the axes of the ground.
+/// The unique parts of the reaction of a joint or drive: a wrench on its first body, about its
+/// reference point on that body, in the axes of the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedReaction {
     /// The name of the joint or drive.
     pub name: String,
-    /// Its joint or drive.
+    /// Joint or drive of the reaction.
     pub owner: Owner,
     /// Whether the wrench is unique.
     pub is_unique: Verdict,
-    /// Independent wrenches that it can carry: the rank of its rows.
+    /// Number of independent wrenches that it can carry: the rank of its rows.
     pub carried: usize,
-    /// Independent directions of these along which it is not unique; the others are
-    /// `carried − free`.
+    /// Number of independent directions of these wrenches along which it is not unique; the others
+    /// are `carried − free`.
     pub free: usize,
-    /// Its components; `None` if the drawing does not define its place.
+    /// Components of the wrench; `None` if the drawing does not define its reference point.
     pub wrench: Option<ExpectedWrench>,
-    /// Its rows: index from 0, meaning, and whether the multiplier is unique.
+    /// Rows of the reaction: index from 0, meaning, and whether the multiplier is unique.
     pub rows: Vec<(usize, Meaning, Verdict)>,
 }
 
-/// What is unique of the components of a reaction.
+/// The unique components of a reaction.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedWrench {
-    /// Its components by name, and whether they are unique.
+    /// Components by name, and whether they are unique.
     pub components: Vec<(&'static str, Verdict)>,
-    /// Whether the number of unique directions may be another one within the stated tolerance.
+    /// Whether the number of unique directions may differ within the stated tolerance.
     pub is_open: bool,
-    /// Its components in the solutions without loads, one for each independent solution, in units
-    /// of the largest.
+    /// Components in the solutions without loads, one for each independent solution, in units of
+    /// the largest component.
     pub free: Vec<Vec<f64>>,
 }
 
 impl ExpectedReaction {
-    /// Its rows, from 0.
+    /// Returns the rows of the reaction, from 0.
     #[must_use]
     pub fn own_rows(&self) -> Vec<usize> {
         self.rows.iter().map(|(i, ..)| *i).collect()
     }
 
-    /// Its components by name, and whether they are unique; none if its place is not known.
+    /// Returns the components by name, and whether they are unique; empty if the reference point is
+    /// unknown.
     #[must_use]
     pub fn components(&self) -> &[(&'static str, Verdict)] {
         self.wrench.as_ref().map_or(&[], |w| &w.components)
     }
 
-    /// Whether its multipliers are unique.
+    /// Whether the multipliers are unique.
     #[must_use]
     pub fn multipliers(&self) -> Verdict {
         let has = |verdict| self.rows.iter().any(|(.., v)| *v == verdict);
@@ -155,13 +157,13 @@ impl ExpectedReaction {
 }
 
 impl Expected {
-    /// The right answer for a drawing.
+    /// Computes the correct results for a drawing.
     #[must_use]
     pub fn of(drawing: impl Into<Wrenches>) -> Self {
         Self::from_truth(&Truth::of(drawing))
     }
 
-    /// The same after the elimination.
+    /// Computes the same results after the elimination.
     #[must_use]
     pub fn from_truth(truth: &Truth) -> Self {
         let is_late = |wanted: bool| {
@@ -192,19 +194,19 @@ impl Expected {
         }
     }
 
-    /// The same where more is known of the rank at other configurations.
+    /// Adds information about the rank at other configurations.
     #[must_use]
     pub fn with(self, elsewhere: Elsewhere) -> Self {
         Self { elsewhere, ..self }
     }
 
-    /// The reaction of a name.
+    /// Finds the reaction with this name.
     #[must_use]
     pub fn reaction(&self, name: &str) -> Option<&ExpectedReaction> {
         self.reactions.iter().find(|r| r.name == name)
     }
 
-    /// The answer in words, for the head of a file.
+    /// Describes the results as text, for the head of a file.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = format!(

@@ -1,6 +1,7 @@
-//! Kinds of drawings. Each draws degenerate examples and similar ones that are not degenerate: a
-//! point off its line is off by a step of the grid, at least a hundredth of the size, so that a
-//! program that calls everything redundant is wrong as often as one that calls nothing redundant.
+//! Families of drawings. Each family draws degenerate examples and similar ones that are not
+//! degenerate: a point off its line has a distance of one step of the grid, at least a hundredth of
+//! the size. So a program that calls everything redundant is wrong as often as a program that calls
+//! nothing redundant.
 
 mod bars;
 mod doubled;
@@ -17,12 +18,12 @@ use suite::numbers::Numbers;
 use super::drawing::{Drawing, GROUND, Tie};
 use pen::Pen;
 
-/// A kind of drawings.
+/// A family of drawings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Family {
-    /// Nodes on a line joined by distances, with oblique bars.
+    /// Nodes on a line connected by distances, with oblique bars.
     Trusses,
-    /// Bodies held by bars that meet in a point or are parallel.
+    /// Bodies supported by bars that meet in a point or are parallel.
     Bars,
     /// Knife edges, prescribed velocities and rolling wheels whose lines meet in a point or are
     /// parallel.
@@ -35,12 +36,12 @@ pub enum Family {
     Linkages,
     /// Two joints between the same bodies.
     Doubled,
-    /// Two of these in one scene, with or without a hinge between them.
+    /// Two of these drawings in one scene, with or without a hinge between them.
     Several,
 }
 
 impl Family {
-    /// All of them.
+    /// All families.
     pub const ALL: [Self; 8] = [
         Self::Trusses,
         Self::Bars,
@@ -52,7 +53,7 @@ impl Family {
         Self::Several,
     ];
 
-    /// Its name.
+    /// Returns the name of the family.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -67,7 +68,7 @@ impl Family {
         }
     }
 
-    /// A drawing.
+    /// Returns a drawing of the family.
     #[must_use]
     pub fn draw(self, numbers: &mut Numbers) -> Drawing {
         let mut pen = Pen::new(numbers);

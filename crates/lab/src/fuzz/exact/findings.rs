@@ -7,7 +7,7 @@ use super::expected::Verdict;
 /// The severity of a finding, in ascending order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// No answer: the scene was refused.
+    /// There is no answer: the scene was rejected.
     Refused,
     /// The program reports that a result is undecided.
     Undecided,
@@ -17,7 +17,7 @@ pub enum Kind {
     Load,
     /// A wrong verdict.
     Verdict,
-    /// A wrong number: a rank, a redundancy, kept rows.
+    /// A wrong number: a rank, a redundancy, independent rows.
     Rank,
     /// The program panicked.
     Panic,
@@ -30,7 +30,7 @@ impl Kind {
         !matches!(self, Self::Refused | Self::Undecided)
     }
 
-    /// In words.
+    /// Returns a description of the kind.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -48,7 +48,7 @@ impl Kind {
 /// One error or undecided result.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// Its severity.
+    /// Severity of the finding.
     pub kind: Kind,
     /// The text of the program, and the correct result.
     pub text: String,
@@ -59,7 +59,7 @@ pub struct Finding {
 pub struct Findings(pub Vec<Finding>);
 
 impl Findings {
-    /// Adds one.
+    /// Adds one finding.
     pub fn note(&mut self, kind: Kind, text: String) {
         self.0.push(Finding { kind, text });
     }
@@ -94,13 +94,13 @@ impl Findings {
     }
 }
 
-/// The entries of an array.
+/// Returns the entries of an array.
 #[must_use]
 pub fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
-/// Row numbers of the program, converted to count from 0.
+/// Converts row numbers of the program to numbers from 0.
 pub(super) fn rows(value: &Value) -> Vec<usize> {
     let row = |x: &Value| x.as_u64().and_then(|x| x.checked_sub(1));
     list(value)
@@ -110,8 +110,8 @@ pub(super) fn rows(value: &Value) -> Vec<usize> {
         .collect()
 }
 
-/// The component of a free wrench along a direction of components, relative to both, if it is
-/// larger than rounding.
+/// Returns the component of a free wrench along a direction of components, relative to both, if it
+/// is larger than rounding.
 pub(super) fn share_of_free(
     free: &[Vec<f64>],
     axes: &[usize],

@@ -1,8 +1,8 @@
-//! Drawings of the plane as wrenches in space. A unit multiplier of a row causes a force along a
-//! line of the drawing on each of its bodies, or a couple across it. The lines are those of the
-//! drawing before it is stretched and moved: stretching, moving and other frames of bodies only
-//! change the basis. So ranks and dependencies are those of C, up to one factor for each row, and
-//! all numbers are fractions.
+//! Planar drawings as wrenches in space. A unit multiplier of a row causes a force along a line of
+//! the drawing on each of its bodies, or a couple across it. The lines are those of the drawing
+//! before it is stretched and moved: stretching, motion and other frames of bodies only change the
+//! basis. So ranks and dependencies are those of C, up to one factor for each row, and all numbers
+//! are fractions.
 
 use num_bigint::BigInt;
 
@@ -44,7 +44,7 @@ impl From<&Posed> for Wrenches {
 }
 
 impl Posed {
-    /// What exact arithmetic says of it.
+    /// Returns the results of exact arithmetic.
     #[must_use]
     pub fn right(&self) -> (Truth, Expected) {
         let truth = Truth::of(self);
@@ -70,12 +70,12 @@ fn number(x: Ratio) -> BigRatio {
     BigRatio::new(x.numerator(), x.denominator())
 }
 
-/// A point or vector of the plane in space.
+/// Converts a point or vector of the plane to space.
 fn vector([x, y]: Vector) -> BigVector {
     BigVector([number(x), number(y), BigRatio::zero()])
 }
 
-/// The couple that turns from the first axis to the second.
+/// Returns the couple that rotates the first axis to the second.
 fn couple(m: Ratio) -> Wrench {
     Wrench::couple(BigVector([BigRatio::zero(), BigRatio::zero(), number(m)]))
 }
@@ -84,7 +84,8 @@ fn line(p: Vector, u: Vector) -> Wrench {
     Wrench::line(&vector(p), &vector(u))
 }
 
-/// The components in the world: the drawing is stretched by √k along its second axis, then turned.
+/// Returns the components in the world: the drawing is stretched by √k along its second axis, then
+/// rotated.
 fn components(posed: &Posed) -> Vec<Component> {
     let [c, s] = posed.turn;
     let unit = c.denominator() * s.denominator();
@@ -107,8 +108,8 @@ fn components(posed: &Posed) -> Vec<Component> {
     ]
 }
 
-/// The point for which the wrench of a joint on its first body is given. `None` if the force acts
-/// at a point that is not in the drawing.
+/// Returns the point for which the wrench of a joint on its first body is given. Returns `None` if
+/// the force acts at a point that is not in the drawing.
 #[must_use]
 pub fn place(tie: &Tie) -> Option<Vector> {
     match *tie {
@@ -146,7 +147,7 @@ fn rows(posed: &Posed, place: usize, link: &Link) -> Vec<Row> {
     // The program subtracts the point of the second body from that of the first.
     let meets = |meaning, at, u| pair(meaning, length(u), line(at, u).opposite());
     let turns = |meaning| pair(meaning, root, couple(Ratio::ONE));
-    // The axes of the world, in the coordinates of the drawing.
+    // Axes of the world, in the coordinates of the drawing.
     let [c, s] = posed.turn;
     let points = |at| {
         let axes = [[c, -s], [s, c]].into_iter().enumerate();

@@ -1,5 +1,5 @@
-//! Reactions of a drawing at rest under gravity, from the equations of motion in double precision
-//! with the rank from exact arithmetic: bodies of one kilogram and one kg·m².
+//! Computes reactions of a drawing at rest under gravity, from the equations of motion in double
+//! precision with the rank from exact arithmetic: bodies of one kilogram and one kg·m².
 
 use pfaff::linalg::{Matrix, small_svd};
 
@@ -10,16 +10,16 @@ use super::pose::Posed;
 /// Reactions, and the largest load.
 #[derive(Clone)]
 pub struct Reactions {
-    /// Fx, Fy and the torque about its place (N·m) on the first body of each joint or drive, for
-    /// the multipliers of minimum norm; the torque is `None` if the drawing does not define the
-    /// place.
+    /// Fx, Fy and the torque about its reference point (N·m) on the first body of each joint or
+    /// drive, for the multipliers of minimum norm. The torque is `None` if the drawing does not
+    /// define the reference point.
     pub each: Vec<([f64; 2], Option<f64>)>,
     /// The largest applied or inertial force (N; torques divided by the size).
     pub load: f64,
 }
 
 impl Doubles {
-    /// Reactions at rest.
+    /// Returns reactions at rest.
     #[must_use]
     pub fn reactions(&self, posed: &Posed, rank: usize, gravity: [f64; 2]) -> Reactions {
         let n = self.q.len();
@@ -33,7 +33,8 @@ impl Doubles {
             axis => gravity[axis],
         };
         let c = self.c(&self.q, &self.data);
-        // Aᵀ·λ = M^(−1/2)·Q; the part of Q that the rows cannot carry causes accelerations.
+        // The equation is Aᵀ·λ = M^(−1/2)·Q; the part of Q that the rows cannot carry causes
+        // accelerations.
         let a = Matrix::from_fn(c.nrows(), n, |i, j| c[(i, j)] / mass(j).sqrt());
         let svd = small_svd(&a);
         let mut lambda = vec![0.0; c.nrows()];
@@ -84,7 +85,7 @@ impl Doubles {
         match tie.sides[0] {
             Some(body) => moving(body),
             None => {
-                // The part that is not balanced on the other bodies.
+                // The part that the other bodies do not balance.
                 let mut others: Vec<usize> = tie.sides[1..].iter().copied().flatten().collect();
                 others.sort_unstable();
                 others.dedup();

@@ -1,5 +1,5 @@
-//! The smallest change of data that satisfies linear equations, between proved bounds: every set of
-//! multipliers gives a lower bound by duality, every solution an upper bound.
+//! Finds the smallest change of data that satisfies linear equations, between proved bounds: every
+//! set of multipliers gives a lower bound by duality, and every solution gives an upper bound.
 //!
 //! `min max_P |x_P|` under `target + Σ_P a_P·x_P = 0` has the dual `max targetᵀ·y` under
 //! `Σ_P |Aᵀ_P·y| ≤ 1`.
@@ -16,7 +16,7 @@ const LEAST_WEIGHT: f64 = 1e-8;
 /// than this fraction.
 const CONTRADICTS: f64 = 1e-6;
 
-/// One equation.
+/// One linear equation.
 #[derive(Clone, Debug)]
 pub struct Equation {
     /// The value that must become zero.
@@ -25,7 +25,7 @@ pub struct Equation {
     pub parts: Vec<[f64; 2]>,
 }
 
-/// Lower and upper bound.
+/// Lower and upper bound of the smallest change.
 #[derive(Clone, Copy, Debug)]
 pub struct Bounds {
     /// No smaller change satisfies the equations.
@@ -34,8 +34,8 @@ pub struct Bounds {
     pub high: f64,
 }
 
-/// The smallest possible largest change. In addition to the data, each equation has its own change
-/// with the coefficient `slack`.
+/// Returns the smallest possible value of the largest change. In addition to the data, each
+/// equation has its own change with the coefficient `slack`.
 #[must_use]
 pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
     let e = equations.len();
@@ -69,7 +69,7 @@ pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
             bounds.high = f64::INFINITY;
             break;
         }
-        // Aᵀ·y, block by block.
+        // Computes Aᵀ·y, block by block.
         let size = |p: usize| match p.checked_sub(blocks) {
             Some(i) => (slack * y[i]).abs(),
             None => {
@@ -110,8 +110,8 @@ struct Solved {
     left: f64,
 }
 
-/// Gaussian elimination with complete pivoting of a symmetric matrix; pivots that are rounding
-/// relative to the first one are omitted. `None` if there are no others.
+/// Performs Gaussian elimination with complete pivoting of a symmetric matrix; pivots that are
+/// rounding relative to the first one are omitted. Returns `None` if there are no other pivots.
 fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Solved> {
     const ROUNDING: f64 = 1e-13;
     let n = b.len();
@@ -172,9 +172,9 @@ mod tests {
 
     #[test]
     fn bounds_enclose_what_is_known_by_hand() {
-        // 6 = 1·x + 2·y + |(0, 3)·z|: all change by 1.
+        // The equation is 6 = 1·x + 2·y + |(0, 3)·z|: all change by 1.
         let one = [equation(6.0, &[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]])];
-        // x = 3, y = 4 of one point: 5; of two numbers: 4.
+        // For x = 3 and y = 4 of one point the change is 5; for two numbers it is 4.
         let point = [equation(3.0, &[[1.0, 0.0]]), equation(4.0, &[[0.0, 1.0]])];
         let numbers = [
             equation(3.0, &[[1.0, 0.0], [0.0; 2]]),

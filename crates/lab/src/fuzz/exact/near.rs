@@ -1,10 +1,12 @@
-//! The distance of the data of a drawing from a lower rank: τ*, the tolerance in metres up to which
-//! no change of the data makes a row redundant, while a larger change may. Also, whether a
-//! redundancy belongs to the mechanism or only to its pose.
+//! Computes the distance of the data of a drawing from a lower rank. This distance is τ*, the
+//! tolerance in metres up to which no change of the data makes a row redundant; a larger change
+//! may. It also determines whether a redundancy belongs to the mechanism or only to its
+//! configuration.
 //!
-//! For a lower rank r' rows are kept; with `U = [−C_D·C_K⁺, I]` and V the null space of C_K, the
-//! entries of `Uᵀ·C·V` must vanish at all poses of a path on the kept rows, for one change of the
-//! data that the poses follow, and so must `Uᵀ·Φ`. Gradients are finite differences.
+//! For a lower rank, r' rows are independent. With `U = [−C_D·C_K⁺, I]` and V the null space of
+//! C_K, the entries of `Uᵀ·C·V` must vanish at all configurations of a path on the independent
+//! rows. This must hold for one change of the data, which the configurations follow, and `Uᵀ·Φ`
+//! must also vanish. Gradients are finite differences.
 
 use pfaff::linalg::{Matrix, small_svd};
 use suite::numbers::Numbers;
@@ -12,16 +14,16 @@ use suite::numbers::Numbers;
 use super::doubles::Doubles;
 use super::minimax::{Bounds, Equation, least_change};
 
-/// Number of poses on each side, the distance between two poses as a fraction of the size, and the
-/// number of steps between them.
+/// Number of configurations on each side, the distance between two configurations as a fraction of
+/// the size, and the number of steps between them.
 const POSES: usize = 3;
 const REACH: f64 = 0.05;
 const STEPS: usize = 20;
 
-/// A path ends if a step needs a correction of more than this fraction of the step, if its
-/// direction turns by more than this cosine allows, or near a singular pose, where the least
-/// singular value of the kept rows is below this fraction of its value at the start: there the path
-/// may continue on another branch.
+/// A path ends if a step needs a correction of more than this fraction of the step, or if its
+/// direction turns by more than this cosine allows. It also ends near a singular configuration, if
+/// the smallest singular value of the independent rows is below this fraction of its value at the
+/// start. The path may continue there on another branch.
 const CORRECTED: f64 = 0.3;
 const TURNED: f64 = 0.9;
 const REGULAR: f64 = 0.3;
@@ -29,14 +31,14 @@ const REGULAR: f64 = 0.3;
 /// Residuals at which positions satisfy their constraints, as a fraction of the size.
 const MET: f64 = 1e-12;
 
-/// After a path, a misfit or singular value below this fraction of the size is rounding.
+/// After a path, a violation or singular value below this fraction of the size counts as rounding.
 const STAYS: f64 = 1e-8;
 
 /// Step of finite differences (fraction of the size).
 const STEP: f64 = 1e-5;
 
-/// Number of left and right directions whose entries must vanish: fewer equations only lower the
-/// bound.
+/// Number of left and right directions whose entries must vanish: with fewer equations the bound is
+/// only lower.
 const LEFT: usize = 1;
 const RIGHT: usize = 3;
 
@@ -47,14 +49,16 @@ const CURVED: f64 = 100.0;
 /// Number of refinements of the lower bound.
 const REFINED: usize = 12;
 
-/// A left direction is one of positions only if the weight of its nonholonomic rows is below this.
+/// A left direction belongs to positions only if the weight of its nonholonomic rows is below this
+/// value.
 const HOLONOMIC: f64 = 1e-6;
 
 /// Number of paths in random directions by which a redundancy is tested.
 const WALKS: usize = 3;
 
 impl Doubles {
-    /// τ* (m; angles times the size) for a rank one lower than `rank`, for the drawing as it is.
+    /// Returns τ* (m; angles times the size) for a rank one lower than `rank`, for the unchanged
+    /// drawing.
     #[must_use]
     pub fn lower_rank_from(&self, rank: usize) -> Bounds {
         let never = Bounds {
@@ -89,7 +93,7 @@ impl Doubles {
         Bounds { low: proved, high }
     }
 
-    /// Whether the mechanism keeps this rank at all poses that the kept rows allow.
+    /// Whether the mechanism has this rank at all configurations that the independent rows allow.
     #[must_use]
     pub fn is_permanent(&self, rank: usize, seed: u64) -> bool {
         let c = self.c(&self.q, &self.data);
@@ -113,8 +117,9 @@ impl Doubles {
         })
     }
 
-    /// The size of some rows in the left null space of C (for an orthonormal basis), and the amount
-    /// by which data within a tolerance (m) change it together, to first order at constant rank.
+    /// Returns the size of some rows in the left null space of C (for an orthonormal basis). It
+    /// also returns the first-order change of this size by data within a tolerance (m) together, at
+    /// constant rank.
     #[must_use]
     pub fn margin(&self, rank: usize, rows: &[usize], tolerance: f64) -> [f64; 2] {
         let holonomic: Vec<usize> = independent_rows(&self.c(&self.q, &self.data), rank);
@@ -163,7 +168,7 @@ impl Doubles {
         phi.iter().all(|x| x.abs() <= STAYS * self.size) && next <= STAYS
     }
 
-    /// Poses on both sides of the start that satisfy the kept rows of Φ.
+    /// Returns configurations on both sides of the start that satisfy the independent rows of Φ.
     fn walk(&self, kept: &[usize], heading: &[f64]) -> Vec<Vec<f64>> {
         let mut poses = Vec::new();
         let weakest = |q: &[f64]| {
@@ -189,9 +194,9 @@ impl Doubles {
         poses
     }
 
-    /// One step along velocities that the kept rows allow, by the classical fourth-order method:
-    /// nonholonomic rows do not constrain positions, so an error of the step cannot be corrected
-    /// for them.
+    /// Performs one step along velocities that the independent rows allow, by the classical
+    /// fourth-order method: nonholonomic rows do not constrain positions, so an error of the step
+    /// cannot be corrected for them.
     fn advance(&self, kept: &[usize], q: &mut [f64], heading: &mut Vec<f64>) -> Option<()> {
         let allowed = |q: &[f64]| project_out(&self.c(q, &self.data).select_rows(kept), heading);
         let along = allowed(q);
@@ -233,7 +238,7 @@ impl Doubles {
         None
     }
 
-    /// The equations for a lower rank at one pose.
+    /// Returns the equations for a lower rank at one configuration.
     fn equations(&self, q: &[f64], kept: &[usize], at: &Candidate) -> Vec<Equation> {
         let holonomic: Vec<usize> = kept
             .iter()
@@ -314,16 +319,17 @@ impl Doubles {
     }
 }
 
-/// A pose with the rows that are kept for a lower rank.
+/// A configuration with the rows that are independent for a lower rank.
 struct Candidate {
-    /// Combinations of rows, each a dropped row minus the combination of kept rows that
-    /// approximates it; the weakest last.
+    /// Combinations of rows, each a redundant row minus the combination of independent rows that
+    /// approximates it; the weakest is last.
     left: Vec<Vec<f64>>,
-    /// Motions that the kept rows allow, in the order of the resistance of the dropped rows.
+    /// Motions that the independent rows allow, in the order of the resistance of the redundant
+    /// rows.
     right: Vec<Vec<f64>>,
-    /// `left·C·right`
+    /// The product `left·C·right`.
     sigma: Vec<f64>,
-    /// All motions that the kept rows allow.
+    /// All motions that the independent rows allow.
     free: Vec<Vec<f64>>,
 }
 
@@ -335,7 +341,7 @@ impl Candidate {
         let free = complement(&own, n - kept.len());
         let mut rows = Vec::new();
         for i in (0..m).filter(|i| !kept.contains(i)) {
-            // Row i = Σ weights·kept rows.
+            // Row i is the sum of the independent rows with these weights.
             let weights = inverse.transpose_times(c.row(i));
             let mut u = vec![0.0; m];
             u[i] = 1.0;
@@ -380,7 +386,7 @@ fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
-/// The indices of this number of rows, chosen as the most independent ones.
+/// Returns the indices of this number of rows, chosen as the most independent ones.
 fn independent_rows(c: &Matrix, rank: usize) -> Vec<usize> {
     let mut rest: Vec<Vec<f64>> = (0..c.nrows()).map(|i| c.row(i).to_vec()).collect();
     let mut kept = Vec::new();
@@ -401,7 +407,7 @@ fn independent_rows(c: &Matrix, rank: usize) -> Vec<usize> {
     kept
 }
 
-/// Orthonormal vectors that are perpendicular to independent rows.
+/// Returns orthonormal vectors that are perpendicular to independent rows.
 fn complement(rows: &Matrix, count: usize) -> Vec<Vec<f64>> {
     let n = rows.ncols();
     let units: Vec<Vec<f64>> = (0..n)
@@ -429,7 +435,7 @@ fn complement(rows: &Matrix, count: usize) -> Vec<Vec<f64>> {
     basis
 }
 
-/// The component of a vector that is perpendicular to the rows.
+/// Returns the component of a vector that is perpendicular to the rows.
 fn project_out(rows: &Matrix, v: &[f64]) -> Vec<f64> {
     if rows.nrows() == 0 {
         return v.to_vec();
@@ -445,7 +451,7 @@ fn project_out(rows: &Matrix, v: &[f64]) -> Vec<f64> {
     v
 }
 
-/// C⁺ for independent rows; singular values that are rounding are omitted.
+/// Returns C⁺ for independent rows; singular values that are rounding are omitted.
 fn pseudo_inverse(rows: &Matrix) -> Matrix {
     const ROUNDING: f64 = 1e-13;
     let (m, n) = (rows.nrows(), rows.ncols());

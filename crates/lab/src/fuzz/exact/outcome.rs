@@ -9,41 +9,43 @@ use super::findings::{Findings, Kind};
 /// The result for one scene.
 #[derive(Debug)]
 pub struct Outcome {
-    /// Its family.
+    /// Family of the scene.
     pub family: &'static str,
-    /// Its way of writing, its number of digits, or its tolerance, among those of the suite.
+    /// Index of its writing, its number of digits, or its tolerance, among those of the suite.
     pub way: usize,
-    /// Its text.
+    /// Text of the scene.
     pub text: String,
-    /// The comparison of both.
+    /// Comparison of the answer with exact arithmetic.
     pub judged: JudgedStart,
-    /// The result of exact arithmetic, in words.
+    /// The result of exact arithmetic as text.
     pub truth: String,
-    /// Whether it is redundant by exact arithmetic.
+    /// Whether the scene is redundant by exact arithmetic.
     pub is_redundant: bool,
-    /// Whether everything must be decided: a scene near the origin, and a lower rank far away.
+    /// Whether all results must be decided: the scene is near the origin, and a lower rank is far
+    /// away.
     pub must_be_decided: bool,
 }
 
 /// The result of a comparison.
 #[derive(Debug, Default)]
 pub struct JudgedStart {
-    /// The findings.
+    /// The findings of the comparison.
     pub findings: Findings,
-    /// The rank that the program gave, if it is decided and there is no other one.
+    /// The rank in the answer of the program, if it is decided and no other rank is correct.
     pub rank: Option<u64>,
     /// The reason why verdicts were not compared: another rank is also correct.
     pub other_rank: Option<&'static str>,
 }
 
 impl Outcome {
-    /// The worst finding.
+    /// Returns the worst finding.
     #[must_use]
     pub fn worst(&self) -> Option<Kind> {
         self.judged.findings.0.iter().map(|f| f.kind).max()
     }
 
-    /// The scene with the correct answer and that of the program in comments at its beginning.
+    /// Returns the scene with the correct answer and that of the program in comments at its
+    /// beginning.
     #[must_use]
     pub fn page(&self, way: &str) -> String {
         let mut page = format!("# {}, {way}\n# Exact arithmetic:\n", self.family);
@@ -63,7 +65,7 @@ impl Outcome {
     }
 }
 
-/// The comparison of an answer, also if there is none.
+/// Compares an answer, or handles the case without an answer.
 pub fn judged(
     answer: impl FnOnce() -> Result<Value, String>,
     examine: impl FnOnce(&Value) -> JudgedStart,
@@ -81,7 +83,7 @@ pub fn judged(
 }
 
 impl JudgedStart {
-    /// The findings for a document in which no other rank is correct.
+    /// Returns the findings for a document in which no other rank is correct.
     #[must_use]
     pub fn with_rank(findings: Findings, document: &Value) -> Self {
         let is_decided = document["evidence"]["status"] == "decided";

@@ -1,30 +1,30 @@
-//! How a drawing is written: moved as a whole, each body with its own frame, bodies and joints in
-//! another order, first and second body exchanged, positions in the world or in the frames of
-//! bodies. None of these changes the correct answer.
+//! Writings of a drawing: moved as a whole, each body with its own frame, or bodies and joints in
+//! another order. First and second body may be exchanged, and positions may be in the world or in
+//! the frames of bodies. None of these changes the correct answer.
 
 use suite::numbers::Numbers;
 
 use super::drawing::{Drawing, Link, Side, Tie, Vector};
 use super::ratio::{Ratio, Surd};
 
-/// A way to write a drawing.
+/// A writing of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Writing {
-    /// As drawn.
+    /// The original drawing.
     AsDrawn,
-    /// In another order, turned by multiples of 90°, with other frames of the bodies.
+    /// In another order, rotated by multiples of 90°, with other frames of the bodies.
     Reordered,
-    /// As reordered, also turned by any angle and moved by a distance of its size.
+    /// Like `Reordered`, and also rotated by any angle and translated by a distance of its size.
     Moved,
-    /// As reordered, also turned and moved by 1e3 m to 1e6 m.
+    /// Like `Reordered`, and also rotated and translated by 1e3 m to 1e6 m.
     Far,
 }
 
 impl Writing {
-    /// All of them.
+    /// All writings.
     pub const ALL: [Self; 4] = [Self::AsDrawn, Self::Reordered, Self::Moved, Self::Far];
 
-    /// Its name.
+    /// Returns the name of the writing.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -36,7 +36,7 @@ impl Writing {
     }
 }
 
-/// Legs and hypotenuses: angles whose sine and cosine are fractions.
+/// Legs and hypotenuses of right triangles: angles whose sine and cosine are fractions.
 const TRIPLES: [[i64; 3]; 7] = [
     [3, 4, 5],
     [5, 12, 13],
@@ -47,7 +47,7 @@ const TRIPLES: [[i64; 3]; 7] = [
     [336, 527, 625],
 ];
 
-/// Cosine and sine.
+/// Cosine and sine of an angle.
 type Turn = [Ratio; 2];
 
 const NO_TURN: Turn = [Ratio::ONE, Ratio::ZERO];
@@ -55,13 +55,13 @@ const NO_TURN: Turn = [Ratio::ONE, Ratio::ZERO];
 /// The frame of a body.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// Its origin, in the drawing.
+    /// Origin of the frame, in the drawing.
     pub origin: Vector,
-    /// Its angle in the world.
+    /// Angle of the frame in the world.
     pub turn: Turn,
 }
 
-/// A joint or drive, and how it is written.
+/// A joint or drive with its writing.
 #[derive(Clone, Debug)]
 pub struct Placed {
     /// The joint.
@@ -75,7 +75,7 @@ pub struct Placed {
 /// A drawing in the world.
 #[derive(Clone, Debug)]
 pub struct Posed {
-    /// The stretch of the drawing, before it is turned.
+    /// The stretch of the drawing, before it is rotated.
     pub stretch: u32,
     /// The rotation of the drawing.
     pub turn: Turn,
@@ -87,16 +87,16 @@ pub struct Posed {
     pub order: Vec<usize>,
     /// Joints and drives in the order of the file.
     pub links: Vec<Placed>,
-    /// As in [`Drawing`].
+    /// See the field of [`Drawing`].
     pub redundancy: Option<usize>,
-    /// As in [`Drawing`].
+    /// See the field of [`Drawing`].
     pub has_constant_rank: bool,
     /// The seed of the errors, if positions have errors as in [`Drawing`].
     pub careless: Option<u64>,
 }
 
 impl Posed {
-    /// Chooses how a drawing is written.
+    /// Chooses the writing of a drawing.
     #[must_use]
     pub fn new(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Self {
         let n = drawing.origins.len();
@@ -144,7 +144,7 @@ impl Posed {
         }
     }
 
-    /// A vector of the drawing in the world.
+    /// Converts a vector of the drawing to the world.
     #[must_use]
     pub fn vector(&self, [x, y]: Vector) -> [Surd; 2] {
         let [c, s] = self.turn;
@@ -159,7 +159,7 @@ impl Posed {
         [surd(c * x, -s * y), surd(s * x, c * y)]
     }
 
-    /// A point of the drawing in the world.
+    /// Converts a point of the drawing to the world.
     #[must_use]
     pub fn point(&self, p: Vector) -> [Surd; 2] {
         let shift = self.shift.map(|a| Surd { a, b: Ratio::ZERO });
@@ -167,7 +167,7 @@ impl Posed {
         [x + shift[0], y + shift[1]]
     }
 
-    /// A vector of the drawing in the frame of a side.
+    /// Converts a vector of the drawing to the frame of a side.
     #[must_use]
     pub fn vector_in(&self, side: Side, v: Vector) -> [Surd; 2] {
         let [c, s] = side.map_or(NO_TURN, |k| self.frames[k].turn);
@@ -175,7 +175,7 @@ impl Posed {
         [x.times(c) + y.times(s), x.times(-s) + y.times(c)]
     }
 
-    /// A point of the drawing in the frame of a side.
+    /// Converts a point of the drawing to the frame of a side.
     #[must_use]
     pub fn point_in(&self, side: Side, p: Vector) -> [Surd; 2] {
         let Some(k) = side else { return self.point(p) };
@@ -183,15 +183,15 @@ impl Posed {
         self.vector_in(side, [p[0] - o[0], p[1] - o[1]])
     }
 
-    /// The origin of a side, in the drawing. `None` for the ground of a drawing that was moved,
-    /// because it has no rational coordinates in the drawing.
+    /// Returns the origin of a side, in the drawing. Returns `None` for the ground of a drawing
+    /// that was moved, because it has no rational coordinates in the drawing.
     #[must_use]
     pub fn origin(&self, side: Side) -> Option<Vector> {
         side.map(|k| self.frames[k].origin)
     }
 
-    /// The radius of a wheel for which a unit force along `along` has this torque: the torque
-    /// divided by the length of `along`.
+    /// Returns the radius of a wheel for which a unit force along `along` has this torque: the
+    /// torque divided by the length of `along`.
     #[must_use]
     pub fn lever(&self, along: Vector, radius: Ratio) -> f64 {
         let ([x, y], k) = (along, Ratio::whole(i64::from(self.stretch)));
@@ -199,14 +199,14 @@ impl Posed {
         square.rounded().sqrt().copysign(radius.rounded())
     }
 
-    /// The distance by which it was moved (m).
+    /// Returns the distance by which the drawing was moved (m).
     #[must_use]
     pub fn distance(&self) -> f64 {
         self.shift[0].rounded().hypot(self.shift[1].rounded())
     }
 }
 
-/// One of the body's own points, where arms vanish, or any point.
+/// Returns one of the points of the body, at which lever arms vanish, or any point.
 fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Numbers) -> Vector {
     let links = drawing
         .links
@@ -220,7 +220,7 @@ fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Nu
     }
 }
 
-/// The joints and drives in a random order, each with a way to write it.
+/// Returns the joints and drives in a random order, each with its writing.
 fn placed(
     drawing: &Drawing,
     order: &[usize],
@@ -232,7 +232,7 @@ fn placed(
         .collect();
     let place = |&k: &usize| {
         let link = &drawing.links[k];
-        // A drive has the bodies of its joint, in their order.
+        // A drive has the bodies of its joint, in the same order.
         let is_swapped = match link.tie {
             Tie::AngleDrive { joint } => swaps[joint],
             _ => swaps[k],
@@ -259,7 +259,7 @@ fn placed(
     order.iter().map(place).collect()
 }
 
-/// A whole number of thirds.
+/// Returns an integer number of thirds.
 fn thirds(numbers: &mut Numbers, most: i32) -> Ratio {
     Ratio::new(numbers.between(-most, most).into(), 3)
 }

@@ -13,12 +13,12 @@ pub struct Ratio {
 const FITS: &str = "numbers of a drawing fit into 127 bits";
 
 impl Ratio {
-    /// 0
+    /// The number 0.
     pub const ZERO: Self = Self::whole(0);
-    /// 1
+    /// The number 1.
     pub const ONE: Self = Self::whole(1);
 
-    /// A whole number.
+    /// Returns an integer as a fraction.
     #[must_use]
     pub const fn whole(n: i64) -> Self {
         Self {
@@ -27,10 +27,10 @@ impl Ratio {
         }
     }
 
-    /// `numerator/denominator`
+    /// Returns `numerator/denominator`.
     ///
     /// # Panics
-    /// If the denominator is 0.
+    /// Panics if the denominator is 0.
     #[must_use]
     pub fn new(numerator: i128, denominator: i128) -> Self {
         assert!(denominator != 0, "{numerator}/0");
@@ -41,34 +41,34 @@ impl Ratio {
         }
     }
 
-    /// The numerator.
+    /// Returns the numerator.
     #[must_use]
     pub fn numerator(self) -> i128 {
         self.numerator
     }
 
-    /// The denominator, positive.
+    /// Returns the denominator, which is positive.
     #[must_use]
     pub fn denominator(self) -> i128 {
         self.denominator
     }
 
-    /// Whether it is 0.
+    /// Whether the fraction is 0.
     #[must_use]
     pub fn is_zero(self) -> bool {
         self.numerator == 0
     }
 
-    /// `1/self`
+    /// Returns `1/self`.
     ///
     /// # Panics
-    /// If it is 0.
+    /// Panics if the fraction is 0.
     #[must_use]
     pub fn inverse(self) -> Self {
         Self::new(self.denominator, self.numerator)
     }
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     #[must_use]
     pub fn rounded(self) -> f64 {
         const EXACT: u128 = 1 << 53;
@@ -76,8 +76,8 @@ impl Ratio {
         if n.unsigned_abs() <= EXACT && d.unsigned_abs() <= EXACT {
             return n as f64 / d as f64;
         }
-        // As many bits of the quotient as fit, and one for all that follow: the conversion of
-        // integers rounds to nearest.
+        // The quotient has as many bits as possible, and one bit for all following bits: the
+        // conversion of integers rounds to nearest.
         let shift = n.unsigned_abs().leading_zeros() - 1;
         let scaled = n.unsigned_abs() << shift;
         let (quotient, rest) = (scaled / d.unsigned_abs(), scaled % d.unsigned_abs());
@@ -85,7 +85,7 @@ impl Ratio {
         size.copysign(n.signum() as f64)
     }
 
-    /// The rounding error, rounded: `self − rounded`.
+    /// Returns the rounding error, rounded: `self − rounded`.
     fn rest(self) -> f64 {
         let (n, d) = (self.numerator as f64, self.denominator as f64);
         if n as i128 == self.numerator && d as i128 == self.denominator {
@@ -150,7 +150,7 @@ impl Mul for Ratio {
     }
 }
 
-/// `a + b·√k`; k is given by the drawing.
+/// The number `a + b·√k`; k is given by the drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Surd {
     /// The rational part.
@@ -160,7 +160,7 @@ pub struct Surd {
 }
 
 impl Surd {
-    /// The product with a fraction.
+    /// Returns the product with a fraction.
     #[must_use]
     pub fn times(self, factor: Ratio) -> Self {
         Self {
@@ -169,7 +169,7 @@ impl Surd {
         }
     }
 
-    /// The nearest `f64`, except for rounding errors of second order.
+    /// Returns the nearest `f64`, except for rounding errors of second order.
     #[must_use]
     pub fn rounded(self, k: u32) -> f64 {
         if self.b.is_zero() {
@@ -207,7 +207,8 @@ mod tests {
     fn fractions_are_rounded_once() {
         assert_eq!(Ratio::new(3, 10).rounded(), 0.3);
         assert_eq!(Ratio::new(-2, -6), Ratio::new(1, 3));
-        // 2⁶⁰ + 1 is just above the middle of two neighbours if a third bit follows far behind.
+        // The number 2⁶⁰ + 1 is just above the midpoint of two neighbours if a third bit follows
+        // far behind.
         let middle = (1_i128 << 60) + (1 << 7);
         assert_eq!(Ratio::new(middle, 1).rounded(), 2_f64.powi(60));
         let above = Ratio::new(middle, 1) + Ratio::new(1, 1 << 20);

@@ -1,5 +1,5 @@
 //! Sets of scenes with a tolerance: degenerate drawings whose numbers are rounded to 3 … 16
-//! significant digits, and drawings of full rank that are near a lower one.
+//! significant digits, and drawings of full rank near a lower rank.
 
 use suite::numbers::Numbers;
 
@@ -22,7 +22,7 @@ use crate::fuzz::space::text::Precision;
 /// Gravity (m/s²), not parallel to an axis.
 const GRAVITY: [f64; 3] = [3.0, -9.0, 0.0];
 
-/// A drawing in the plane, moved by up to its size and turned.
+/// Returns a drawing in the plane, translated by up to its size and rotated.
 fn posed(suite: Suite, seed: u64, drawn: u64) -> (&'static str, Posed) {
     let mut numbers = Numbers::new(seed ^ Numbers::new(drawn).bits());
     let (name, drawing) = if suite == Suite::FullRank {
@@ -124,7 +124,7 @@ fn outcome(
     }
 }
 
-/// The largest coordinate in the text (m).
+/// Returns the largest coordinate in the text (m).
 fn largest_coordinate(posed: &Posed) -> f64 {
     let doubles = Doubles::of(posed);
     let lengths = doubles.blocks.iter().filter(|b| b.count == 2);

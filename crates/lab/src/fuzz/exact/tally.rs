@@ -18,14 +18,13 @@ use crate::fuzz::space;
 /// Number of scenes that are listed for each kind of finding.
 const LISTED: usize = 8;
 
-/// Number of scenes of each family, way of writing and kind that are stored as files.
+/// Number of scenes of each family, writing and kind that are stored as files.
 const KEPT: usize = 2;
 
-/// Fewer than one scene out of this number may be undecided where all digits are written.
+/// Fewer than one scene in this number may be undecided if all digits are written.
 const UNDECIDED: usize = 1000;
 
-/// With few digits, at most one scene out of this number may be undecided if a lower rank is far
-/// away.
+/// With few digits, at most one scene in this number may be undecided if a lower rank is far away.
 const UNDECIDED_WITHIN: usize = 100;
 
 /// The scenes of a campaign.
@@ -36,7 +35,7 @@ pub enum Suite {
     Plane,
     /// Mechanisms in space with planted redundancy.
     Space,
-    /// Scenes of the plane, lifted into space.
+    /// Scenes of the plane, converted to space.
     Lifted,
     /// Degenerate drawings in the plane with few digits.
     #[value(skip)]
@@ -44,13 +43,13 @@ pub enum Suite {
     /// Mechanisms in space with few digits.
     #[value(skip)]
     RoundedInSpace,
-    /// Drawings of full rank near a lower one.
+    /// Drawings of full rank near a lower rank.
     #[value(skip)]
     FullRank,
 }
 
 impl Suite {
-    /// Number of ways in which a drawing is written: scenes `n·k` to `n·k + n − 1` are one drawing.
+    /// Returns the number of writings of a drawing: scenes `n·k` to `n·k + n − 1` are one drawing.
     #[must_use]
     pub fn ways(self) -> usize {
         match self {
@@ -60,7 +59,7 @@ impl Suite {
         }
     }
 
-    /// The name of a way.
+    /// Returns the name of a writing.
     #[must_use]
     pub fn way(self, way: usize) -> String {
         match self {
@@ -72,7 +71,7 @@ impl Suite {
         }
     }
 
-    /// Whether scenes that are written in this way state a tolerance.
+    /// Whether scenes in this writing state a tolerance.
     fn has_tolerance(self, way: usize) -> bool {
         match self {
             Self::Plane | Self::Space | Self::Lifted => false,
@@ -99,7 +98,7 @@ impl Suite {
         numbers.map(|number| one(seed, number)).collect()
     }
 
-    /// The page of one scene; empty if there is no such scene.
+    /// Returns the page of one scene; empty if there is no such scene.
     #[must_use]
     pub fn page(self, seed: u64, number: u64) -> String {
         let mut outcomes = self.outcomes(seed, number..number + 1);
@@ -134,14 +133,14 @@ pub struct Count {
     pub scenes: usize,
     /// Scenes that are redundant by exact arithmetic.
     pub redundant: usize,
-    /// Scenes of which everything must be decided.
+    /// Scenes in which all results must be decided.
     pub to_decide: usize,
     /// Scenes without findings.
     pub right: usize,
     /// Scenes for which another rank is correct, by reason.
     pub other: BTreeMap<&'static str, usize>,
-    /// Scenes with findings, by the worst one and whether everything must be decided: their number,
-    /// and the first of them.
+    /// Scenes with findings, by the worst finding and whether all results must be decided: their
+    /// number, and the first of them.
     pub not: BTreeMap<(Kind, bool), (usize, Vec<u64>)>,
 }
 
@@ -169,13 +168,13 @@ impl Count {
         counts.map(|(_, (count, _))| count).sum()
     }
 
-    /// Number of scenes with a wrong answer.
+    /// Returns the number of scenes with a wrong answer.
     #[must_use]
     pub fn wrong(&self) -> usize {
         self.of(|kind, _| kind.is_wrong())
     }
 
-    /// Number of scenes that are undecided or refused, of those that must be decided.
+    /// Returns the number of scenes that are undecided or rejected, of those that must be decided.
     #[must_use]
     pub fn undecided(&self) -> usize {
         self.of(|kind, must_be_decided| must_be_decided && !kind.is_wrong())
@@ -206,9 +205,9 @@ impl Count {
 pub struct Tally {
     /// The scenes.
     pub suite: Suite,
-    /// By family and way of writing.
+    /// Counts by family and writing.
     pub counts: BTreeMap<(&'static str, usize), Count>,
-    /// Drawings with different ranks for two ways of writing.
+    /// Drawings with different ranks in two writings.
     pub contradicting: Vec<u64>,
 }
 
@@ -270,7 +269,7 @@ impl Tally {
         self
     }
 
-    /// The sum of the counts of some families and ways.
+    /// Returns the sum of the counts of some families and writings.
     #[must_use]
     pub fn sum(&self, wanted: impl Fn(&str, usize) -> bool) -> Count {
         let mut sum = Count::default();
@@ -282,13 +281,13 @@ impl Tally {
         sum
     }
 
-    /// Number of scenes with a wrong answer.
+    /// Returns the number of scenes with a wrong answer.
     #[must_use]
     pub fn wrong(&self) -> usize {
         self.sum(|_, _| true).wrong()
     }
 
-    /// Whether no answer is wrong, and few are undecided that should be decided.
+    /// Whether no answer is wrong, and few answers are undecided that should be decided.
     #[must_use]
     pub fn passes(&self) -> bool {
         let [all_digits, within] =
@@ -302,7 +301,7 @@ impl Tally {
     /// family and kind.
     ///
     /// # Errors
-    /// If they cannot be written.
+    /// Returns an error if they cannot be written.
     pub fn keep(&self, seed: u64, folder: &Path) -> io::Result<()> {
         fs::create_dir_all(folder)?;
         for ((family, way), count) in &self.counts {
@@ -320,7 +319,7 @@ impl Tally {
         Ok(())
     }
 
-    /// The results in words.
+    /// Describes the results as text.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = String::new();

@@ -1,4 +1,4 @@
-//! The scene of a drawing as text, each number rounded once.
+//! Writes the scene of a drawing as text, each number rounded once.
 
 use std::fmt::Write;
 
@@ -9,13 +9,13 @@ use super::pose::{Placed, Posed};
 use super::ratio::{Ratio, Surd};
 use crate::fuzz::space::text::Precision;
 
-/// The scene as text.
+/// Returns the scene as text.
 #[must_use]
 pub fn text(posed: &Posed) -> String {
     text_within(posed, &Precision::default())
 }
 
-/// The same with numbers of a given precision.
+/// Returns the scene with numbers of a given precision.
 #[must_use]
 pub fn text_within(posed: &Posed, precision: &Precision) -> String {
     let mut scene = "name = \"exact\", space = \"plane\"".to_owned();
@@ -45,7 +45,7 @@ pub fn text_within(posed: &Posed, precision: &Precision) -> String {
     pen.text
 }
 
-/// The name of a side.
+/// Returns the name of a side.
 #[must_use]
 pub fn name(side: Side) -> String {
     side.map_or("ground".to_owned(), |k| format!("b{k}"))
@@ -54,7 +54,7 @@ pub fn name(side: Side) -> String {
 struct Pen<'a> {
     posed: &'a Posed,
     precision: &'a Precision,
-    /// Random errors of the positions of bodies, if the drawing is to have them.
+    /// Random errors of the positions of bodies, if the drawing should have them.
     errors: Option<Numbers>,
     text: String,
 }
@@ -208,8 +208,8 @@ impl Pen<'_> {
         }
     }
 
-    /// The direction that is perpendicular to a force along `along`, in the frame of a side: the
-    /// force turned by −90°.
+    /// Returns the direction that is perpendicular to a force along `along`, in the frame of a
+    /// side: the force rotated by −90°.
     fn across(&self, side: Side, along: Vector) -> [Surd; 2] {
         let [x, y] = self.posed.vector_in(side, along);
         [y, x.times(-Ratio::ONE)]
@@ -238,7 +238,7 @@ impl Pen<'_> {
     }
 }
 
-/// The value of `type`.
+/// Returns the value of `type`.
 fn kind(tie: &Tie) -> &'static str {
     match tie {
         Tie::Revolute { .. } => "revolute",

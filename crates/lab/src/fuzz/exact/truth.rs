@@ -1,5 +1,5 @@
-//! What exact arithmetic says of a mechanism: ranks, dependencies, and what of the reactions is
-//! unique.
+//! Results of exact arithmetic for a mechanism: ranks, dependencies, and the unique parts of the
+//! reactions.
 
 use std::collections::BTreeSet;
 use std::ops::Deref;
@@ -16,11 +16,11 @@ use crate::fuzz::space::vector::Vector;
 /// computed in double precision.
 const ROUNDING: f64 = 1e-9;
 
-/// The same for each metre by which a scene was moved: coordinates are accurate to 1e-16 of that,
-/// and small angles increase the rounding errors by a factor of up to ten thousand.
+/// Tolerance for each metre by which a scene was moved: coordinates are accurate to 1e-16 times the
+/// distance, and small angles increase the rounding errors by a factor of up to ten thousand.
 const ROUNDING_PER_METRE: f64 = 1e-12;
 
-/// The tolerance for numbers of dependencies of a scene at a distance (m) from the origin.
+/// Returns the tolerance for numbers of dependencies of a scene at a distance (m) from the origin.
 fn rounding_at(distance: f64) -> f64 {
     ROUNDING.max(ROUNDING_PER_METRE * distance)
 }
@@ -31,7 +31,7 @@ pub struct Truth {
     wrenches: Wrenches,
     /// The tolerance for numbers of directions and dependencies, relative to the largest.
     pub rounding: f64,
-    /// Multiples of the rows in whole numbers: the wrenches on the first bodies of their elements.
+    /// Integer multiples of the rows: the wrenches on the first bodies of their elements.
     first: Vec<[BigInt; 6]>,
     /// The factor of each row.
     factors: Vec<Ratio>,
@@ -48,11 +48,11 @@ impl Deref for Truth {
     }
 }
 
-/// A wrench on the first body of a joint or drive, about its place, in whole numbers.
+/// A wrench on the first body of a joint or drive, about its reference point, in integers.
 #[derive(Clone, Debug)]
 pub struct Reaction {
     numbers: [BigInt; 6],
-    /// The wrench is the numbers divided by this one.
+    /// The wrench is these numbers divided by this unit.
     unit: BigInt,
 }
 
@@ -63,14 +63,14 @@ impl Reaction {
         self.numbers[k].is_zero()
     }
 
-    /// The largest size of its numbers, at least 1.
+    /// Returns the largest absolute value of its numbers, at least 1.
     #[must_use]
     pub fn size(&self) -> BigInt {
         largest(&self.numbers)
     }
 }
 
-/// The largest size of some numbers, at least 1.
+/// Returns the largest absolute value of some numbers, at least 1.
 #[must_use]
 pub fn largest(numbers: &[BigInt]) -> BigInt {
     let one = BigInt::from(1);
@@ -105,25 +105,25 @@ impl Truth {
         }
     }
 
-    /// rank C
+    /// Returns the rank of C.
     #[must_use]
     pub fn rank(&self) -> usize {
         self.exact.rank()
     }
 
-    /// Number of rows minus rank.
+    /// Returns the number of rows minus the rank.
     #[must_use]
     pub fn redundancy(&self) -> usize {
         self.rows.len() - self.rank()
     }
 
-    /// Number of velocities minus rank.
+    /// Returns the number of velocities minus the rank.
     #[must_use]
     pub fn mobility(&self) -> usize {
         self.velocities.len() * self.bodies - self.rank()
     }
 
-    /// The rank of some rows.
+    /// Returns the rank of some rows.
     #[must_use]
     pub fn rank_of(&self, rows: &[usize]) -> usize {
         self.select(rows).rank()
@@ -166,7 +166,8 @@ impl Truth {
         self.exact.row_is_unique(row)
     }
 
-    /// The coefficients of these rows, whole multiples of them, if they are minimally dependent.
+    /// Returns the coefficients of these rows, as integer multiples, if the rows are minimally
+    /// dependent.
     #[must_use]
     pub fn circuit(&self, rows: &[usize]) -> Option<Vec<BigInt>> {
         let exact = self.select(rows);
@@ -176,7 +177,8 @@ impl Truth {
         }
     }
 
-    /// The same in the normalisation of the program: for its own rows, the largest of size 1.
+    /// Returns the coefficients in the normalisation of the program: for its own rows, with the
+    /// largest coefficient of size 1.
     #[must_use]
     pub fn coefficients(&self, rows: &[usize], circuit: &[BigInt]) -> Vec<f64> {
         let largest = largest(circuit);
@@ -189,8 +191,8 @@ impl Truth {
         own.into_iter().map(|x| x / most).collect()
     }
 
-    /// Sets of rows that are dependent directly or through others: connected components of the
-    /// circuits.
+    /// Returns sets of rows that are dependent directly or through others: connected components of
+    /// the circuits.
     #[must_use]
     pub fn components_of_circuits(&self) -> Vec<BTreeSet<usize>> {
         let mut basis: Vec<usize> = Vec::new();
@@ -217,8 +219,8 @@ impl Truth {
         components
     }
 
-    /// The wrench of some rows of one joint on its first body for multipliers of these rows, about
-    /// the origin.
+    /// Returns the wrench of some rows of one joint on its first body for multipliers of these
+    /// rows, about the origin.
     fn wrench<'z>(&self, rows: impl Iterator<Item = (usize, &'z BigInt)>) -> [BigInt; 6] {
         let mut wrench = [0; 6].map(BigInt::from);
         for (i, z) in rows {
@@ -229,35 +231,36 @@ impl Truth {
         wrench
     }
 
-    /// The wrenches of some rows of one joint on its first body without loads, about the origin of
-    /// the drawing, one for each independent solution; some may be 0.
+    /// Returns the wrenches of some rows of one joint on its first body without loads, about the
+    /// origin of the drawing, one for each independent solution; some may be 0.
     fn free_at_origin(&self, rows: &[usize]) -> Vec<[BigInt; 6]> {
         let of = |z: &Vec<BigInt>| self.wrench(rows.iter().map(|&i| (i, &z[i])));
         self.exact.null_space().iter().map(of).collect()
     }
 
-    /// The wrenches on the first body without loads about a point, one for each independent
+    /// Returns the wrenches on the first body without loads about a point, one for each independent
     /// solution; some may be 0.
     #[must_use]
     pub fn free_about(&self, owner: Owner, point: &Vector) -> Vec<Reaction> {
         self.free_of(&self.rows_of(owner), point)
     }
 
-    /// The same for some rows of one joint.
+    /// Returns the same wrenches for some rows of one joint.
     #[must_use]
     pub fn free_of(&self, rows: &[usize], point: &Vector) -> Vec<Reaction> {
         let free = self.free_at_origin(rows).into_iter();
         free.map(|w| about(w, point)).collect()
     }
 
-    /// The same about the place of the joint; `None` if the place is not in the drawing.
+    /// Returns the same wrenches about the reference point of the joint; `None` if the point is not
+    /// in the drawing.
     #[must_use]
     pub fn free_wrenches(&self, owner: Owner) -> Option<Vec<Reaction>> {
         let place = self.element(owner).place.as_ref()?;
         Some(self.free_about(owner, place))
     }
 
-    /// The wrench of a joint in a circuit, in the same form.
+    /// Returns the wrench of a joint in a circuit, in the same form.
     #[must_use]
     pub fn carried(&self, owner: Owner, rows: &[usize], circuit: &[BigInt]) -> Option<Reaction> {
         let own = rows.iter().copied().zip(circuit);
@@ -266,8 +269,8 @@ impl Truth {
         Some(about(self.wrench(own), place))
     }
 
-    /// Component `k` of a reaction in the world, in a unit that is the same for all reactions: its
-    /// rational part, and the factor of √k.
+    /// Returns component `k` of a reaction in the world, in a unit that is the same for all
+    /// reactions: its rational part, and the factor of √k.
     fn parts(&self, reaction: &Reaction, k: usize) -> [BigInt; 2] {
         [0, 1].map(|part| {
             let terms = self.wrenches.components[k].terms.iter();
@@ -281,7 +284,7 @@ impl Truth {
         self.parts(reaction, k).iter().all(Zero::is_zero)
     }
 
-    /// The components of a reaction in the world, divided by a number that is not zero.
+    /// Returns the components of a reaction in the world, divided by a number that is not zero.
     #[must_use]
     pub fn rounded(&self, reaction: &Reaction, divisor: &BigInt) -> Vec<f64> {
         let root = f64::from(self.stretch).sqrt();
@@ -293,9 +296,9 @@ impl Truth {
         (0..self.wrenches.components.len()).map(component).collect()
     }
 
-    /// Whether the combination of two components of reactions that a circuit leaves as it is, is
-    /// the same in all solutions. `N` is the only multiplier of its joint. `None` if a component is
-    /// not rational.
+    /// Whether a combination of two components of reactions that a circuit does not change is the
+    /// same in all solutions. `N` is the only multiplier of its joint. Returns `None` if a
+    /// component is not rational.
     #[must_use]
     pub fn pair_is_unique(
         &self,
@@ -324,8 +327,8 @@ impl Truth {
         Some(self.exact.determines(&l))
     }
 
-    /// A multiple of what a component is for a unit multiplier of a row, the same for all rows of a
-    /// joint; `None` if there is none in whole numbers.
+    /// Returns a multiple of a component for a unit multiplier of a row, the same for all rows of a
+    /// joint; `None` if there is no integer multiple.
     fn coefficient(&self, row: usize, component: &str) -> Option<BigInt> {
         if component == "N" {
             return Some(BigInt::from(1));
@@ -347,8 +350,8 @@ impl Truth {
         }
     }
 
-    /// Whether the sum of `force·F + moment·M` over joints is the same in all solutions, F and M
-    /// on the first body about the place of each joint, in the axes of the drawing.
+    /// Whether the sum of `force·F + moment·M` over joints is the same in all solutions. F and M
+    /// act on the first body about the reference point of each joint, in the axes of the drawing.
     #[must_use]
     pub fn sum_is_unique(&self, terms: &[(Owner, Wrench)]) -> bool {
         let mut sums = vec![Ratio::zero(); self.exact.null_space().len()];
@@ -365,15 +368,16 @@ impl Truth {
         sums.iter().all(Ratio::is_zero)
     }
 
-    /// Number of independent directions in which the reaction of some rows of one joint is not
-    /// unique.
+    /// Returns the number of independent directions in which the reaction of some rows of one joint
+    /// is not unique.
     #[must_use]
     pub fn free_directions(&self, rows: &[usize]) -> usize {
         let free = self.free_at_origin(rows).into_iter().map(Vec::from);
         Exact::of_whole(free.collect()).rank()
     }
 
-    /// Number of independent wrenches on the first body that some rows of one joint can carry.
+    /// Returns the number of independent wrenches on the first body that some rows of one joint can
+    /// carry.
     #[must_use]
     pub fn carried_directions(&self, rows: &[usize]) -> usize {
         let own = rows.iter().map(|&i| self.first[i].to_vec());
@@ -381,7 +385,7 @@ impl Truth {
     }
 }
 
-/// The sum of the loads on a side.
+/// Returns the sum of the loads on a side.
 fn sum<'l>(loads: impl Iterator<Item = (Side, &'l [BigInt])>, wanted: Side) -> [BigInt; 6] {
     let mut sum = [0; 6].map(BigInt::from);
     for (_, load) in loads.filter(|(side, _)| *side == wanted) {
@@ -392,7 +396,7 @@ fn sum<'l>(loads: impl Iterator<Item = (Side, &'l [BigInt])>, wanted: Side) -> [
     sum
 }
 
-/// The row of C: the loads on all bodies.
+/// Returns the row of C: the loads on all bodies.
 fn over_velocities<'l>(
     wrenches: &Wrenches,
     loads: impl Iterator<Item = (Side, &'l [BigInt])>,
@@ -408,7 +412,7 @@ fn over_velocities<'l>(
     row
 }
 
-/// A wrench about the origin, about a point.
+/// Transfers a wrench about the origin to a point.
 fn about([x, y, z, a, b, c]: [BigInt; 6], point: &Vector) -> Reaction {
     // The point is p·(denominator)/(numerator) of the factor.
     let (p, common) = whole_multiples(&point.0);

@@ -1,4 +1,4 @@
-//! The answer of the program for a drawing whose numbers have a tolerance, compared with exact
+//! Compares the answer of the program for a drawing whose numbers have a tolerance with exact
 //! arithmetic and with the distance of the data from a lower rank.
 
 use serde_json::Value;
@@ -24,8 +24,8 @@ const FIRST_ORDER: f64 = 0.1;
 /// sensitive one.
 const AT_ONCE: f64 = 3.0;
 
-/// The sentence for dependencies that are left open.
-const OPEN: &str = "within the tolerance it is open which rows of";
+/// Part of the sentence about dependencies that are undecided.
+const OPEN: &str = "within the tolerance it is undecided which rows of";
 
 /// Digits of `sensitivity` and of reactions in double precision.
 const ROUNDING: f64 = 1e-8;
@@ -33,19 +33,20 @@ const ROUNDING: f64 = 1e-8;
 /// The correct results for a drawing.
 pub struct Meant<'a> {
     posed: &'a Posed,
-    /// From exact arithmetic.
+    /// Results of exact arithmetic.
     pub truth: Truth,
-    /// The same as plain data.
+    /// The same results as plain data.
     pub right: Expected,
     /// The size of the drawing (m).
     pub size: f64,
     /// Number of its points, directions and numbers.
     pub blocks: usize,
-    /// Whether its redundancy is the same at all its poses.
+    /// Whether its redundancy is the same at all its configurations.
     pub is_permanent: bool,
-    /// τ* (m) for a rank that is lower by one.
+    /// Value of τ* (m) for a rank that is lower by one.
     pub from: Bounds,
-    /// τ* (m) for this rank at all poses; zero if the rank is the same there already.
+    /// Value of τ* (m) for this rank at all configurations; zero if the rank is already the same
+    /// there.
     pub everywhere_from: Bounds,
     /// Reactions under gravity.
     pub reactions: Reactions,
@@ -54,7 +55,7 @@ pub struct Meant<'a> {
 }
 
 impl<'a> Meant<'a> {
-    /// The correct results for a drawing.
+    /// Computes the correct results for a drawing.
     #[must_use]
     pub fn of(posed: &'a Posed, seed: u64, gravity: [f64; 2]) -> Self {
         let (truth, right) = posed.right();
@@ -83,7 +84,7 @@ impl<'a> Meant<'a> {
         }
     }
 
-    /// A tolerance (m) and τ*.
+    /// Returns a tolerance (m) and τ*.
     #[must_use]
     pub fn distance(&self, tolerance: f64) -> Distance {
         Distance {
@@ -93,7 +94,7 @@ impl<'a> Meant<'a> {
         }
     }
 
-    /// The tolerance for numbers that depend on data within a tolerance (m).
+    /// Returns the tolerance for numbers that depend on data within a tolerance (m).
     fn rounding(&self, tolerance: f64) -> f64 {
         let known_to = (10.0 * tolerance / self.from.low).min(0.5);
         self.truth.rounding.max(known_to)
@@ -132,8 +133,8 @@ impl<'a> Meant<'a> {
         judged
     }
 
-    /// Verdicts must be those of the drawing; a reaction that is not unique may be called unique if
-    /// data within the tolerance make it so.
+    /// Verdicts must be those of the drawing; the program may call a reaction unique that is not
+    /// unique, if data within the tolerance make it unique.
     fn verdicts(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
         let mut all = Findings::default();
         let rounding = self.rounding(tolerance);
@@ -142,7 +143,7 @@ impl<'a> Meant<'a> {
         let hidden = self.right.reactions.iter().filter(|right| {
             let is_named = |f: &Finding| concerns(&f.text, &right.name);
             let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
-            // Accept only reactions that the data may make unique.
+            // The check accepts only reactions that the data may make unique.
             !right.is_unique.is_unique() && all.0.iter().any(wrong) && {
                 let [size, change] = self.doubles.margin(rank, &right.own_rows(), tolerance);
                 size <= change
@@ -168,7 +169,7 @@ impl<'a> Meant<'a> {
             let Some(change) = reaction["sensitivity"].as_f64() else {
                 continue;
             };
-            // Loads that push across bodies in line: its numbers are left out, with this reason.
+            // The loads push across collinear bodies: the values are left out, with this reason.
             if !reaction["no_finite_reaction"].is_null() {
                 continue;
             }
@@ -183,7 +184,7 @@ impl<'a> Meant<'a> {
                 continue;
             }
             let (force, torque) = self.reactions.each[link];
-            // The torque of a wheel is about its own place, which may be another point.
+            // The torque of a wheel is about its own reference point, which may be another point.
             let torque = torque.filter(|_| !matches!(placed.link.tie, Tie::Rack { .. }));
             let size = force[0]
                 .hypot(force[1])
@@ -217,7 +218,7 @@ impl<'a> Meant<'a> {
     }
 }
 
-/// Whether a finding is about the joint or drive of this name.
+/// Whether a finding is about the joint or drive with this name.
 fn concerns(text: &str, name: &str) -> bool {
     let rest = text.strip_prefix(name);
     rest.is_some_and(|rest| rest.starts_with([':', ',', '.']))

@@ -1,6 +1,6 @@
-//! Dependencies and sentences: the sets of rows must be minimal and dependent, coefficients and
-//! forces must be those of exact arithmetic, and sentences must name the rows with their ratios and
-//! state only correct sums.
+//! Checks dependencies and sentences. The sets of rows must be minimal and dependent, and
+//! coefficients and forces must be those of exact arithmetic. Sentences must name the rows with
+//! their ratios and state only correct sums.
 
 use num_bigint::BigInt;
 use serde_json::Value;
@@ -57,11 +57,11 @@ pub fn examine(truth: &Truth, right: &Expected, answer: &Value, findings: &mut F
     }
 }
 
-/// The same for sets of rows only: they must be minimal and dependent, and as many as the
+/// Compares only sets of rows: they must be minimal and dependent, and their number must equal the
 /// redundancy.
 pub fn circuits(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let dependencies = list(&answer["dependencies"]);
-    // Dependencies that the tolerance leaves open are not compared.
+    // Dependencies that are undecided within the tolerance are not compared.
     let open = findings.0.iter().any(|f| f.kind == Kind::Undecided);
     if dependencies.len() != truth.redundancy() && !open {
         let text = format!(
@@ -115,7 +115,7 @@ impl Dependency<'_> {
         }
     }
 
-    /// Its joints and drives, each once, in the order of the file.
+    /// Returns its joints and drives, each once, in the order of the file.
     fn owners(&self) -> Vec<Owner> {
         let owners = self.truth.elements.iter().map(|e| e.owner);
         let has = |owner: &Owner| {
@@ -130,7 +130,7 @@ impl Dependency<'_> {
         &self.truth.element(owner).name
     }
 
-    /// What a joint carries, if its place is in the drawing.
+    /// Returns the load of a joint, if its reference point is in the drawing.
     fn carried(&self, owner: Owner) -> Option<Reaction> {
         self.truth.carried(owner, self.rows, self.circuit)
     }
@@ -174,7 +174,7 @@ impl Dependency<'_> {
         if !are_proportional(&answer, &right, 1e2 * self.truth.rounding) {
             self.load(
                 findings,
-                format!("forces {answer:?} are {right:?} but for a factor"),
+                format!("forces {answer:?} are {right:?} up to a factor"),
             );
         }
     }
@@ -197,7 +197,7 @@ impl Dependency<'_> {
             .flat_map(|&owner| &self.truth.element(owner).sides);
         let bodies: Vec<String> = sides.map(|side| text::name(*side)).collect();
         for quoted in text.split('`').skip(1).step_by(2) {
-            // A name, or terms as `0.5*name.Fx`.
+            // The text is a name, or terms such as `0.5*name.Fx`.
             let mut terms = quoted
                 .split([' ', '*'])
                 .filter(|t| t.parse::<f64>().is_err());
@@ -237,8 +237,8 @@ impl Dependency<'_> {
 }
 
 impl Dependency<'_> {
-    /// Compares the loads that a sentence tells, "`a.Fx` = 1 N and `b.N` = −0.5 N cancel", and the
-    /// combination of two of them that they leave as it is.
+    /// Compares the loads in a sentence, "`a.Fx` = 1 N and `b.N` = −0.5 N cancel", and the
+    /// combination of two of them that they do not change.
     fn told_loads(&self, text: &str, owners: &[Owner], findings: &mut Findings) {
         let told = told(text);
         if told.is_empty() {
@@ -270,7 +270,7 @@ impl Dependency<'_> {
                 signs.extend(at.map(|at| value * self.right()[at]));
                 continue;
             }
-            // A drive pushes or turns.
+            // The load of a drive is a force or a torque.
             if let Some(value) = own("drive") {
                 blades.push(right.len());
                 answer.push(value.abs());
@@ -282,18 +282,18 @@ impl Dependency<'_> {
             right.extend(numbers);
         }
         let is_one_sign = signs.windows(2).all(|pair| pair[0] * pair[1] > 0.0);
-        // Of a blade and a drive only the size is known here, and all loads may be told with the
-        // other sign.
+        // For a blade and a drive only the absolute value is known here, and all loads may have the
+        // opposite sign.
         let mut other = right.clone();
         blades.iter().for_each(|&at| other[at] *= -1.0);
         let told_right = [&right, &other]
             .iter()
             .any(|right| are_proportional(&answer, right, 4.0 * FOUR_DIGITS));
         if !told_right || !is_one_sign {
-            let text = format!("the loads are {right:?} but for a factor: {text}");
+            let text = format!("the loads are {right:?} up to a factor: {text}");
             self.note(findings, text);
         }
-        // `a.Fx - 0.5*b.Fy`: the loads of both cancel in it.
+        // In `a.Fx - 0.5*b.Fy` the loads of both cancel.
         let combination = text.split('`').skip(1).step_by(2).find(|q| q.contains(' '));
         let terms = combination.map(|q| q.splitn(3, ' ').collect::<Vec<_>>());
         if let Some([first, sign, second]) = terms.as_deref() {
@@ -329,7 +329,7 @@ impl Dependency<'_> {
     }
 }
 
-/// The loads of a sentence: joint, component, value.
+/// Returns the loads of a sentence: joint, component, value.
 fn told<'t>(text: &'t str) -> Vec<(&'t str, &'t str, f64)> {
     let parts: Vec<&str> = text.split('`').collect();
     let quoted = parts.iter().zip(parts.iter().skip(1)).skip(1).step_by(2);
@@ -358,7 +358,7 @@ fn are_proportional(answer: &[f64], right: &[f64], rounding: f64) -> bool {
     factor != 0.0 && off.fold(0.0, f64::max) <= rounding * answer[at].abs()
 }
 
-/// The numbers of "1 : −0.5 : 0.25 cancel out", with or without units.
+/// Returns the numbers of "1 : −0.5 : 0.25 cancel out", with or without units.
 fn ratio(text: &str) -> Vec<f64> {
     let mut numbers = Vec::new();
     for part in text.split(" : ") {
@@ -406,13 +406,13 @@ fn mixing(truth: &Truth, answer: &Value, findings: &mut Findings) {
     if !open.is_empty() {
         findings.note(
             Kind::Sentence,
-            format!("nobody says that rows {open:?} (from 0) share loads"),
+            format!("no text states that rows {open:?} (from 0) share loads"),
         );
     }
 }
 
-/// "the reaction of `a` is not determined: it shares loads with `b` and `c`; determined is Fx and
-/// 0.6·Fx + 0.8·Fy"
+/// Compares the sentence "the reaction of `a` is not determined: it shares loads with `b` and `c`;
+/// only Fx and 0.6·Fx + 0.8·Fy are determined".
 fn explanation(
     truth: &Truth,
     right: &ExpectedReaction,
@@ -439,22 +439,23 @@ fn explanation(
         wrong(&format!("{others:?} share loads"));
     }
     let live = right.carried - right.free;
-    if text.contains("nothing of it is determined") && live > 0 {
+    if text.contains("no part of it is determined") && live > 0 {
         wrong("something is determined");
     }
-    if text.contains("is not decided") {
+    if text.contains("the determined part of it is undecided") {
         findings.note(Kind::Undecided, text.to_owned());
         return;
     }
-    let is_or_are = ["determined is ", "determined are "];
-    let Some((_, determined)) = is_or_are.iter().find_map(|verb| text.split_once(verb)) else {
+    // If no other component is determined, the sentence lists the components that are always zero.
+    let listed = text.rsplit_once("; only ").map(|(_, listed)| listed);
+    let is_or_are = [" is determined", " are determined"];
+    let determined = listed.and_then(|listed| {
+        let before = |verb| listed.split_once(verb).map(|(determined, _)| determined);
+        is_or_are.into_iter().find_map(before)
+    });
+    let Some(determined) = determined else {
         return;
     };
-    // Where nothing else is determined, what is always zero is said to be so.
-    let determined = determined
-        .split(" only, which ")
-        .next()
-        .unwrap_or(determined);
     let components = list(&answer["components"])
         .iter()
         .filter_map(|c| c["name"].as_str());
@@ -463,7 +464,7 @@ fn explanation(
         .split(", ")
         .flat_map(|part| part.split(" and "))
         .collect();
-    // Directions along which the reaction is always zero may be listed too.
+    // Directions along which the reaction is always zero may also be listed.
     if all.len() < live || all.len() > components.len() - right.free {
         wrong(&format!("{live} directions are determined"));
     }

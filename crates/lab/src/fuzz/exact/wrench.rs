@@ -1,8 +1,8 @@
-//! A mechanism as what exact arithmetic examines: the wrenches that each of its rows causes on its
-//! bodies, in space. Scenes of the plane are lifted: their rows are wrenches without parts across
-//! the plane, and the velocities across it are left out, as if every body had guides that keep it
-//! in its plane. A guide does no work in the plane and shares no row with others, so ranks,
-//! dependencies and verdicts are those of the plane.
+//! A mechanism in the form that exact arithmetic examines: the wrenches that each of its rows
+//! causes on its bodies, in space. Planar scenes are converted: their rows are wrenches without
+//! parts across the plane. The velocities across it are omitted, as if guides constrained every
+//! body to its plane. A guide does no work in the plane and shares no row with other joints, so
+//! ranks, dependencies and verdicts are those of the plane.
 
 use num_bigint::BigInt;
 
@@ -12,7 +12,7 @@ use crate::fuzz::space::vector::Vector;
 /// A body by its index, or the ground.
 pub type Side = Option<usize>;
 
-/// Force, and moment about the origin of the drawing.
+/// A force, and a moment about the origin of the drawing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrench {
     /// The force.
@@ -22,7 +22,7 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// A force along a line through p.
+    /// Creates a force along a line through p.
     #[must_use]
     pub fn line(p: &Vector, force: &Vector) -> Self {
         Self {
@@ -31,7 +31,7 @@ impl Wrench {
         }
     }
 
-    /// A couple.
+    /// Creates a couple.
     #[must_use]
     pub fn couple(moment: Vector) -> Self {
         Self {
@@ -40,7 +40,7 @@ impl Wrench {
         }
     }
 
-    /// The opposite wrench.
+    /// Returns the opposite wrench.
     #[must_use]
     pub fn opposite(&self) -> Self {
         Self {
@@ -49,14 +49,14 @@ impl Wrench {
         }
     }
 
-    /// Its six numbers.
+    /// Returns its six numbers.
     #[must_use]
     pub fn numbers(&self) -> [Ratio; 6] {
         let ([a, b, c], [d, e, f]) = (&self.force.0, &self.moment.0);
         [a, b, c, d, e, f].map(Clone::clone)
     }
 
-    /// The length of its force, or that of a couple.
+    /// Returns the length of its force, or that of a couple.
     #[must_use]
     pub fn length(&self) -> f64 {
         let direction = if self.force.is_zero() {
@@ -68,7 +68,7 @@ impl Wrench {
     }
 }
 
-/// The element that a row belongs to, by its index.
+/// The element to which a row belongs, by its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Owner {
     /// A joint.
@@ -77,24 +77,24 @@ pub enum Owner {
     Drive(usize),
 }
 
-/// What a row says.
+/// Meaning of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     /// Points coincide along an axis of the ground.
     Point(usize),
-    /// A point stays on a line or plane: the offset along u (0), v (1) or the normal (2).
+    /// A point remains on a line or plane: the offset along u (0), v (1) or the normal (2).
     Offset(usize),
-    /// The second axis does not leave the first one towards u (0) or v (1).
+    /// The second axis does not move from the first one towards u (0) or v (1).
     Direction(usize),
-    /// The second u does not turn towards the first v: no relative rotation about w.
+    /// The second u does not rotate towards the first v: no relative rotation about w.
     Turn,
-    /// Two axes stay perpendicular.
+    /// Two axes remain perpendicular.
     Perpendicular,
-    /// A length.
+    /// A distance is constant.
     Length,
-    /// Teeth: rotations in a ratio, or a rotation and a displacement.
+    /// A gear mesh: rotations in a ratio, or a rotation and a displacement.
     Mesh,
-    /// No velocity along the normal of an edge, or a prescribed one.
+    /// The velocity along the normal of an edge is zero or prescribed.
     Edge,
     /// A wheel touches its plane.
     Contact,
@@ -102,24 +102,24 @@ pub enum Meaning {
     Longitudinal,
     /// A wheel does not slip across its heading.
     Lateral,
-    /// A driven measure.
+    /// A driven joint coordinate.
     Driven,
 }
 
 impl Meaning {
-    /// Whether it restricts velocities only.
+    /// Whether the row restricts only velocities.
     #[must_use]
     pub fn is_nonholonomic(self) -> bool {
         matches!(self, Self::Edge | Self::Longitudinal | Self::Lateral)
     }
 }
 
-/// One row.
+/// One constraint row.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Its joint or drive.
+    /// Joint or drive of the row.
     pub owner: Owner,
-    /// What it says.
+    /// Meaning of the row.
     pub meaning: Meaning,
     /// The wrenches of a unit multiplier; one body may occur several times.
     pub loads: Vec<(Side, Wrench)>,
@@ -128,7 +128,8 @@ pub struct Row {
 }
 
 impl Row {
-    /// A row that acts with a wrench on the second body and with its opposite on the first.
+    /// Creates a row that acts with a wrench on the second body and with the opposite wrench on the
+    /// first.
     #[must_use]
     pub fn between(
         owner: Owner,
@@ -148,25 +149,25 @@ impl Row {
 /// A joint or drive.
 #[derive(Clone, Debug)]
 pub struct Element {
-    /// Which one.
+    /// Owner of the element.
     pub owner: Owner,
-    /// Its name.
+    /// Name of the element.
     pub name: String,
-    /// Its bodies; the wrench on the first of them is its reaction.
+    /// Bodies of the element; the wrench on the first of them is its reaction.
     pub sides: Vec<Side>,
-    /// The point for which its reaction is given, the origin if it carries couples only. `None` if
-    /// the point is not in the drawing.
+    /// The point for which its reaction is given, or the origin if it carries only couples. `None`
+    /// if the point is not in the drawing.
     pub place: Option<Vector>,
 }
 
 /// A component of a reaction: `Σ (a + b·√k)·wrench[i]/unit`.
 #[derive(Clone, Debug)]
 pub struct Component {
-    /// Its name.
+    /// Name of the component.
     pub name: &'static str,
     /// The indices i with a and b.
     pub terms: Vec<(usize, [BigInt; 2])>,
-    /// The unit.
+    /// The unit of the component.
     pub unit: BigInt,
 }
 
@@ -179,7 +180,7 @@ pub struct Wrenches {
     pub velocities: Vec<usize>,
     /// The components of reactions.
     pub components: Vec<Component>,
-    /// k in the irrational parts of components.
+    /// The number k in the irrational parts of components.
     pub stretch: u32,
     /// Joints and drives in the order of the file.
     pub elements: Vec<Element>,
@@ -188,24 +189,24 @@ pub struct Wrenches {
     pub rows: Vec<Row>,
     /// Distance from the origin (m).
     pub distance: f64,
-    /// The redundancy that theory gives, if it does.
+    /// The redundancy according to theory, if it is known.
     pub theory: Option<usize>,
 }
 
 impl Wrenches {
-    /// The joint or drive of an owner.
+    /// Returns the joint or drive of an owner.
     #[must_use]
     pub fn element(&self, owner: Owner) -> &Element {
         element(&self.elements, owner)
     }
 
-    /// The name of the joint or drive of a row.
+    /// Returns the name of the joint or drive of a row.
     #[must_use]
     pub fn name_of(&self, row: usize) -> &str {
         &self.element(self.rows[row].owner).name
     }
 
-    /// The indices of rows with a property.
+    /// Returns the indices of rows with a property.
     pub fn rows_where(&self, wanted: impl Fn(&Row) -> bool) -> Vec<usize> {
         let rows = self.rows.iter().enumerate();
         rows.filter(|(_, row)| wanted(row))
@@ -213,13 +214,13 @@ impl Wrenches {
             .collect()
     }
 
-    /// The rows of a joint or drive.
+    /// Returns the rows of a joint or drive.
     #[must_use]
     pub fn rows_of(&self, owner: Owner) -> Vec<usize> {
         self.rows_where(|row| row.owner == owner)
     }
 
-    /// The same with rows in the order of the program; those of each kind stay in their order.
+    /// Returns the rows in the order of the program; rows of each kind keep their order.
     #[must_use]
     pub fn in_order(mut self) -> Self {
         self.rows.sort_by_key(|row| match row.meaning {

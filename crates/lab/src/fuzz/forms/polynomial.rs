@@ -1,14 +1,14 @@
-//! Polynomials of one unknown with whole coefficients: common divisors and numbers of real roots.
+//! Polynomials of one unknown with integer coefficients: common divisors and numbers of real roots.
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
 
-/// Coefficients, ascending, without zeros at the end.
+/// Coefficients in ascending order, without zeros at the end.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Polynomial(Vec<BigInt>);
 
 impl Polynomial {
-    /// Of these coefficients, ascending.
+    /// Creates a polynomial with these coefficients, in ascending order.
     pub(super) fn new(mut coefficients: Vec<BigInt>) -> Self {
         while coefficients.last().is_some_and(Zero::is_zero) {
             coefficients.pop();
@@ -16,7 +16,7 @@ impl Polynomial {
         Self(coefficients)
     }
 
-    /// The degree; `None` of zero.
+    /// Returns the degree; `None` for zero.
     pub(super) fn degree(&self) -> Option<usize> {
         self.0.len().checked_sub(1)
     }
@@ -42,7 +42,7 @@ impl Polynomial {
         Self::new(terms.map(|(k, a)| a * BigInt::from(k)).collect())
     }
 
-    /// A positive multiple of the remainder of a division.
+    /// Returns a positive multiple of the remainder of a division.
     fn remainder(&self, divisor: &Self) -> Self {
         let Some(degree) = divisor.degree() else {
             return self.clone();
@@ -65,7 +65,7 @@ impl Polynomial {
         left
     }
 
-    /// Divided by the largest whole number that divides all coefficients.
+    /// Divides by the largest integer that divides all coefficients.
     fn reduced(self) -> Self {
         let common = self
             .0
@@ -77,7 +77,7 @@ impl Polynomial {
         Self(self.0.into_iter().map(|a| a / &common).collect())
     }
 
-    /// The greatest common divisor, up to a factor.
+    /// Returns the greatest common divisor, up to a factor.
     pub(super) fn common(&self, other: &Self) -> Self {
         let (mut a, mut b) = (self.clone().reduced(), other.clone().reduced());
         while b.degree().is_some() {
@@ -86,12 +86,12 @@ impl Polynomial {
         a
     }
 
-    /// Whether it has no multiple root, real or not.
+    /// Whether the polynomial has no multiple root, real or complex.
     pub(super) fn is_square_free(&self) -> bool {
         self.common(&self.derivative()).degree() == Some(0)
     }
 
-    /// The number of its different real roots, by Sturm's theorem.
+    /// Returns the number of its different real roots, by Sturm's theorem.
     pub(super) fn real_roots(&self) -> usize {
         let mut chain = vec![self.clone(), self.derivative()];
         while let Some(last) = chain.last().filter(|p| p.degree().is_some()) {
@@ -127,7 +127,7 @@ mod tests {
         Polynomial::new(coefficients.iter().map(|a| BigInt::from(*a)).collect())
     }
 
-    /// (x − 1)·(x + 2)·(x² + 1), and with (x − 1) once more.
+    /// The polynomials are (x − 1)·(x + 2)·(x² + 1), and the same with (x − 1) twice.
     #[test]
     fn roots_are_counted() {
         let simple = polynomial(&[-1, 1]).times(&polynomial(&[2, 1]));

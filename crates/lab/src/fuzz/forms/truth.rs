@@ -1,9 +1,10 @@
-//! A decision of its own, in whole numbers: do quadratic forms have a common real zero?
+//! Decides independently with integers whether quadratic forms have a common real zero.
 //!
-//! One form: by the signs of its principal minors. Two unknowns: by the greatest common divisor of
-//! the forms and the roots that it has. Three unknowns: by the resultants of pairs of forms, in
-//! coordinates in which every common zero has a direction of its own. Four unknowns: boxes with
-//! whole corners cover the sphere, each without a zero of one form or of a sum of some.
+//! For one form the decision uses the signs of its principal minors. For two unknowns it uses the
+//! greatest common divisor of the forms and its roots. For three unknowns it uses the resultants of
+//! pairs of forms, in coordinates in which every common zero has a separate direction. For four
+//! unknowns, boxes with integer corners cover the sphere, each without a zero of one form or of a
+//! sum of some forms.
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
@@ -11,20 +12,20 @@ use num_traits::{Signed, Zero};
 use super::Form;
 use super::polynomial::Polynomial;
 
-/// What is true of forms.
+/// The correct result for forms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Truth {
-    /// No common zero.
+    /// There is no common zero.
     None,
     /// A common zero at which the gradients are independent.
     Simple,
-    /// A common zero; at each the gradients depend on each other.
+    /// There is a common zero; at each the gradients are dependent.
     Double,
-    /// Not found out.
+    /// The result is unknown.
     Open,
 }
 
-/// Of forms in two or three unknowns, or of one form, or of those that boxes exclude.
+/// Decides for forms in two or three unknowns, for one form, or for forms that boxes exclude.
 pub(super) fn truth(forms: &[Form]) -> Truth {
     let unknowns = forms[0].len();
     match (forms, unknowns) {
@@ -39,11 +40,11 @@ pub(super) fn truth(forms: &[Form]) -> Truth {
     }
 }
 
-/// Changes of coordinates that are tried.
+/// Number of changes of coordinates that are tried.
 const CHANGES: i64 = 4;
 
-/// A form is definite if its leading principal minors show it; with rank below the number of
-/// unknowns and otherwise definite its zeros are double.
+/// Decides for one form. It is definite if its leading principal minors show it; if its rank is
+/// below the number of unknowns and it is otherwise definite, its zeros are double.
 fn of_one(form: &Form) -> Truth {
     let n = form.len();
     let definite = |sign: i64| {
@@ -57,7 +58,7 @@ fn of_one(form: &Form) -> Truth {
     if definite(1) || definite(-1) {
         return Truth::None;
     }
-    // Semidefinite: all principal minors of one sign are at least zero.
+    // A form is semidefinite if all its principal minors, with one sign, are at least zero.
     let semidefinite = |sign: i64| {
         (1..1_usize << n).all(|set| {
             let chosen: Vec<usize> = (0..n).filter(|i| set >> i & 1 == 1).collect();
@@ -75,7 +76,7 @@ fn of_one(form: &Form) -> Truth {
     }
 }
 
-/// By expansion along the first row.
+/// Computes the determinant by expansion along the first row.
 fn determinant(m: Vec<Vec<BigInt>>) -> BigInt {
     if m.is_empty() {
         return BigInt::from(1);
@@ -92,7 +93,7 @@ fn determinant(m: Vec<Vec<BigInt>>) -> BigInt {
         .sum()
 }
 
-/// Of two forms or more; coordinates are changed until no zero is at y = 0.
+/// Decides for two or more forms; coordinates are changed until no zero is at y = 0.
 fn of_two_unknowns(forms: &[Form]) -> Truth {
     let forms = (0..8)
         .map(|k| changed(forms, k))
@@ -107,13 +108,13 @@ fn of_two_unknowns(forms: &[Form]) -> Truth {
     }
     match (common.degree(), common.real_roots()) {
         (Some(0), _) | (_, 0) => Truth::None,
-        // All forms are multiples of one.
+        // All forms are multiples of one form.
         (Some(2), 2) => Truth::Simple,
         _ => Truth::Double,
     }
 }
 
-/// Two forms or more in three unknowns.
+/// Decides for two or more forms in three unknowns.
 fn of_three_unknowns(forms: &[Form]) -> Truth {
     if forms[0][2][2] == 0 {
         return Truth::Open;
@@ -123,7 +124,7 @@ fn of_three_unknowns(forms: &[Form]) -> Truth {
         return Truth::Open;
     }
     if forms.len() == 2 {
-        // Every zero has its own direction (x, y): real ones belong to real zeros.
+        // Every zero has a separate direction (x, y): real directions belong to real zeros.
         return match (first.is_square_free(), first.real_roots()) {
             (_, 0) => Truth::None,
             (true, _) => Truth::Simple,
@@ -138,7 +139,8 @@ fn of_three_unknowns(forms: &[Form]) -> Truth {
     }
 }
 
-/// The resultant of two forms as polynomials of z, at y = 1: zero where they have a common root.
+/// Returns the resultant of two forms as polynomials of z, at y = 1: it is zero if they have a
+/// common root.
 fn resultant(f: &Form, g: &Form) -> Polynomial {
     let parts = |f: &Form| {
         let whole = |c: &[i64]| Polynomial::new(c.iter().map(|x| BigInt::from(*x)).collect());
@@ -155,13 +157,13 @@ fn resultant(f: &Form, g: &Form) -> Polynomial {
     ah.times(&ah).minus(&ae.times(&bh))
 }
 
-/// The forms in other coordinates: x = T·x', T of whole numbers with determinant one.
+/// Returns the forms in other coordinates: x = T·x', with T of integers and determinant one.
 fn changed(forms: &[Form], change: i64) -> Vec<Form> {
     let n = forms[0].len();
     if change == 0 {
         return forms.to_vec();
     }
-    // A lower triangle times an upper one, both with ones on the diagonal.
+    // The matrix is a lower triangle times an upper one, both with ones on the diagonal.
     let entry = |i: usize, j: usize| -> i64 {
         let lower = |i: usize, k: usize| match i.cmp(&k) {
             std::cmp::Ordering::Less => 0,
@@ -192,15 +194,15 @@ fn changed(forms: &[Form], change: i64) -> Vec<Form> {
     forms.iter().map(of).collect()
 }
 
-/// Most halvings of a box, and most boxes.
+/// Largest number of halvings of a box, and largest number of boxes.
 const HALVINGS: u32 = 9;
 const BOXES: usize = 300_000;
 
 /// Whether boxes without a zero of some form cover the sphere. A box has its centre at c/2^h and
-/// the half width 1/2^h; everything is multiplied by 4^h, so that all numbers are whole.
+/// the half width 1/2^h; all values are multiplied by 4^h, so that all numbers are integers.
 fn covered(forms: &[Form]) -> bool {
     let n = forms[0].len();
-    // Sums of the forms with small whole factors.
+    // Sums of the forms with small integer factors.
     let mut sums: Vec<Form> = Vec::new();
     for number in 0..3_usize.pow(forms.len() as u32) {
         let factors: Vec<i64> = (0..forms.len())
@@ -261,7 +263,8 @@ fn is_away(f: &Form, face: usize, centre: &[i64]) -> bool {
 }
 
 /// Whether forms change their signs around a point as at a zero with independent gradients, which
-/// proves that there is one (Poincaré and Miranda): in whole numbers, 2^BITS for one.
+/// proves that there is one (Poincaré and Miranda). The computation uses integers, with 2^BITS for
+/// one.
 pub(super) fn has_zero_near(forms: &[Form], at: &[f64]) -> bool {
     const BITS: i32 = 24;
     const RADIUS: i128 = 1 << 8;
@@ -272,7 +275,7 @@ pub(super) fn has_zero_near(forms: &[Form], at: &[f64]) -> bool {
         .map(|x| (x / at[largest] * one).round() as i128)
         .collect();
     let e = forms.len();
-    // Rows of gradients at the point.
+    // Computes rows of gradients at the point.
     let gradient = |f: &Form| -> Vec<i128> {
         let row = |i: usize| -> i128 {
             (0..at.len())
@@ -294,8 +297,8 @@ pub(super) fn has_zero_near(forms: &[Form], at: &[f64]) -> bool {
     })
 }
 
-/// Whether each combination of the forms has one sign at one side of the box, and the other at the
-/// other side.
+/// Whether each combination of the forms has one sign at one side of the box, and the opposite sign
+/// at the other side.
 fn signs_change(
     forms: &[Form],
     gradients: &[Vec<i128>],
@@ -343,7 +346,7 @@ fn subsets(of: &[usize], count: usize) -> Vec<Vec<usize>> {
     sets.filter(|set| set.len() == count).collect()
 }
 
-/// By elimination with the largest pivot.
+/// Computes the inverse by elimination with the largest pivot.
 fn inverse(mut m: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
     let n = m.len();
     for (i, row) in m.iter_mut().enumerate() {
@@ -368,7 +371,7 @@ fn inverse(mut m: Vec<Vec<f64>>) -> Option<Vec<Vec<f64>>> {
     Some(m.into_iter().map(|row| row[n..].to_vec()).collect())
 }
 
-/// The value of a form at a point.
+/// Returns the value of a form at a point.
 pub(super) fn value(f: &Form, p: &[i64]) -> i64 {
     let n = p.len();
     let pairs = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));

@@ -1,6 +1,6 @@
-//! What moves a reaction: one point, direction or number of a joint at a time, displaced in the
-//! direction of its largest effect. Bodies follow by the smallest motion, velocities by the
-//! smallest change; rows that are dropped stay dropped, and loads are held.
+//! Sensitivities of a reaction: one point, direction or number of a joint at a time is displaced in
+//! the direction of its largest effect. Bodies follow by the smallest motion, velocities by the
+//! smallest change; the redundant rows remain the same, and loads are constant.
 
 use model::{DataBlock, DataUnit, Mechanism, System};
 
@@ -8,45 +8,46 @@ use super::forms::{Form, forms};
 use super::newton::{Factored, Kept};
 use super::run::Row;
 
-/// Displacement in sizes, and radians: that of the definition of a sensitivity.
+/// Displacement in sizes, or in radians, as in the definition of a sensitivity.
 const MOVED: f64 = 1e-4;
 
-/// A piece that is smaller than a twentieth of the mechanism is made more accurately.
+/// For a piece that is smaller than a twentieth of the mechanism the computation is more accurate.
 const PIECE: f64 = 20.0;
 
-/// Displacement for derivatives, relative to the full one: bodies follow it by its quotient with
-/// the smallest singular value, which has to be far below that value itself.
+/// Displacement for derivatives, relative to the full one. Bodies follow it by its quotient with
+/// the smallest singular value; this quotient must be far below the singular value itself.
 const SMALL: f64 = 1e-5;
 
-/// The first of the steps of a displacement.
+/// Size of the first step of a displacement.
 const FIRST: f64 = 1e-3;
 
-/// Effects to both sides that differ by this share of their sum are not of first order.
+/// If the effects to both sides differ by this fraction of their sum, they are not of first order.
 const CURVED: f64 = 0.1;
 
-/// A displacement is made in so many steps, so that bodies follow on their branch.
+/// Number of steps of a displacement, so that bodies follow on their branch.
 const STEPS: usize = 8;
 
-/// A step that moves bodies by this multiple of the one before has left the branch.
+/// A step that moves bodies by this multiple of the previous one has left the branch.
 const JUMP: f64 = 5.0;
 
-/// Iterations of Newton's method, and the correction (sizes) after which there is no other.
+/// Largest number of iterations of Newton's method, and the correction (sizes) after which no
+/// further correction is made.
 const ITERATIONS: usize = 12;
 const CONVERGED: f64 = 1e-13;
 
-/// The change of a component with one datum, as far as first order goes.
+/// The first-order change of a component with one datum.
 #[derive(Clone, Default)]
 struct Effect {
     size: f64,
-    /// The number of the datum.
+    /// Index of the datum.
     block: usize,
-    /// The displacement with the largest effect.
+    /// Displacement with the largest effect.
     by: [f64; 3],
     /// Whether displacements to both sides have the same effect.
     is_straight: bool,
 }
 
-/// The state whose data are displaced.
+/// The state with displaced data.
 pub(super) struct Displaced<'a> {
     mechanism: &'a Mechanism,
     row: &'a Row,
@@ -56,12 +57,13 @@ pub(super) struct Displaced<'a> {
     numbers: Vec<f64>,
     blocks: Vec<DataBlock>,
     frozen: [Factored; 2],
-    /// Values at the state itself.
+    /// Values at the undisplaced state.
     pub(super) values: Vec<f64>,
 }
 
 impl<'a> Displaced<'a> {
-    /// At a state, with these rows kept. `None` if they are dependent.
+    /// Creates the computation at a state, with these independent rows. Returns `None` if they are
+    /// dependent.
     pub(super) fn new(
         mechanism: &'a Mechanism,
         row: &'a Row,
@@ -90,7 +92,8 @@ impl<'a> Displaced<'a> {
         Some(found)
     }
 
-    /// By component, the largest changes of its value by any one datum, in both directions.
+    /// Returns, by component, the largest changes of its value by any one datum, in both
+    /// directions.
     pub(super) fn changes(&self) -> Vec<f64> {
         let count = self.values.len();
         let mut most = vec![Effect::default(); count];
@@ -109,7 +112,8 @@ impl<'a> Displaced<'a> {
             for sign in [1.0, -1.0] {
                 let by = effect.by.map(|x| sign * x);
                 let values = self.displaced(&self.blocks[effect.block], by);
-                // Where nothing satisfies the displaced rows, first order is all there is.
+                // If no configuration satisfies the displaced rows, only the first order is
+                // available.
                 let alone = if effect.is_straight { effect.size } else { 0.0 };
                 let change = values.map_or(alone, |v| (v[k] - self.values[k]).abs());
                 changes[k] = changes[k].max(change);
@@ -118,7 +122,7 @@ impl<'a> Displaced<'a> {
         changes
     }
 
-    /// By component, the effect of one datum to first order.
+    /// Returns, by component, the first-order effect of one datum.
     fn effects(&self, number: usize, block: &DataBlock) -> Vec<Effect> {
         let moved = self.moved(block);
         let none = Effect {
@@ -173,15 +177,15 @@ impl<'a> Displaced<'a> {
         self.mechanism.with_numbers(&numbers)
     }
 
-    /// The values of all components with a datum displaced so little that the matrices of the state
-    /// itself serve.
+    /// Returns the values of all components for such a small displacement of a datum that the
+    /// matrices of the undisplaced state are sufficient.
     fn displaced_little(&self, block: &DataBlock, by: [f64; 3]) -> Option<Vec<f64>> {
         let [mut q, mut v] = [&self.row.q, &self.row.v].map(|x| x.clone());
         self.with(&self.with_displaced(block, by), (&mut q, &mut v), true)
     }
 
-    /// The values of all components with a displaced datum; `None` if nothing satisfies the
-    /// displaced rows on the branch of the state.
+    /// Returns the values of all components with a displaced datum; `None` if no configuration on
+    /// the branch of the state satisfies the displaced rows.
     fn displaced(&self, block: &DataBlock, by: [f64; 3]) -> Option<Vec<f64>> {
         let [mut q, mut v] = [&self.row.q, &self.row.v].map(|x| x.clone());
         let (mut values, mut at, mut rate) = (None, 0.0, f64::INFINITY);
@@ -200,7 +204,8 @@ impl<'a> Displaced<'a> {
         values
     }
 
-    /// The values of all components with other data, and where bodies and velocities follow to.
+    /// Returns the values of all components with other data, and the resulting positions and
+    /// velocities of bodies.
     fn with(
         &self,
         mechanism: &Mechanism,
@@ -230,7 +235,7 @@ impl<'a> Displaced<'a> {
         mechanism.b(&mut s);
         let own = (!is_small).then(|| rows.of_velocities(&s));
         let by = own.as_ref().unwrap_or(&self.frozen[1]);
-        // Twice, for the matrices of the state itself.
+        // The correction is applied twice, because the matrices are those of the undisplaced state.
         rows.correct_velocities(&s, by, v)?;
         rows.correct_velocities(&s, by, v)?;
         mechanism.twist(v, &mut s);

@@ -1,4 +1,5 @@
-//! One mechanism: its run, what is called determined on it, and the oracle at the same states.
+//! Examines one mechanism: its run, the numbers that are called determined on it, and the oracle at
+//! the same states.
 
 mod choices;
 mod data;
@@ -18,23 +19,23 @@ use super::sets::{compliances, dropped, elastic, without};
 use super::verdicts::{Judge, OnRun, Product};
 use suite::numbers::Numbers;
 
-/// Agreement at one state, of the load.
+/// Agreement at one state, as a fraction of the load.
 const AT_STATE: f64 = 1e-8;
 
 /// A load below this (N) counts as zero.
 const LOAD: f64 = 1e-9;
 
-/// Numbers below this (N) are rounding: forces of inertia come from coordinates of metres and
-/// velocities of metres a second.
+/// Numbers below this value (N) are rounding: inertial forces come from coordinates of metres and
+/// velocities of metres per second.
 const ROUNDING: f64 = 1e-12;
 
-/// The findings at a scene; the numbers choose rows to drop and compliances.
+/// Returns the findings for a scene; the random numbers select redundant rows and compliances.
 #[must_use]
 pub fn examine(text: &str, numbers: &mut Numbers) -> Findings {
     examine_by(&Product, text, numbers)
 }
 
-/// Like [`examine`], with the verdicts of another judge.
+/// See [`examine`], with the verdicts of another judge.
 #[must_use]
 pub fn examine_by(judge: &dyn Judge, text: &str, numbers: &mut Numbers) -> Findings {
     let mut findings = Findings::default();
@@ -54,10 +55,10 @@ pub fn examine_by(judge: &dyn Judge, text: &str, numbers: &mut Numbers) -> Findi
     findings
 }
 
-/// A run with all that is compared.
+/// A run with all compared data.
 struct Examined<'a> {
     mechanism: &'a Mechanism,
-    /// Rows of the scene with the oracle's solutions: every other row of the run.
+    /// Rows of the scene with the solutions of the oracle: every second row of the run.
     states: Vec<(&'a Row, Instant, Vec<Form>)>,
     verdicts: Vec<OnRun>,
     sets: Vec<Vec<usize>>,
@@ -123,8 +124,9 @@ impl<'a> Examined<'a> {
         examined.displaced(judge, which, findings);
     }
 
-    /// Whether two values of the component k at a state differ by more than this share of what they
-    /// are compared with. A component that is fragile at this state alone is compared as one.
+    /// Whether two values of component k at a state differ by more than this fraction of their
+    /// reference. A component that is ill-determined only at this state is compared as an
+    /// ill-determined component.
     fn differ(
         &self,
         judge: &dyn Judge,
@@ -133,7 +135,7 @@ impl<'a> Examined<'a> {
         share: f64,
     ) -> bool {
         let (load, span) = (instant.load, span(values));
-        // What `f64` resolves of a solution with this smallest singular value.
+        // Resolution of `f64` for a solution with this smallest singular value.
         let largest = values.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let resolved = ROUNDING.max(f64::EPSILON / instant.sigma * largest);
         let is_within = |sensitivity: Option<f64>| {
@@ -148,7 +150,7 @@ impl<'a> Examined<'a> {
         format!("{}.{}", group.name, form.name)
     }
 
-    /// All solutions of a state: without the rows of each set, and with elastic joints.
+    /// Returns all solutions of a state: without the rows of each set, and with elastic joints.
     fn solutions(&self, instant: &Instant, forms: &[Form]) -> Vec<DVector<f64>> {
         let least = instant.least();
         let mut all: Vec<DVector<f64>> = self
@@ -166,8 +168,8 @@ impl<'a> Examined<'a> {
     }
 }
 
-/// What an agreement is a share of: the load; for a fragile component the larger of its value and
-/// of the load times its sensitivity.
+/// Returns the reference of an agreement: the load; for an ill-determined component the larger of
+/// its value and of the load times its sensitivity.
 fn reference(sensitivity: Option<f64>, values: &[f64], load: f64) -> f64 {
     match sensitivity {
         Some(sensitivity) if sensitivity > solvability::FRAGILE => values

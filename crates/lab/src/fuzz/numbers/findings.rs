@@ -1,4 +1,4 @@
-//! What is found at one mechanism: disagreements, and numbers that are counted.
+//! Findings for one mechanism: disagreements, and counted numbers.
 
 /// A kind of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -11,18 +11,18 @@ pub enum Kind {
     Choices,
     /// A component that is called determined differs between two runs.
     Runs,
-    /// A component that is called a matter of choice is determined at every state.
+    /// A component with a verdict that it depends on the choice is determined at every state.
     Unexplained,
-    /// A component that is determined and not called fragile moves with a datum.
+    /// A component that is determined and not called ill-determined changes with a datum.
     Moves,
-    /// The product refuses a mechanism that moves, or stops where it goes on.
+    /// The product rejects a mechanism that moves, or stops a motion that can continue.
     Refused,
     /// The product fails where the oracle has a solution, or panics.
     Failed,
 }
 
 impl Kind {
-    /// Its name.
+    /// Returns the name of the kind.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -37,75 +37,77 @@ impl Kind {
         }
     }
 
-    /// Whether one of it fails a campaign; of unexplained ones a share is permitted.
+    /// Whether a single finding of this kind fails a campaign; a fraction of unexplained findings
+    /// is permitted.
     #[must_use]
     pub fn is_wrong(self) -> bool {
         self != Self::Unexplained
     }
 }
 
-/// A disagreement in words.
+/// The text of a disagreement.
 #[derive(Clone, Debug)]
 pub struct Finding {
-    /// Its kind.
+    /// Kind of the finding.
     pub kind: Kind,
     /// Component, time and numbers.
     pub text: String,
 }
 
-/// Things that are counted.
+/// Quantities that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Count {
     /// Mechanisms that ran to their end.
     Ran,
-    /// Runs that stopped, where an own step does not go on or the configuration is singular.
+    /// Runs that stopped because an independent step does not continue or the configuration is
+    /// singular.
     Stopped,
-    /// Runs that took too many steps.
+    /// Runs that reached the limit of steps.
     Cut,
-    /// Mechanisms that are refused and do not move.
+    /// Mechanisms that are rejected and do not move.
     DoesNotMove,
-    /// Mechanisms that are refused at a singular configuration.
+    /// Mechanisms that are rejected at a singular configuration.
     SingularStart,
-    /// Mechanisms that are refused because no reaction is finite, where accelerations from rest
-    /// break the equations of second order.
+    /// Mechanisms that are rejected because no reaction is finite: accelerations from rest violate
+    /// the second-order equations.
     NoFinite,
-    /// Mechanisms that are refused for given velocities that no motion has.
+    /// Mechanisms that are rejected because the given velocities are impossible.
     NoVelocities,
-    /// Mechanisms that are refused for the text.
+    /// Mechanisms that are rejected because of the text.
     NoScene,
     /// Mechanisms with redundant rows.
     Redundant,
-    /// States without an answer of the oracle.
+    /// States without a result of the oracle.
     Unclear,
     /// Values of determined components that were compared at one state.
     Values,
-    /// The same between two runs.
+    /// Values of determined components that were compared between two runs.
     BetweenRuns,
     /// Rows of two runs with different states.
     OtherStates,
-    /// Components that are called a matter of choice, on their stretches.
+    /// Components that are called dependent on the choice, on their stretches.
     NotDetermined,
-    /// Those that differ between two solutions.
+    /// Components among these that differ between two solutions.
     Differs,
-    /// Those that no load reaches: free in the null space.
+    /// Components among these without any load along them: free in the null space.
     NoLoad,
     /// Components without a decision, on their stretches.
     Undecided,
-    /// Components that are determined and not fragile, whose data were displaced.
+    /// Components that are determined and not ill-determined, whose data were displaced.
     Sturdy,
-    /// Components that are determined and fragile, whose data were displaced.
+    /// Components that are determined and ill-determined, whose data were displaced.
     Fragile,
-    /// Those of them that change by more than 8 %.
+    /// Components among these that change by more than 8 %.
     FragileChanges,
 }
 
 impl Count {
-    /// What it counts.
+    /// Returns the name of the count.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Ran => "mechanisms that ran to their end",
-            Self::Stopped => "runs that stopped where they cannot go on, or at a singular pose",
+            Self::Stopped => "runs that stopped where they cannot continue, or at a singular pose",
             Self::Cut => "runs that took too many steps",
             Self::DoesNotMove => "refused, and does not move",
             Self::SingularStart => "refused at a singular configuration",
@@ -128,22 +130,22 @@ impl Count {
     }
 }
 
-/// All of one mechanism.
+/// All findings for one mechanism.
 #[derive(Clone, Debug, Default)]
 pub struct Findings {
     /// Disagreements.
     pub all: Vec<Finding>,
-    /// What was counted.
+    /// Counted quantities.
     pub counts: std::collections::BTreeMap<Count, usize>,
 }
 
 impl Findings {
-    /// Counts.
+    /// Increases a count.
     pub fn count(&mut self, what: Count, number: usize) {
         *self.counts.entry(what).or_default() += number;
     }
 
-    /// Notes a disagreement.
+    /// Adds a disagreement.
     pub fn note(&mut self, kind: Kind, text: String) {
         self.all.push(Finding { kind, text });
     }

@@ -7,18 +7,18 @@ use model::{Mechanism, Reaction, Scratch, System};
 pub struct Form {
     /// The joint or drive, as index of the groups of the layout.
     pub group: usize,
-    /// Its name: `Fx`, `T`, `N`, …
+    /// Name of the component: `Fx`, `T`, `N`, …
     pub name: &'static str,
-    /// Its index among the components of the space; `None` for the named component.
+    /// Index of the component among those of the space; `None` for the named component.
     pub index: Option<usize>,
-    /// What makes it a force: 1, or 1/size for a torque.
+    /// Factor that converts it to a force: 1, or 1/size for a torque.
     pub unit: f64,
     /// Coefficients by row of C.
     pub coefficients: Vec<(usize, f64)>,
 }
 
 impl Form {
-    /// The value of this component in a reaction, as a force (N).
+    /// Returns the value of this component in a reaction, as a force (N).
     #[must_use]
     pub fn of(&self, mechanism: &Mechanism, reaction: &Reaction) -> f64 {
         let value = match self.index {
@@ -29,8 +29,8 @@ impl Form {
     }
 }
 
-/// All components that are not identically zero, at the poses of a scratch. A named component is a
-/// torque if the row that it belongs to is an angle.
+/// Returns all components that are not identically zero, at the poses of a scratch. A named
+/// component is a torque if its row is an angle.
 #[must_use]
 pub fn forms(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<Form> {
     let (layout, reactions) = (mechanism.layout(), mechanism.reactions(s));

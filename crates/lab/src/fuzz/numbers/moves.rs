@@ -1,5 +1,6 @@
-//! Does it move? A step along a motion that all rows allow to first order, and Newton's method on
-//! all rows: if that ends on the constraints and away from where it began, the mechanism moves.
+//! Decides whether a mechanism moves. The test makes a step along a motion that all rows allow to
+//! first order, followed by Newton's method on all rows. If this ends on the constraints and away
+//! from the start, the mechanism moves.
 
 use model::start::scene_size;
 use model::{Mechanism, System};
@@ -9,11 +10,11 @@ use super::decomposition::Decomposition;
 use super::oracle::units;
 use suite::numbers::Numbers;
 
-/// Length of a step along what drives require, in sizes of the mechanism.
+/// Length of a step along the motion that drives require, in sizes of the mechanism.
 const STEP: f64 = 1e-3;
 
-/// Length of a step along a free motion. It is long enough to tell a freedom that third order
-/// blocks, whose residual is the cube of what is left of the step.
+/// Length of a step along a free motion. The step is long enough to detect a freedom that is
+/// blocked at third order, whose residual is the cube of the remaining part of the step.
 const FREE_STEP: f64 = 1e-2;
 
 /// Residuals of rows after the step, in sizes of the mechanism.
@@ -22,19 +23,19 @@ const ON_ROWS: f64 = 1e-12;
 /// Singular values below this fraction of the largest one count as zero in a correction.
 const ZERO: f64 = 1e-6;
 
-/// Where rows depend on each other to second order only, each iteration halves the distance.
+/// If rows are dependent to second order only, each iteration halves the distance.
 const ITERATIONS: usize = 40;
 
-/// A mechanism moves if this share of a step is left on the constraints.
+/// A mechanism moves if this fraction of a step remains on the constraints.
 const AWAY: f64 = 0.2;
 
-/// Short steps of a motion that goes on.
+/// Number of short steps of a continued motion.
 const MARCH: usize = 8;
 
-/// Directions that are tried.
+/// Number of directions that are tried.
 const TRIES: usize = 6;
 
-/// A scaled C, or its holonomic rows, decomposed.
+/// The decomposition of a scaled C, or of its holonomic rows.
 struct Linear {
     range: Decomposition,
     scale: Vec<f64>,
@@ -61,13 +62,14 @@ impl Linear {
         self.range.rank()
     }
 
-    /// The smallest x with `C·x ≈ g`, in units of velocities.
+    /// Returns the smallest x with `C·x ≈ g`, in units of velocities.
     fn solve(&self, g: &DVector<f64>) -> Vec<f64> {
         let x = self.range.solve(g);
         x.iter().zip(&self.scale).map(|(x, d)| x * d).collect()
     }
 
-    /// A random motion that all rows allow, of unit length; `None` if no such motion exists.
+    /// Returns a random motion that all rows allow, of unit length; `None` if no such motion
+    /// exists.
     fn free(&self, numbers: &mut Numbers) -> Option<Vec<f64>> {
         let n = self.scale.len();
         if self.rank() >= n {
@@ -80,8 +82,8 @@ impl Linear {
     }
 }
 
-/// The ranks of C without drives at a configuration, and the largest at configurations near it: the
-/// former is lower where the configuration is singular.
+/// Returns the rank of C without drives at a configuration, and the largest rank at configurations
+/// near it: the former is lower at a singular configuration.
 #[must_use]
 pub fn ranks(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers) -> [usize; 2] {
     let size = scene_size(mechanism, q);
@@ -103,8 +105,8 @@ pub fn ranks(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers
     [here, near.into_iter().flatten().fold(here, usize::max)]
 }
 
-/// Whether an own step moves the mechanism at a configuration: along velocities that its drives
-/// require, or along any free motion.
+/// Whether an independent step moves the mechanism at a configuration: along velocities that its
+/// drives require, or along any free motion.
 #[must_use]
 pub fn moves(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers) -> bool {
     let size = scene_size(mechanism, q);
@@ -131,14 +133,14 @@ pub fn moves(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers
     })
 }
 
-/// Whether the motion goes on for a time `dt` after a state.
+/// Whether the motion continues for a time `dt` after a state.
 #[must_use]
 pub fn marches(mechanism: &Mechanism, state: (f64, &[f64], &[f64]), dt: f64) -> bool {
     march(mechanism, state, dt).is_some()
 }
 
-/// The configuration a time `dt` after a state, in short steps that follow each other; `None` if
-/// one of them does not end on the constraints.
+/// Returns the configuration a time `dt` after a state, after several short steps; `None` if one of
+/// them does not end on the constraints.
 #[must_use]
 pub fn march(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64) -> Option<Vec<f64>> {
     let size = scene_size(mechanism, q);
@@ -163,7 +165,8 @@ pub fn march(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64) -
     Some(at)
 }
 
-/// Whether Newton's method at time t, begun at `q + step`, ends on the constraints and away from q.
+/// Whether Newton's method at time t, started at `q + step`, ends on the constraints and away from
+/// q.
 fn steps(mechanism: &Mechanism, t: f64, (q, step): (&[f64], &[f64]), size: f64) -> bool {
     let positions = all(mechanism.layout().m);
     let mut moved = q.to_vec();
@@ -179,7 +182,7 @@ fn all(to: usize) -> Vec<usize> {
     (0..to).collect()
 }
 
-/// Moves a configuration onto these holonomic rows; whether that succeeded.
+/// Moves a configuration onto these holonomic rows; returns whether this succeeded.
 fn corrected(mechanism: &Mechanism, (t, rows): (f64, &[usize]), q: &mut [f64], size: f64) -> bool {
     let mut s = mechanism.scratch();
     for _ in 0..ITERATIONS {

@@ -1,5 +1,5 @@
-//! Newton's method on constraint rows: the smallest corrections of positions and velocities, and
-//! accelerations with multipliers, all from one symmetric system
+//! Newton's method on constraint rows. It computes the smallest corrections of positions and
+//! velocities, and accelerations with multipliers, all from one symmetric system
 //! `[W Jᵀ; J 0]·[x; μ] = [f; g]` with scaled rows and columns.
 
 use model::{Mechanism, Scratch, System};
@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::oracle::{inverse, units};
 
-/// Some rows of a mechanism, kept, with scaled columns.
+/// Independent rows of a mechanism, with scaled columns.
 pub(super) struct Kept<'a> {
     pub(super) mechanism: &'a Mechanism,
     rows: &'a [usize],
@@ -30,14 +30,14 @@ impl<'a> Kept<'a> {
         }
     }
 
-    /// The number of its holonomic rows, which come first.
+    /// Returns the number of its holonomic rows, which come first.
     fn holonomic(&self) -> usize {
         let m = self.mechanism.layout().m;
         self.rows.partition_point(|&row| row < m)
     }
 
-    /// Factors the first `count` rows at the pose of the scratch, whose C is known; `mass` is the
-    /// diagonal of W, the identity without it.
+    /// Factors the first `count` rows at the pose of the scratch, whose C is up to date; `mass` is
+    /// the diagonal of W, or the identity if it is `None`.
     pub(super) fn factored(&self, s: &Scratch, count: usize, mass: Option<&[f64]>) -> Factored {
         let layout = self.mechanism.layout();
         let n = layout.n_v;
@@ -74,8 +74,8 @@ impl<'a> Kept<'a> {
         self.factored(s, self.holonomic(), None)
     }
 
-    /// The smallest displacement that corrects Φ of the kept rows; `s.phi` is known. Returns its
-    /// length in scaled units.
+    /// Computes the smallest displacement that corrects Φ of the independent rows; `s.phi` must be
+    /// up to date. Returns the length of the displacement in scaled units.
     pub(super) fn correct(&self, s: &Scratch, by: &Factored, q: &mut [f64]) -> Option<f64> {
         let missing = self.rows[..self.holonomic()].iter().map(|&i| -s.phi[i]);
         let (x, _) = by.solve(None, missing)?;
@@ -84,7 +84,7 @@ impl<'a> Kept<'a> {
         Some(x.norm())
     }
 
-    /// The smallest change of the velocities after which `C·v = b`.
+    /// Computes the smallest change of the velocities after which `C·v = b`.
     pub(super) fn correct_velocities(
         &self,
         s: &Scratch,
@@ -103,8 +103,8 @@ impl<'a> Kept<'a> {
         Some(())
     }
 
-    /// Multipliers of all rows of the mechanism under these forces, zero for rows that are not
-    /// kept; `s.gamma` is known.
+    /// Returns the multipliers of all rows of the mechanism under these forces, zero for redundant
+    /// rows; `s.gamma` must be up to date.
     pub(super) fn multipliers(&self, s: &Scratch, force: &[f64]) -> Option<Vec<f64>> {
         let by = self.factored(s, self.rows.len(), Some(self.mechanism.mass()));
         let load = DVector::from_fn(force.len(), |j, _| force[j] * self.scale[j]);
@@ -119,7 +119,8 @@ impl<'a> Kept<'a> {
 }
 
 impl Factored {
-    /// x and μ, the latter for rows that are not scaled. `None` if the system is singular.
+    /// Returns x and μ; μ belongs to rows without scaling. Returns `None` if the system is
+    /// singular.
     fn solve(
         &self,
         load: Option<DVector<f64>>,

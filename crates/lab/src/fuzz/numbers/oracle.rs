@@ -1,7 +1,7 @@
-//! The equations of motion at one state, solved with dense matrices: `M·a + Cᵀ·λ = Q`, `C·a = Γ`.
+//! Solves the equations of motion at one state with dense matrices: `M·a + Cᵀ·λ = Q`, `C·a = Γ`.
 //! The rank, the left null space of C and all solutions λ come from the singular values of the
-//! scaled C. C, Γ, M and Q are those of the mechanism; no decision and no verdict of the
-//! product is used.
+//! scaled C. C, Γ, M and Q are those of the mechanism; the oracle uses no decision and no verdict
+//! of the product.
 
 use model::start::scene_size;
 use model::{Mechanism, System};
@@ -10,25 +10,26 @@ use nalgebra::{DMatrix, DVector};
 use super::decomposition::Decomposition;
 use super::forms::Form;
 
-/// Singular values below this fraction of the largest one are zero. Those of redundant rows are
-/// 1e-15 at exact states and 1e-11 at states that a run has written; those of rows that are off by
-/// a ten-thousandth of the size exceed 1e-6.
+/// Singular values below this fraction of the largest one are zero. Singular values of redundant
+/// rows are 1e-15 at exact states and 1e-11 at states that a run has written; those of rows with an
+/// offset of a ten-thousandth of the size exceed 1e-6.
 const ZERO: f64 = 1e-9;
 
 /// Singular values between these two fractions of the largest one belong to a configuration near a
-/// lower rank: there the oracle gives no answer.
+/// lower rank: there the oracle returns no result.
 const UNCLEAR: [f64; 2] = [1e-11, 1e-6];
 
-/// Why there is no solution.
+/// Reason why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
     /// A number is not finite.
     NotFinite,
-    /// The configuration is near one of lower rank.
+    /// The configuration is near a configuration of lower rank.
     Unclear,
     /// A motion without mass is possible.
     Massless,
-    /// Redundant rows require different accelerations, by this share of the largest term.
+    /// Redundant rows require different accelerations, which differ by this fraction of the largest
+    /// term.
     Contradiction(f64),
 }
 
@@ -38,7 +39,7 @@ pub struct Instant {
     pub size: f64,
     /// The rank of C.
     pub rank: usize,
-    /// The smallest singular value that is not zero, over the largest one.
+    /// The smallest nonzero singular value, divided by the largest one.
     pub sigma: f64,
     /// The largest applied or inertial load (N; torques divided by the size).
     pub load: f64,
@@ -56,7 +57,7 @@ impl Instant {
     /// Solves the equations at a state.
     ///
     /// # Errors
-    /// [`Fault`]
+    /// Returns a [`Fault`] if there is no solution.
     pub fn new(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64])) -> Result<Self, Fault> {
         let layout = mechanism.layout();
         let mut s = mechanism.scratch();
@@ -97,19 +98,19 @@ impl Instant {
         })
     }
 
-    /// The degree of redundancy.
+    /// Returns the degree of redundancy.
     #[must_use]
     pub fn redundancy(&self) -> usize {
         self.null.ncols()
     }
 
-    /// The solution of least norm of the scaled rows.
+    /// Returns the solution of least norm of the scaled rows.
     #[must_use]
     pub fn least(&self) -> &DVector<f64> {
         &self.lambda
     }
 
-    /// Coefficients of a form for the scaled multipliers.
+    /// Returns the coefficients of a form for the scaled multipliers.
     #[must_use]
     pub fn scaled(&self, form: &Form) -> DVector<f64> {
         let mut w = DVector::zeros(self.row_scale.len());
@@ -119,9 +120,9 @@ impl Instant {
         w
     }
 
-    /// How far a form is from being determined: the length of its part in the left null space, over
-    /// the length of the longest of the forms of its joint. A component that is zero under any
-    /// load has a form of rounding errors.
+    /// Returns the distance of a form from being determined: the length of its part in the left
+    /// null space, divided by the length of the longest form of its joint. A component that is zero
+    /// under any load has a form that consists of rounding errors.
     #[must_use]
     pub fn margin(&self, form: &Form, forms: &[Form]) -> f64 {
         let own = forms.iter().filter(|f| f.group == form.group);
@@ -130,7 +131,7 @@ impl Instant {
     }
 }
 
-/// The scaled C, decomposed.
+/// The decomposition of the scaled C.
 struct Parts {
     range: Decomposition,
     sigma: f64,
@@ -155,8 +156,8 @@ impl Parts {
         })
     }
 
-    /// Scaled accelerations: those that `Γ` requires, and those that balance all forces along free
-    /// motions.
+    /// Computes scaled accelerations: those that `Γ` requires, and those that balance all forces
+    /// along free motions.
     fn acceleration(
         &self,
         scale: &[f64],
@@ -189,8 +190,8 @@ impl Parts {
     }
 }
 
-/// Orthonormal columns across the given ones, which are orthonormal: `count` of them, by
-/// elimination of the unit vectors that lie least along the given ones.
+/// Returns `count` orthonormal columns that are perpendicular to the given orthonormal ones, by
+/// elimination of the unit vectors with the smallest components along the given ones.
 fn complement(given: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
     let n = given.nrows();
     let mut rest = DMatrix::identity(n, n) - given * given.transpose();
@@ -199,7 +200,7 @@ fn complement(given: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
         let lengths: Vec<f64> = rest.column_iter().map(|c| c.norm()).collect();
         let best = (0..n).fold(0, |a, j| if lengths[j] > lengths[a] { j } else { a });
         let mut column = rest.column(best).into_owned();
-        // Twice, so that rounding leaves nothing along the others.
+        // The elimination is done twice, so that rounding leaves no component along the others.
         for _ in 0..2 {
             column -= given * (given.transpose() * &column);
             let before = found.columns(0, k);
@@ -213,7 +214,7 @@ fn complement(given: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
     found
 }
 
-/// Units of velocities (1 m/s, and 1/size rad/s) by column.
+/// Returns the units of velocities (1 m/s, and 1/size rad/s) by column.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let turned = inverse(size);
     let layout = mechanism.layout();
@@ -227,13 +228,13 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     (0..layout.n_v).map(unit).collect()
 }
 
-/// 1/x, and 1 for zero.
+/// Returns 1/x, or 1 for zero.
 pub(super) fn inverse(x: f64) -> f64 {
     if x > 0.0 { 1.0 / x } else { 1.0 }
 }
 
-/// The largest force on a body, and torque divided by the size, as vectors: single components
-/// depend on the axes.
+/// Returns the largest force on a body, and torque divided by the size, as vectors: single
+/// components depend on the axes.
 fn largest(mechanism: &Mechanism, load: &[f64], scale: &[f64]) -> f64 {
     let space = mechanism.space();
     let length =

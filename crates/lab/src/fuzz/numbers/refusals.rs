@@ -1,4 +1,5 @@
-//! (d): mechanisms that the product refuses, and runs that it stops. Is there a reason?
+//! Test (d): mechanisms that the product rejects, and runs that it stops. The test checks whether
+//! there is a reason.
 
 use dynamics::MotionError;
 use integrators::IntegrationError;
@@ -14,13 +15,13 @@ use super::run::Run;
 use super::second_order::SecondOrder;
 use suite::numbers::Numbers;
 
-/// How long the motion is to go on where a run stopped (s).
+/// Time for which the motion must continue after a stopped run (s).
 const AFTER: f64 = 1e-3;
 
-/// Velocities are possible if all rows hold to this share of their terms.
+/// Velocities are possible if all rows are satisfied to this fraction of their terms.
 const POSSIBLE: f64 = 1e-9;
 
-/// A mechanism that is refused.
+/// Examines a mechanism that is rejected.
 pub(super) fn at_start(
     text: &str,
     error: &StudyError,
@@ -32,7 +33,7 @@ pub(super) fn at_start(
     };
     let q = match assembled.assemble() {
         Ok(assembly) => assembly.q,
-        // The start is consistent as it is described.
+        // The start is consistent as described.
         Err(_) => return findings.note(Kind::Refused, format!("not assembled: {error}")),
     };
     let mechanism = &assembled.mechanism;
@@ -49,8 +50,8 @@ pub(super) fn at_start(
     }
 }
 
-/// Whether there are velocities with the given ones. They are those of `angular_velocity` about the
-/// normal of the plane, and in space all three.
+/// Whether velocities exist that contain the given ones. The given ones are those of
+/// `angular_velocity` about the normal of the plane, and in space all three.
 fn has_velocities(mechanism: &Mechanism, q: &[f64]) -> bool {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);
@@ -75,7 +76,7 @@ fn has_velocities(mechanism: &Mechanism, q: &[f64]) -> bool {
     (a * v - &b).norm() <= POSSIBLE * b.norm().max(1.0)
 }
 
-/// A run that stopped.
+/// Examines a run that stopped.
 pub(super) fn on_the_way(
     run: &Run,
     error: &MotionError,
@@ -106,7 +107,7 @@ pub(super) fn on_the_way(
         || is_singular(mechanism, (row.t_before, &row.q), numbers)
         || march(mechanism, state, left)
             .is_some_and(|q| is_near_singular(mechanism, (run.reached, &q)));
-    // The motion goes on as it went, from rest along any free motion.
+    // The motion continues with its velocity, or from rest along any free motion.
     let is_at_rest = row.v.iter().all(|v| *v == 0.0);
     let goes_on = marches(mechanism, state, left + AFTER)
         && (!is_at_rest || moves(mechanism, (row.t, &row.q), numbers));
@@ -118,7 +119,7 @@ pub(super) fn on_the_way(
     }
 }
 
-/// Whether the accelerations of the start satisfy the equations of second order.
+/// Whether the accelerations at the start satisfy the second-order equations.
 fn is_finite(run: &Run) -> bool {
     let prepared = &run.study.prepared;
     let (mechanism, at) = (&prepared.mechanism, (0.0, &prepared.q[..]));
@@ -130,14 +131,14 @@ fn is_finite(run: &Run) -> bool {
     }
 }
 
-/// Whether the rank is lower at a configuration than near it, or a motion that all rows allow to
-/// first order is forbidden by second order.
+/// Whether the rank is lower at a configuration than near it, or the second-order conditions
+/// exclude a motion that all rows allow to first order.
 fn is_singular(mechanism: &Mechanism, at: (f64, &[f64]), numbers: &mut Numbers) -> bool {
     let [here, near] = ranks(mechanism, at, numbers);
     here < near || SecondOrder::at(mechanism, at).is_none_or(|mut o| o.is_restricted(numbers))
 }
 
-/// Whether a configuration is near one of lower rank; velocities do not matter.
+/// Whether a configuration is near one of lower rank; velocities have no effect.
 fn is_near_singular(mechanism: &Mechanism, at: (f64, &[f64])) -> bool {
     SecondOrder::at(mechanism, at).is_none_or(|order| order.sigma() < 1e-3)
 }

@@ -12,7 +12,7 @@ use pfaff::{AssembledScene, RunOptions, Study, StudyError};
 pub const RTOL: f64 = 1e-11;
 const ATOL: f64 = 1e-13;
 
-/// Steps after which a run ends, with the rows that it has.
+/// Number of steps after which a run ends, with the rows up to there.
 const STEPS: u64 = 4000;
 
 /// A written row.
@@ -26,7 +26,7 @@ pub struct Row {
     pub q: Vec<f64>,
     /// Velocities.
     pub v: Vec<f64>,
-    /// Reactions; empty if there are none at this state.
+    /// Reactions; empty if this state has none.
     pub reactions: Vec<Reaction>,
 }
 
@@ -34,22 +34,22 @@ pub struct Row {
 pub struct Run {
     /// The study that ran.
     pub study: Study,
-    /// Its rows, twice as many as the scene asks for.
+    /// Rows of the run, twice as many as the scene requests.
     pub rows: Vec<Row>,
     /// Times at which verdicts may change.
     pub cuts: Vec<f64>,
-    /// What it says of its reactions.
+    /// Verdicts of the run on its reactions.
     pub stretches: Option<Stretches>,
-    /// The time that it reached (s).
+    /// The time that the run reached (s).
     pub reached: f64,
-    /// Why it stopped before its end.
+    /// Reason why the run stopped before its end.
     pub stopped: Option<MotionError>,
 }
 
-/// Prepares a scene; rows to drop from 0.
+/// Prepares a scene; redundant rows are given from 0.
 ///
 /// # Errors
-/// If the product refuses it.
+/// Returns an error if the product rejects the scene.
 pub fn prepared(text: &str, drop: Option<&[usize]>) -> Result<Study, StudyError> {
     let overrides = RunOptions {
         rtol: Some(RTOL),

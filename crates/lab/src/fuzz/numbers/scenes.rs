@@ -1,6 +1,7 @@
-//! Random mechanisms that move: pieces with more constraints than they need on carriers that turn,
-//! slide or drive, in the plane and in space, with starts that are upright, straight or square in
-//! most cases; and the drawings of the suites of exact arithmetic, under gravity.
+//! Random mechanisms that move: pieces with more constraints than necessary on carriers that
+//! rotate, slide or drive, in the plane and in space. Most starts are upright, straight or
+//! perpendicular. The module also contains the drawings of the suites of exact arithmetic, under
+//! gravity.
 
 mod carriers;
 mod pieces;
@@ -18,7 +19,7 @@ use carriers::{Carrier, drive_one};
 use pieces::Stand;
 use sketch::{Place, Sketch};
 
-/// Last time of all runs (s), and the number of steps of output.
+/// End time of all runs (s).
 pub const T_END: f64 = 0.5;
 /// Number of steps of output.
 pub const STEPS: usize = 6;
@@ -26,9 +27,9 @@ pub const STEPS: usize = 6;
 /// A scene of the campaign.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// What it contains.
+    /// Description of the contents.
     pub family: String,
-    /// Its text.
+    /// Text of the scene.
     pub text: String,
 }
 
@@ -48,7 +49,7 @@ pub fn scene(seed: u64, number: u64) -> Scene {
     }
 }
 
-/// A drawing of the suites of exact arithmetic, with gravity in any direction.
+/// Returns a drawing of the suites of exact arithmetic, with gravity in any direction.
 fn drawn(space: Space, numbers: &mut Numbers) -> Scene {
     let precision = Precision {
         gravity: [0; 3].map(|_| 9.0 * numbers.unit()),
@@ -98,7 +99,7 @@ const PIECES: [(&str, Piece); 6] = [
     ("slightly off", pieces::slightly_off),
 ];
 
-/// One or two pieces on a carrier.
+/// Returns one or two pieces on a carrier.
 fn sketched(space: Space, numbers: &mut Numbers) -> Scene {
     let carrier = Carrier::ALL[numbers.below(Carrier::ALL.len())];
     let (name, piece) = PIECES[numbers.below(PIECES.len())];
@@ -116,7 +117,7 @@ fn sketched(space: Space, numbers: &mut Numbers) -> Scene {
     let mut family = format!("{}: {name} {}", word(space), carrier.name());
     let tip = piece(&mut s, &place, &stand);
     if s.numbers.once_in(4) {
-        // The second piece stands on the tip of the first.
+        // The second piece is at the tip of the first.
         family.push_str(", and another piece");
         let (_, another) = PIECES[s.numbers.below(PIECES.len())];
         another(&mut s, &place, &tip);

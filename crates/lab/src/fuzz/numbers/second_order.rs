@@ -1,5 +1,5 @@
-//! Equations of second order at a configuration: a motion along w has the accelerations that its
-//! rows ask for, so `zᵀ·Γ(w) = 0` for every z of the left null space of C, drives included.
+//! The second-order equations at a configuration: a motion along w has the accelerations that its
+//! rows require, so `zᵀ·Γ(w) = 0` for every z of the left null space of C, including drives.
 
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
@@ -12,14 +12,14 @@ use suite::numbers::Numbers;
 /// Singular values below this fraction of the largest one count as zero.
 const ZERO: f64 = 1e-9;
 
-/// The equations hold to this share of their largest term: 1e-13 is left at regular
-/// configurations, 1e-2 at singular ones.
+/// The equations are satisfied to this fraction of their largest term: the residual is 1e-13 at
+/// regular configurations and 1e-2 at singular ones.
 const HOLDS: f64 = 1e-8;
 
-/// Free motions that are tried.
+/// Number of free motions that are tried.
 const TRIES: usize = 6;
 
-/// C at a configuration, decomposed, rows of length one.
+/// The decomposition of C at a configuration, with rows of length one.
 pub(super) struct SecondOrder<'m> {
     mechanism: &'m Mechanism,
     s: Scratch,
@@ -29,7 +29,7 @@ pub(super) struct SecondOrder<'m> {
 }
 
 impl<'m> SecondOrder<'m> {
-    /// `None` if C is not finite.
+    /// Returns `None` if C is not finite.
     pub(super) fn at(mechanism: &'m Mechanism, (t, q): (f64, &[f64])) -> Option<Self> {
         let layout = mechanism.layout();
         let mut s = mechanism.scratch();
@@ -55,14 +55,14 @@ impl<'m> SecondOrder<'m> {
         })
     }
 
-    /// The smallest singular value that is not zero, over the largest one.
+    /// Returns the smallest nonzero singular value, divided by the largest one.
     pub(super) fn sigma(&self) -> f64 {
         let values = &self.range.values;
         let largest = values.first().copied().unwrap_or(1.0);
         values.last().map_or(1.0, |least| least / largest)
     }
 
-    /// Whether the equations forbid some of the motions that all rows allow to first order.
+    /// Whether the equations exclude some of the motions that all rows allow to first order.
     pub(super) fn is_restricted(&mut self, numbers: &mut Numbers) -> bool {
         let n = self.units.len();
         (0..TRIES).any(|_| {
@@ -73,7 +73,7 @@ impl<'m> SecondOrder<'m> {
         })
     }
 
-    /// Whether they hold for these velocities or, from rest, accelerations.
+    /// Whether they are satisfied for these velocities or, from rest, accelerations.
     pub(super) fn holds(&mut self, w: &[f64]) -> bool {
         let [along, rest] = [w, &vec![0.0; w.len()]].map(|v| {
             self.mechanism.twist(v, &mut self.s);

@@ -1,4 +1,5 @@
-//! Solutions at one state: one for each admissible set of dropped rows, one for elastic joints.
+//! Computes solutions at one state: one for each admissible set of deleted rows, and one for
+//! elastic joints.
 
 use model::{ConstraintId, Mechanism, System};
 use nalgebra::{DMatrix, DVector};
@@ -9,17 +10,18 @@ use super::forms::Form;
 use super::oracle::Instant;
 use suite::numbers::Numbers;
 
-/// A row may be dropped next if its part in the left null space that remains is at least this share
-/// of the largest one: the solutions are then at most some hundred times the loads.
+/// A row may be deleted next if its part in the remaining left null space is at least this fraction
+/// of the largest one. The solutions are then at most some hundred times the loads.
 const SHARE: f64 = 0.1;
 
-/// Rows are not admissible if their part in the left null space is singular to this share.
+/// Rows are not admissible if their part in the left null space is singular to this fraction.
 const NEARLY_NOT: f64 = 1e-3;
 
-/// Components do not determine a solution that changes them by less than this share of others.
+/// Components do not determine a solution that changes them by less than this fraction of others.
 const HIDDEN: f64 = 1e-6;
 
-/// Random rows whose removal leaves the rank as it is, as many as there are redundant ones.
+/// Returns random rows whose deletion does not change the rank; their number is the degree of
+/// redundancy.
 #[must_use]
 pub fn dropped(instant: &Instant, numbers: &mut Numbers) -> Vec<usize> {
     let mut rest = instant.null.transpose();
@@ -40,8 +42,8 @@ pub fn dropped(instant: &Instant, numbers: &mut Numbers) -> Vec<usize> {
     chosen
 }
 
-/// The scaled multipliers without these rows. `None` if they are not admissible at this state, or
-/// so nearly not that the solution is large.
+/// Returns the scaled multipliers without these rows. Returns `None` if they are not admissible at
+/// this state, or so nearly inadmissible that the solution is large.
 #[must_use]
 pub fn without(instant: &Instant, from: &DVector<f64>, rows: &[usize]) -> Option<DVector<f64>> {
     let z = &instant.null;
@@ -59,7 +61,7 @@ pub fn without(instant: &Instant, from: &DVector<f64>, rows: &[usize]) -> Option
     is_admissible.then(|| from - z * own.solve(&wanted))
 }
 
-/// A compliance of each joint and drive, within a factor of four.
+/// Returns a compliance of each joint and drive, within a factor of four.
 #[must_use]
 pub fn compliances(mechanism: &Mechanism, size: f64, numbers: &mut Numbers) -> Vec<Compliance> {
     let mut one = |unit: f64| unit * numbers.within(0.5, 2.0);
@@ -72,8 +74,8 @@ pub fn compliances(mechanism: &Mechanism, size: f64, numbers: &mut Numbers) -> V
     .collect()
 }
 
-/// The scaled multipliers that elastic joints select: the least of `½·Σ compliance·component²`.
-/// `None` if the components do not determine them.
+/// Returns the scaled multipliers that elastic joints select: the minimum of
+/// `½·Σ compliance·component²`. Returns `None` if the components do not determine them.
 #[must_use]
 pub fn elastic(
     instant: &Instant,

@@ -1,4 +1,4 @@
-//! Many mechanisms, on the threads of the pool.
+//! Examines many mechanisms, on the threads of the pool.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -17,10 +17,10 @@ use suite::numbers::Numbers;
 /// Number of mechanisms that are listed for each kind of disagreement.
 const LISTED: usize = 12;
 
-/// One component out of this number may be called a matter of choice without a difference.
+/// One component in this number may be called dependent on the choice without a difference.
 const UNEXPLAINED: usize = 1000;
 
-/// The findings at scene `number` of a seed.
+/// Returns the findings for scene `number` of a seed.
 #[must_use]
 pub fn outcome(seed: u64, number: u64) -> (Scene, Findings) {
     let scene = scene(seed, number);
@@ -45,7 +45,7 @@ fn words(panic: &(dyn Any + Send)) -> String {
 pub struct Disagreeing {
     /// Number of disagreements.
     pub count: usize,
-    /// Mechanisms, with the first words of each.
+    /// The mechanisms, with the first words of each disagreement.
     pub mechanisms: BTreeMap<u64, String>,
 }
 
@@ -54,7 +54,7 @@ pub struct Disagreeing {
 pub struct Tally {
     /// Mechanisms by family.
     pub families: BTreeMap<String, usize>,
-    /// What was counted.
+    /// Counted quantities.
     pub counts: BTreeMap<Count, usize>,
     /// Disagreements by kind.
     pub disagreeing: BTreeMap<Kind, Disagreeing>,
@@ -67,7 +67,7 @@ impl Tally {
         let one = |number: u64| {
             let (scene, findings) = outcome(seed, number);
             let mut tally = Self::default();
-            // The piece and its carrier.
+            // The first part names the piece and its carrier.
             let family = scene.family.split(',').next().unwrap_or_default();
             tally.families.insert(family.to_owned(), 1);
             tally.counts = findings.counts;
@@ -100,20 +100,20 @@ impl Tally {
         self
     }
 
-    /// How often something was counted.
+    /// Returns the value of a count.
     #[must_use]
     pub fn count(&self, what: Count) -> usize {
         self.counts.get(&what).copied().unwrap_or(0)
     }
 
-    /// How many disagreements of a kind there are.
+    /// Returns the number of disagreements of a kind.
     #[must_use]
     pub fn of_kind(&self, kind: Kind) -> usize {
         self.disagreeing.get(&kind).map_or(0, |d| d.count)
     }
 
-    /// Whether nothing is wrong, at most one in a thousand components is unexplained, and at least
-    /// half of the fragile components change with a datum.
+    /// Whether no finding is wrong, at most one in a thousand components is unexplained, and at
+    /// least half of the ill-determined components change with a datum.
     #[must_use]
     pub fn passes(&self) -> bool {
         let wrong = self.disagreeing.keys().any(|kind| kind.is_wrong());
@@ -124,7 +124,7 @@ impl Tally {
             && 2 * fragile[0] >= fragile[1]
     }
 
-    /// The counts, then the disagreements with the numbers of the mechanisms.
+    /// Returns the counts, then the disagreements with the numbers of the mechanisms.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = String::new();
@@ -159,11 +159,11 @@ impl Tally {
         text
     }
 
-    /// Writes the mechanisms with disagreements into a folder, a file for each kind and number,
-    /// the disagreement at its head.
+    /// Writes the mechanisms with disagreements into a folder. There is one file for each kind and
+    /// number, with the disagreement at its head.
     ///
     /// # Errors
-    /// If a file cannot be written.
+    /// Returns an error if a file cannot be written.
     pub fn keep(&self, seed: u64, folder: &Path) -> io::Result<()> {
         fs::create_dir_all(folder)?;
         for (kind, found) in &self.disagreeing {

@@ -1,8 +1,9 @@
-//! What the product calls determined on a run. Nothing here is a decision of the laboratory: it is
-//! the side that is examined.
+//! The verdicts of the product on a run. This module makes no decision of the laboratory: it is the
+//! examined side.
 //!
 //! Between cuts of a run (events, breaks of functions of time) a component is `unique` if its
-//! verdict is at every state of the open interval, `not unique` if it is at one, else undecided.
+//! verdict is unique at every state of the open interval. It is `not unique` if it is not unique at
+//! one state, and otherwise undecided.
 
 use model::{ConfigurationAccuracy, ConstraintId, Mechanism};
 use solvability::{Analysis, AnalysisError, Verdict, VerdictStretch, analyse_known};
@@ -10,80 +11,81 @@ use solvability::{Analysis, AnalysisError, Verdict, VerdictStretch, analyse_know
 use super::forms::Form;
 use super::run::{RTOL, Row, Run};
 
-/// A verdict in one word.
+/// A verdict as one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Word {
-    /// Determined.
+    /// The component is determined.
     Unique,
-    /// Not decided.
+    /// The verdict is undecided.
     Undecided,
-    /// A matter of choice.
+    /// The component depends on the choice.
     NotUnique,
 }
 
 /// A component on a part of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// First time (s), which belongs to it.
+    /// Start time (s), which belongs to the stretch.
     pub from: f64,
-    /// Last time (s), which belongs to it only at the end of the run.
+    /// End time (s), which belongs to the stretch only at the end of the run.
     pub to: f64,
-    /// Its verdict.
+    /// Verdict on the stretch.
     pub word: Word,
 }
 
 /// The verdicts on one component along a run.
 #[derive(Clone, Debug)]
 pub struct OnRun {
-    /// From the first to the last time, without gaps.
+    /// Stretches from the first to the last time, without gaps.
     pub stretches: Vec<Stretch>,
     /// The largest sensitivity at the states that were examined, if it is known.
     pub sensitivity: Option<f64>,
 }
 
 impl OnRun {
-    /// The stretch that contains a time: at a cut the one that begins there.
+    /// Returns the stretch that contains a time: at a cut the stretch that begins there.
     #[must_use]
     pub fn at(&self, t: f64) -> Option<&Stretch> {
         self.stretches.iter().rev().find(|s| s.from <= t)
     }
 
-    /// Whether it is determined at a time.
+    /// Whether the component is determined at a time.
     #[must_use]
     pub fn is_determined(&self, t: f64) -> bool {
         self.at(t).is_some_and(|s| s.word == Word::Unique)
     }
 }
 
-/// What is examined: verdicts and sensitivities.
+/// The examined side: verdicts and sensitivities.
 pub trait Judge: Sync {
-    /// The verdicts on components along a run.
+    /// Returns the verdicts on components along a run.
     ///
     /// # Errors
-    /// If a state cannot be analysed.
+    /// Returns an error if a state cannot be analysed.
     fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError>;
 
-    /// The sensitivities of components at one state.
+    /// Returns the sensitivities of components at one state.
     fn sensitivities(&self, mechanism: &Mechanism, forms: &[Form], row: &Row) -> Option<AtState>;
 }
 
 /// Sensitivities at one state.
 #[derive(Clone, Debug)]
 pub struct AtState {
-    /// The rows that are kept.
+    /// The independent rows.
     pub kept: Vec<usize>,
-    /// By component, if it is determined and its sensitivity is known.
+    /// Sensitivity by component, if the component is determined and its sensitivity is known.
     pub each: Vec<Option<f64>>,
 }
 
-/// The product.
+/// The product under test.
 pub struct Product;
 
 impl Judge for Product {
     fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError> {
         let (mechanism, rows) = (&run.study.prepared.mechanism, &run.rows[..]);
         let mut all: Vec<OnRun> = forms.iter().map(|form| on_run(run, form)).collect();
-        // Sensitivities of the start, which a run tells, and of the middle of each stretch.
+        // The states are the start, whose sensitivities a run reports, and the middle of each
+        // stretch.
         if let Some(row) = rows.first() {
             let found = sensitivities(mechanism, &analysis(mechanism, row)?, forms, row);
             for (own, new) in all.iter_mut().zip(found.iter().flat_map(|f| &f.each)) {
@@ -109,7 +111,8 @@ impl Judge for Product {
     }
 }
 
-/// What the run says of a component; a component that is zero under any load is determined.
+/// Returns the verdict of the run on a component; a component that is zero under any load is
+/// determined.
 fn on_run(run: &Run, form: &Form) -> OnRun {
     let track = run.stretches.as_ref().map(|found| {
         let own = found.reactions[form.group].component(form.name);
@@ -149,7 +152,8 @@ fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
-/// The analysis of a state, known to the tolerance of the run that has reached it.
+/// Returns the analysis of a state, which is accurate to the tolerance of the run that has reached
+/// it.
 fn analysis(mechanism: &Mechanism, row: &Row) -> Result<Analysis, AnalysisError> {
     let known = match row.t {
         0.0 => ConfigurationAccuracy::AsStored,
@@ -170,7 +174,7 @@ fn ends(rows: &[Row], cuts: &[f64]) -> Vec<f64> {
     ends
 }
 
-/// The verdict of an analysis on a component.
+/// Returns the verdict of an analysis on a component.
 fn word_of(analysis: &Analysis, form: &Form) -> Word {
     let reaction = &analysis.reactions[form.group];
     if reaction.determines(form.name) {

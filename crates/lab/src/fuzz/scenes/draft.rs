@@ -15,7 +15,7 @@ pub enum Space {
 }
 
 impl Space {
-    /// The number of components of a point.
+    /// Returns the number of components of a point.
     pub(super) fn axes(self) -> usize {
         match self {
             Self::Plane => 2,
@@ -43,7 +43,7 @@ impl Draft {
         self.text.push('\n');
     }
 
-    /// A body or, once in `ground` times, the ground.
+    /// Returns a body or, once in `ground` times, the ground.
     pub(super) fn body(&self, numbers: &mut Numbers, ground: usize) -> String {
         if self.bodies.is_empty() || numbers.once_in(ground) {
             "\"ground\"".to_owned()
@@ -52,7 +52,7 @@ impl Draft {
         }
     }
 
-    /// Two bodies or a body and the ground, mostly different ones.
+    /// Returns two bodies or a body and the ground, mostly different ones.
     pub(super) fn pair(&self, numbers: &mut Numbers) -> [String; 2] {
         loop {
             let pair = [self.body(numbers, 3), self.body(numbers, 8)];

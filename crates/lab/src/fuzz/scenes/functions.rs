@@ -2,7 +2,7 @@
 
 use super::Values;
 
-/// A number or a function.
+/// Returns a number or a function.
 pub(super) fn number_or_function(values: &mut Values<'_>) -> String {
     if values.numbers.once_in(2) {
         values.number()
@@ -11,7 +11,7 @@ pub(super) fn number_or_function(values: &mut Values<'_>) -> String {
     }
 }
 
-/// A function of time.
+/// Returns a function of time.
 pub(super) fn function(values: &mut Values<'_>) -> String {
     let n = values.numbers.below(4);
     let list = |values: &mut Values<'_>, n: usize| {

@@ -3,7 +3,7 @@
 use super::Values;
 use super::draft::Draft;
 
-/// `active`, mostly left out.
+/// Adds the key `active`, mostly omitted.
 pub(super) fn active(draft: &mut Draft, values: &mut Values<'_>) {
     if values.numbers.once_in(25) {
         let is_active = values.one(&["false", "true", "false", "0", "1"]);
@@ -20,7 +20,7 @@ pub(super) fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static s
     draft.joints.push((name, kind));
 }
 
-/// A place between two bodies: mostly a global point, which is consistent with any start.
+/// Adds a point between two bodies: mostly a global point, which is consistent with any start.
 pub(super) fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
     let line = if values.numbers.once_in(8) {
         format!(
@@ -39,13 +39,13 @@ pub(super) fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 
     draft.line(&line);
 }
 
-/// A place for one body.
+/// Adds a point for one body.
 pub(super) fn own_place(draft: &mut Draft, values: &mut Values<'_>) {
     let key = values.one(&["at", "point"]);
     draft.line(&format!("{key} = {}", values.point()));
 }
 
-/// A stiffness or damping, some of them very large.
+/// Returns a stiffness or damping, sometimes a very large one.
 pub(super) fn stiff(values: &mut Values<'_>) -> String {
     if values.numbers.once_in(6) {
         format!("1e{}", values.numbers.between(3, 12))

@@ -5,7 +5,7 @@ use super::draft::Draft;
 use super::functions::number_or_function;
 use super::parts::{active, begin, own_place, place, stiff};
 
-/// `[[body]]`.
+/// Adds the table `[[body]]`.
 pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
     let name = values.name("b", k);
     draft.line(&format!(
@@ -25,7 +25,7 @@ pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
     if is_moving {
         draft.line(&format!("velocity = {}", values.velocity()));
     }
-    // The velocity of a frame elsewhere needs an angular velocity beside it.
+    // The velocity of a frame away from the mass centre needs an angular velocity as well.
     if values
         .numbers
         .once_in(if is_elsewhere && is_moving { 1 } else { 4 })
@@ -35,7 +35,7 @@ pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
     draft.bodies.push(name);
 }
 
-/// A holonomic joint of two bodies.
+/// Adds a holonomic joint of two bodies.
 pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2]) {
     let kinds = [
         "revolute",
@@ -100,7 +100,7 @@ pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2
     }
 }
 
-/// A nonholonomic joint.
+/// Adds a nonholonomic joint.
 pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
     let kind = values.one(&["knife-edge", "knife-edge", "velocity", "rolling"]);
     let kind = ["knife-edge", "velocity", "rolling"]
@@ -137,8 +137,8 @@ pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
-/// The measure of a joint that is driven, if it is. Most joints have none; a drive of them is
-/// refused.
+/// Returns the joint coordinate of a driven joint. Most joints have no such coordinate; a drive of
+/// them is rejected.
 pub(super) fn measure_of(values: &mut Values<'_>, kind: &str) -> Option<&'static str> {
     match kind {
         "revolute" => Some("angle"),
@@ -149,7 +149,7 @@ pub(super) fn measure_of(values: &mut Values<'_>, kind: &str) -> Option<&'static
     }
 }
 
-/// `[[force]]`.
+/// Adds the table `[[force]]`.
 pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
     let kind = values.one(&[
         "spring-damper",

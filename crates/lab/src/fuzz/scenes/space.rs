@@ -5,10 +5,10 @@ use super::draft::Draft;
 use super::functions::number_or_function;
 use super::parts::{active, begin, own_place, place, stiff};
 
-/// Directions that are an axis of a body or of the ground: parallel axes are frequent.
+/// Directions as axes of a body or of the ground: parallel axes are frequent.
 const FRAMES: [&str; 2] = ["\"global\"", "\"body\""];
 
-/// An orientation in one of its four ways, mostly a quarter turn or none.
+/// Returns an orientation in one of its four forms, mostly a quarter turn or none.
 pub(super) fn orientation(values: &mut Values<'_>) -> String {
     match values.numbers.below(40) {
         0 => {
@@ -33,7 +33,7 @@ pub(super) fn orientation(values: &mut Values<'_>) -> String {
     }
 }
 
-/// A tensor of inertia: mostly principal moments, some that no body has.
+/// Returns a tensor of inertia: mostly principal moments, some of which no real body has.
 fn inertia(values: &mut Values<'_>) -> String {
     match values.numbers.below(16) {
         0 => values.list(Values::positive),
@@ -50,7 +50,7 @@ fn inertia(values: &mut Values<'_>) -> String {
     }
 }
 
-/// `[[body]]`.
+/// Adds the table `[[body]]`.
 pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
     let name = values.name("b", k);
     draft.line(&format!(
@@ -70,14 +70,14 @@ pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
     if is_moving {
         draft.line(&format!("velocity = {}", values.velocity()));
     }
-    // The velocity of a frame elsewhere needs an angular velocity beside it.
+    // The velocity of a frame away from the mass centre needs an angular velocity as well.
     if is_elsewhere && is_moving || values.numbers.once_in(5) {
         draft.line(&format!("angular_velocity = {}", values.velocity()));
     }
     draft.bodies.push(name);
 }
 
-/// A holonomic joint of two bodies.
+/// Adds a holonomic joint of two bodies.
 pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2]) {
     let kinds = [
         "revolute",
@@ -120,7 +120,7 @@ pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2
     }
 }
 
-/// `axis` or `normal`, or the axes of both bodies, and what stands beside them.
+/// Adds `axis` or `normal`, or the axes of both bodies, with the keys that belong to them.
 fn axes(draft: &mut Draft, values: &mut Values<'_>, kind: &str, pair: &[String; 2]) {
     let has_two = matches!(kind, "universal" | "perpendicular");
     if !has_two && values.numbers.once_in(8) {
@@ -139,7 +139,7 @@ fn axes(draft: &mut Draft, values: &mut Values<'_>, kind: &str, pair: &[String; 
     if has_two || values.numbers.once_in(8) {
         draft.line(&format!("cross = {}", values.direction()));
     }
-    // Axes of the ground are parallel, whatever the orientations.
+    // Axes of the ground are parallel for any orientations.
     if values.numbers.once_in(2) {
         let frame = if values.numbers.once_in(12) {
             values.one(&FRAMES)
@@ -150,7 +150,7 @@ fn axes(draft: &mut Draft, values: &mut Values<'_>, kind: &str, pair: &[String; 
     }
 }
 
-/// A joint of one body with the ground: an edge, a given velocity, a wheel.
+/// Adds a joint of one body with the ground: an edge, a given velocity, or a wheel.
 pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
     let kinds = ["knife-edge", "velocity", "wheel"];
     let kind = kinds[values.numbers.below(kinds.len())];
@@ -171,7 +171,7 @@ pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
-/// The keys of a wheel: a plane at one radius from its centre is frequent.
+/// Adds the keys of a wheel: a plane at a distance of one radius from its centre is frequent.
 fn wheel(draft: &mut Draft, values: &mut Values<'_>) {
     draft.line(&format!("point = {}", values.point()));
     draft.line(&format!("axis = {}", values.direction()));
@@ -182,7 +182,7 @@ fn wheel(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
-/// The measure of a joint that is driven, if it is.
+/// Returns the joint coordinate of a driven joint, if there is one.
 pub(super) fn measure_of(values: &mut Values<'_>, kind: &str) -> Option<&'static str> {
     match kind {
         "revolute" => Some("angle"),
@@ -193,7 +193,7 @@ pub(super) fn measure_of(values: &mut Values<'_>, kind: &str) -> Option<&'static
     }
 }
 
-/// `[[force]]`.
+/// Adds the table `[[force]]`.
 pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
     let kind = values.one(&["spring-damper", "point-force", "torque"]);
     let k = draft.text.len();

@@ -5,7 +5,7 @@ use super::functions::function;
 use super::parts::active;
 use super::{Values, space};
 
-/// `[scene]`.
+/// Adds the table `[scene]`.
 pub(super) fn head(draft: &mut Draft, values: &mut Values<'_>) {
     let name = values.name("scene", 0);
     let gravity = match values.numbers.below(4) {
@@ -24,7 +24,7 @@ pub(super) fn head(draft: &mut Draft, values: &mut Values<'_>) {
         "[scene]\nname = {name}\nspace = \"{space}\"\n{gravity}"
     ));
     if values.numbers.once_in(5) {
-        // What the data are known to, from rounded to measured by hand.
+        // Accuracies of the data, from rounded numbers to manual measurements.
         let tolerances = ["1e-9", "1e-6", "1e-4", "1e-2"];
         draft.line(&format!("tolerance = {}", values.one(&tolerances)));
     }
@@ -42,7 +42,7 @@ pub(super) fn head(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
-/// `[[marker]]`.
+/// Adds the table `[[marker]]`.
 pub(super) fn marker(draft: &mut Draft, values: &mut Values<'_>) {
     let name = values.name("m", draft.markers.len());
     let body = draft.body(values.numbers, 4);
@@ -63,7 +63,7 @@ pub(super) fn marker(draft: &mut Draft, values: &mut Values<'_>) {
     draft.markers.push(name);
 }
 
-/// `[[measure]]` between markers.
+/// Adds the table `[[measure]]` between markers.
 pub(super) fn measure(draft: &mut Draft, values: &mut Values<'_>) {
     let kinds = match draft.space {
         Space::Plane => ["distance", "x", "y", "speed", "angle", "angular-velocity"],
@@ -92,7 +92,7 @@ pub(super) fn measure(draft: &mut Draft, values: &mut Values<'_>) {
     ));
 }
 
-/// `[[drive]]` of a joint.
+/// Adds the table `[[drive]]` of a joint.
 pub(super) fn drive(
     draft: &mut Draft,
     values: &mut Values<'_>,
@@ -113,7 +113,7 @@ pub(super) fn drive(
     draft.drives.push(name);
 }
 
-/// A torque or a force as a law of the measure, its rate and the time.
+/// Adds a torque or a force as a law of the joint coordinate, its rate and the time.
 pub(super) fn law(draft: &mut Draft, values: &mut Values<'_>, measure: &str) {
     let key = if measure == "angle" {
         "torque"
@@ -136,7 +136,7 @@ pub(super) fn law(draft: &mut Draft, values: &mut Values<'_>, measure: &str) {
     draft.line(&format!("{key} = \"{law}\""));
 }
 
-/// The remaining tables: `[start]`, `[[group]]`, `[simulate]`, `[output]`.
+/// Adds the remaining tables: `[start]`, `[[group]]`, `[simulate]`, `[output]`.
 pub(super) fn wishes(draft: &mut Draft, values: &mut Values<'_>) {
     if values.numbers.once_in(4) {
         draft.line("[start]\nallow_correction = true");

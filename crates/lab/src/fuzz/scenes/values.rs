@@ -57,19 +57,19 @@ pub(crate) struct Values<'n> {
     pub(crate) numbers: &'n mut Numbers,
     /// The number of components of a point: 2 or 3.
     axes: usize,
-    /// One number out of this many is extreme; none if it is 0.
+    /// One number in this many is extreme; no number if it is 0.
     wild: usize,
     /// Unit of length (m).
     length: f64,
     has_names: bool,
-    /// One number out of this many is an expression; none if it is 0.
+    /// One number in this many is an expression; no number if it is 0.
     expressions: usize,
 }
 
 /// Parameters of scenes with expressions.
 const PARAMETERS: [&str; 5] = ["p0", "p1", "p2", "p3", "p_4"];
 
-/// Expressions around a number, `#`, that is bare: those with a dimension fit few places.
+/// Expressions around a plain number, `#`: expressions with a dimension fit few places.
 const EXPRESSIONS: [&str; 16] = [
     "#",
     "-(#)",
@@ -133,7 +133,7 @@ impl<'n> Values<'n> {
         self.expressions > 0 && self.numbers.once_in(self.expressions)
     }
 
-    /// A text that stands for a number without a unit.
+    /// Returns a text that stands for a number without a unit.
     fn expression(&mut self, value: f64) -> String {
         let number = if self.numbers.once_in(4) {
             self.parameter().to_owned()
@@ -144,13 +144,13 @@ impl<'n> Values<'n> {
         format!("\"{text}\"")
     }
 
-    /// The name of a parameter.
+    /// Returns the name of a parameter.
     pub(crate) fn parameter(&mut self) -> &'static str {
         self.one(&PARAMETERS)
     }
 
-    /// `[parameters]`: mostly numbers and what can be computed from them; once in 40 times a name
-    /// that leads back to itself.
+    /// Adds `[parameters]`: mostly numbers and values that can be computed from them; once in 40
+    /// times a name with a circular definition.
     pub(crate) fn parameters(&mut self) -> String {
         let mut text = "[parameters]\n".to_owned();
         for (k, name) in PARAMETERS.iter().enumerate() {
@@ -166,7 +166,7 @@ impl<'n> Values<'n> {
         text
     }
 
-    /// A number, as a text with a unit where expressions are allowed.
+    /// Returns a number as a text with a unit, if expressions are allowed.
     fn with_unit(&mut self, value: f64, units: &[(&str, f64)]) -> Option<String> {
         if !self.is_expression() {
             return None;
@@ -175,14 +175,14 @@ impl<'n> Values<'n> {
         Some(format!("\"{:?} {unit}\"", value / size))
     }
 
-    /// An angle (rad).
+    /// Returns an angle (rad).
     pub(crate) fn angle(&mut self) -> String {
         let value = 0.25 * f64::from(self.numbers.between(-8, 8));
         self.with_unit(value, &[("deg", 1.0_f64.to_radians()), ("rad", 1.0)])
             .unwrap_or_else(|| self.or_extreme(value))
     }
 
-    /// A number: mostly simple, of any sign.
+    /// Returns a number: mostly simple, of any sign.
     pub(crate) fn number(&mut self) -> String {
         let value = match self.numbers.below(4) {
             0 => f64::from(self.numbers.between(-2, 2)),
@@ -192,7 +192,7 @@ impl<'n> Values<'n> {
         self.or_extreme(value)
     }
 
-    /// A number: mostly > 0, once in 12 times 0.
+    /// Returns a number: mostly > 0, once in 12 times 0.
     pub(crate) fn positive(&mut self) -> String {
         let value = match self.numbers.below(12) {
             0 => 0.0,
@@ -202,7 +202,7 @@ impl<'n> Values<'n> {
         self.or_extreme(value)
     }
 
-    /// A coordinate of a point (m).
+    /// Returns a coordinate of a point (m).
     pub(crate) fn length(&mut self) -> String {
         let value = match self.numbers.below(6) {
             0 => self.numbers.unit(),
@@ -216,13 +216,13 @@ impl<'n> Values<'n> {
         .unwrap_or_else(|| self.or_extreme(value))
     }
 
-    /// A list with one number for each axis.
+    /// Returns a list with one number for each axis.
     pub(crate) fn list(&mut self, mut number: impl FnMut(&mut Self) -> String) -> String {
         let all: Vec<String> = (0..self.axes).map(|_| number(self)).collect();
         format!("[{}]", all.join(", "))
     }
 
-    /// A velocity (m/s), or any other vector of numbers.
+    /// Returns a velocity (m/s), or any other vector of numbers.
     pub(crate) fn velocity(&mut self) -> String {
         self.list(Self::number)
     }
@@ -231,7 +231,7 @@ impl<'n> Values<'n> {
         self.list(Self::length)
     }
 
-    /// A direction, mostly along an axis.
+    /// Returns a direction, mostly along an axis.
     pub(crate) fn direction(&mut self) -> String {
         let plane = [
             "[1.0, 1e-9]",
@@ -256,7 +256,7 @@ impl<'n> Values<'n> {
         }
     }
 
-    /// A name in quotes.
+    /// Returns a name in quotes.
     pub(crate) fn name(&mut self, kind: &str, k: usize) -> String {
         if self.has_names && self.numbers.once_in(3) {
             format!("\"{}{k}\"", NAMES[self.numbers.below(NAMES.len())])
@@ -265,7 +265,7 @@ impl<'n> Values<'n> {
         }
     }
 
-    /// One of several words.
+    /// Returns one of several words.
     pub(crate) fn one<'w>(&mut self, words: &[&'w str]) -> &'w str {
         words[self.numbers.below(words.len())]
     }

@@ -1,5 +1,5 @@
-//! Mechanisms whose answer is known by hand: textbook linkages and their relatives, in fractions.
-//! The tests beside have the answers.
+//! Mechanisms whose results are known by hand: textbook linkages and their relatives, in fractions.
+//! The tests in this folder contain the results.
 
 #[cfg(test)]
 mod tests;
@@ -8,7 +8,7 @@ use super::drawing::{Drawing, GROUND, Kind, Measure, Side};
 use super::ratio::Ratio;
 use super::vector::{Rotation, Vector, parts, whole};
 
-/// All mechanisms of the catalogue with their names.
+/// Returns all mechanisms of the catalogue with their names.
 #[must_use]
 pub fn all() -> Vec<(&'static str, Drawing)> {
     use Flat::{C, P, R, S, U};
@@ -63,22 +63,22 @@ pub fn all() -> Vec<(&'static str, Drawing)> {
     ]
 }
 
-/// A kind of joint in a plane figure that is drawn across the third axis.
+/// A kind of joint in a planar figure with its normal along the third axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flat {
-    /// Revolute about the normal.
+    /// Revolute joint about the normal.
     R,
-    /// Cylindrical along the normal.
+    /// Cylindrical joint along the normal.
     C,
-    /// Spherical.
+    /// Spherical joint.
     S,
-    /// Translational in the plane along its first axis.
+    /// Translational joint in the plane along its first axis.
     P,
-    /// Universal with both axes oblique.
+    /// Universal joint with both axes oblique.
     U,
 }
 
-/// The joint at a point, for the normal z.
+/// Returns the joint at a point, for the normal z.
 #[must_use]
 pub fn flat(kind: Flat, at: &Vector) -> Kind {
     let (at, axis) = (at.clone(), Vector::unit(2));
@@ -95,7 +95,7 @@ pub fn flat(kind: Flat, at: &Vector) -> Kind {
     }
 }
 
-/// A revolute joint.
+/// Returns a revolute joint.
 #[must_use]
 pub fn revolute(at: &Vector, axis: &Vector) -> Kind {
     Kind::Revolute {
@@ -104,7 +104,7 @@ pub fn revolute(at: &Vector, axis: &Vector) -> Kind {
     }
 }
 
-/// A cylindrical joint with both points at the same place.
+/// Returns a cylindrical joint with both points at the same position.
 #[must_use]
 pub fn cylindrical(at: &Vector, axis: &Vector) -> Kind {
     Kind::Cylindrical {
@@ -114,7 +114,7 @@ pub fn cylindrical(at: &Vector, axis: &Vector) -> Kind {
     }
 }
 
-/// A translational joint with both points at the same place.
+/// Returns a translational joint with both points at the same position.
 #[must_use]
 pub fn translational(at: &Vector, axis: &Vector) -> Kind {
     Kind::Translational {
@@ -142,7 +142,7 @@ pub fn chain(drawing: &mut Drawing, from: Side, to: Side, kinds: &[Kind]) -> Vec
     bodies
 }
 
-/// A single loop through the ground.
+/// Returns a single loop through the ground.
 #[must_use]
 pub fn ring(kinds: &[Kind]) -> Drawing {
     let mut drawing = Drawing::default();
@@ -150,7 +150,7 @@ pub fn ring(kinds: &[Kind]) -> Drawing {
     drawing
 }
 
-/// V1: a door on hinges.
+/// Case V1: a door on hinges.
 #[must_use]
 pub fn door(kinds: &[Kind]) -> Drawing {
     let mut drawing = Drawing::default();
@@ -161,20 +161,20 @@ pub fn door(kinds: &[Kind]) -> Drawing {
     drawing
 }
 
-/// The pivots of the four-bar of V3.
+/// Returns the pivots of the four-bar of V3.
 #[must_use]
 pub fn four_bar_points() -> [Vector; 4] {
     [[0, 0, 0], [3, 8, 0], [15, 11, 0], [14, 0, 0]].map(|p| parts(p, 10))
 }
 
-/// V3: the four-bar with joints of these kinds at A, B, C, D.
+/// Case V3: the four-bar with joints of these kinds at A, B, C, D.
 #[must_use]
 pub fn four_bar(kinds: [Flat; 4]) -> Drawing {
     let joints = kinds.iter().zip(four_bar_points());
     ring(&joints.map(|(kind, p)| flat(*kind, &p)).collect::<Vec<_>>())
 }
 
-/// V3: R R U S with the axes of the universal joint along z and along the line from C to D.
+/// Case V3: R R U S with the axes of the universal joint along z and along the line from C to D.
 #[must_use]
 pub fn four_bar_with_flat_cross() -> Drawing {
     let [_, _, at, d] = four_bar_points();
@@ -187,7 +187,8 @@ pub fn four_bar_with_flat_cross() -> Drawing {
     drawing
 }
 
-/// V4: a slider-crank: crank at the origin, crank pin, rod end, slider on the ground along x.
+/// Case V4: a slider-crank with the crank at the origin, crank pin, rod end, and slider on the
+/// ground along x.
 #[must_use]
 pub fn slider_crank(kinds: [Flat; 4]) -> Drawing {
     let points = [[0, 0, 0], [3, 4, 0], [15, -1, 0], [15, -1, 0]].map(|p| parts(p, 10));
@@ -195,7 +196,7 @@ pub fn slider_crank(kinds: [Flat; 4]) -> Drawing {
     ring(&joints.map(|(kind, p)| flat(*kind, &p)).collect::<Vec<_>>())
 }
 
-/// V5: a coupler on three parallel cranks of equal length.
+/// Case V5: a coupler on three parallel cranks of equal length.
 #[must_use]
 pub fn three_cranks() -> Drawing {
     let mut drawing = Drawing::default();
@@ -208,7 +209,7 @@ pub fn three_cranks() -> Drawing {
     drawing
 }
 
-/// V6: parallelograms side by side that share their cranks. The cranks point along `crank`, a
+/// Case V6: parallelograms side by side that share their cranks. The cranks point along `crank`, a
 /// vector in tenths of a metre.
 #[must_use]
 pub fn parallelograms(count: usize, crank: [i64; 2]) -> Drawing {
@@ -229,7 +230,7 @@ pub fn parallelograms(count: usize, crank: [i64; 2]) -> Drawing {
     drawing
 }
 
-/// V8: an Oldham coupling with the shafts along z.
+/// Case V8: an Oldham coupling with the shafts along z.
 #[must_use]
 pub fn oldham() -> Drawing {
     let (left, right) = (whole([0; 3]), parts([1, 2, 0], 10));
@@ -241,9 +242,9 @@ pub fn oldham() -> Drawing {
     ])
 }
 
-/// The shafts of V10, and the axes of its cross.
+/// Returns the shafts of V10, and the axes of its cross.
 fn hooke_axes() -> [Vector; 4] {
-    // The cross is across both shafts: x, and the axis in the plane across it.
+    // The cross is perpendicular to both shafts: x, and the perpendicular axis in the plane.
     [
         whole([0, 0, 1]),
         whole([1, 0, 0]),
@@ -252,7 +253,7 @@ fn hooke_axes() -> [Vector; 4] {
     ]
 }
 
-/// V10: a Hooke joint between two shafts in bearings, with its cross as a body.
+/// Case V10: a Hooke joint between two shafts in bearings, with its cross as a body.
 #[must_use]
 pub fn hooke_with_cross() -> Drawing {
     let [first, a, b, second] = hooke_axes();
@@ -265,7 +266,7 @@ pub fn hooke_with_cross() -> Drawing {
     ])
 }
 
-/// V10 as a universal joint.
+/// Case V10 as a universal joint.
 #[must_use]
 pub fn hooke_as_universal() -> Drawing {
     let [shaft, first, second, other] = hooke_axes();
@@ -277,7 +278,7 @@ pub fn hooke_as_universal() -> Drawing {
     ])
 }
 
-/// V11: a Bennett linkage.
+/// Case V11: a Bennett linkage.
 #[must_use]
 pub fn bennett() -> Drawing {
     let points = [
@@ -291,7 +292,7 @@ pub fn bennett() -> Drawing {
     ring(&joints.map(|(p, a)| revolute(p, a)).collect::<Vec<_>>())
 }
 
-/// V13: a Bricard linkage of five rods.
+/// Case V13: a Bricard linkage of five rods.
 #[must_use]
 pub fn bricard() -> Drawing {
     let points = [
@@ -307,7 +308,7 @@ pub fn bricard() -> Drawing {
     ring(&joints.map(|(p, a)| revolute(&p, a)).collect::<Vec<_>>())
 }
 
-/// V14: a Sarrus linkage with legs at these multiples of 90°.
+/// Case V14: a Sarrus linkage with legs at these multiples of 90°.
 #[must_use]
 pub fn sarrus(quarters: &[usize]) -> Drawing {
     let mut drawing = Drawing::default();
@@ -323,7 +324,7 @@ pub fn sarrus(quarters: &[usize]) -> Drawing {
     drawing
 }
 
-/// V16: a table on points of a horizontal plane.
+/// Case V16: a table on points of a horizontal plane.
 #[must_use]
 pub fn table(points: &[[i64; 2]]) -> Drawing {
     let mut drawing = Drawing::default();
@@ -340,7 +341,7 @@ pub fn table(points: &[[i64; 2]]) -> Drawing {
     drawing
 }
 
-/// V17: balls of a body in grooves of the ground that point to a centre.
+/// Case V17: balls of a body in grooves of the ground that point to a centre.
 #[must_use]
 pub fn grooves(points: &[[i64; 2]]) -> Drawing {
     let mut drawing = Drawing::default();
@@ -357,7 +358,7 @@ pub fn grooves(points: &[[i64; 2]]) -> Drawing {
     drawing
 }
 
-/// V18: a platform on six legs with a universal, a translational and a spherical joint each.
+/// Case V18: a platform on six legs with a universal, a translational and a spherical joint each.
 #[must_use]
 pub fn hexapod(driven: bool) -> Drawing {
     let mut drawing = Drawing::default();
@@ -397,15 +398,16 @@ pub fn hexapod(driven: bool) -> Drawing {
     drawing
 }
 
-/// V19: a Delta robot with revolute parallelograms. Each leg has an upper arm, and a parallelogram
-/// of two bars between two short rods; its hinges on base, elbow and platform are parallel.
+/// Case V19: a Delta robot with revolute parallelograms. Each leg has an upper arm, and a
+/// parallelogram of two bars between two short rods; its hinges on base, elbow and platform are
+/// parallel.
 #[must_use]
 pub fn delta() -> Drawing {
     let mut drawing = Drawing::default();
     let platform = drawing.body();
     let third = Rotation::about(&Vector::unit(2), &Ratio::new(173, 100));
     let mut sector = Rotation::none();
-    // The arms have different angles: the platform is not below the middle of the base.
+    // The arms have different angles: the platform is not below the centre of the base.
     for arm in [[3, 0, 4], [4, 0, 3], [5, 0, 0]] {
         let place = |p: [i64; 3]| sector.of(&parts(p, 10));
         let (axis, base) = (sector.of(&Vector::unit(1)), place([20, 0, 80]));
@@ -413,7 +415,7 @@ pub fn delta() -> Drawing {
             &base + &place(arm),
             &place([8, 0, 0]) + &parts([1, 2, 0], 10),
         );
-        // The hinges of the parallelogram are across its plane.
+        // The hinges of the parallelogram are perpendicular to its plane.
         let across = axis.cross(&(&corner - &elbow));
         let [upper, top, bottom] = [0; 3].map(|_| drawing.body());
         let hinges = [
@@ -434,16 +436,16 @@ pub fn delta() -> Drawing {
     drawing
 }
 
-/// Four-bars one after another: each stands on the coupler of the one before, the first on the
-/// ground, and their planes have different directions. Each adds 20 rows, three of them redundant,
-/// and one freedom.
+/// Returns four-bars in series: each is mounted on the coupler of the previous one, the first on
+/// the ground, and their planes have different directions. Each adds 20 rows, three of them
+/// redundant, and one freedom.
 #[must_use]
 pub fn four_bars_in_a_row(count: usize) -> Drawing {
     let turns = [[1, 0, 0, 0], [3, 1, 0, 0], [3, 0, 1, 0], [2, 1, 1, 1]].map(Rotation::whole);
     let mut drawing = Drawing::default();
     let mut base = GROUND;
     for k in 0..count {
-        // To and fro in a box, so that a long row stays in a small region.
+        // The chain runs back and forth in a box, so that a long chain is in a small region.
         let (x, row) = (k % FOLD, k / FOLD);
         let (y, layer) = (row % FOLD, row / FOLD);
         let fold = |at: usize, lines: usize| {
@@ -470,8 +472,8 @@ pub fn four_bars_in_a_row(count: usize) -> Drawing {
 /// Four-bars along each edge of the box.
 const FOLD: usize = 32;
 
-/// V22: a chassis on four wheels on the plane z = 0; the tangent of half of the steering angle of
-/// both front wheels.
+/// Case V22: a chassis on four wheels on the plane z = 0; the argument is the tangent of half of
+/// the steering angle of both front wheels.
 #[must_use]
 pub fn car(half_tangent: &Ratio) -> Drawing {
     let mut drawing = Drawing::default();

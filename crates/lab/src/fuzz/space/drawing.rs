@@ -1,6 +1,6 @@
-//! Bodies and joints of space at one configuration, in fractions. All points and directions are
-//! given in the axes of the ground, at the configuration where every joint holds; what is fixed in
-//! a body follows from its pose.
+//! Bodies and joints in space at one configuration, in fractions. All points and directions are
+//! given in the axes of the ground, at the configuration at which every joint is satisfied; the
+//! coordinates in a body follow from its pose.
 
 pub use super::kind::Kind;
 use super::ratio::Ratio;
@@ -28,11 +28,11 @@ pub struct Drawing {
 /// A body.
 #[derive(Clone, Debug)]
 pub struct Body {
-    /// Its name.
+    /// Name of the body.
     pub name: String,
     /// The origin of its frame.
     pub position: Vector,
-    /// From its frame to the ground.
+    /// Rotation from its frame to the ground.
     pub orientation: Rotation,
     /// The mass centre in its frame.
     pub centre: Vector,
@@ -45,15 +45,15 @@ pub struct Body {
 /// A joint.
 #[derive(Clone, Debug)]
 pub struct Joint {
-    /// Its name.
+    /// Name of the joint.
     pub name: String,
-    /// The first and the second body. Joints of one body have the ground as the second.
+    /// The first and the second body. Joints of one body have the ground as the second body.
     pub bodies: [Side; 2],
-    /// Its type and place.
+    /// Type and position of the joint.
     pub kind: Kind,
-    /// The direction that chooses the basis of its rows, if it is not the default.
+    /// The direction that selects the basis of its rows, if it is not the default.
     pub cross: Option<Vector>,
-    /// How it is written.
+    /// Writing of the joint.
     pub style: Style,
 }
 
@@ -82,7 +82,7 @@ impl Joint {
         is_one_point && !self.style.points_in_bodies
     }
 
-    /// The frame in which its directions are written, if not for both bodies.
+    /// Returns the frame in which its directions are written, if not for both bodies.
     #[must_use]
     pub fn frame_of_directions(&self) -> Side {
         match self.style.directions {
@@ -92,7 +92,7 @@ impl Joint {
     }
 }
 
-/// How a joint is written. None of this changes the right answer.
+/// Writing of a joint. It does not change the correct result.
 #[derive(Clone, Debug, Default)]
 pub struct Style {
     /// Whether points are given in the frames of the bodies, not in the ground.
@@ -111,34 +111,34 @@ pub enum Directions {
     First,
     /// In the axes of the ground.
     Ground,
-    /// In the frames of both bodies, if the joint has one axis that both carry.
+    /// In the frames of both bodies, if the joint has one axis that belongs to both.
     Both,
 }
 
-/// A drive of a measure of a joint.
+/// A drive of a joint coordinate.
 #[derive(Clone, Debug)]
 pub struct Drive {
-    /// Its name.
+    /// Name of the drive.
     pub name: String,
     /// The index of the joint.
     pub joint: usize,
-    /// What it prescribes.
+    /// The driven joint coordinate.
     pub measure: Measure,
 }
 
-/// A measure of a joint.
+/// A joint coordinate (measure).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// The angle of a revolute or cylindrical joint.
     Angle,
     /// The displacement of a translational or cylindrical joint.
     Displacement,
-    /// The length of a distance.
+    /// The length of a distance joint.
     Length,
 }
 
 impl Drawing {
-    /// The frame of a side: position and orientation.
+    /// Returns the frame of a side: position and orientation.
     #[must_use]
     pub fn frame(&self, side: Side) -> Motion {
         match side {
@@ -195,7 +195,7 @@ impl Drawing {
         });
     }
 
-    /// Moves, turns and scales everything as one.
+    /// Translates, rotates and scales the whole drawing.
     pub fn moved(&mut self, motion: &Motion) {
         for body in &mut self.bodies {
             body.position = motion.point(&body.position);
@@ -209,7 +209,7 @@ impl Drawing {
         }
     }
 
-    /// The joints that do not hold where they are drawn, by name.
+    /// Returns the names of the joints that are not satisfied as drawn.
     #[must_use]
     pub fn broken(&self) -> Vec<&str> {
         let broken = self.joints.iter().filter(|j| !j.kind.holds());

@@ -1,4 +1,4 @@
-//! Comparison of the answers for drawings in space with exact arithmetic: cases of the campaign of
+//! Compares the answers for drawings in space with exact arithmetic: cases of the campaign of
 //! [`crate::fuzz::exact::tally`].
 
 use serde_json::Value;
@@ -31,7 +31,7 @@ pub fn outcome(seed: u64, number: u64) -> Outcome {
     }
 }
 
-/// The findings for a drawing.
+/// Returns the findings for a drawing.
 #[must_use]
 pub fn compared(drawing: &Drawing) -> Findings {
     judge(drawing).1.findings
@@ -47,7 +47,7 @@ fn judge(drawing: &Drawing) -> (Expected, JudgedStart) {
 }
 
 impl Drawing {
-    /// What exact arithmetic says of it.
+    /// Returns the results of exact arithmetic.
     #[must_use]
     pub fn right(&self) -> (Truth, Expected) {
         let truth = Truth::of(self);
@@ -62,7 +62,7 @@ fn compare(truth: &Truth, right: &Expected, document: &Value) -> Findings {
     findings
 }
 
-/// The findings for the document of a drawing.
+/// Returns the findings for the document of a drawing.
 #[must_use]
 pub fn examine(drawing: &Drawing, document: &Value) -> Findings {
     let (truth, right) = drawing.right();

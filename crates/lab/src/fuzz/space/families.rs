@@ -1,6 +1,6 @@
-//! Kinds of mechanisms with planted redundancy, with similar ones that have less of it or none. A
-//! piece is drawn in coordinates of its own on a base, the ground or a body of another piece, and
-//! placed anywhere. Where theory knows the redundancy without computation, it is stated.
+//! Families of mechanisms with planted redundancy, and of similar mechanisms with less redundancy
+//! or none. A piece is drawn in separate coordinates on a base, the ground or a body of another
+//! piece, and placed anywhere. If theory gives the redundancy without computation, it is stated.
 
 mod chains;
 mod couplings;
@@ -19,7 +19,7 @@ use super::drawing::{Drawing, GROUND, Side};
 use super::relatives;
 use pen::Pen;
 
-/// A kind of mechanisms.
+/// A family of mechanisms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Family {
     /// Open chains and closed loops of any joints.
@@ -44,12 +44,12 @@ pub enum Family {
     Platforms,
     /// Chassis on wheels.
     Vehicles,
-    /// Two of these in one scene.
+    /// Two of these mechanisms in one scene.
     Several,
 }
 
 impl Family {
-    /// All of them.
+    /// All families.
     pub const ALL: [Self; 12] = [
         Self::Chains,
         Self::Doors,
@@ -65,7 +65,7 @@ impl Family {
         Self::Several,
     ];
 
-    /// Its name.
+    /// Returns the name of the family.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -84,7 +84,7 @@ impl Family {
         }
     }
 
-    /// A drawing; one in three has a joint that is weaker or turned.
+    /// Returns a drawing; one in three has a joint with fewer rows or a rotated axis.
     #[must_use]
     pub fn draw(self, numbers: &mut Numbers) -> Drawing {
         loop {
@@ -97,7 +97,7 @@ impl Family {
             } else {
                 piece(&mut drawing, self, GROUND, numbers);
             }
-            // A coupling whose shafts do not fit is left out.
+            // A coupling whose shafts do not fit is omitted.
             if !drawing.bodies.is_empty() {
                 return drawing;
             }
@@ -127,9 +127,9 @@ fn piece(drawing: &mut Drawing, family: Family, base: Side, numbers: &mut Number
     }
 }
 
-/// Two pieces. The second stands on the ground or on a body of the first: then redundancies add up,
-/// since a wrench that the second hands round in itself leaves nothing for its base. Up to two
-/// further joints connect them; one that leads to a body of the second whose base is the ground
+/// Draws two pieces. The second piece is mounted on the ground or on a body of the first. Then
+/// redundancies add up, because a self-stress of the second piece exerts no load on its base. Up to
+/// two further joints connect them; a joint to a body of the second piece whose base is the ground
 /// closes a loop through the ground.
 fn several(drawing: &mut Drawing, numbers: &mut Numbers) {
     let pieces = [0; 2].map(|_| Family::ALL[numbers.below(Family::ALL.len() - 1)]);

@@ -9,20 +9,20 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// Number of connected components.
+    /// Returns the number of connected components.
     #[must_use]
     pub fn components(&self) -> usize {
         self.components_without(None)
     }
 
-    /// Number of independent cycles.
+    /// Returns the number of independent cycles.
     #[must_use]
     pub fn cycle_rank(&self) -> usize {
         self.edges.len() + self.components() - self.nodes
     }
 
-    /// Whether the edge of a name lies on a cycle: without it the graph has no more components.
-    /// `None` if there is no such edge.
+    /// Whether the edge with this name is on a cycle: without it the number of components is the
+    /// same. Returns `None` if there is no such edge.
     #[must_use]
     pub fn is_on_cycle(&self, name: &str) -> Option<bool> {
         let place = self.edges.iter().position(|(own, _)| own == name)?;

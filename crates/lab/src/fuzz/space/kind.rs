@@ -1,9 +1,9 @@
-//! Types of joints and their places, in the axes of the ground.
+//! Types of joints with their positions, in the axes of the ground.
 
 use super::ratio::Ratio;
 use super::vector::Vector;
 
-/// The type and place of a joint. `from` is on the first body and `at` on the second. Directions
+/// The type and position of a joint. `from` is on the first body and `at` on the second. Directions
 /// have any length but 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -28,7 +28,7 @@ pub enum Kind {
         /// The axis in the second body.
         second: Vector,
     },
-    /// A slider of the second body on a line of the first; the orientation is kept.
+    /// A slider of the second body on a line of the first, without relative rotation.
     Translational {
         /// A point of the line on the first body.
         from: Vector,
@@ -37,7 +37,7 @@ pub enum Kind {
         /// The line.
         axis: Vector,
     },
-    /// The same, free to turn about the line.
+    /// A slider of the second body on a line of the first, free to rotate about the line.
     Cylindrical {
         /// A point of the line on the first body.
         from: Vector,
@@ -46,7 +46,7 @@ pub enum Kind {
         /// The line.
         axis: Vector,
     },
-    /// A plane of the first body that a point of the second does not leave; normals are parallel.
+    /// A plane of the first body in which a point of the second remains; normals are parallel.
     Planar {
         /// A point of the plane on the first body.
         from: Vector,
@@ -55,7 +55,7 @@ pub enum Kind {
         /// The normal.
         normal: Vector,
     },
-    /// A weld.
+    /// A rigid connection.
     Fixed {
         /// The reference point.
         at: Vector,
@@ -78,28 +78,28 @@ pub enum Kind {
         /// The normal.
         normal: Vector,
     },
-    /// An axis that both bodies keep.
+    /// A common axis direction of both bodies.
     Parallel {
         /// The axis.
         axis: Vector,
     },
-    /// Two axes that stay perpendicular.
+    /// Two axes that remain perpendicular.
     Perpendicular {
         /// The axis in the first body.
         first: Vector,
         /// The axis in the second body.
         second: Vector,
     },
-    /// The relative orientation is kept.
+    /// The relative orientation is constant.
     Orientation,
     /// A massless rod with spherical ends.
     Distance {
-        /// Its end on the first body.
+        /// The end on the first body.
         from: Vector,
-        /// Its end on the second body.
+        /// The end on the second body.
         at: Vector,
     },
-    /// A blade: no velocity of a point of the first body along a direction.
+    /// A knife edge: no velocity of a point of the first body along a direction.
     KnifeEdge {
         /// The point.
         at: Vector,
@@ -108,11 +108,11 @@ pub enum Kind {
     },
     /// A wheel, the first body, that rolls without slip on a plane of the ground.
     Wheel {
-        /// Its centre.
+        /// The centre of the wheel.
         centre: Vector,
-        /// Its axis.
+        /// The axis of the wheel.
         axis: Vector,
-        /// The point where it touches.
+        /// The point of contact.
         contact: Vector,
         /// The normal of the plane, on the side of the wheel.
         normal: Vector,
@@ -120,7 +120,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The value of `type`.
+    /// Returns the value of `type`.
     #[must_use]
     pub fn name(&self) -> &'static str {
         match self {
@@ -142,14 +142,14 @@ impl Kind {
         }
     }
 
-    /// Whether it ties one body to the ground by nature, so that the key `body` is written.
+    /// Whether it always connects one body to the ground, so that the key `body` is written.
     #[must_use]
     pub fn has_one_body(&self) -> bool {
         matches!(self, Self::KnifeEdge { .. } | Self::Wheel { .. })
     }
 
-    /// The point of the first body for which its reaction is given; `None` if it carries couples
-    /// only, which are the same about every point.
+    /// Returns the point of the first body for which its reaction is given; `None` if it carries
+    /// only couples, which are the same about every point.
     #[must_use]
     pub fn place(&self) -> Option<&Vector> {
         match self {
@@ -169,7 +169,7 @@ impl Kind {
         }
     }
 
-    /// The same joint after its points and directions are mapped.
+    /// Returns the same joint after its points and directions are mapped.
     #[must_use]
     pub fn mapped(
         &self,
@@ -208,7 +208,7 @@ impl Kind {
         image
     }
 
-    /// The same joint with its bodies exchanged. `None` if there is no such joint.
+    /// Returns the same joint with its bodies exchanged. Returns `None` if there is no such joint.
     #[must_use]
     pub fn swapped(&self) -> Option<Self> {
         let mut image = self.clone();
@@ -233,7 +233,7 @@ impl Kind {
         Some(image)
     }
 
-    /// Whether it holds where it is drawn, exactly.
+    /// Whether the joint is exactly satisfied as drawn.
     #[must_use]
     pub fn holds(&self) -> bool {
         match self {
@@ -256,7 +256,8 @@ impl Kind {
                 contact,
                 normal,
             } => {
-                // The lowest point of the circle: across the axis, and straight down in its plane.
+                // The lowest point of the circle is perpendicular to the axis, and straight down in
+                // its plane.
                 let spoke = contact - centre;
                 let down = -&normal.across(axis);
                 !down.is_zero()

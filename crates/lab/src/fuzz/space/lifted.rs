@@ -1,21 +1,21 @@
-//! Scenes of the plane, lifted into space: every body becomes one that may leave the plane, and
-//! joints that keep bodies in the plane get the rows that do so.
+//! Scenes of the plane, converted to space: every body becomes a body that may leave the plane, and
+//! joints that keep bodies in the plane receive the rows for it.
 //!
-//! With L independent cycles in the graph of these joints (the ground is a node), the redundancy
-//! grows by 3·L and the mobility by 3 for each component of the graph without the ground. Verdicts
-//! in the plane stay the same, and those across it (Fz, Tx, Ty) are not unique exactly where a
-//! joint lies on a cycle. This is a law of graphs: nothing is eliminated.
+//! The graph of these joints has the ground as a node and L independent cycles. The redundancy
+//! increases by 3·L, and the mobility by 3 for each component of the graph without the ground.
+//! Verdicts in the plane are the same, and those across it (Fz, Tx, Ty) are not unique exactly if a
+//! joint is on a cycle. This rule follows from graphs alone, without elimination.
 //!
 //! | in the plane | in space |
 //! | --- | --- |
-//! | revolute, translational, fixed | the same about z, or along the line |
+//! | revolute, translational, fixed | the same joint about z, or along the line |
 //! | pin-in-slot | `planar`, and a `point-on-plane` across the slot |
 //! | point-on-line | `point-on-plane` across the line |
-//! | distance, knife-edge, velocity | the same: one row in the plane |
-//! | drives of angles, displacements | the same |
-//! | gravity, velocities of bodies | the same |
+//! | distance, knife-edge, velocity | the same joint: one row in the plane |
+//! | drives of angles, displacements | the same drives |
+//! | gravity, velocities of bodies | the same values |
 //!
-//! Everything else is left out: joints and drives by name, forces of all kinds.
+//! All other elements are omitted: joints and drives by name, forces of all kinds.
 
 use joints::space3::{
     Axes, Direction, Distance, Fixed, KnifeEdge, Planar, PointOnPlane, Revolute,
@@ -37,24 +37,24 @@ use crate::fuzz::exact::findings::{Findings, Kind, list};
 use crate::fuzz::exact::outcome::{JudgedStart, Outcome, judged};
 use crate::fuzz::exact::pose::Writing;
 
-/// What follows the name of a pin in a slot in the name of its row in the plane.
+/// Suffix of the name of a pin in a slot for the name of its row in the plane.
 const SLOT: &str = " slot";
 
-/// A scene of the plane with the same in space.
+/// A planar scene with its equivalent in space.
 pub struct Lifted {
-    /// What can be lifted of the scene.
+    /// The part of the scene that can be converted.
     pub plane: Description,
-    /// The same in space.
+    /// The equivalent in space.
     pub space: SpatialDescription,
-    /// Names of joints and drives that are left out.
+    /// Names of joints and drives that are omitted.
     pub left_out: Vec<String>,
 }
 
 impl Lifted {
-    /// The answers in the plane and in space.
+    /// Returns the answers in the plane and in space.
     ///
     /// # Errors
-    /// The message if one of them is refused.
+    /// Returns the message if one of them is rejected.
     pub fn answers(&self) -> Result<[Value; 2], String> {
         Ok([
             answer_of(|| AssembledScene::build(self.plane.clone()))?,
@@ -62,7 +62,7 @@ impl Lifted {
         ])
     }
 
-    /// The graph of the joints that keep bodies in the plane; the last node is the ground.
+    /// Returns the graph of the joints that keep bodies in the plane; the last node is the ground.
     #[must_use]
     pub fn graph(&self) -> Graph {
         let ground = self.plane.bodies.len();
@@ -81,10 +81,10 @@ impl Lifted {
     }
 }
 
-/// Lifts a description of the plane, at its consistent start.
+/// Converts a planar description, at its consistent start.
 ///
 /// # Errors
-/// The message if there is no such start.
+/// Returns the message if there is no such start.
 pub fn lift(description: &Description, start: &StartOptions) -> Result<Lifted, String> {
     let mut mechanism = Mechanism::build(description).map_err(|faults| format!("{faults:?}"))?;
     let start = assemble(&mut mechanism, start).map_err(|e| e.to_string())?;
@@ -170,7 +170,7 @@ impl Numbers {
         found.map(|(_, numbers)| numbers.as_slice())
     }
 
-    /// A point or direction, in the plane z = 0.
+    /// Returns a point or direction, in the plane z = 0.
     fn vector(&self, name: &str) -> Option<[f64; 3]> {
         match *self.get(name)? {
             [x, y] => Some([x, y, 0.0]),
@@ -189,7 +189,7 @@ impl Lift {
         body.moving().map_or(0.0, |k| self.angles[k])
     }
 
-    /// Axes of the first body, as they lie in the second.
+    /// Returns axes of the first body, in the frame of the second.
     fn carried(&self, [i, j]: [BodyRef; 2], axes: Axes) -> Axes {
         let (sin, cos) = (self.angle(i) - self.angle(j)).sin_cos();
         axes.map(|[x, y, z]| [cos * x - sin * y, sin * x + cos * y, z])
@@ -217,7 +217,7 @@ impl Lift {
                 self.space.joint(name, &[i, j], element);
             }
             "Fixed" => {
-                // The places need not coincide in the plane.
+                // The points need not coincide in the plane.
                 let there = plane.place_of(i, s_i);
                 let s_j = self.space.local(j, there);
                 let [axes, axes_j] = frames;
@@ -328,7 +328,7 @@ impl Lift {
     }
 }
 
-/// Where a point of a body is at the described start.
+/// Returns the position of a point of a body at the described start.
 trait Placed {
     fn place_of(&self, body: BodyRef, point: [f64; 3]) -> [f64; 3];
 }
@@ -341,7 +341,8 @@ impl Placed for Description {
     }
 }
 
-/// Compares the answers for both: the one in space must be that in the plane and the law.
+/// Compares the answers for both: the answer in space must follow from the planar answer and the
+/// rule.
 #[must_use]
 pub fn compared(lifted: &Lifted, plane: &Value, space: &Value) -> Findings {
     let mut findings = Findings::default();
@@ -380,8 +381,8 @@ pub fn compared(lifted: &Lifted, plane: &Value, space: &Value) -> Findings {
     findings
 }
 
-/// The verdicts of one reaction: those in the plane are the same as there, if they are its own,
-/// else there are none; those across the plane follow from the graph.
+/// Compares the verdicts of one reaction. Verdicts in the plane are the same if they belong to it,
+/// and do not exist otherwise; verdicts across the plane follow from the graph.
 fn reaction_in_space(
     name: &str,
     own: Option<&Value>,
@@ -416,10 +417,10 @@ fn reaction_in_space(
     }
 }
 
-/// Lifts a text and compares the answers; `None` if nothing of it can be lifted.
+/// Converts a text and compares the answers; `None` if no part of it can be converted.
 ///
 /// # Errors
-/// If the text is no scene with a consistent start.
+/// Returns an error if the text is not a scene with a consistent start.
 pub fn examine(text: &str) -> Result<Option<(Lifted, JudgedStart)>, String> {
     let read = AssembledScene::read("scene.toml", text, &Registry::standard());
     let scene = read.map_err(|e| e.to_string())?.scene;
@@ -445,7 +446,7 @@ pub fn examine(text: &str) -> Result<Option<(Lifted, JudgedStart)>, String> {
     Ok(Some((lifted, judged)))
 }
 
-/// Tests one scene of the plane. Gears and racks are left out: nothing of them can be lifted.
+/// Tests one scene of the plane. Gears and racks are omitted, because they cannot be converted.
 #[must_use]
 pub fn outcome(seed: u64, number: u64) -> Outcome {
     let ways = Writing::ALL.len() as u64;

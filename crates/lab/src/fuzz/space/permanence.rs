@@ -1,10 +1,11 @@
-//! Whether a redundancy belongs to the mechanism or to its pose, to first order and in fractions:
-//! towards other poses, along velocities v that the holonomic rows without drives allow, the rank
-//! stays the same to first order iff `Zᵀ·Ċ(v)·N = 0`, with bases Z of null(Cᵀ) and N of ker C.
+//! Decides whether a redundancy belongs to the mechanism or to its configuration, to first order
+//! and in fractions. The test uses velocities v that the holonomic rows without drives allow.
+//! Towards the corresponding configurations the rank is the same to first order if and only if
+//! `Zᵀ·Ċ(v)·N = 0`, with bases Z of null(Cᵀ) and N of ker C.
 //!
-//! Rows are spanning sets of the wrenches of a joint that are products of two vectors at most, so
-//! that the difference over ±v is twice the derivative, without a remainder. What a set has too
-//! much depends on the others in every pose and changes nothing.
+//! Rows are spanning sets of the wrenches of a joint, which are products of at most two vectors, so
+//! that the difference over ±v is twice the derivative, without a remainder. Additional members of
+//! a set depend on the others at every configuration and have no effect.
 
 use exact::Exact;
 use num_bigint::BigInt;
@@ -16,16 +17,16 @@ use crate::fuzz::exact::expected::Elsewhere;
 use crate::fuzz::exact::truth::Truth;
 use crate::fuzz::exact::wrench::{Meaning, Wrench};
 
-/// The velocity of a body: of the point at the origin of the ground, and of rotation.
+/// The velocity of a body: of the point at the origin of the ground, and of the rotation.
 type Twist = [Vector; 2];
 
-/// The rank of a drawing at other poses.
+/// Returns the rank of a drawing at other configurations.
 ///
-/// It is the same if it stays so, to first order, towards every other pose: that of all rows, and
-/// that of the holonomic ones alone. Rows against slip may hold to first order what the others let
-/// go, as where a wheel on a spherical hub tilts; then nothing is said. It is higher if that of all
-/// rows rises along a velocity that is certainly one of a motion, because the holonomic rows
-/// without drives are independent.
+/// It is the same if the rank of all rows, and the rank of the holonomic ones alone, is the same to
+/// first order towards every other configuration. Rows against slip may constrain to first order a
+/// motion that the other rows allow, as for a tilting wheel on a spherical hub; then the result is
+/// unknown. It is higher if the rank of all rows increases along a velocity that certainly belongs
+/// to a motion, because the holonomic rows without drives are independent.
 #[must_use]
 pub fn elsewhere(truth: &Truth, drawing: &Drawing) -> Elsewhere {
     let all = |_: &Row| true;
@@ -74,7 +75,7 @@ fn is_permanent_of(drawing: &Drawing, wanted: impl Fn(&Row) -> bool) -> bool {
         let there = twists(motion);
         let back: Vec<Twist> = there.iter().map(|t| t.each_ref().map(|x| -x)).collect();
         let pairs = rows(&there).into_iter().zip(rows(&back));
-        // The factors that make rows whole belong to them.
+        // The factors that convert rows to integers belong to them.
         let changes: Vec<Wrench> = pairs
             .zip(&still)
             .map(|((a, b), row)| {
@@ -98,7 +99,7 @@ fn is_permanent_of(drawing: &Drawing, wanted: impl Fn(&Row) -> bool) -> bool {
     })
 }
 
-/// The row of C: the wrench on the second body, the opposite one on the first.
+/// Returns the row of C: the wrench on the second body, the opposite one on the first.
 fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigInt> {
     let mut row = vec![BigInt::default(); 6 * drawing.bodies.len()];
     for (side, sign) in sides.into_iter().zip([-1, 1]) {
@@ -113,11 +114,11 @@ fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigI
 struct Row {
     sides: [Side; 2],
     wrench: Wrench,
-    /// Whether it restricts where the mechanism can be, whatever its drives do.
+    /// Whether it restricts the configurations of the mechanism, for any motion of its drives.
     leads: bool,
 }
 
-/// The kernel of a matrix with this number of columns.
+/// Returns the kernel of a matrix with this number of columns.
 fn kernel(rows: &[Vec<BigInt>], columns: usize) -> Vec<Vec<BigInt>> {
     let column = |j: usize| rows.iter().map(|row| row[j].clone()).collect();
     let exact = Exact::of_whole((0..columns).map(column).collect());
@@ -130,7 +131,7 @@ fn twists(numbers: &[BigInt]) -> Vec<Twist> {
     bodies.map(|x| [vector(&x[..3]), vector(&x[3..])]).collect()
 }
 
-/// The power of a wrench on the second body and its opposite on the first.
+/// Returns the power of a wrench on the second body and its opposite on the first.
 fn power(wrench: &Wrench, sides: [Side; 2], twists: &[Twist]) -> Ratio {
     let of = |side: Side| {
         side.map_or(Ratio::zero(), |k| {
@@ -141,13 +142,13 @@ fn power(wrench: &Wrench, sides: [Side; 2], twists: &[Twist]) -> Ratio {
     &of(sides[1]) - &of(sides[0])
 }
 
-/// Spanning wrenches of all joints and drives where every point and direction has moved by its
-/// velocity.
+/// Returns spanning wrenches of all joints and drives after every point and direction has moved by
+/// its velocity.
 fn rows(drawing: &Drawing, velocity: &[Twist]) -> Vec<Row> {
     let moved = |joint: &Joint| displaced(joint, velocity);
     let joints = drawing.joints.iter().flat_map(|joint| {
         let wrenches = spanning(&moved(joint)).into_iter().enumerate();
-        // Of a wheel the first row alone, the contact, is holonomic.
+        // For a wheel only the first row, the contact, is holonomic.
         let leads = |k: usize| match joint.kind {
             Kind::KnifeEdge { .. } => false,
             Kind::Wheel { .. } => k == 0,
@@ -170,7 +171,7 @@ fn rows(drawing: &Drawing, velocity: &[Twist]) -> Vec<Row> {
     joints.chain(drives).collect()
 }
 
-/// The joint after each point and direction has moved by its velocity.
+/// Returns the joint after each point and direction has moved by its velocity.
 fn displaced(joint: &Joint, velocity: &[Twist]) -> Kind {
     let twist = |side: Side| side.map(|k| &velocity[k]);
     let point = |side: usize, p: &Vector| match twist(joint.bodies[side]) {
@@ -218,7 +219,7 @@ fn displaced(joint: &Joint, velocity: &[Twist]) -> Kind {
             contact,
             normal,
         } => {
-            // The lowest point of the circle: the spoke is λ·D with D = (n·a)·a − (a·a)·n.
+            // The lowest point of the circle has the spoke λ·D with D = (n·a)·a − (a·a)·n.
             let change = &direction(0, axis) - axis;
             let share = normal.dot(axis);
             let down = &axis.times(&share) - &normal.times(&axis.square());
@@ -234,7 +235,7 @@ fn displaced(joint: &Joint, velocity: &[Twist]) -> Kind {
     moved
 }
 
-/// Wrenches that span those of a joint, each a product of two vectors at most.
+/// Returns wrenches that span those of a joint, each a product of at most two vectors.
 fn spanning(kind: &Kind) -> Vec<Wrench> {
     let units = [0, 1, 2].map(Vector::unit);
     let each = |wrench: &dyn Fn(&Vector) -> Wrench| units.each_ref().map(wrench).to_vec();
@@ -272,7 +273,7 @@ fn spanning(kind: &Kind) -> Vec<Wrench> {
     }
 }
 
-/// The coordinate axis that lies least along a vector.
+/// Returns the coordinate axis with the smallest component of a vector.
 fn least(d: &Vector) -> usize {
     let sizes = d.0.each_ref().map(Ratio::abs);
     (1..3).fold(0, |k, j| if sizes[j].is_below(&sizes[k]) { j } else { k })
@@ -283,7 +284,7 @@ mod tests {
     use super::super::catalogue;
     use super::*;
 
-    /// Parallelograms can leave their flat pose in another way than together.
+    /// Parallelograms can leave their singular configuration on a branch that is not parallel.
     #[test]
     fn what_belongs_to_the_mechanism_and_what_to_its_pose() {
         let drawings = catalogue::all().into_iter();

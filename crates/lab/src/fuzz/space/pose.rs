@@ -1,6 +1,6 @@
-//! How a drawing is written: moved as a whole, each body with its own frame and mass centre, bodies
+//! Writings of a drawing: moved as a whole, each body with its own frame and mass centre, bodies
 //! and joints in another order, first and second body exchanged. None of these changes which
-//! wrenches are unique, only their components.
+//! wrenches are unique; they change only the components of the wrenches.
 
 use suite::numbers::Numbers;
 
@@ -11,7 +11,7 @@ use super::ratio::Ratio;
 use super::rows;
 use super::vector::{Motion, Rotation, Vector};
 
-/// Chooses how a drawing is written.
+/// Chooses the writing of a drawing.
 #[must_use]
 pub fn posed(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Drawing {
     let mut posed = drawing.clone();
@@ -28,7 +28,7 @@ pub fn posed(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Draw
     posed
 }
 
-/// The largest size of a coordinate of a point (m).
+/// Returns the largest absolute coordinate of a point (m).
 #[must_use]
 pub fn extent(drawing: &Drawing) -> f64 {
     let places = drawing.joints.iter().filter_map(|j| j.kind.place());
@@ -52,7 +52,7 @@ fn motion(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Motion 
     Motion::rigid(turn, Vector(shift))
 }
 
-/// A rotation that exchanges the coordinate axes.
+/// Returns a rotation that exchanges the coordinate axes.
 #[must_use]
 pub fn quarter(numbers: &mut Numbers) -> Rotation {
     const TURNS: [[i64; 4]; 8] = [
@@ -70,7 +70,7 @@ pub fn quarter(numbers: &mut Numbers) -> Rotation {
     first.after(&one(numbers))
 }
 
-/// Any rotation by a quaternion of small whole numbers.
+/// Returns any rotation by a quaternion of small integers.
 #[must_use]
 pub fn any_turn(numbers: &mut Numbers) -> Rotation {
     loop {
@@ -81,7 +81,7 @@ pub fn any_turn(numbers: &mut Numbers) -> Rotation {
     }
 }
 
-/// Exchanges the bodies of half of the joints that can be written both ways.
+/// Exchanges the bodies of half of the joints that can be written in both orders.
 fn swap(drawing: &mut Drawing, numbers: &mut Numbers) {
     for joint in &mut drawing.joints {
         if let Some(kind) = joint.kind.swapped().filter(|_| numbers.once_in(2)) {
@@ -147,15 +147,16 @@ fn dress(drawing: &mut Drawing, k: usize, is_as_drawn: bool, numbers: &mut Numbe
     body.inertia = tensor(numbers);
 }
 
-/// A vector of some tenths of a metre from a point.
+/// Returns a vector of some tenths of a metre from a point.
 fn near(point: Option<&Vector>, numbers: &mut Numbers) -> Vector {
     let offset = Vector([0; 3].map(|_| Ratio::new(numbers.between(-20, 20), 10)));
     point.map_or(offset.clone(), |p| p + &offset)
 }
 
-/// Three principal moments that fit together, along the axes of the frame or turned.
+/// Returns three principal moments that satisfy the triangle inequality, along the axes of the
+/// frame or rotated.
 fn tensor(numbers: &mut Numbers) -> [[Ratio; 3]; 3] {
-    // Moments of a body with these mean squares of its coordinates.
+    // Returns the moments of a body with these mean squares of its coordinates.
     let [a, b, c] = [0; 3].map(|_| i64::from(numbers.between(1, 9)));
     let moments = [b + c, c + a, a + b].map(|x| Ratio::new(x, 20));
     let turn = if numbers.once_in(2) {
@@ -172,8 +173,8 @@ fn tensor(numbers: &mut Numbers) -> [[Ratio; 3]; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
 }
 
-/// Chooses frames of points and directions, and a basis for rows where rounding might choose
-/// another one.
+/// Chooses frames of points and directions, and a basis for rows if rounding might select another
+/// one.
 fn style(drawing: &mut Drawing, is_as_drawn: bool, numbers: &mut Numbers) {
     for k in 0..drawing.joints.len() {
         let joint = &drawing.joints[k];
@@ -200,7 +201,7 @@ fn style(drawing: &mut Drawing, is_as_drawn: bool, numbers: &mut Numbers) {
     }
 }
 
-/// A direction that is far from parallel to w; not always perpendicular to it.
+/// Returns a direction that is far from parallel to w; it is not always perpendicular to w.
 fn across(w: &Vector, numbers: &mut Numbers) -> Vector {
     loop {
         let d = Vector([0; 3].map(|_| Ratio::whole(numbers.between(-2, 2).into())));

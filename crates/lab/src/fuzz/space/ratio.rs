@@ -1,5 +1,5 @@
-//! Fractions of whole numbers of any size, rounded to `f64` once. Drawings in space are turned
-//! several times, and 127 bits would not hold all of them.
+//! Fractions of integers of any size, rounded to `f64` once. Drawings in space are rotated several
+//! times, and 127 bits would not be sufficient for all of them.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -14,16 +14,16 @@ pub struct Ratio {
 }
 
 impl Ratio {
-    /// A whole number.
+    /// Returns an integer as a fraction.
     #[must_use]
     pub fn whole(n: i64) -> Self {
         Self::new(n, 1)
     }
 
-    /// `numerator/denominator`
+    /// Returns `numerator/denominator`.
     ///
     /// # Panics
-    /// If the denominator is 0.
+    /// Panics if the denominator is 0.
     #[must_use]
     pub fn new(numerator: impl Into<BigInt>, denominator: impl Into<BigInt>) -> Self {
         let (numerator, denominator) = (numerator.into(), denominator.into());
@@ -38,37 +38,37 @@ impl Ratio {
         }
     }
 
-    /// 0
+    /// Returns the number 0.
     #[must_use]
     pub fn zero() -> Self {
         Self::whole(0)
     }
 
-    /// 1
+    /// Returns the number 1.
     #[must_use]
     pub fn one() -> Self {
         Self::whole(1)
     }
 
-    /// The numerator.
+    /// Returns the numerator.
     #[must_use]
     pub fn numerator(&self) -> &BigInt {
         &self.numerator
     }
 
-    /// The denominator, positive.
+    /// Returns the denominator, which is positive.
     #[must_use]
     pub fn denominator(&self) -> &BigInt {
         &self.denominator
     }
 
-    /// Whether it is 0.
+    /// Whether the fraction is 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.numerator.is_zero()
     }
 
-    /// Its size.
+    /// Returns the absolute value.
     #[must_use]
     pub fn abs(&self) -> Self {
         Self {
@@ -77,33 +77,34 @@ impl Ratio {
         }
     }
 
-    /// Whether it is less than another fraction.
+    /// Whether the fraction is less than another fraction.
     #[must_use]
     pub fn is_below(&self, other: &Self) -> bool {
         (self - other).numerator.is_negative()
     }
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     #[must_use]
     pub fn rounded(&self) -> f64 {
         quotient(&self.numerator, &self.denominator)
     }
 
-    /// The square root of its size as `f64`, right to one unit in the last place.
+    /// Returns the square root of its absolute value as `f64`, accurate to one unit in the last
+    /// place.
     #[must_use]
     pub fn root(&self) -> f64 {
         self.abs().rounded().sqrt()
     }
 }
 
-/// `n/d`, rounded to the nearest `f64`. Both may be larger than any `f64`.
+/// Returns `n/d`, rounded to the nearest `f64`. Both may be larger than any `f64`.
 #[must_use]
 pub fn quotient(n: &BigInt, d: &BigInt) -> f64 {
     const BITS: i64 = 100;
     if n.is_zero() {
         return 0.0;
     }
-    // The quotient with at least 100 bits, and one bit for all that follow: the conversion of
+    // The quotient has at least 100 bits, and one bit for all following bits: the conversion of
     // integers rounds to nearest.
     let shift = BITS + d.bits() as i64 - n.bits() as i64;
     let (n_size, d_size) = (n.abs(), d.abs());
@@ -118,13 +119,14 @@ pub fn quotient(n: &BigInt, d: &BigInt) -> f64 {
     if n.sign() == d.sign() { size } else { -size }
 }
 
-/// 2^e in two factors, so that neither of them leaves the range of `f64` before their product.
+/// Returns 2^e in two factors, so that neither of them leaves the range of `f64` before their
+/// product.
 fn power_of_two(e: i64) -> f64 {
     let e = e.clamp(-2100, 2000) as i32;
     2_f64.powi(e / 2) * 2_f64.powi(e - e / 2)
 }
 
-/// The largest common divisor, at least 1.
+/// Returns the greatest common divisor, at least 1.
 #[must_use]
 pub fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
     let (mut a, mut b) = (a.abs(), b.abs());
@@ -139,8 +141,8 @@ pub fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
     }
 }
 
-/// Whole numbers without a common factor, in the ratios of these fractions, and the factor by which
-/// the fractions were multiplied. All zeros stay.
+/// Returns integers without a common factor, in the ratios of these fractions, and the factor by
+/// which the fractions were multiplied. If all are zero, they remain zero.
 #[must_use]
 pub fn whole_multiples(fractions: &[Ratio]) -> (Vec<BigInt>, Ratio) {
     let multiple = fractions.iter().fold(BigInt::one(), |m, x| {
@@ -205,7 +207,7 @@ impl Div for &Ratio {
     type Output = Ratio;
 
     /// # Panics
-    /// If the divisor is 0.
+    /// Panics if the divisor is 0.
     fn div(self, other: Self) -> Ratio {
         Ratio::new(
             &self.numerator * &other.denominator,

@@ -1,5 +1,5 @@
-//! Relatives of a drawing: one joint is weaker, or one axis is turned a little. They are drawn
-//! where they hold, often with full rank, and look like the redundant one.
+//! Relatives of a drawing: one joint has fewer rows, or one axis is slightly rotated. All their
+//! joints are satisfied as drawn; they often have full rank, and look like the redundant drawing.
 
 use suite::numbers::Numbers;
 
@@ -7,15 +7,15 @@ use super::drawing::{Drawing, Kind};
 use super::ratio::Ratio;
 use super::vector::{Rotation, Vector};
 
-/// Changes one of the joints from `first` on; returns whether one was changed. The redundancy by
-/// theory is lost then.
+/// Changes one of the joints from `first` on; returns whether one was changed. The redundancy
+/// according to theory is no longer valid then.
 pub fn change_one(drawing: &mut Drawing, first: usize, numbers: &mut Numbers) -> bool {
     let count = drawing.joints.len().saturating_sub(first);
     if count == 0 {
         return false;
     }
     let place = first + numbers.below(count);
-    // What is driven keeps its measures.
+    // A driven joint keeps its joint coordinates.
     if drawing.drives.iter().any(|d| d.joint == place) {
         return false;
     }
@@ -31,7 +31,7 @@ pub fn change_one(drawing: &mut Drawing, first: usize, numbers: &mut Numbers) ->
     true
 }
 
-/// A joint of a type with fewer rows that holds at the same place.
+/// Returns a joint of a type with fewer rows that is satisfied at the same configuration.
 #[must_use]
 pub fn weaker(kind: &Kind, numbers: &mut Numbers) -> Option<Kind> {
     let choice = numbers.below(3);
@@ -87,7 +87,7 @@ pub fn weaker(kind: &Kind, numbers: &mut Numbers) -> Option<Kind> {
     })
 }
 
-/// The same joint with its axis or normal turned by some hundredths to tenths.
+/// Returns the same joint with its axis or normal rotated by some hundredths to tenths.
 #[must_use]
 pub fn turned(kind: &Kind, numbers: &mut Numbers) -> Option<Kind> {
     let turn = small_turn(numbers);
@@ -120,7 +120,7 @@ fn small_turn(numbers: &mut Numbers) -> Rotation {
     Rotation::whole([w, q[0], q[1], q[2]])
 }
 
-/// Any direction of small whole numbers.
+/// Returns any direction of small integers.
 #[must_use]
 pub fn any(numbers: &mut Numbers) -> Vector {
     loop {
@@ -131,7 +131,7 @@ pub fn any(numbers: &mut Numbers) -> Vector {
     }
 }
 
-/// Any direction across another one.
+/// Returns any direction perpendicular to another one.
 #[must_use]
 pub fn any_across(w: &Vector, numbers: &mut Numbers) -> Vector {
     loop {

@@ -1,25 +1,24 @@
 //! Constraint rows as screws, by virtual work: a unit multiplier of a row does no work in any
 //! motion that the joint allows, and it acts with opposite wrenches on the two bodies. The wrench
-//! on the second body, force and moment about the origin of the ground, is the row; nothing is
-//! differentiated. Rows have any scale: directions are used as they are, not divided by their
-//! length.
+//! on the second body, force and moment about the origin of the ground, is the row; no derivatives
+//! are used. Rows have any scale: directions are used as they are, not divided by their length.
 //!
 //! | element | wrenches on the second body; (F; M) with M about the origin |
 //! | --- | --- |
 //! | point | (e; P × e) for e along the axes of the ground |
 //! | offset | (u; P₂ × u): a smooth guide pushes the second body at its own point |
-//! | directions u, v of an axis w | couples along w × u and w × v: those that keep w from leaving u, v |
-//! | orientation of u, v, w | those of the axis w, and a couple along w: no turn of u towards v |
+//! | directions u, v of an axis w | couples along w × u and w × v: they prevent w from moving along u, v |
+//! | orientation of u, v, w | couples of the axis w, and a couple along w: no rotation of u towards v |
 //! | perpendicular a, b | couple along b × a |
 //! | distance | force along the rod |
 //! | contact, slip, edge | force at the point, along normal, longitudinal, lateral |
 //! | drive | couple along the axis, or force along the line of displacement |
 //!
 //! Verdicts of joints, forces, moments and components do not depend on the basis of the rows.
-//! Verdicts of single rows do; [`Meaning`] says what each row is taken to be. The order inside a
-//! joint is that of the table of joints: points, then offsets, then directions u and v, then the
-//! turn about w. Joints that keep an orientation without an axis use the axes of the frame of the
-//! first body.
+//! Verdicts of single rows depend on it; [`Meaning`] states the meaning of each row. The order
+//! inside a joint is that of the table of joints: points, then offsets, then directions u and v,
+//! then the rotation about w. Joints that keep an orientation without an axis use the axes of the
+//! frame of the first body.
 
 #[cfg(test)]
 mod tests;
@@ -80,8 +79,9 @@ impl From<&Drawing> for Wrenches {
     }
 }
 
-/// The directions u, v across the axis w of a joint: u from the key `cross` if it is there, else
-/// from the first body's coordinate axis that lies least along w (the first of several); v = w × u.
+/// Returns the directions u, v perpendicular to the axis w of a joint. The direction u comes from
+/// the key `cross` if it exists. Otherwise it comes from the coordinate axis of the first body with
+/// the smallest component along w (the first of several); v = w × u.
 #[must_use]
 pub fn basis(drawing: &Drawing, joint: &Joint, w: &Vector) -> [Vector; 2] {
     let u = match &joint.cross {
@@ -101,8 +101,8 @@ pub fn basis(drawing: &Drawing, joint: &Joint, w: &Vector) -> [Vector; 2] {
     [u, v]
 }
 
-/// Whether another coordinate axis of the first body lies nearly as little along w as the least
-/// one, so that rounding may choose the basis of rows.
+/// Whether another coordinate axis of the first body has nearly the same component along w as the
+/// smallest one, so that rounding may select the basis of rows.
 #[must_use]
 pub fn basis_is_doubtful(drawing: &Drawing, joint: &Joint, w: &Vector) -> bool {
     let axes = drawing.frame(joint.bodies[0]).turn.axes();
@@ -114,7 +114,7 @@ pub fn basis_is_doubtful(drawing: &Drawing, joint: &Joint, w: &Vector) -> bool {
 /// Difference of two cosines below which rounding to few digits may exchange them.
 const DOUBTFUL: f64 = 0.05;
 
-/// The axis or normal across which the basis of rows of a joint is chosen.
+/// Returns the axis or normal that determines the basis of rows of a joint.
 #[must_use]
 pub fn basis_axis(kind: &Kind) -> Option<&Vector> {
     match kind {
@@ -133,7 +133,8 @@ fn points(at: &Vector) -> Vec<(Meaning, Wrench)> {
     [0, 1, 2].map(row).to_vec()
 }
 
-/// The couples that keep the second axis w from moving along u and v: `(ω × w)·u = ω·(w × u)`.
+/// Returns the couples that prevent the second axis w from moving along u and v:
+/// `(ω × w)·u = ω·(w × u)`.
 fn directions(w: &Vector, basis: &[Vector; 2]) -> Vec<(Meaning, Wrench)> {
     let row = |k: usize| {
         let couple = Wrench::couple(w.cross(&basis[k]));
@@ -147,15 +148,15 @@ fn offsets(at: &Vector, basis: &[Vector; 2]) -> Vec<(Meaning, Wrench)> {
     [0, 1].map(row).to_vec()
 }
 
-/// The couples that keep axes u, v, w of both bodies parallel: w leaves neither u nor v, and u does
-/// not turn towards v.
+/// Returns the couples that keep axes u, v, w of both bodies parallel: w moves towards neither u
+/// nor v, and u does not rotate towards v.
 fn orientation(w: &Vector, basis: &[Vector; 2]) -> Vec<(Meaning, Wrench)> {
     let mut rows = directions(w, basis);
     rows.push((Meaning::Turn, Wrench::couple(basis[0].cross(&basis[1]))));
     rows
 }
 
-/// The rows of a joint.
+/// Returns the rows of a joint.
 fn of(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
     let across = |w: &Vector| basis(drawing, joint, w);
     let frame = || {
@@ -199,8 +200,8 @@ fn of(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
             normal,
             ..
         } => {
-            // The material point that touches has no velocity: along the normal since the circle
-            // stays above the plane, along the others since it does not slip.
+            // The material point of contact has no velocity: along the normal because the circle
+            // remains above the plane, and along the other directions because it does not slip.
             let longitudinal = axis.cross(normal);
             let lateral = normal.cross(&longitudinal);
             vec![
@@ -212,15 +213,15 @@ fn of(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
     }
 }
 
-/// `a·b = 0`: no power of the couple along b × a in a turn about a or about b.
+/// For `a·b = 0`, the couple along b × a has no power in a rotation about a or about b.
 fn perpendicular(a: &Vector, b: &Vector) -> (Meaning, Wrench) {
     (Meaning::Perpendicular, Wrench::couple(b.cross(a)))
 }
 
-/// The wrench of a drive: it works on its own measure.
+/// Returns the wrench of a drive: it does work on its own joint coordinate.
 ///
 /// # Panics
-/// If the joint has no such measure.
+/// Panics if the joint has no such joint coordinate.
 pub(super) fn driven(kind: &Kind, measure: Measure) -> Wrench {
     match (measure, kind) {
         (Measure::Angle, Kind::Revolute { axis, .. } | Kind::Cylindrical { axis, .. }) => {

@@ -1,4 +1,4 @@
-//! The exact oracle in space: verdicts that theory tells, and mutants of its data.
+//! Tests the exact oracle in space: verdicts known from theory, and mutants of its data.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,14 @@ use crate::fuzz::exact::expected::Verdict;
 use crate::fuzz::exact::truth::{Reaction, Truth};
 use crate::fuzz::exact::wrench::Owner;
 
-/// Some scenes of each family, in each way of writing.
+/// Number of scenes: some of each family, in each writing.
 const SCENES: u64 = 12 * 4 * 5;
 
-/// By name: whether wrench and force are unique, and how many directions it carries and are free.
+/// By name: whether wrench and force are unique, and the numbers of directions that it carries and
+/// that are free.
 type Verdicts = BTreeMap<String, (bool, bool, usize, usize)>;
 
-/// What does not depend on the way of writing: ranks and verdicts.
+/// Returns the results that do not depend on the writing: ranks and verdicts.
 fn invariants(right: &Expected) -> ([usize; 6], Verdicts) {
     let ranks = [
         right.rows,
@@ -80,8 +81,8 @@ fn the_catalogue_is_the_same_wherever_it_stands() {
 
 #[test]
 fn verdicts_by_ranks_and_by_free_wrenches_agree() {
-    // A reaction is unique iff rank C = rank C_X + rank of the other rows; a row iff the rank falls
-    // without it.
+    // A reaction is unique if and only if rank C = rank C_X + rank of the other rows; a row is
+    // unique if and only if the rank decreases without it.
     for scene in scenes(19).step_by(7).take(60) {
         let truth = Truth::of(&scene.drawing);
         let right = Expected::from_truth(&truth);
@@ -104,7 +105,7 @@ fn verdicts_by_ranks_and_by_free_wrenches_agree() {
 
 #[test]
 fn verdicts_differ_within_a_family() {
-    // A judge that calls everything redundant, or nothing, is wrong in many scenes.
+    // A judge that calls everything redundant, or nothing redundant, is wrong in many scenes.
     let mut counts: BTreeMap<Family, [usize; 2]> = BTreeMap::new();
     for number in (0..480).step_by(4) {
         let scene = scene(5, number);
@@ -130,7 +131,7 @@ fn the_same_seed_gives_the_same_scenes() {
 
 #[test]
 fn a_circuit_names_the_rows_that_depend_on_each_other() {
-    // A table on the corners of a square: the normal forces alternate.
+    // A table has its legs at the corners of a square: the normal forces alternate.
     let drawing = catalogue::table(&[[0, 0], [2, 0], [2, 2], [0, 2]]);
     let truth = Truth::of(&drawing);
     assert_eq!(truth.circuit(&[0, 1, 2]), None);
@@ -144,8 +145,8 @@ fn a_circuit_names_the_rows_that_depend_on_each_other() {
 
 #[test]
 fn a_moment_may_be_unique_about_another_point() {
-    // Spherical linkage: all free wrenches are forces through the centre, so the moment about the
-    // centre is unique, and that about a joint is not.
+    // In a spherical linkage all free wrenches are forces through the centre, so the moment about
+    // the centre is unique, and the moment about a joint is not.
     let drawing = catalogue::hooke_with_cross();
     let truth = Truth::of(&drawing);
     let bearing = Owner::Joint(0);

@@ -1,5 +1,5 @@
-//! The scene of a drawing as text: `[scene] space = "spatial"`. Every number is a fraction rounded
-//! once, to a double or to some significant digits.
+//! Writes the scene of a drawing as text: `[scene] space = "spatial"`. Every number is a fraction
+//! rounded once, to a double or to some significant digits.
 
 #[cfg(test)]
 mod tests;
@@ -16,7 +16,7 @@ use pfaff::AssembledScene;
 /// The number of digits, and the data that the scene states in addition to the drawing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Precision {
-    /// Significant digits. `None`: all digits of a double.
+    /// Number of significant digits. `None` means all digits of a double.
     pub digits: Option<usize>,
     /// The tolerance that the scene states (m).
     pub tolerance: Option<f64>,
@@ -25,8 +25,8 @@ pub struct Precision {
 }
 
 impl Precision {
-    /// A number of significant digits, with the tolerance that belongs to it: twice the unit of the
-    /// last digit of the largest coordinate.
+    /// Returns a precision of some significant digits, with the corresponding tolerance: twice the
+    /// unit of the last digit of the largest coordinate.
     #[must_use]
     pub fn of_digits(drawing: &Drawing, digits: usize) -> Self {
         let unit = 10_f64.powi(1 - i32::try_from(digits).unwrap_or(i32::MAX));
@@ -37,7 +37,7 @@ impl Precision {
         }
     }
 
-    /// A number with these digits.
+    /// Rounds a number to these digits.
     #[must_use]
     pub fn rounded(&self, x: f64) -> f64 {
         match self.digits {
@@ -50,22 +50,22 @@ impl Precision {
     }
 }
 
-/// The scene as text, with all digits of a double.
+/// Returns the scene as text, with all digits of a double.
 #[must_use]
 pub fn text(drawing: &Drawing) -> String {
     text_within(drawing, &Precision::default())
 }
 
-/// The same with numbers of a given precision.
+/// Returns the scene with numbers of a given precision.
 #[must_use]
 pub fn text_within(drawing: &Drawing, precision: &Precision) -> String {
     written(drawing, precision).text
 }
 
-/// The description that is read from the text.
+/// Returns the description that is read from the text.
 ///
 /// # Errors
-/// The message if the scene is refused.
+/// Returns the message if the scene is rejected.
 pub fn description(drawing: &Drawing, precision: &Precision) -> Result<SpatialDescription, String> {
     let text = text_within(drawing, precision);
     let read = AssembledScene::read("scene.toml", &text, &Registry::standard());
@@ -75,7 +75,7 @@ pub fn description(drawing: &Drawing, precision: &Precision) -> Result<SpatialDe
     }
 }
 
-/// The largest coordinate in the text (m), at least 1.
+/// Returns the largest coordinate in the text (m), at least 1.
 #[must_use]
 pub fn largest_coordinate(drawing: &Drawing) -> f64 {
     written(drawing, &Precision::default()).largest.max(1.0)
@@ -266,7 +266,7 @@ impl Pen<'_> {
         self.line("motion", "{ type = \"polynomial\", coefficients = [0.0] }");
     }
 
-    /// Writes the place: one point of the ground, or two in the frames of the bodies.
+    /// Writes the position: one point of the ground, or two in the frames of the bodies.
     fn place(&mut self, joint: &Joint, from: &Vector, at: &Vector) {
         if joint.is_placed_in_ground() {
             let at = self.length(at);
@@ -298,7 +298,7 @@ impl Pen<'_> {
         joint.frame_of_directions()
     }
 
-    /// Writes an axis or normal, and the direction that chooses the basis of rows.
+    /// Writes an axis or normal, and the direction that selects the basis of rows.
     fn axis(&mut self, joint: &Joint, key: &str, axis: &Vector) {
         let [first, second] = joint.bodies;
         let frame = self.directions_of(joint);
@@ -333,7 +333,8 @@ impl Pen<'_> {
     }
 }
 
-/// A direction in the frame of a side, times the factor of the joint or divided by its length.
+/// Returns a direction in the frame of a side, times the factor of the joint or divided by its
+/// length.
 fn direction_in(drawing: &Drawing, joint: &Joint, side: Side, d: &Vector) -> [f64; 3] {
     let local = drawing.frame(side).turn.inverse().of(d);
     match &joint.style.factor {

@@ -1,4 +1,4 @@
-//! Vectors, rotations and similarities of space, in fractions.
+//! Vectors, rotations and similarities in space, in fractions.
 
 use std::ops::{Add, Neg, Sub};
 
@@ -8,13 +8,13 @@ use super::ratio::Ratio;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Vector(pub [Ratio; 3]);
 
-/// A vector of whole numbers.
+/// Returns a vector of integers.
 #[must_use]
 pub fn whole(v: [i64; 3]) -> Vector {
     Vector(v.map(Ratio::whole))
 }
 
-/// `v/divisor`
+/// Returns `v/divisor`.
 #[must_use]
 pub fn parts(v: [i64; 3], divisor: i64) -> Vector {
     Vector(v.map(|x| Ratio::new(x, divisor)))
@@ -27,7 +27,7 @@ impl Vector {
         whole([0; 3])
     }
 
-    /// The unit vector along coordinate `k`.
+    /// Returns the unit vector along coordinate `k`.
     #[must_use]
     pub fn unit(k: usize) -> Self {
         let mut v = [0; 3];
@@ -35,27 +35,27 @@ impl Vector {
         whole(v)
     }
 
-    /// Whether it is 0.
+    /// Whether the vector is 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.0.iter().all(Ratio::is_zero)
     }
 
-    /// The product with a number.
+    /// Returns the product with a number.
     #[must_use]
     pub fn times(&self, factor: &Ratio) -> Self {
         let [x, y, z] = &self.0;
         Self([x * factor, y * factor, z * factor])
     }
 
-    /// The scalar product.
+    /// Returns the scalar product.
     #[must_use]
     pub fn dot(&self, other: &Self) -> Ratio {
         let ([a, b, c], [x, y, z]) = (&self.0, &other.0);
         &(&(a * x) + &(b * y)) + &(c * z)
     }
 
-    /// The vector product.
+    /// Returns the vector product.
     #[must_use]
     pub fn cross(&self, other: &Self) -> Self {
         let ([a, b, c], [x, y, z]) = (&self.0, &other.0);
@@ -66,25 +66,26 @@ impl Vector {
         ])
     }
 
-    /// The square of its length.
+    /// Returns the square of its length.
     #[must_use]
     pub fn square(&self) -> Ratio {
         self.dot(self)
     }
 
-    /// Whether it is parallel to another one; 0 is parallel to all.
+    /// Whether the vector is parallel to another one; 0 is parallel to all.
     #[must_use]
     pub fn is_along(&self, other: &Self) -> bool {
         self.cross(other).is_zero()
     }
 
-    /// Its part across a vector that is not 0, times the square of the length of that vector.
+    /// Returns its component perpendicular to a vector that is not 0, times the square of the
+    /// length of that vector.
     #[must_use]
     pub fn across(&self, w: &Self) -> Self {
         &self.times(&w.square()) - &w.times(&self.dot(w))
     }
 
-    /// `self + factor·d`
+    /// Returns `self + factor·d`.
     #[must_use]
     pub fn along(&self, factor: &Ratio, d: &Self) -> Self {
         self + &d.times(factor)
@@ -128,10 +129,10 @@ pub struct Rotation {
 }
 
 impl Rotation {
-    /// The quaternion of whole numbers.
+    /// Returns the quaternion of these integers.
     ///
     /// # Panics
-    /// If all are 0.
+    /// Panics if all numbers are 0.
     #[must_use]
     pub fn whole([w, x, y, z]: [i64; 4]) -> Self {
         assert!([w, x, y, z] != [0; 4], "a quaternion of length 0");
@@ -141,13 +142,13 @@ impl Rotation {
         }
     }
 
-    /// No rotation.
+    /// Returns the identity.
     #[must_use]
     pub fn none() -> Self {
         Self::whole([1, 0, 0, 0])
     }
 
-    /// The rotation about a **unit** vector whose tangent of half the angle is given.
+    /// Returns the rotation about a **unit** vector, given by the tangent of half the angle.
     #[must_use]
     pub fn about(axis: &Vector, half_tangent: &Ratio) -> Self {
         Self {
@@ -156,7 +157,7 @@ impl Rotation {
         }
     }
 
-    /// The half turn about a vector of any length.
+    /// Returns the half turn about a vector of any length.
     #[must_use]
     pub fn half_turn(axis: &Vector) -> Self {
         Self {
@@ -165,14 +166,13 @@ impl Rotation {
         }
     }
 
-    /// `|q|²`
+    /// Returns `|q|²`.
     #[must_use]
     pub fn square(&self) -> Ratio {
         &(&self.w * &self.w) + &self.u.square()
     }
 
-    /// The rotated vector:
-    /// `R·v = ((w² − u·u)·v + 2·(u·v)·u + 2·w·(u × v))/|q|²`
+    /// Returns the rotated vector: `R·v = ((w² − u·u)·v + 2·(u·v)·u + 2·w·(u × v))/|q|²`
     #[must_use]
     pub fn of(&self, v: &Vector) -> Vector {
         let (w, u, two) = (&self.w, &self.u, Ratio::whole(2));
@@ -181,7 +181,7 @@ impl Rotation {
         sum.times(&(&Ratio::one() / &self.square()))
     }
 
-    /// The rotation back.
+    /// Returns the inverse rotation.
     #[must_use]
     pub fn inverse(&self) -> Self {
         Self {
@@ -190,7 +190,7 @@ impl Rotation {
         }
     }
 
-    /// First `other`, then `self`: the product of the quaternions.
+    /// Applies first `other`, then `self`: the product of the quaternions.
     #[must_use]
     pub fn after(&self, other: &Self) -> Self {
         let w = &(&self.w * &other.w) - &self.u.dot(&other.u);
@@ -201,13 +201,14 @@ impl Rotation {
         }
     }
 
-    /// The columns of R: the coordinate axes after the rotation.
+    /// Returns the columns of R: the coordinate axes after the rotation.
     #[must_use]
     pub fn axes(&self) -> [Vector; 3] {
         [0, 1, 2].map(|k| self.of(&Vector::unit(k)))
     }
 
-    /// Components of the unit quaternion as `f64`, each right to one unit in the last place.
+    /// Returns the components of the unit quaternion as `f64`, each accurate to one unit in the
+    /// last place.
     #[must_use]
     pub fn rounded(&self) -> [f64; 4] {
         let square = self.square();
@@ -216,7 +217,7 @@ impl Rotation {
     }
 }
 
-/// `p ↦ scale·R·p + shift`
+/// The transformation `p ↦ scale·R·p + shift`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Motion {
     /// The rotation.
@@ -228,7 +229,7 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// A rotation and a translation after it.
+    /// Creates a rotation followed by a translation.
     #[must_use]
     pub fn rigid(turn: Rotation, shift: Vector) -> Self {
         Self {
@@ -238,25 +239,25 @@ impl Motion {
         }
     }
 
-    /// The identity.
+    /// Returns the identity.
     #[must_use]
     pub fn none() -> Self {
         Self::rigid(Rotation::none(), Vector::zero())
     }
 
-    /// The image of a direction; its length is kept.
+    /// Returns the image of a direction; its length is unchanged.
     #[must_use]
     pub fn direction(&self, v: &Vector) -> Vector {
         self.turn.of(v)
     }
 
-    /// The image of a point.
+    /// Returns the image of a point.
     #[must_use]
     pub fn point(&self, p: &Vector) -> Vector {
         self.shift.along(&self.scale, &self.turn.of(p))
     }
 
-    /// First `other`, then `self`.
+    /// Applies first `other`, then `self`.
     #[must_use]
     pub fn after(&self, other: &Self) -> Self {
         Self {
@@ -266,7 +267,7 @@ impl Motion {
         }
     }
 
-    /// The motion back.
+    /// Returns the inverse motion.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let (turn, scale) = (self.turn.inverse(), &Ratio::one() / &self.scale);

@@ -1,9 +1,9 @@
-//! Answers for drawings with 3 … 16 significant digits, compared with exact arithmetic: cases of
-//! the campaign of [`crate::fuzz::exact::rounded`].
+//! Compares answers for drawings with 3 … 16 significant digits with exact arithmetic: cases of the
+//! campaign of [`crate::fuzz::exact::rounded`].
 //!
-//! How far the drawing is from a lower rank, and from other verdicts, is told by the singular
-//! values of its rows without dimensions: a change of the matrix by δ leaves the rank if δ < σ_r,
-//! and turns its null space by δ/σ_r at most (Wedin 1972, doi 10.1007/BF01932678).
+//! The singular values of the dimensionless rows give the distance of the drawing from a lower
+//! rank, and from other verdicts. A change of the matrix by δ does not change the rank if δ < σ_r,
+//! and rotates its null space by at most δ/σ_r (Wedin 1972, doi 10.1007/BF01932678).
 
 use linalg::{Matrix, small_svd};
 use model::space::norm;
@@ -20,11 +20,11 @@ use crate::fuzz::exact::precisions::DIGITS;
 use crate::fuzz::exact::truth::Truth;
 use crate::fuzz::exact::wrench::Wrench;
 
-/// A row changes by at most so many tolerances: of the two ends of an arm or a direction on each of
-/// two bodies.
+/// A row changes by at most this number of tolerances: of the two ends of a lever arm or a
+/// direction on each of two bodies.
 const CHANGES: f64 = 4.0;
 
-/// The results for one drawing, moved by up to its size, with each number of digits.
+/// Returns the results for one drawing, translated by up to its size, with each number of digits.
 #[must_use]
 pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
     // The third way of writing.
@@ -59,19 +59,19 @@ pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
     DIGITS.iter().enumerate().map(one).collect()
 }
 
-/// The right results for a drawing, with their distance from others.
+/// The correct results for a drawing, with their distance from other results.
 pub struct Meant {
     truth: Truth,
     right: Expected,
     /// Size of the drawing (m).
     size: f64,
-    /// The smallest singular value that is not zero, of rows of size one.
+    /// The smallest nonzero singular value, of rows of size one.
     sigma: f64,
     margins: Margins,
 }
 
 impl Meant {
-    /// The right results, from exact arithmetic.
+    /// Computes the correct results, from exact arithmetic.
     #[must_use]
     pub fn of(drawing: &Drawing) -> Self {
         let (truth, right) = drawing.right();
@@ -86,7 +86,7 @@ impl Meant {
         }
     }
 
-    /// What C is known to with this tolerance (m).
+    /// Returns the accuracy of C with this tolerance (m).
     fn known(&self, tolerance: f64) -> f64 {
         CHANGES * (self.truth.rows.len() as f64).sqrt() * tolerance / self.size
     }
@@ -99,7 +99,7 @@ impl Meant {
         }
     }
 
-    /// Compares a document with the right results; a tolerance (m) is stated or not.
+    /// Compares a document with the correct results; a tolerance (m) is stated or not.
     #[must_use]
     pub fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>) -> JudgedStart {
         let mut judged = JudgedStart::default();
@@ -126,8 +126,8 @@ impl Meant {
         judged
     }
 
-    /// What exact arithmetic says, where data within a tolerance may not say otherwise: they turn
-    /// the null space by this angle at most.
+    /// Returns the results of exact arithmetic that data within a tolerance cannot change: the data
+    /// rotate the null space by at most this angle.
     fn open(&self, turned: f64) -> Expected {
         let (truth, margins) = (&self.truth, &self.margins);
         let mut right = self.right.clone();
@@ -179,7 +179,8 @@ impl Meant {
     }
 }
 
-/// The largest distance of the place of a joint from that of the first one (m), at least 0.1.
+/// Returns the largest distance of the reference point of a joint from that of the first joint (m),
+/// at least 0.1.
 fn size(drawing: &Drawing) -> f64 {
     let mut places = drawing.joints.iter().filter_map(|j| j.kind.place());
     let Some(first) = places.next() else {
@@ -189,7 +190,7 @@ fn size(drawing: &Drawing) -> f64 {
     distances.fold(0.1, f64::max)
 }
 
-/// How far combinations of multipliers are from being unique.
+/// Distances of combinations of multipliers from being unique.
 struct Margins {
     sigma: f64,
     /// Orthonormal combinations of rows that span the range of C, as columns.
@@ -221,12 +222,13 @@ impl Margins {
         }
     }
 
-    /// The norm of a combination of multipliers, those of rows of size one, on the null space.
+    /// Returns the norm of a combination of multipliers, those of rows of size one, on the null
+    /// space.
     fn margin(&self, combination: &[(usize, f64)]) -> f64 {
         norm(&self.free(combination))
     }
 
-    /// The part of a combination of multipliers in the null space.
+    /// Returns the part of a combination of multipliers in the null space.
     fn free(&self, combination: &[(usize, f64)]) -> Vec<f64> {
         let mut left = vec![0.0; self.range.nrows()];
         for (i, x) in combination {
@@ -245,7 +247,7 @@ impl Margins {
     }
 }
 
-/// The wrench about a point, with moments divided by the size.
+/// Returns the wrench about a point, with moments divided by the size.
 fn about(wrench: &Wrench, point: &Vector, size: f64) -> [f64; 6] {
     let moment = &wrench.moment - &point.cross(&wrench.force);
     let rounded = |v: &Vector| v.0.each_ref().map(super::ratio::Ratio::rounded);
@@ -253,7 +255,8 @@ fn about(wrench: &Wrench, point: &Vector, size: f64) -> [f64; 6] {
     [x, y, z, a / size, b / size, c / size]
 }
 
-/// The factor by which the force of a wrench has size one, or its couple divided by the size.
+/// Returns the factor by which the force of a wrench has size one, or its couple divided by the
+/// size.
 fn factor(wrench: &Wrench, size: f64) -> f64 {
     match wrench.length() {
         0.0 => 1.0,

@@ -9,7 +9,8 @@ use pfaff::{ConfigurationAnalysis, Study};
 
 use super::reach::named;
 
-/// A consistent start has finite numbers, and its number of kept rows is its rank.
+/// Checks that a consistent start has finite numbers, and that its number of independent rows is
+/// its rank.
 pub(super) fn start(study: &Study) {
     let p = &study.prepared;
     assert!(
@@ -22,8 +23,8 @@ pub(super) fn start(study: &Study) {
     assert_eq!(p.decision.rank + p.decision.redundancy, layout.rows());
 }
 
-/// Verdicts must be consistent with the rank, the dependencies and each other; the document must be
-/// readable.
+/// Checks that verdicts are consistent with the rank, the dependencies and each other, and that the
+/// document is readable.
 pub(super) fn check(configuration: &ConfigurationAnalysis<'_>) {
     let analysis = &configuration.analysis;
     let decision = &analysis.decision;
@@ -65,7 +66,8 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
             evidence.tolerance
         );
     }
-    // Within a stated tolerance some may be open: a warning says so, and they are not listed.
+    // Within a stated tolerance some dependencies may be undecided: a warning states this, and they
+    // are not listed.
     let listed = analysis.dependencies.len();
     let is_open = analysis.warnings.iter().any(|w| w.contains("not listed"));
     assert!(
@@ -103,7 +105,7 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
                     row.row + 1
                 ),
                 Verdict::Undecided { reason } => assert!(!reason.is_empty()),
-                other => panic!("a verdict that nobody knows: {other:?}"),
+                other => panic!("an unknown verdict: {other:?}"),
             }
         }
         let free = r
@@ -136,7 +138,7 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
     }
 }
 
-/// The document of `analyze --json` is JSON.
+/// Checks that the document of `analyze --json` is JSON.
 fn document(configuration: &ConfigurationAnalysis<'_>) {
     let generic = configuration.generic();
     let (name, analysis) = (configuration.scene.name(), &configuration.analysis);

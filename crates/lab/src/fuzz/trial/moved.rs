@@ -13,22 +13,23 @@ use pfaff::solvability::ChosenValues;
 use super::reach::{ROWS, Reach, STEPS, named};
 
 /// Residuals of projected rows are at most this fraction of the terms of their row of Φ or C·v − b.
-/// Near a singular configuration coordinates are accurate only to √ε = 1.5e-8, and the residuals of
-/// the kept rows are multiplied by coefficients of up to 10 in the others (larger coefficients
-/// cause an exchange of rows): 1.5e-7. A larger residual means another motion, not a loss of
-/// accuracy. A run itself allows dropped rows 1e-11 of the terms that they depend on, multiplied by
-/// coefficients that are not computed here: this check is independent of it.
+/// Near a singular configuration coordinates are accurate only to √ε = 1.5e-8. In the redundant
+/// rows the residuals of the independent rows are multiplied by coefficients of up to 10 (larger
+/// coefficients cause an exchange of rows): 1.5e-7. A larger residual means another motion, not a
+/// loss of accuracy. A run itself allows redundant rows a residual of 1e-11 of the terms on which
+/// they depend, multiplied by coefficients that are not computed here: this check is independent of
+/// it.
 const RESIDUAL: f64 = 1e-6;
 
-/// Positions are as accurate as the coordinates of the body that is farthest away, in roundings of
-/// the size of the mechanism: projections carry its rounding to its neighbours.
+/// Positions are as accurate as the coordinates of the farthest body, in roundings of the size of
+/// the mechanism: projections transfer its rounding error to its neighbours.
 const FAR_ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
 /// Rates of a body at rest, in sizes of the mechanism per second.
 const REST: f64 = 1e-14;
 
-/// Runs the motion within the limits of a trial; returns how far it came and the number of rows.
-/// Tables are written as `simulate` writes them, and must be readable.
+/// Runs the motion within the limits of a trial; returns the stage that it reached and the number
+/// of rows. Tables are written in the format of `simulate`, and must be readable.
 pub(super) fn check(study: &Study) -> (Reach, usize) {
     let plan = match study.plan() {
         Ok(plan) => plan,
@@ -128,7 +129,8 @@ struct Rows<'m> {
     is_projected: bool,
     size: f64,
     last: f64,
-    /// If dropped rows may miss: the largest residual of each row beyond the limits of this check.
+    /// If redundant rows may be violated: the largest residual of each row beyond the limits of
+    /// this check.
     missed: Option<Vec<f64>>,
 }
 
@@ -155,7 +157,7 @@ impl Rows<'_> {
             ..
         } = self;
         let layout = mechanism.layout();
-        // At a break time rows show the values just before it.
+        // At a break time rows contain the values just before it.
         let t_before = if t > 0.0 && layout.break_times.contains(&t) {
             t.next_down()
         } else {
@@ -174,7 +176,7 @@ impl Rows<'_> {
                     if phi > limit {
                         missed[i] = missed[i].max(phi);
                     }
-                    // Nor do the rates of such rows vanish.
+                    // The rates of such rows do not vanish either.
                     continue;
                 }
                 assert!(
@@ -208,7 +210,8 @@ impl Rows<'_> {
     }
 }
 
-/// What rows of output miss is among the results, and within its bound.
+/// Checks that the results contain the violations of output rows, and that these are within their
+/// bounds.
 fn reported(missed: &[f64], misfits: &[Misfit]) {
     for (row, &missed) in missed
         .iter()
@@ -243,7 +246,7 @@ fn readable(table: Vec<u8>, rows: usize, name: &str) {
     for row in reader.records() {
         let row = row.unwrap_or_else(|e| panic!("{name}: {e}"));
         assert!(
-            // What does not exist is an empty cell.
+            // A missing value is an empty cell.
             row.iter().all(|x| x.is_empty() || x.parse::<f64>().is_ok()),
             "{name}: {row:?}"
         );

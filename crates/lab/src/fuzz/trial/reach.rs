@@ -4,7 +4,7 @@ use std::fmt;
 
 use pfaff::StudyError;
 
-/// Limits of a run: last time (s), number of steps and of rows.
+/// Limits of a run: end time (s), number of steps and of rows.
 pub(crate) const T_END: f64 = 0.25;
 pub(crate) const STEPS: usize = 60;
 pub(crate) const ROWS: usize = 60;
@@ -12,11 +12,11 @@ pub(crate) const ROWS: usize = 60;
 /// The last stage that a text reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Reach {
-    /// It is not a valid scene.
+    /// The text is not a valid scene.
     Refused,
-    /// It is a scene without a consistent start.
+    /// The text is a scene without a consistent start.
     NoStart,
-    /// Its reactions were judged, but no motion can begin there.
+    /// Its reactions were analysed, but no motion can begin there.
     JudgedStart,
     /// A motion began, and stopped with an error message.
     Stopped,
@@ -27,7 +27,7 @@ pub enum Reach {
 }
 
 impl Reach {
-    /// All of them, in ascending order.
+    /// All stages, in ascending order.
     pub const ALL: [Self; 6] = [
         Self::Refused,
         Self::NoStart,
@@ -37,7 +37,7 @@ impl Reach {
         Self::Moved,
     ];
 
-    /// Its letter in the answers of a process.
+    /// Returns its letter in the answers of a process.
     #[must_use]
     pub fn letter(self) -> char {
         match self {

@@ -1,11 +1,11 @@
-//! The same mechanism in other units, at another place, turned, or in another order.
+//! The same mechanism in other units, translated, rotated, or in another order.
 
 use model::BodyRef;
 
 use super::{Sketch, Tie, Vector};
 
 impl Sketch {
-    /// All lengths multiplied by a factor, as in a change of units: from m to mm it is 1000.
+    /// Multiplies all lengths by a factor, as in a change of units: from m to mm it is 1000.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let mut sketch = self.mapped(|p| p.map(|x| factor * x), |v| v);
@@ -20,13 +20,13 @@ impl Sketch {
         sketch
     }
 
-    /// Moved as a whole, including the ground.
+    /// Translates the whole mechanism, including the ground.
     #[must_use]
     pub fn moved(&self, by: Vector) -> Self {
         self.mapped(|p| [p[0] + by[0], p[1] + by[1]], |v| v)
     }
 
-    /// Turned about the origin as a whole, including the ground.
+    /// Rotates the whole mechanism about the origin, including the ground.
     #[must_use]
     pub fn turned(&self, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
@@ -38,10 +38,10 @@ impl Sketch {
         sketch
     }
 
-    /// Bodies in another order: body `order[k]` becomes body k.
+    /// Puts bodies in another order: body `order[k]` becomes body k.
     ///
     /// # Panics
-    /// If `order` is not a permutation of all bodies.
+    /// Panics if `order` is not a permutation of all bodies.
     #[must_use]
     pub fn with_bodies(&self, order: &[usize]) -> Self {
         let place = |k: usize| order.iter().position(|&o| o == k).expect("an order");
@@ -55,7 +55,7 @@ impl Sketch {
         sketch
     }
 
-    /// Links in another order.
+    /// Puts links in another order.
     #[must_use]
     pub fn with_links(&self, order: &[usize]) -> Self {
         Self {
@@ -64,7 +64,7 @@ impl Sketch {
         }
     }
 
-    /// Every point and every direction transformed.
+    /// Transforms every point and every direction.
     fn mapped(&self, point: impl Fn(Vector) -> Vector, vector: impl Fn(Vector) -> Vector) -> Self {
         let mut sketch = self.clone();
         for body in &mut sketch.bodies {

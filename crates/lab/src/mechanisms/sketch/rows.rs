@@ -1,4 +1,4 @@
-//! The constraint matrix of a sketch in exact arithmetic, from the velocities of coinciding points:
+//! The constraint matrix of a sketch in exact arithmetic, from the velocities of coincident points:
 //! without coordinates of bodies, rotations, or derivatives of Φ. Rows may differ from those of the
 //! `model` by factors.
 
@@ -13,14 +13,14 @@ type Row = Vec<Dyadic>;
 /// Rows of one joint or drive.
 #[derive(Clone, Debug)]
 pub struct ExactRows {
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
-    /// Its rows of C.
+    /// Rows of C that belong to it.
     pub rows: Vec<Row>,
 }
 
 impl Sketch {
-    /// The rows of every link, in the order of the links.
+    /// Returns the rows of every link, in the order of the links.
     #[must_use]
     pub fn exact_rows(&self) -> Vec<ExactRows> {
         let of = |link: &Link| ExactRows {

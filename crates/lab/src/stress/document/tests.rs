@@ -1,4 +1,4 @@
-//! The contents of table, document and page.
+//! Tests the contents of table, document and page.
 
 use super::*;
 use crate::stress::{StressTable, extremes, stress_page};
@@ -54,7 +54,7 @@ fn the_page_shows_what_does_not_pass_first_and_the_worst_of_it_before_the_rest()
     };
     assert!(place("right 1, refused by name 1, silently wrong 1") < place("What does not pass"));
     assert!(place("silently wrong</td>") < place("though there is an answer</td>"));
-    assert!(place("What does not pass") < place("masses: error over mass ratio"));
+    assert!(place("What does not pass") < place("masses: error against mass ratio"));
     assert!(page.contains("&lt;odd&gt; text") && !page.contains("<odd>"));
     assert!(page.contains("wrong 5.0e-1") && page.contains(">2.0e-14</span>"));
 }
@@ -75,12 +75,13 @@ fn a_table_has_a_line_for_each_case() {
     );
 }
 
-/// Points outside the axis are drawn at its edge; refusals have no points.
+/// Points outside the axis are drawn at its edge; error messages have no points.
 #[test]
 fn a_figure_has_a_point_for_each_worst_answer() {
     let mut family = document().families.remove(0);
     let figure = extremes(std::slice::from_ref(&family));
-    // One in the legend, one for both answers at 1e-6, of which the worse is shown.
+    // There is one marker in the legend, and one for both answers at 1e-6, of which the worse is
+    // shown.
     assert_eq!(figure.matches("<polygon").count(), 2);
     family.rows.clear();
     assert_eq!(extremes(&[family]), "");

@@ -1,6 +1,6 @@
-//! Accelerations and reactions for masses and lengths of very different sizes, compared with the
-//! exact solution of the same equations: those with the C, M, Q and Γ that the solver was given.
-//! The rounding errors in these numbers themselves are not tested here.
+//! Compares accelerations and reactions for masses and lengths of very different sizes with the
+//! exact solution of the same equations: those with the C, M, Q and Γ that the solver received. The
+//! rounding errors in these numbers themselves are not tested here.
 
 mod scenes;
 mod score;
@@ -20,16 +20,16 @@ use solvability::ChosenValues;
 /// Masses from 1e-24 to 1e24 and lengths from 1e-12 to 1e12.
 pub(super) const FAMILY: Family = Family {
     name: "accelerations",
-    about: "masses and lengths far apart, in chains, closed loops and the robot: accelerations and reactions beside the exact solution of \
+    about: "masses and lengths far apart, in chains, closed loops and the robot: accelerations and reactions compared with the exact solution of \
             the same equations",
     cases,
 };
 
-/// Error bound of accelerations on kept rows, relative to each of them, or to a thousandth of the
-/// largest of its body and kind.
+/// Error bound of accelerations on independent rows, relative to each of them, or to a thousandth
+/// of the largest of its body and kind.
 const ACCELERATION: f64 = 1e-13;
 
-/// Error bound of multipliers on kept rows, relative to the largest of their joint.
+/// Error bound of multipliers on independent rows, relative to the largest of their joint.
 const REACTION: f64 = 1e-12;
 
 const EXACT: &str = "exact solution of the same equations; bound of the issue";
@@ -38,7 +38,7 @@ fn cases() -> Vec<Case> {
     scenes().into_iter().flat_map(of_scene).collect()
 }
 
-/// The cases for both questions, with a common solution.
+/// Returns the cases for both questions, with a common solution.
 fn of_scene(scene: Scene) -> Vec<Case> {
     let description = Arc::new(scene.description);
     let found = Arc::new(OnceLock::new());
@@ -49,7 +49,7 @@ fn of_scene(scene: Scene) -> Vec<Case> {
             Err(refusal) => refusal.clone(),
         };
         let name = scene.name.clone();
-        // A start at the limit of f64 may be refused.
+        // A start at the limit of f64 may be rejected.
         let right = match scene.limit {
             Some(words) => Expected::AnswerOrRefusal {
                 bound: ACCELERATION,
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
     use crate::stress::judge;
 
-    /// Only the most extreme case of each kind; the whole family is run by `lab stress`.
+    /// The test runs only the most extreme case of each kind; `lab stress` runs the whole family.
     #[test]
     fn extreme_masses_and_lengths_are_solved_or_refused() {
         let is_outermost = |case: &Case| {
@@ -149,7 +149,7 @@ mod tests {
             judge(&right, &found),
             crate::stress::Judgement::SilentlyWrong
         );
-        // Ten grams in a ton more than in the reference.
+        // The mass differs from the reference by ten grams in a ton.
         let scene = scenes().remove(0);
         let mut heavier = scene.description.clone();
         heavier.bodies[1].mass *= 1.0 + 1e-11;

@@ -1,5 +1,5 @@
-//! NaN and infinity in every place of a scene that has a number; and numbers at the limits of the
-//! format, which may be refused but must not lead to NaN.
+//! NaN and infinity replace every number of a scene; numbers at the limits of the format may be
+//! rejected but must not cause NaN.
 
 use std::ops::ControlFlow;
 
@@ -153,7 +153,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Numbers of a description that was not read from a scene.
+/// Returns cases for the numbers of a description that was not read from a scene.
 fn fields() -> Vec<Case> {
     type Set = fn(&mut Description, f64);
     let fields: [(&str, Set); 6] = [
@@ -207,14 +207,14 @@ fn fields() -> Vec<Case> {
     cases
 }
 
-/// The text with another number at a place.
+/// Returns the text with another number at a place.
 fn with(place: &Place, number: &str) -> String {
     let mut text = SCENE.to_owned();
     text.replace_range(place.span.clone(), number);
     text
 }
 
-/// All numbers of a text, except those in quotes.
+/// Returns all numbers of a text, except those in quotes.
 fn places(text: &str) -> Vec<Place> {
     let (mut places, mut from, mut table) = (Vec::new(), 0, String::new());
     for line in text.split_inclusive('\n') {
@@ -244,7 +244,7 @@ fn places(text: &str) -> Vec<Place> {
     places
 }
 
-/// The first row of the motion.
+/// Returns the first row of the motion.
 fn first_row(text: &str) -> Result<Outcome, Outcome> {
     let study = study(text)?;
     study.plan().map_err(|e| refused(&e))?;
@@ -278,7 +278,7 @@ mod tests {
         super::super::assert_passes(FAMILY);
     }
 
-    /// The original scene is not refused.
+    /// The original scene is not rejected.
     #[test]
     fn an_answer_where_a_refusal_is_right_is_silently_wrong() {
         let found = first_row(SCENE).expect("the scene moves");

@@ -1,5 +1,5 @@
-//! More drives than freedoms. If they agree there is a motion; if they do not there is none, and
-//! the error names both.
+//! More drives than freedoms. If the drives are consistent there is a motion. Otherwise there is no
+//! motion, and the error names both drives.
 
 use dynamics::MotionOptions;
 use joints::{Direction, Velocity};
@@ -17,13 +17,13 @@ pub(super) const FAMILY: Family = Family {
 };
 
 /// The possible texts of a run if prescribed velocities begin to differ: at the end of a step, or
-/// when the kept rows violate the others.
+/// when the independent rows violate the others.
 const PARTED: &[&str] = &["at t = ", "dropped row"];
 
 /// The text of a run if the laws of drives begin to differ.
 const DRIVES_PARTED: &[&str] = &["at t = ", "`one`", "`other`", "contradict each other"];
 
-/// The error of a dropped row that runs allow, relative to the largest row, as documented in
+/// The error of a redundant row that runs allow, relative to the largest row, as documented in
 /// `dynamics`; rows are at most of size 3 here.
 const MONITORED: f64 = 3e-11;
 
@@ -86,8 +86,8 @@ fn cases() -> Vec<Case> {
 /// Laws that differ by at most some hundred rounding errors of an angle count as equal.
 const SAME: f64 = 1e-13;
 
-/// A refusal if the difference of positions exceeds what is accepted; a refusal or a motion if it
-/// is close to that; a motion if they are equal.
+/// Expects an error if the difference of positions exceeds the accepted value, an error or a motion
+/// if it is close to it, and a motion if the positions are equal.
 fn differing(size: f64, parts: &[&str]) -> Expected {
     let parts = parts.iter().map(|&part| part.to_owned()).collect();
     match size {

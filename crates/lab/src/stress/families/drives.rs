@@ -1,6 +1,6 @@
-//! Drives and torques that jump: a jump of the position is refused, a jump of the rate is an
-//! impulse, a jump of the force is a boundary of steps. Also two drives that first agree and later
-//! contradict each other.
+//! Drives and torques that jump: a jump of the position is rejected, a jump of the rate is an
+//! impulse, and a jump of the force is a boundary of steps. Two drives that are first consistent
+//! and later contradict each other are also tested.
 
 use dynamics::{MotionOptions, Summary};
 
@@ -96,7 +96,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// A wheel on a pin through its centre of mass, driven.
+/// Returns a driven wheel on a pin through its centre of mass.
 fn driven(motion: &str, omega: f64) -> String {
     format!(
         r#"
@@ -108,7 +108,7 @@ drive = [{{ name = "motor", joint = "pin", type = "angle", motion = {motion} }}]
     )
 }
 
-/// The angle is 2·t until t = 1 and 3 − t after that.
+/// The angle is 2·t up to t = 1 and 3 − t after that.
 fn after_the_kink(row: &Row, summary: &Summary) -> f64 {
     let lost = format!("{:.6e} J", 0.5 * INERTIA * (1.0 - 4.0));
     let is_reported = summary.events.iter().any(|e| e.text.contains(&lost));
@@ -118,8 +118,8 @@ fn after_the_kink(row: &Row, summary: &Summary) -> f64 {
     worst([row.q[2] - (3.0 - row.t), row.v[2] + 1.0])
 }
 
-/// The same wheel without drive, with a torque of 1 N·m that changes to −2 N·m at a time that is
-/// not a round number.
+/// Returns the same wheel without drive, with a torque of 1 N·m that changes to −2 N·m at a time
+/// that is not a round number.
 fn pushed() -> String {
     format!(
         r#"
@@ -149,7 +149,7 @@ fn after_the_push(row: &Row, _: &Summary) -> f64 {
     worst([row.q[2] - right[0], row.v[2] - right[1]])
 }
 
-/// The same wheel with a torque that rises to 1 N·m at that time and falls to zero at 3 s.
+/// Returns the same wheel with a torque that rises to 1 N·m at that time and falls to zero at 3 s.
 fn swung() -> String {
     let jump = format!("[0.0, {JUMP}, {JUMP}, 3.0], values = [1.0, 1.0, -2.0, -2.0]");
     let kink = format!("[0.0, {JUMP}, 3.0], values = [0.0, 1.0, 0.0]");
@@ -168,10 +168,10 @@ fn after_the_swing(row: &Row, _: &Summary) -> f64 {
     worst([row.q[2] - right[0] / INERTIA, row.v[2] - right[1] / INERTIA])
 }
 
-/// Two parallel cranks, each with a motor of 0.4 rad/s; the rate of the second one grows from t = 1
-/// s on.
+/// Returns two parallel cranks, each with a motor of 0.4 rad/s; the rate of the second one grows
+/// from t = 1 s on.
 fn disagreeing(by: f64) -> String {
-    // A spline through (t − 1)²₊ times half of `by` would only approximate it: instead the law
+    // A spline through (t − 1)²₊ times half of `by` would only approximate it. Instead the law
     // consists of short lines whose rates jump, so that the motors differ by 0.05·by rad/s from the
     // first of them on.
     let pieces: Vec<f64> = (0..=10).map(|k| 1.0 + 0.1 * f64::from(k)).collect();

@@ -1,5 +1,5 @@
-//! Mechanisms with as many or more drives than freedoms: nothing is integrated, and reactions are
-//! those of inverse dynamics.
+//! Mechanisms with at least as many drives as freedoms: no equation is integrated, and reactions
+//! are those of inverse dynamics.
 
 use std::ops::ControlFlow;
 
@@ -65,7 +65,7 @@ motion = {{ type = "harmonic", amplitude = {SWING}, omega = {RATE:?}, phase = 0.
     text
 }
 
-/// The errors of angles, rates and the sum of the motors' torques, for all rows.
+/// Returns the errors of angles, rates and the sum of the torques of the motors, for all rows.
 fn torque(prepared: &PreparedMechanism, options: &MotionOptions) -> Outcome {
     let mut errors = Vec::new();
     let result = simulate(prepared, options, |row| {

@@ -1,6 +1,6 @@
-//! Extremes of mechanisms in space: fast spin, many turns, needles, half turns, loops that become
-//! flat, disks that nearly lie, and masses and lengths of many powers of ten. Each motion has a
-//! closed form.
+//! Extremes of mechanisms in space: fast spin, many revolutions, needles, half turns, loops that
+//! become singular, and disks that nearly lie flat. Masses and lengths cover many powers of ten.
+//! Each motion has a closed form.
 
 use std::f64::consts::{PI, TAU};
 use std::time::Duration;
@@ -26,7 +26,7 @@ const GRAVITY: f64 = 9.81;
 /// Tolerance of the runs.
 const RTOL: f64 = 1e-11;
 
-/// A million turns are fifteen million evaluations.
+/// A million revolutions need fifteen million evaluations.
 const TIME_LIMIT: Duration = Duration::from_secs(600);
 
 type Vector = [f64; 3];
@@ -44,7 +44,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Options of a run up to a time, with lengths of this size.
+/// Returns options of a run up to a time, with lengths of this size.
 fn until(t_end: f64, size: f64) -> MotionOptions {
     MotionOptions {
         rtol: RTOL,
@@ -54,32 +54,33 @@ fn until(t_end: f64, size: f64) -> MotionOptions {
     }
 }
 
-/// Places of the mass centre of the first body, relative to a length.
+/// Returns the deviation of the mass centre of the first body from a position, relative to a
+/// length.
 fn off_place(row: &Row, place: Vector, size: f64) -> f64 {
     worst((0..3).map(|k| (row.q[k] - place[k]) / size))
 }
 
-// Spin.
+// Tests fast spin.
 
 /// Axis of the rotor, and the arm from its hinge to its mass centre (m).
 const AXIS: Vector = [0.48, 0.6, 0.64];
 const ARM: Vector = [0.08, -0.064, 0.0];
 
-/// The arm after a rotation about the axis.
+/// Returns the lever arm after a rotation about the axis.
 fn turned(angle: f64) -> Vector {
     let (sin, cos) = angle.sin_cos();
     let across = cross(AXIS, ARM);
     std::array::from_fn(|k| cos * ARM[k] + sin * across[k])
 }
 
-/// A rotor about a skew axis: by its own speed, and by a drive for many turns within one step of
-/// output.
+/// Adds a rotor about an oblique axis: with its own speed, and with a drive for many revolutions
+/// within one output step.
 fn rotors(cases: &mut Vec<Case>) {
     let size = 0.1;
     let (omega, turns) = (1e4, 100.0);
     let t_end = TAU * turns / omega;
     for options in combinations(&until(t_end, size)) {
-        // As in the plane: N²/2 tolerances in N = 50 steps a turn.
+        // As in the plane, the bound is N²/2 tolerances in N = 50 steps per revolution.
         let right = Expected::AnswerOrRefusal {
             bound: RTOL * 0.05 * (50.0 * turns).powi(2),
             source: "uniform rotation about a skew axis; errors of the speed in some 50 steps a turn, added up in the phase",
@@ -117,7 +118,7 @@ fn rotors(cases: &mut Vec<Case>) {
             rotor("", &drive),
             MotionOptions {
                 method: Method::Dop853,
-                // The state is a function of time: steps have only to follow the turns.
+                // The state is a function of time: steps only have to follow the revolutions.
                 rtol: 1e-2,
                 atol: 1e-2 * size,
                 max_steps: 20_000_000,
@@ -141,7 +142,8 @@ joint = [{{ name = "pin", type = "revolute", bodies = ["ground", "rotor"], at = 
     )
 }
 
-/// Tops in steady precession: `A·Ω²·cos θ − C·ω₃·Ω + m·g·l = 0` for moments A, C about the point.
+/// Adds tops in steady precession: `A·Ω²·cos θ − C·ω₃·Ω + m·g·l = 0` for moments A, C about the
+/// point.
 fn tops(cases: &mut Vec<Case>) {
     let (mass, arm, [across, along]) = (1.5, 0.1, [0.004, 0.002]);
     let tilt = 0.7_f64;
@@ -183,11 +185,12 @@ joint = [{{ name = "tip", type = "spherical", bodies = ["ground", "top"], at = [
     }
 }
 
-// Swings.
+// Tests pendulum motions.
 
-/// Closed form of a swing. With masses of many powers of ten implicit methods take the heavy
-/// coordinates as independent ones, also where they move ten times less than others: errors grow by
-/// the square of that, and at every change of coordinates.
+/// Returns the expectation from the closed form of a pendulum motion. With masses of many powers of
+/// ten implicit methods select the heavy coordinates as independent ones, also if these move ten
+/// times less than others. Errors grow by the square of this factor, and at every change of
+/// coordinates.
 fn swings(options: &MotionOptions) -> Expected {
     let bound = if options.method == Method::Radau5 {
         1e-6
@@ -197,22 +200,22 @@ fn swings(options: &MotionOptions) -> Expected {
     Expected::answer(bound, "a compound pendulum by Jacobi's elliptic functions")
 }
 
-/// A uniform rod of 1.5 m that falls from the horizontal about its end swings as a point mass on
-/// 1 m. Place of its mass centre at t, in the vertical plane through `along`.
+/// A uniform rod of 1.5 m that falls from the horizontal about its end swings like a point mass on
+/// 1 m. Returns the position of its mass centre at t, in the vertical plane through `along`.
 fn rod(t: f64, along: [f64; 2]) -> Vector {
     let [angle, _] = swing(t);
     let (sin, cos) = angle.sin_cos();
     [0.75 * cos * along[0], 0.75 * cos * along[1], -0.75 * sin]
 }
 
-/// Moment of the rod across itself (kg·m²), with a mass of 1 kg.
+/// Transverse moment of inertia of the rod (kg·m²), with a mass of 1 kg.
 const ACROSS: f64 = 0.1875;
 
-/// The horizontal direction in which the rod lies at the start.
+/// The horizontal direction of the rod at the start.
 const ALONG: [f64; 2] = [-0.8, 0.6];
 
-/// The rod on a joint, its axis in its own frame along x, with a moment about itself and an
-/// orientation of its frame.
+/// Returns the rod on a joint, with its axis along x in its own frame, an axial moment of inertia
+/// and an orientation of its frame.
 fn swinging(joint: &str, about_itself: f64) -> String {
     let angle = ALONG[1].atan2(ALONG[0]);
     format!(
@@ -229,17 +232,17 @@ joint = [{{ name = "end", bodies = ["ground", "rod"], at = [0, 0, 0], {joint} }}
 const BALL: &str = "type = \"spherical\"";
 const HINGE: &str = "type = \"revolute\", axis = [0.6, 0.8, 0]";
 
-/// Rods that have hardly a moment of inertia about themselves, on a ball joint and on a hinge.
+/// Adds rods with a very small axial moment of inertia, on a ball joint and on a hinge.
 fn needles(cases: &mut Vec<Case>) {
     let t_end = 3.0;
     for (joint, words) in [(BALL, "ball"), (HINGE, "hinge")] {
         for about_itself in [1e-3, 1e-6, 1e-9, 1e-12, 1e-18, 0.0] {
             for options in combinations(&until(t_end, 1.0)) {
                 let right = if about_itself == 0.0 && joint == BALL {
-                    // Nothing says how fast it spins about itself.
+                    // The spin about its own axis is not determined.
                     Expected::refusal(&["step size"])
                 } else if about_itself < 1e-15 && joint == BALL {
-                    // Rounding of the torque about the axis turns it as it likes.
+                    // The rounding error of the torque about the axis causes an arbitrary rotation.
                     Expected::AnswerOrRefusal {
                         bound: 1e-6,
                         source: "a compound pendulum by Jacobi's elliptic functions",
@@ -262,8 +265,8 @@ fn needles(cases: &mut Vec<Case>) {
     }
 }
 
-/// Frames that are turned by half a turn, where a quaternion has no scalar part, and bodies that
-/// pass such an orientation.
+/// Adds frames that are rotated by half a turn, for which a quaternion has no scalar part, and
+/// bodies that pass such an orientation.
 fn half_turns(cases: &mut Vec<Case>) {
     let third = 1.0 / 3.0_f64.sqrt();
     let axes = [
@@ -302,23 +305,24 @@ joint = [{{ name = "end", type = "spherical", bodies = ["ground", "ball"], at = 
     }
 }
 
-// Loops.
+// Tests closed loops.
 
-/// Parallelograms of revolutes, 3 redundant rows each, that start at an angle before their flat
-/// pose: without weight they turn uniformly, through all flat poses.
+/// Adds parallelograms of revolutes, with 3 redundant rows each, that start at an angle before
+/// their singular configuration: without weight they rotate uniformly, through all singular
+/// configurations.
 fn loops(cases: &mut Vec<Case>) {
     let t_end = 7.0;
     for before in [1.0, 1e-2, 1e-4, 1e-6, 1e-8] {
         for n in [1, 2, 5] {
             for options in combinations(&until(t_end, 1.0)) {
                 if n == 5 && options.method == Method::Radau5 {
-                    // Solved sparsely, and refused by name.
+                    // The case is solved with sparse matrices, and rejected with an error.
                     continue;
                 }
                 let start = -before;
                 let right = if before < 1e-7 {
-                    // Velocities would be known to 3e-8 of their size.
-                    Expected::refusal(&["depend on each other but for"])
+                    // Velocities would be accurate only to a relative 3e-8.
+                    Expected::refusal(&["are dependent to within"])
                 } else {
                     Expected::AnswerOrRefusal {
                         bound: 1e-6,
@@ -342,7 +346,8 @@ fn loops(cases: &mut Vec<Case>) {
     }
 }
 
-/// n parallelograms in a row: n + 1 cranks of 1 m at this angle on the x axis, and n couplers.
+/// Returns n parallelograms in a row: n + 1 cranks of 1 m at this angle on the x-axis, and n
+/// couplers.
 fn parallelograms(n: usize, angle: f64) -> String {
     let (sin, cos) = angle.sin_cos();
     let mut text = "scene = { name = \"row\", space = \"spatial\" }\n".to_owned();
@@ -374,10 +379,10 @@ fn parallelograms(n: usize, angle: f64) -> String {
     text
 }
 
-// Disks.
+// Tests rolling disks.
 
-/// Disks in steady motion that nearly lie on the plane: the axis is tilted by an angle, and the
-/// point of contact runs round ever faster, as under a coin that comes to rest.
+/// Adds disks in steady motion that nearly lie on the plane. The axis is tilted by an angle, and
+/// the point of contact moves round increasingly fast, as under a coin that comes to rest.
 fn disks(cases: &mut Vec<Case>) {
     for tilt in [0.3, 1e-1, 1e-2, 2e-3, 1e-4] {
         let [across, _] = RollingDisk::MOMENTS;
@@ -387,10 +392,10 @@ fn disks(cases: &mut Vec<Case>) {
         let t_end = 20.0 / precession;
         let source = "steady rolling: (C + m·r²)·ω₃ = A·Ω·cos θ − m·g·r·cos θ/(Ω·sin θ); the mass centre runs on a circle";
         let right = if tilt < 1e-3 {
-            // The contact row is no coordinate there to working precision.
+            // To working precision the contact row is not a coordinate there.
             Expected::refusal(&["edge", "flat"])
         } else if tilt < 5e-3 {
-            // Its height is a sine, taken from a cosine that is nearly 1.
+            // Its height is a sine, computed from a cosine that is nearly 1.
             let parts = vec!["edge".into(), "contact".into()];
             Expected::AnswerOrRefusal {
                 bound: 1e-6,
@@ -448,14 +453,14 @@ fn disks(cases: &mut Vec<Case>) {
     ));
 }
 
-// Powers of ten.
+// Tests powers of ten.
 
-/// A rod with a ball on it that turns freely about its own mass centre: a compound pendulum,
-/// whatever the masses are.
+/// Adds a rod with a ball on it that rotates freely about its own mass centre: a compound pendulum
+/// for any masses.
 fn masses(cases: &mut Vec<Case>) {
     for power in [-12, -9, -6, -3, 0, 3, 6, 9, 12] {
         let mass = f64::powi(10.0, power);
-        // Moments about the end of the rod, and of the weight, with the ball 0.5 m from it.
+        // The moments are about the end of the rod, and of the weight, with the ball 0.5 m from it.
         let inertia = 0.75 + mass * 0.25;
         let moment = 0.75 + mass * 0.5;
         let rate = (moment / inertia).sqrt();
@@ -481,7 +486,7 @@ fn masses(cases: &mut Vec<Case>) {
     }
 }
 
-/// Bricard's linkage with rods of many powers of ten: times grow with the square root.
+/// Adds Bricard's linkage with rods of many powers of ten: times grow with the square root.
 fn lengths(cases: &mut Vec<Case>) {
     for power in [-6, -3, 0, 3, 6] {
         let size = f64::powi(10.0, power);
@@ -516,14 +521,14 @@ mod tests {
     use crate::stress::families::assert_passes_where;
     use crate::stress::{Judgement, judge};
 
-    /// The closed form of the rod falls as the energy says.
+    /// The closed form of the rod satisfies the energy equation.
     #[test]
     fn the_rod_falls_by_its_energy() {
         let (t, h) = (0.4, 1e-5);
         let [before, after] = [t - h, t + h].map(|t| rod(t, ALONG));
         let speed = worst((0..3).map(|k| (after[k] - before[k]) / (2.0 * h)));
         let fallen = -rod(t, ALONG)[2];
-        // ½·J·ω² = m·g·h with J = 0.75 about the end.
+        // The equation is ½·J·ω² = m·g·h with J = 0.75 about the end.
         let [_, rate] = swing(t);
         assert!((0.375 * rate * rate - GRAVITY * fallen).abs() < 1e-9);
         assert!(speed <= 0.75 * rate * (1.0 + 1e-9));
@@ -532,7 +537,7 @@ mod tests {
 
     #[test]
     fn every_motion_in_space_is_right_or_refused() {
-        // A million turns take minutes.
+        // A million revolutions take minutes.
         let is_short = |name: &str| !name.contains("1e6 turns");
         assert_passes_where(FAMILY, |case| {
             case.method == "dop853" && is_short(&case.name)

@@ -1,5 +1,5 @@
-//! The same mechanism described in another way: at another place, turned, in other units, in
-//! another order. Verdicts must be equal, and the motion must be the same after conversion.
+//! The same mechanism described in another way: translated, rotated, in other units, in another
+//! order. Verdicts must be equal, and the motion must be the same after conversion.
 
 use dynamics::MotionOptions;
 use model::{BodyRef, Description};
@@ -12,7 +12,7 @@ use crate::stress::motion::{
     Row, acceleration, analysed, asking, last_row, moving, prepared, worst,
 };
 
-/// Moved, turned, resized and permuted mechanisms.
+/// Translated, rotated, resized and permuted mechanisms.
 pub(super) const FAMILY: Family = Family {
     name: "invariance",
     about: "the robot and three falling cranks moved by 1e6 m, turned, in other units and in another order: the same verdicts, accelerations and motion",
@@ -25,8 +25,8 @@ const G: f64 = 9.81;
 /// differences.
 const TIGHT: f64 = 1e-12;
 
-/// A description of a mechanism: lengths times `size`, turned by `angle`, then moved; bodies and
-/// joints in reverse order or not.
+/// A description of a mechanism: lengths times `size`, rotated by `angle`, then translated; bodies
+/// and joints in reverse order or not.
 #[derive(Clone, Copy)]
 struct Change {
     name: &'static str,
@@ -105,8 +105,8 @@ impl Change {
         [cos * x - sin * y, sin * x + cos * y]
     }
 
-    /// The remaining accuracy: coordinates of 1e6 m are accurate to 1e-10 m, and rounding errors
-    /// grow by a factor of a hundred during the computation.
+    /// Returns the remaining accuracy: coordinates of 1e6 m are accurate to 1e-10 m, and rounding
+    /// errors grow by a factor of a hundred during the computation.
     fn bound(&self) -> f64 {
         let far = self.by[0].abs().max(self.by[1].abs());
         1e-10 + 1e2 * f64::EPSILON * far
@@ -118,7 +118,8 @@ type Written = fn(&Change) -> Description;
 
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    // To the end of the first turn of the wheel; to shortly before the first flat pose.
+    // The robot runs to the end of the first turn of the wheel; the cranks run to shortly before
+    // their first singular configuration.
     for (name, written, t_end) in [
         ("robot", robot as Written, 2.0),
         ("three cranks", three_cranks, 0.3),
@@ -173,7 +174,7 @@ fn robot(change: &Change) -> Description {
     d
 }
 
-/// Three parallel cranks of 0.5 m under a coupler, falling from 1 rad.
+/// Returns three parallel cranks of 0.5 m under a coupler, falling from 1 rad.
 fn three_cranks(change: &Change) -> Description {
     let (length, theta) = (0.5, 1.0_f64);
     let tip = [length * theta.cos(), length * theta.sin()];
@@ -210,7 +211,7 @@ fn three_cranks(change: &Change) -> Description {
     }
 }
 
-/// The results for a mechanism, by name: ranks, then the verdict and the number of unique
+/// Returns the results for a mechanism, by name: ranks, then the verdict and the number of unique
 /// directions of each reaction.
 fn said(a: &Analysis) -> (Vec<usize>, Vec<(String, &'static str, usize)>) {
     let mut reactions: Vec<_> = a
@@ -275,8 +276,8 @@ fn motion(written: Written, change: &Change, options: &MotionOptions) -> Result<
     ))
 }
 
-/// The largest difference from the original values after conversion, relative to the size of the
-/// mechanism.
+/// Returns the largest difference from the original values after conversion, relative to the size
+/// of the mechanism.
 fn off(was: &[f64], is: &[f64], change: &Change, by: [f64; 2], angle: f64) -> f64 {
     let mut bodies: Vec<&[f64]> = is.chunks(3).collect();
     if change.reversed {
@@ -307,7 +308,7 @@ mod tests {
         super::super::assert_passes(FAMILY);
     }
 
-    /// A conversion by another angle is detected as an error.
+    /// The test detects a conversion by another angle as an error.
     #[test]
     fn another_frame_is_silently_wrong() {
         let written: Written = |change| {

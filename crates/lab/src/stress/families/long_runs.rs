@@ -1,4 +1,4 @@
-//! Very long runs: a pendulum for a thousand seconds in steps of a millisecond, mechanisms of space
+//! Very long runs: a pendulum for a thousand seconds in steps of a millisecond, mechanisms in space
 //! for a hundred seconds, and the drift of their values.
 
 use std::time::Duration;
@@ -10,7 +10,7 @@ use crate::mechanisms::space;
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{last_row, moving, prepared, study, worst};
 
-/// A pendulum in a million steps, and mechanisms of space.
+/// A pendulum in a million steps, and mechanisms in space.
 pub(super) const FAMILY: Family = Family {
     name: "long-runs",
     about: "a pendulum for 1000 s in a million steps: drift off the constraints, energy, and its amplitude and period; a top and overconstrained linkages in space for 100 s",
@@ -19,7 +19,7 @@ pub(super) const FAMILY: Family = Family {
 
 const T_END: f64 = 1000.0;
 
-/// Steps of this size (s).
+/// Size of the steps (s).
 const STEP: f64 = 1e-3;
 
 const TIME_LIMIT: Duration = Duration::from_secs(120);
@@ -50,10 +50,10 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// A description or the reason why there is none.
+/// A description, or the reason why there is no description.
 type Made = fn() -> Result<SpatialDescription, Outcome>;
 
-/// A top, and linkages that move although Grübler counts no freedom.
+/// Returns a top, and linkages that move although Grübler's formula gives no freedom.
 fn in_space() -> impl Iterator<Item = Case> {
     let mechanisms: [(&str, Made); 3] = [
         ("a top", || Ok(space::top())),
@@ -93,7 +93,7 @@ fn in_space() -> impl Iterator<Item = Case> {
     })
 }
 
-/// The drift in a run, relative to the allowed one.
+/// Returns the drift in a run, relative to the allowed one.
 fn drifted(prepared: &PreparedMechanism, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let (row, s) = last_row(prepared, options)?;
     let [angle, omega] = swing(row.t);
@@ -107,19 +107,19 @@ fn drifted(prepared: &PreparedMechanism, options: &MotionOptions) -> Result<Outc
     Ok(Outcome::answer(error, detail))
 }
 
-/// A point mass on a massless rod of 1 m, released from the horizontal.
+/// Returns a point mass on a massless rod of 1 m, released from the horizontal.
 fn pendulum() -> String {
     suite::find("a01-pendulum").map_or_else(String::new, |case| case.scene.to_owned())
 }
 
-/// Angle of the bob relative to its start, and its rate, at t: released horizontally to the left of
-/// the pivot, it falls with `φ̈ = (g/L)·cos φ`, φ from 0 to π and back. With `ψ = φ − π/2`:
-/// `sin(ψ/2) = −k·cd(ω₀t)`, `k = sin(45°)`.
+/// Returns the angle of the bob relative to its start, and its rate, at t. Released horizontally to
+/// the left of the pivot, it falls with `φ̈ = (g/L)·cos φ`, with φ from 0 to π and back. With
+/// `ψ = φ − π/2` the solution is `sin(ψ/2) = −k·cd(ω₀t)`, `k = sin(45°)`.
 pub(super) fn swing(t: f64) -> [f64; 2] {
     let omega_0 = 9.81_f64.sqrt();
     let m = 0.5_f64;
     let [sn, cn, dn] = jacobi(omega_0 * t, m);
-    // −cd(u) = −cn/dn, and its rate (1 − m)·sn/dn².
+    // The value is −cd(u) = −cn/dn, and its rate (1 − m)·sn/dn².
     let k = m.sqrt();
     let half = k * -cn / dn;
     let half_rate = k * omega_0 * (1.0 - m) * sn / (dn * dn);
@@ -130,7 +130,8 @@ pub(super) fn swing(t: f64) -> [f64; 2] {
     ]
 }
 
-/// sn, cn, dn of (u | m) by descending Landen transformations. Source: Abramowitz and Stegun, 16.4.
+/// Returns sn, cn, dn of (u | m) by descending Landen transformations. Source: Abramowitz and
+/// Stegun, 16.4.
 fn jacobi(u: f64, m: f64) -> [f64; 3] {
     const LEVELS: usize = 8;
     let (mut a, mut c) = ([1.0; LEVELS + 1], [m.sqrt(); LEVELS + 1]);

@@ -1,5 +1,5 @@
-//! Bodies without mass or inertia: accepted exactly if every motion has a mass or an inertia; if
-//! one has not, the error names it.
+//! Bodies without mass or inertia are accepted exactly if every motion has a mass or an inertia; if
+//! a motion has neither, the error names it.
 
 use dynamics::MotionOptions;
 use joints::Fixed;
@@ -79,8 +79,8 @@ fn stone(mass: f64, inertia: f64) -> Description {
     }
 }
 
-/// Two links, horizontal and at rest: the first with its centre 1 m from the ground's pin, the
-/// second pinned 2 m from that pin, with its centre 1 m further or at its own pin.
+/// Two links are horizontal and at rest. The first has its centre 1 m from the pin on the ground.
+/// The second is pinned 2 m from that pin, with its centre 1 m further or at its own pin.
 #[derive(Clone, Copy)]
 struct Chain {
     /// Mass and inertia of both links, 0 or 1.
@@ -106,7 +106,8 @@ impl Chain {
         )
     }
 
-    /// Kinetic energy `½·αᵀ·A·α` in the rates of the two angles, and the moment of the weights.
+    /// Returns the kinetic energy `½·αᵀ·A·α` in the rates of the two angles, and the moment of the
+    /// weights.
     fn reduced(&self) -> ([[f64; 2]; 2], [f64; 2]) {
         let ([[m1, j1], [m2, j2]], c) = (self.links, self.arm);
         let a = [
@@ -116,7 +117,7 @@ impl Chain {
         (a, [-G * (m1 + 2.0 * m2), -G * c * m2])
     }
 
-    /// The determinant; exact for whole numbers.
+    /// Returns the determinant, which is exact for integers.
     fn determinant(&self) -> f64 {
         let ([[a, b], [_, d]], _) = self.reduced();
         a * d - b * b
@@ -173,7 +174,7 @@ impl Chain {
     }
 }
 
-/// Cranks under a coupler, some of them massless: all have the same angle.
+/// Returns cranks under a coupler, some of them massless: all have the same angle.
 fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOptions) -> Case {
     let (length, theta) = (0.5, 1.0_f64);
     let mut d = cranks(pivots, length, theta);
@@ -217,7 +218,7 @@ fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOpt
     )
 }
 
-/// Error of the accelerations at the start, relative to the largest exact one.
+/// Returns the error of the accelerations at the start, relative to the largest exact one.
 fn falling(d: &Description, right: &[f64], options: &MotionOptions) -> Result<Outcome, Outcome> {
     let found = acceleration(&prepared(d)?, options)?;
     let scale = worst(right.iter().copied());

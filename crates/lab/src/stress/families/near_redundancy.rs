@@ -15,20 +15,20 @@ use exact::Exact;
 /// Nearly parallel knife edges and cranks.
 pub(super) const FAMILY: Family = Family {
     name: "near-redundancy",
-    about: "edges and cranks that are parallel but for ε: of full rank, undecided, or redundant within what the data are known to, and said so; the motion is \
+    about: "edges and cranks that deviate from parallel by ε: of full rank, undecided, or redundant within the accuracy of the data, and reported so; the motion is \
             the same in all three",
     cases,
 };
 
-/// Above this ε a rank in double precision must be decided: singular values can be distinguished
+/// Above this ε the rank in double precision must be decided: singular values can be distinguished
 /// from zero down to 1e-7.
 const DECIDED: f64 = 1e-6;
-/// Some thousand rounding errors of numbers of size 1: a larger ε must not be taken as rounding.
+/// Some thousand rounding errors of numbers of size 1: a larger ε must not count as rounding.
 const ROUNDING: f64 = 1e-12;
 /// Data of size 1 are accurate to about 1e-15: between this and the next constant ε may be a real
 /// angle or zero.
 const READ_BOTH_WAYS: f64 = 5e-15;
-/// See [`READ_BOTH_WAYS`].
+/// See the constant [`READ_BOTH_WAYS`].
 const ROUNDED_AWAY: f64 = 5e-14;
 /// Below this ε reactions are a thousand times the loads, and a warning is expected.
 const WARNED: f64 = 1e-3;
@@ -54,8 +54,8 @@ fn cases() -> Vec<Case> {
         {
             let source = "closed form: turns about the contact of the right wheel; a hundred times the tolerance, and the rounding of the start over ε up to 1e-3";
             let bound = (1e-6 + 10.0 * f64::EPSILON / e).min(1e-3);
-            // If velocities cannot be determined, a refusal must name the edge; if the data may
-            // also mean parallel edges, it must say so.
+            // If velocities cannot be determined, the error must name the edge; if the data may
+            // also mean parallel edges, it must state this.
             let named = if (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) {
                 "their rounding"
             } else {
@@ -84,7 +84,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// The accepted answers for the rank.
+/// Returns the accepted answers for the rank.
 pub(super) fn verdict(e: f64) -> Expected {
     let source = "rank in exact arithmetic; the grounds of a certificate";
     if e < DECIDED {
@@ -98,8 +98,8 @@ pub(super) fn verdict(e: f64) -> Expected {
     }
 }
 
-/// A cart of unit mass and inertia on two knife edges under its centre, the right one turned by ε.
-/// It rotates about the contact point of the right wheel.
+/// Returns a cart of unit mass and inertia on two knife edges under its centre, the right one
+/// rotated by ε. It rotates about the contact point of the right wheel.
 fn axle(e: f64) -> Description {
     let edge = |name: &str, y: f64, normal: [f64; 2]| {
         let normal = Direction::new(normal).unwrap_or(Direction::Y);
@@ -163,7 +163,7 @@ fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
         warned.map_or(f64::NAN, |near| near.sigma)
     );
     // The rank for the given numbers is correct with a warning of the size of ε; otherwise the data
-    // must be uncertain, and the answer must say so.
+    // must be uncertain, and the answer must state this.
     let right = if rank == exact {
         let answer = e >= WARNED || warned.is_some_and(|near| near.sigma <= 2.0 * e);
         answer && unique == a.reactions.len()

@@ -1,5 +1,5 @@
 //! User forces that become undefined: the run stops at the last valid state and reports the time
-//! and the place; it neither panics nor halves its steps for ever.
+//! and the position. It neither panics nor halves its steps forever.
 
 use dynamics::{MotionOptions, RowChoice, prepare, simulate};
 use joints::spec::Spec;
@@ -11,15 +11,15 @@ use model::{Body, BodyRef, Description, Force, Mechanism, StartOptions};
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{combinations, moving};
 
-/// A body that is pulled to a place where the force is not defined.
+/// A body that is pulled to a point at which the force is not defined.
 pub(super) const FAMILY: Family = Family {
     name: "not-finite",
     about: "a body pulled by √(1 − x) N, which is NaN beyond x = 1 m: stopped there, with all rows before kept and the quantity named",
     cases,
 };
 
-/// The body passes x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` from rest at 0; the time until then is
-/// `t = ∫₀¹ dx/√(4/3·(1 − (1 − x)^(3/2)))`.
+/// The body passes x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` from rest at 0; the time up to that point
+/// is `t = ∫₀¹ dx/√(4/3·(1 − (1 − x)^(3/2)))`.
 const T_END: f64 = 10.0;
 
 fn cases() -> Vec<Case> {
@@ -95,7 +95,8 @@ impl<T: Real> ForceElement<T> for Root {
     fn dq_dv(&self, _: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], _: &mut [T]) {}
 }
 
-/// A run that cannot continue beyond x = 1: its error, if its rows are finite and end there.
+/// Returns the error of a run that cannot continue beyond x = 1, if its rows are finite and end
+/// there.
 fn pulled(options: &MotionOptions) -> Outcome {
     let description = Description {
         name: "pulled".into(),

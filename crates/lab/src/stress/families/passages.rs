@@ -1,5 +1,5 @@
-//! Passages through flat poses where a step must end near the flat pose: there the rank drops,
-//! branches of the motion meet, and accelerations are a quotient of two numbers that both vanish.
+//! Singular configurations near which a step must end: there the rank drops, branches of the motion
+//! meet, and accelerations are a quotient of two numbers that both vanish.
 
 use dynamics::{Method, MotionOptions};
 use joints::RevoluteAngleDrive;
@@ -9,10 +9,10 @@ use crate::mechanisms::cranks::cranks;
 use crate::stress::case::{Case, Expected, Family};
 use crate::stress::motion::{Row, combinations, moving, outcome_of, prepared, worst};
 
-/// Two and three cranks driven through the flat pose.
+/// Two and three cranks driven through the singular configuration.
 pub(super) const FAMILY: Family = Family {
     name: "passages",
-    about: "two and three cranks driven through the flat pose, with a break time of the drive beside it at which a step has to end",
+    about: "two and three cranks driven through the flat pose, with a break time of the drive near it at which a step has to end",
     cases,
 };
 
@@ -23,7 +23,7 @@ const END: f64 = 0.5;
 /// Number of offsets of the break time on each side (s, which equals rad here).
 const OFFSETS: u32 = 32;
 
-/// Closer to the flat pose than this a run may stop.
+/// A run may stop if it is closer than this to the singular configuration.
 const NEAR: f64 = 1e-2;
 
 /// Tolerance of the runs.
@@ -83,7 +83,8 @@ fn is_explicit(method: Method) -> bool {
     matches!(method, Method::Dop853 | Method::Dopri5 | Method::Tsit5)
 }
 
-/// Cranks with a drive of two pieces with the same slope that meet near the flat pose.
+/// Returns cranks with a drive of two pieces with the same slope that meet near the singular
+/// configuration.
 fn driven(pivots: &[f64], offset: f64) -> Description {
     let mut d = cranks(pivots, 0.5, START);
     let times = [0.0, offset - START, END - START];
@@ -98,8 +99,8 @@ fn driven(pivots: &[f64], offset: f64) -> Description {
     d
 }
 
-/// The deviation of the cranks from parallel ones at an angle, rotating at 1 rad/s, and of the
-/// coupler from the horizontal.
+/// Returns the deviation of the cranks from parallel ones at an angle, rotating at 1 rad/s, and of
+/// the coupler from the horizontal.
 fn off(row: &Row, angle: f64) -> f64 {
     let last = row.q.len() / 3 - 1;
     let of_crank = |k: usize| [row.q[3 * k + 2] - angle, row.v[3 * k + 2] - 1.0];

@@ -1,4 +1,5 @@
-//! Fast rotation: a body on a pin that rotates up to a million times per second, for many turns.
+//! Fast rotation: a body on a pin that rotates up to a million times per second, for many
+//! revolutions.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +11,7 @@ use crate::stress::motion::{Row, case, combinations, steps, worst};
 /// A rotor whose centre of mass is off its pin.
 pub(super) const FAMILY: Family = Family {
     name: "rotation",
-    about: "a rotor on a pin beside its centre of mass, at up to 1e6 rad/s for 1000 turns: every turn has to be resolved",
+    about: "a rotor on a pin away from its centre of mass, at up to 1e6 rad/s for 1000 turns: every turn has to be resolved",
     cases,
 };
 
@@ -38,7 +39,7 @@ fn cases() -> Vec<Case> {
             ..MotionOptions::to(t_end)
         };
         // An error of the speed in step k of N changes the phase in all later steps: N²/2
-        // tolerances, with some tens of steps per turn.
+        // tolerances, with some tens of steps per revolution.
         let drift = 0.05 * (50.0 * turns).powi(2);
         for options in combinations(&base) {
             if options.method != Method::Auto && turns > 100.0 {
@@ -56,8 +57,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Methods of low order need more steps for this tolerance than are allowed, or steps shorter than
-/// the accuracy of such velocities permits.
+/// Returns the expectation for methods of low order, which need more steps for this tolerance than
+/// are allowed, or steps shorter than the accuracy of such velocities permits.
 fn limit(bound: f64) -> Expected {
     Expected::AnswerOrRefusal {
         bound,
@@ -78,8 +79,8 @@ joint = [{{ name = "pin", type = "revolute", bodies = ["ground", "rotor"], at = 
     )
 }
 
-/// The deviation of the rotor from uniform rotation: phase, and velocities relative to the exact
-/// ones.
+/// Returns the deviation of the rotor from uniform rotation: phase, and velocities relative to the
+/// exact ones.
 fn off(row: &Row, omega: f64, t: f64) -> f64 {
     let phase = omega * t;
     let (sin, cos) = phase.sin_cos();

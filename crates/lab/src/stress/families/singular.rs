@@ -16,7 +16,7 @@ use crate::mechanisms::robot::robot;
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{analysed, asking, built, refused, study};
 
-/// Flat cranks, edges across the drive, and the robot steered to ±90°.
+/// Cranks in the singular configuration, edges across the drive, and the robot steered to ±90°.
 pub(super) const FAMILY: Family = Family {
     name: "singular",
     about: "flat cranks at the instant and near it, four edges of which two are steered, the robot with its edges at ±90°: ranks and verdicts there and elsewhere",
@@ -104,8 +104,8 @@ fn cases() -> Vec<Case> {
         right,
         stopped,
     ));
-    // From the lengths of the linkage: the pin of the link rotates by 90° about B, the slider
-    // follows at the distance of the link.
+    // The values follow from the lengths of the linkage: the pin of the link rotates by 90° about
+    // B, and the slider follows at the distance of the link.
     for (name, displacement) in [
         ("front edge at +90°", 0.11 - 0.0601_f64.sqrt()),
         ("front edge at −90°", 0.29 - 0.0401_f64.sqrt()),
@@ -137,7 +137,8 @@ fn compared(d: &Description, here: usize, usual: usize) -> Result<Outcome, Outco
     ))
 }
 
-/// A parallelogram whose first crank is driven from −1 rad through the flat pose at t = 1 s.
+/// Tests a parallelogram whose first crank is driven from −1 rad through the singular configuration
+/// at t = 1 s.
 fn passing() -> Result<Outcome, Outcome> {
     let (length, angle) = (0.5, -1.0_f64);
     let [x, y] = [0.5 * length * angle.cos(), 0.5 * length * angle.sin()];
@@ -181,7 +182,7 @@ simulate = {{ t_end = 2.0 }}
     ))
 }
 
-/// One body on four edges, the front pair steered in parallel.
+/// Tests one body on four edges, with the front pair steered in parallel.
 fn edges(steering: f64, sizes: [usize; 3]) -> Result<Outcome, Outcome> {
     let edge = |name: &str, x: f64, y: f64| {
         let angle = if x > 0.0 { steering } else { 0.0 };
@@ -210,7 +211,7 @@ fn edges(steering: f64, sizes: [usize; 3]) -> Result<Outcome, Outcome> {
         .iter()
         .map(|r| r.wrench.verdict.is_unique())
         .collect();
-    // If the wheels are locked, each of the steered pair has its own force.
+    // If the wheels are locked, each of the steered pair has a separate force.
     let shared = [steering != 0.0, steering != 0.0, false, false];
     let detail = format!("rank, redundancy, freedoms {found:?}; unique {unique:?}");
     Ok(Outcome::fact(found == sizes && unique == shared, detail))
@@ -239,7 +240,7 @@ fn stopped() -> Result<Outcome, Outcome> {
     Ok(Outcome::answer(error, format!("v = {:?}", found.v)))
 }
 
-/// The robot with its slider displaced, on its constraints.
+/// Returns the robot with its slider displaced, on its constraints.
 fn steered(displacement: f64) -> Result<Outcome, Outcome> {
     const STEPS: u32 = 64;
     let ramp = Function::polynomial(&[0.0, displacement]).map_err(Outcome::refused)?;
@@ -253,8 +254,8 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
         q = nearest_configuration(&mechanism, t, &rows, &q, Metric::Mass)
             .map_err(Outcome::refused)?;
     }
-    // The robot has no joint with the ground: its platform is turned along the x-axis, so its edges
-    // are along the y-axis.
+    // The robot has no joint with the ground: its platform is rotated to the x-axis, so that its
+    // edges are along the y-axis.
     let (sin, cos) = q[2].sin_cos();
     let heading = q[2];
     for body in q.chunks_mut(3) {

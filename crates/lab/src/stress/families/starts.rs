@@ -1,19 +1,20 @@
 //! Starts that do not satisfy their constraints: the smallest correction in the mass metric, or a
-//! refusal that states the error.
+//! message that states the error.
 
 use model::start::scene_size;
 
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{asking, study, worst};
 
-/// One body on a pivot, described off its place or with velocities that it cannot have.
+/// One body on a pivot, described away from its position or with impossible velocities.
 pub(super) const FAMILY: Family = Family {
     name: "starts",
     about: "a start off its constraints is moved by the least in the mass metric, and the correction is answer; far from them it is refused",
     cases,
 };
 
-/// A bob whose pivot is 1 m to its left; its described centre is displaced by `off` to the right.
+/// Returns a bob whose pivot is 1 m to its left; its described centre is displaced by `off` to the
+/// right.
 fn bob(off: f64, mass: f64, inertia: f64, velocity: [f64; 2], start: &str) -> String {
     let [vx, vy] = velocity;
     format!(
@@ -27,7 +28,7 @@ joint = [{{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], point
     )
 }
 
-/// At rest, displaced by `off` to the right of the position that its pivot allows.
+/// Returns the bob at rest, displaced by `off` to the right of the position that its pivot allows.
 fn off_by(off: f64, start: &str) -> String {
     bob(off, 2.0, 0.3, [0.0; 2], start)
 }
@@ -42,7 +43,7 @@ fn cases() -> Vec<Case> {
                 "`bob`",
                 "allow_correction",
             ]),
-            // 1e-3 of the size is exactly the limit.
+            // The value 1e-3 of the size is exactly the limit.
             3 => continue,
             _ => Expected::answer(
                 1e-14,
@@ -107,7 +108,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// The correction is along the arm, where it neither rotates the bob nor moves it sideways.
+/// The correction is along the lever arm; it neither rotates the bob nor moves it sideways.
 fn corrected(text: &str, off: f64) -> Result<Outcome, Outcome> {
     let found = study(text)?.prepared;
     let [x, y, angle] = found.q[..] else {

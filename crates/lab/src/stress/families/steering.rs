@@ -1,5 +1,5 @@
-//! A steered wheel turned through ±90°, where the forward speed is zero whatever the speed of the
-//! wheel; and two wheels that are steered equally, which lock.
+//! A steered wheel is turned through ±90°; at this angle the forward speed is zero for any speed of
+//! the wheel. Two wheels that are steered equally lock.
 
 use dynamics::MotionOptions;
 
@@ -13,7 +13,7 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Mass, inertia about the middle of the rear axle (the centre of mass), and wheel base.
+/// Mass, inertia about the midpoint of the rear axle (the centre of mass), and wheelbase.
 const MASS: f64 = 20.0;
 const INERTIA: f64 = 1.7;
 const BASE: f64 = 0.6;
@@ -51,7 +51,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// A tricycle with one front wheel in the middle, or two on its sides, each on a fork without mass.
+/// Returns a tricycle with one front wheel in the middle, or two on its sides, each on a massless
+/// fork.
 fn tricycle(wheels: usize) -> String {
     let sides: &[f64] = if wheels == 1 { &[0.0] } else { &[-0.2, 0.2] };
     let mut text = format!(
@@ -108,17 +109,17 @@ normal = [0.0, 1.0]
     text
 }
 
-/// Speed of the middle of the rear axle along the frame, and rate of rotation, at a steering angle:
-/// with the speed u of the front wheel `v = u·cos δ`, `ω = u·sin δ/L`, and
-/// `u²·(m·cos²δ + J·sin²δ/L²)` keeps its value at δ = 0, v = 1 m/s.
+/// Returns the speed of the midpoint of the rear axle along the frame, and the rate of rotation, at
+/// a steering angle. With the speed u of the front wheel `v = u·cos δ`, `ω = u·sin δ/L`, and
+/// `u²·(m·cos²δ + J·sin²δ/L²)` is constant, with its value at δ = 0, v = 1 m/s.
 fn speeds(delta: f64) -> [f64; 2] {
     let (sin, cos) = delta.sin_cos();
     let u = (MASS / (MASS * cos * cos + INERTIA * (sin / BASE).powi(2))).sqrt();
     [u * cos, u * sin / BASE]
 }
 
-/// Place, heading, forward speed and rate of rotation at the end. The integrals are computed by
-/// Gauss–Legendre quadrature with four nodes on intervals of 1 ms.
+/// Returns position, heading, forward speed and rate of rotation at the end. The integrals are
+/// computed by Gauss–Legendre quadrature with four nodes on intervals of 1 ms.
 fn closed_form() -> [f64; 5] {
     const NODES: [f64; 2] = [0.339_981_043_584_856_3, 0.861_136_311_594_052_6];
     const WEIGHTS: [f64; 2] = [0.652_145_154_862_546_1, 0.347_854_845_137_453_9];
@@ -142,7 +143,7 @@ fn closed_form() -> [f64; 5] {
     [place[0], place[1], heading, v, omega]
 }
 
-/// The deviation of the frame from the exact solution.
+/// Returns the deviation of the frame from the exact solution.
 fn off(row: &Row, right: &[f64; 5]) -> f64 {
     let [x, y, heading, v, omega] = right;
     let (sin, cos) = heading.sin_cos();
@@ -159,7 +160,7 @@ mod tests {
     use crate::stress::judge;
     use crate::stress::motion::outcome;
 
-    /// At 90° the frame rotates on the spot: it has all the energy.
+    /// At 90° the frame rotates on the spot: the frame has all the energy.
     #[test]
     fn at_a_right_angle_the_frame_turns_on_the_spot() {
         let [v, omega] = speeds(std::f64::consts::FRAC_PI_2);

@@ -1,5 +1,5 @@
-//! Springs and dampers up to the limit of what can be integrated: a rotor behind a spring and a
-//! damper on a moving base, and a block on a bushing without damping.
+//! Springs and dampers up to the limit of integration: a rotor behind a spring and a damper on a
+//! moving base, and a block on a bushing without damping.
 
 use dynamics::{Method, MotionOptions};
 
@@ -20,8 +20,8 @@ const INERTIA: f64 = 2.0;
 const SWING: f64 = 0.3;
 const T_END: f64 = 2.0;
 
-/// Allowed steps: methods that need more report it. With the automatic choice of a method, an
-/// explicit method may need about as many as the second number.
+/// Allowed number of steps: methods that need more report it. With the automatic choice of a
+/// method, an explicit method may need about as many as the second number.
 const MAX_STEPS: u64 = 5_000;
 const MAX_STEPS_OF_CHOICE: u64 = 40_000;
 
@@ -51,8 +51,8 @@ fn cases() -> Vec<Case> {
                 let oscillator = Oscillator {
                     stiffness,
                     damping,
-                    // With a damper the rotor begins with the motion of the foot, without one at
-                    // rest and displaced from equilibrium.
+                    // With a damper the rotor begins with the motion of the base; without a damper
+                    // it begins at rest and displaced from equilibrium.
                     start: if damping > 0.0 {
                         [0.0, SWING]
                     } else {
@@ -83,12 +83,12 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// `J·φ̈ = −k·(φ − s) − c·(φ̇ − ṡ)` with `s = A·sin t`.
+/// The equation is `J·φ̈ = −k·(φ − s) − c·(φ̇ − ṡ)` with `s = A·sin t`.
 #[derive(Clone, Copy)]
 struct Oscillator {
     stiffness: f64,
     damping: f64,
-    /// φ and φ̇ at t = 0.
+    /// The values φ and φ̇ at t = 0.
     start: [f64; 2],
 }
 
@@ -102,7 +102,7 @@ impl Oscillator {
         };
         let tolerances = LEAST.max(10.0 * steps(options.method, phase, RTOL));
         // The angle of a rotor behind a stiff spring is accurate to 1e-16 and so the force to
-        // k·1e-16, which causes a change of velocity by c/k or 1/ω of that.
+        // k·1e-16, which causes a change of velocity by c/k or 1/ω times this value.
         let bound = tolerances * RTOL;
         let right = Expected::AnswerOrRefusal {
             bound,
@@ -171,14 +171,15 @@ free_angle = 0.0
         )
     }
 
-    /// φ and φ̇ at time t.
+    /// Returns φ and φ̇ at time t.
     fn at(self, t: f64) -> [f64; 2] {
         let Self {
             stiffness: k,
             damping: c,
             start,
         } = self;
-        // φ = a·sin t + b·cos t + free motion; (k − J)·a − c·b = k·A, c·a + (k − J)·b = c·A.
+        // The solution is φ = a·sin t + b·cos t + free motion; (k − J)·a − c·b = k·A, c·a + (k −
+        // J)·b = c·A.
         let d = (k - INERTIA).powi(2) + c * c;
         let a = SWING * ((k - INERTIA) * k + c * c) / d;
         let b = -SWING * c * INERTIA / d;
@@ -194,7 +195,7 @@ free_angle = 0.0
             let x = size * (x0 * cos + slope * sin);
             [x, size * omega * (slope * cos - x0 * sin) - decay * x]
         } else {
-            // Roots without cancellation: their product is k/J.
+            // The roots are computed without cancellation: their product is k/J.
             let fast = -(decay + (decay * decay - square).sqrt());
             let slow = square / fast;
             let of_slow = (v0 - fast * x0) / (slow - fast);
@@ -205,7 +206,7 @@ free_angle = 0.0
         [forced[0] + free[0], forced[1] + free[1]]
     }
 
-    /// The deviation of a row from the exact solution.
+    /// Returns the deviation of a row from the exact solution.
     fn off(self, row: &Row) -> f64 {
         let [angle, omega] = self.at(row.t);
         let rate = (self.start[0] * (self.stiffness / INERTIA).sqrt()).max(SWING);
@@ -213,8 +214,8 @@ free_angle = 0.0
     }
 }
 
-/// `m·ẍ = −k·x`, `m·ÿ = −k·y/4` of a block on a bushing, which is undeformed at the start, where
-/// the block has a velocity.
+/// The equations `m·ẍ = −k·x`, `m·ÿ = −k·y/4` of a block on a bushing. The bushing is undeformed at
+/// the start, and the block has a velocity there.
 #[derive(Clone, Copy)]
 struct Block {
     stiffness: f64,

@@ -1,11 +1,11 @@
-//! Empty scenes, and scenes without anything to decide.
+//! Empty scenes, and scenes in which there is no decision.
 
 use dynamics::MotionOptions;
 
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{asking, combinations, last_row, moving, refused, study, worst};
 
-/// No body, one body, no rows.
+/// No body, one body, or no rows.
 pub(super) const FAMILY: Family = Family {
     name: "trivial",
     about: "no body, which is refused as a slip of the pen; a free body: no rows, nothing to decide",

@@ -1,4 +1,4 @@
-//! Compared with dense matrices.
+//! Comparison with dense matrices.
 
 use super::*;
 

@@ -1,16 +1,16 @@
 //! Nodes sorted by degree, as lists of nodes of equal degree.
 
-/// Marks that there is no node.
+/// Value for the absence of a node.
 const NONE: usize = usize::MAX;
 
-/// Some of the nodes `0..n`, each with a degree below n; among nodes of equal degree the latest
+/// Some of the nodes `0..n`, each with a degree below n. Among nodes of equal degree, the latest
 /// comes first.
 pub(super) struct Buckets {
     first: Vec<usize>,
     next: Vec<usize>,
     previous: Vec<usize>,
     degree: Vec<usize>,
-    /// No list below this one has a node.
+    /// All lists below this one are empty.
     least: usize,
 }
 
@@ -25,7 +25,7 @@ impl Buckets {
         }
     }
 
-    /// Inserts a node that is not contained.
+    /// Inserts a new node.
     pub(super) fn insert(&mut self, node: usize, degree: usize) {
         let degree = degree.min(self.first.len() - 1);
         let after = std::mem::replace(&mut self.first[degree], node);

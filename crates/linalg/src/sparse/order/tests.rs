@@ -1,4 +1,4 @@
-//! Fill of known graphs, and checks that an order is a permutation.
+//! Tests of the fill of known graphs, and checks that an order is a permutation.
 
 use super::*;
 
@@ -84,7 +84,7 @@ fn whatever_comes_is_ordered_once() {
     assert_eq!(minimum_degree(1, &[]), [0]);
     let all = minimum_degree(5, &[vec![4, 1, 4, 9], (0..5).collect(), vec![], vec![2]]);
     assert_eq!(all.len(), 5);
-    // The same input gives the same order; the order of the cliques has no effect.
+    // The same input gives the same order, and the order of the cliques has no effect.
     let mut cliques = grid(12);
     let order = minimum_degree(144, &cliques);
     cliques.reverse();

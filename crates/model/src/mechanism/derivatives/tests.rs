@@ -1,4 +1,4 @@
-//! The assembled derivatives compared with central differences of the assembled equations, on a
+//! Compares the assembled derivatives with central differences of the assembled equations, for a
 //! mechanism with constraints and forces of every kind, at a state that violates its constraints.
 
 use joints::plane::Direction;
@@ -150,8 +150,8 @@ fn products_are_differences_of_the_equations() {
             matrix.add_product(&along, &mut found);
             for (i, found) in found.iter().enumerate() {
                 let expected = (plus[k][i] - minus[k][i]) / (2.0 * H);
-                // Truncation error H² times the third derivative, with stiffnesses of 7 on lengths
-                // that may be near 0.1.
+                // The truncation error is H² times the third derivative, with stiffnesses of 7 on
+                // lengths that may be near 0.1.
                 assert!(
                     (found - expected).abs() < 1e-6 * (1.0 + expected.abs()),
                     "{name}, seed {seed}, row {i}: {found}, by differences {expected}"

@@ -1,4 +1,4 @@
-//! Tests by counting that values are not computed again.
+//! Tests which count operations and show that values are not recomputed.
 
 use std::cell::RefCell;
 
@@ -35,8 +35,8 @@ fn guide() -> Translational {
     Translational::new([0.0; 2], [0.0; 2], Direction::X)
 }
 
-/// A driven slider on the ground, a second body held against its rotation, and a pendulum on the
-/// slider.
+/// A driven slider on the ground, a second body whose rotation relative to it is locked, and a
+/// pendulum on the slider.
 fn trolley() -> Mechanism {
     let [slider, held, bob] = [0, 1, 2].map(BodyRef::Body);
     let drive = TranslationalDisplacementDrive::new([0.0; 2], [0.0; 2], Direction::X);
@@ -47,7 +47,7 @@ fn trolley() -> Mechanism {
     let d = Description {
         bodies: vec![body("slider"), body("held"), body("bob")],
         joints: vec![
-            // Listed before the guide from which it follows that nothing rotates.
+            // This joint precedes the guide, which implies that no body rotates.
             Joint::new("hold", &[slider, held], Angle::new()),
             Joint::new("guide", &[GROUND, slider], guide()),
             Joint::new("pin", &[slider, bob], pin),
@@ -82,7 +82,7 @@ fn angles_that_stay_have_their_sine_and_cosine_already() {
         (0.5, 0.2_f64.sin())
     );
     assert_eq!(s.bodies.axes(1)[0][0], 0.3_f64.cos());
-    // −0 is another number, with another sine.
+    // The number −0 differs from 0, and so does its sine.
     later(&mut s, 0.0);
     assert_eq!(later(&mut s, -0.0), 1);
     assert!(s.bodies.axes(2)[0][1].is_sign_negative());
@@ -94,7 +94,8 @@ fn rounding_does_not_turn_what_is_held() {
     let mut s = m.scratch();
     m.pose(0.0, &[0.0; 9], &mut s);
     let mut q = [0.0; 9];
-    // Each changes by one rounding: the angle of the slider is held, that of the bob is not.
+    // Each angle changes by one rounding. The angle of the slider is fixed, but the angle of the
+    // bob is not.
     (q[2], q[8]) = (f64::EPSILON, f64::EPSILON);
     assert_eq!(count(WorkKind::Trigonometry, || m.pose(0.0, &q, &mut s)), 1);
     assert_eq!(
@@ -102,7 +103,7 @@ fn rounding_does_not_turn_what_is_held() {
         [0.0, f64::EPSILON]
     );
     assert_eq!(s.bodies.angle(0), f64::EPSILON, "rows of angles see it");
-    // Rounding errors do not accumulate unnoticed.
+    // Accumulated rounding errors are detected.
     for k in 2..8 {
         q[2] = f64::EPSILON * f64::from(k);
         m.pose(0.0, &q, &mut s);
@@ -127,7 +128,7 @@ fn functions_are_evaluated_once_at_each_time() {
         [1, 0, 1, 0, 1]
     );
     m.b(&mut s);
-    // b = −Φt of measure − (f(t) − f(0)) = 0 is ḟ = 2·cos(0).
+    // For coordinate − (f(t) − f(0)) = 0, b = −Φt is ḟ = 2·cos(0).
     assert_eq!(s.b[m.layout().m - 1], 2.0);
 }
 
@@ -135,13 +136,13 @@ fn functions_are_evaluated_once_at_each_time() {
 fn the_work_is_told_from_the_structure() {
     let work = crate::Work::of(&trolley());
     assert_eq!(work.without_turning, [0, 1]);
-    // Γ of the row of angles alone is zero; b is that of the drive.
+    // Γ of the row with only angles is zero; b is that of the drive.
     assert_eq!(
         (work.rows_of_gamma, work.rows_of_time, work.functions),
         (5, 1, 1)
     );
-    // The row of `hold` and the row `angle` of the guide are constant, and the translations of the
-    // pin, two in each of its rows.
+    // The row of `hold` and the row `angle` of the guide are constant. The translations of the pin,
+    // two in each of its rows, are constant as well.
     assert_eq!(work.entries - work.varying_entries, 2 + 1 + 4);
 }
 

@@ -17,20 +17,20 @@ pub struct AlongDocument {
     pub to: f64,
     /// Number of analysed states.
     pub samples: usize,
-    /// How far a body moves between two of them: a fraction of the size of the mechanism, or as
-    /// many radians.
+    /// Largest displacement of a body between two analysed states: a fraction of the size of the
+    /// mechanism, or an angle (rad).
     pub reach: f64,
     /// Reason why the motion stopped at this time, if it did.
     pub stopped: Option<String>,
-    /// Time (s) up to which the motion was analysed beyond the singular configuration at which it
-    /// stopped, continued smoothly.
+    /// Time (s) up to which the analysis extrapolated the motion smoothly beyond the singular
+    /// configuration at which it stopped.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continued_to: Option<f64>,
-    /// The rank that holds almost everywhere.
+    /// The rank at almost all times of the motion.
     pub generic: GenericRankDocument,
-    /// The verdicts on joints and drives over the motion, as in `summary.json` of a run.
+    /// The verdicts on joints and drives over the motion, in the format of `summary.json` of a run.
     pub reactions: ByName<AlongReactionDocument>,
-    /// Instants with another verdict than their stretch.
+    /// Instants at which a verdict differs from the verdict of its stretch.
     pub special: Vec<SpecialDocument>,
     /// Stretches of time with another rank.
     pub stretches: Vec<StretchDocument>,
@@ -38,12 +38,12 @@ pub struct AlongDocument {
     pub passages: Vec<PassageDocument>,
 }
 
-/// The rank that holds almost everywhere.
+/// The rank at almost all times of the motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct GenericRankDocument {
-    /// An instant at which it holds (s).
+    /// An instant with this rank (s).
     pub time: f64,
     /// Rank of C.
     pub rank: usize,
@@ -59,8 +59,8 @@ pub struct AlongReactionDocument {
     /// The verdict over the motion.
     #[serde(flatten)]
     pub of_run: TrackDocument,
-    /// The verdicts of its components by name, in ground axes, as far as they are not identically
-    /// zero, and of the named one of its definition.
+    /// The verdicts of its components by name, in ground axes, for components that are not
+    /// identically zero, and the verdict of the named component of its definition.
     pub components: ByName<TrackDocument>,
 }
 
@@ -100,9 +100,9 @@ pub struct PassageDocument {
     /// The smallest non-zero singular value if the configuration is nearly singular.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sigma: Option<f64>,
-    /// First and last time of the nearly singular interval (s).
+    /// First and last time of the interval on which the configuration is nearly singular (s).
     pub nearly_singular: [f64; 2],
-    /// Verdicts that differ from those of their stretch.
+    /// Verdicts that differ from the verdicts of the same stretch.
     pub differences: Vec<DifferenceDocument>,
     /// Description.
     pub text: String,
@@ -130,15 +130,15 @@ pub struct DifferenceDocument {
     pub reaction: String,
     /// A component, or `wrench` for the whole reaction.
     pub part: &'static str,
-    /// Verdict on the stretch that contains the instant.
+    /// Verdict on the stretch of time that contains the instant.
     pub generic: &'static str,
-    /// Verdict here.
+    /// Verdict at this instant.
     pub here: &'static str,
 }
 
 impl AlongDocument {
-    /// The document of a motion that was analysed up to a time with this number of samples at this
-    /// distance; `stopped` and `continued_to` are left empty.
+    /// Builds the document of a motion that was analysed up to a time with this number of samples
+    /// at this distance; `stopped` and `continued_to` are left empty.
     #[must_use]
     pub fn new(
         along: &MotionAnalysis,

@@ -1,5 +1,5 @@
-//! Reactions for several choices: unique numbers, and other numbers with the choice on which they
-//! depend.
+//! Reactions for several choices: unique numbers, and other numbers together with the choice on
+//! which they depend.
 
 use serde::Serialize;
 use solvability::{Distribution, Value};
@@ -11,7 +11,8 @@ use solvability::{Distribution, Value};
 pub struct DistributionDocument {
     /// Name of the choice.
     pub label: String,
-    /// Reactions of joints and drives in the order of their rows, on the first body at its place.
+    /// Reactions of joints and drives in the order of their rows, as loads on the first body at its
+    /// reference point.
     pub reactions: Vec<ValuesDocument>,
     /// Requested sums for the same choice.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -25,7 +26,7 @@ pub struct DistributionDocument {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ValuesDocument {
-    /// Its name.
+    /// Name of the joint, drive or sum.
     pub name: String,
     /// Components that are not identically zero (N, N·m).
     pub components: Vec<ValueDocument>,
@@ -78,7 +79,7 @@ impl DistributionDocument {
 }
 
 impl ValuesDocument {
-    /// The numbers of a sum, with its name.
+    /// Converts the numbers of a sum, with its name.
     #[must_use]
     pub fn of_group(name: &str, values: &[(&'static str, Value)]) -> Self {
         Self {

@@ -13,14 +13,14 @@ use crate::documents::{SensitivityDocument, VerdictDocument};
 pub struct ComponentDocument {
     /// `Fx`, `Fy` or `T`; in space `Fx` to `Tz`; or the named component of a definition.
     pub name: &'static str,
-    /// Its verdict.
+    /// Verdict on the component.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
     /// The verdict at nearly all configurations, as for the reaction; absent for components in
-    /// other frames, of moments and of sums.
+    /// other frames, components of moments and components of sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub generic_verdict: Option<Option<&'static str>>,
-    /// How strongly it depends on the data, if it is unique.
+    /// Sensitivity of the component to the data, if it is unique.
     #[serde(flatten)]
     pub data: SensitivityDocument,
 }

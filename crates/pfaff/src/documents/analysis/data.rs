@@ -12,60 +12,63 @@ use solvability::Analysis;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DataDocument {
-    /// The tolerance that the scene states for points and lengths (m); `None` if only their
-    /// rounding counts.
+    /// The tolerance that the scene states for points and lengths (m); `None` if the scene states
+    /// no tolerance and only rounding of the data counts.
     pub tolerance: Option<f64>,
-    /// The tolerance of directions, angles and ratios (rad): as stated, or `tolerance` divided by
-    /// the size of the mechanism, or of the smallest part if there are several.
+    /// The tolerance of directions, angles and ratios (rad), as stated; otherwise `tolerance`
+    /// divided by the size of the mechanism, or of the smallest part if there are several parts.
     pub angle_tolerance: Option<f64>,
-    /// The tolerance from which on a row is redundant (m): if points may be displaced by this much,
-    /// the rank is lower at all configurations of the mechanism. `None` if no such tolerance is
-    /// close.
+    /// The smallest tolerance at which a row is redundant (m): if points may be displaced by this
+    /// length, the rank is lower at all configurations of the mechanism. `None` if no such
+    /// tolerance is close.
     pub lower_rank_from: Option<f64>,
-    /// The same for angles (rad) if a tolerance is stated for angles only: if directions may be
-    /// rotated by this much. Then `lower_rank_from` is `None`.
+    /// The same tolerance for angles (rad) if the scene states a tolerance for angles only. If
+    /// directions may be rotated by this angle, the rank is lower. Then `lower_rank_from` is
+    /// `None`.
     pub lower_rank_from_angle: Option<f64>,
-    /// The displacement of points that is necessary for a lower rank at this configuration (m;
-    /// angles times the size of the mechanism). `None` if that is not close.
+    /// The displacement of points that makes the rank lower at this configuration (m; angles are
+    /// multiplied by the size of the mechanism). `None` if no such displacement is small.
     pub lower_rank_here: Option<f64>,
-    /// Whether the tolerance from which on a row is redundant is a small share of the size of a
-    /// part whose rank is still the higher one: rounding of the data may lock a motion that the
-    /// mechanism is to have.
+    /// Whether the smallest tolerance at which a row is redundant is a small fraction of the size
+    /// of a part that still has the higher rank. Then rounding of the data may lock a motion that
+    /// the mechanism should have.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub nearly_free: bool,
-    /// The least such tolerance (m).
+    /// The smallest such tolerance (m).
     #[serde(skip)]
     free_from: Option<f64>,
-    /// Whether rows are redundant within the stated tolerance only.
+    /// Whether rows are redundant only within the stated tolerance.
     #[serde(skip)]
     is_within: bool,
 }
 
-/// Data that differ by less than this share of the size of a part are rounded: machines are
-/// described to four digits or so, and parts that are shorter are no parts.
+/// Data that differ by less than this fraction of the size of a part count as rounded: data of
+/// machines have about four digits, and no real part is shorter.
 const ROUNDED: f64 = 1e-3;
 
 impl DataDocument {
-    /// A warning of a motion that may be locked by the rounding of the data only; `mobility` is
-    /// that of the data as they are. `None` where a stated tolerance has freed it already.
+    /// Returns a warning of a motion that may be locked only by the rounding of the data;
+    /// `mobility` is the mobility for the given data. Returns `None` if a stated tolerance has
+    /// already freed the motion.
     #[must_use]
     pub fn warning(&self, mobility: usize) -> Option<String> {
         let from = self.free_from?;
         let enough = clearly_above(from);
         let known = match self.tolerance {
-            None => "as they are written".to_owned(),
-            Some(tolerance) => format!("known to {}", length(tolerance)),
+            None => "as written".to_owned(),
+            Some(tolerance) => format!("accurate to {}", length(tolerance)),
         };
         Some(format!(
-            "mobility {mobility} for data {known}, and {} if lengths are known to {} only: one row is redundant then, \
-             and what it locks can move. If it is to move, write more digits or state `tolerance = {enough:.1e}` (m) in \
-             [scene]; `pfaff analyze` names the joints",
+            "mobility {mobility} for data {known}, but {} if lengths are accurate only to {}: one row is then redundant, \
+             and the motion that it locks becomes free. If the mechanism must move, write more digits or state \
+             `tolerance = {enough:.1e}` (m) in [scene]; `pfaff analyze` names the joints",
             mobility + 1,
             length(from)
         ))
     }
 
-    /// What one row needs to be redundant, in words, with an option that decides it.
+    /// Describes the tolerance at which one row becomes redundant, with an option that decides the
+    /// rank.
     #[must_use]
     pub fn nearness(&self) -> Option<String> {
         let option = |name: &str, from: f64| {
@@ -92,7 +95,7 @@ impl DataDocument {
         Some(format!("this pose is {here:.1e} m from a singular one"))
     }
 
-    /// The document of an analysis.
+    /// Builds the document of an analysis.
     #[must_use]
     pub fn new(analysis: &Analysis) -> Self {
         let parts = analysis.parts.iter();
@@ -100,7 +103,8 @@ impl DataDocument {
         Self::of(analysis.tolerance, parts)
     }
 
-    /// The document of parts with their sizes (m): the smallest change of the data among them.
+    /// Builds the document of parts with their sizes (m), from the smallest change of the data
+    /// among all parts.
     fn of<'a>(
         tolerance: Tolerance,
         parts: impl Iterator<Item = (f64, Option<&'a Certificate>)> + Clone,
@@ -137,8 +141,8 @@ impl DataDocument {
     }
 }
 
-/// A tolerance that is clearly above the one from which on a row is redundant, with two digits:
-/// nearer to it the rank is undecided.
+/// Returns a tolerance, with two digits, that is clearly above the smallest tolerance at which a
+/// row is redundant; closer to that value the rank is undecided.
 fn clearly_above(from: f64) -> f64 {
     let enough = BEYOND_DOUBT * from;
     let digit = 10.0_f64.powf(enough.log10().floor() - 1.0);
@@ -194,12 +198,12 @@ mod tests {
         let said = told.warning(2).expect("near");
         assert!(
             said.starts_with(
-                "mobility 2 for data known to 0.1 mm, and 3 if lengths are known to 0.05 mm only"
+                "mobility 2 for data accurate to 0.1 mm, but 3 if lengths are accurate only to 0.05 mm"
             ),
             "{said}"
         );
         assert!(said.contains("`tolerance = 1.6e-4`"), "{said}");
-        // A tolerance that has freed the row is not advised once more.
+        // The text does not recommend a tolerance that has already freed the row.
         let freed = Certificate {
             grounds: Grounds::WithinTolerance,
             ..near.clone()

@@ -28,15 +28,15 @@ pub struct EliminationsDocument {
 pub struct MakeUniqueDocument {
     /// Name of the joint or drive.
     pub reaction: String,
-    /// Kind of allowed deletions: `sensible`, `sensible, whole` where only whole joints are enough,
-    /// `whole` or `rows`.
+    /// Kind of allowed deletions: `sensible`, `sensible, whole` if deletions must include whole
+    /// joints, `whole` or `rows`.
     pub allowed: &'static str,
-    /// Each is sufficient by itself, and none of its rows can be omitted; one without rows if no
-    /// deletion is needed.
+    /// Each set of deletions is sufficient by itself, and none of its rows can be omitted; if no
+    /// deletion is needed, the list contains one set without rows.
     pub ways: Vec<WayDocument>,
     /// Whether all sets of that size are listed.
     pub complete: bool,
-    /// Reason why it could not be determined.
+    /// Reason why the deletions could not be determined.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
@@ -53,7 +53,7 @@ pub struct WayDocument {
 }
 
 impl EliminationsDocument {
-    /// The number of sets, and the first of them if requested (rows from 0).
+    /// Stores the number of sets, and the first sets if requested (rows from 0).
     #[must_use]
     pub fn new(
         count: Result<u128, EliminationError>,

@@ -1,4 +1,4 @@
-//! The evidence for a rank: what was read, what was proved, what was compared.
+//! The evidence for a rank: singular values, proofs and comparisons.
 
 use rank::{Grounds, RankStatus};
 use serde::Serialize;
@@ -11,12 +11,13 @@ use solvability::{Analysis, Generic, PartAnalysis};
 pub struct EvidenceDocument {
     /// `decided` or `undecided`.
     pub status: &'static str,
-    /// Reason why it is undecided: both possible ranks, and what would decide.
+    /// Reason why the rank is undecided: both possible ranks, and the information that would
+    /// decide.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     /// σ_r of the equilibrated matrix; infinite (`null`) for rank 0.
     pub sigma_r: f64,
-    /// σ_{r+1}
+    /// σ_{r+1} of the equilibrated matrix.
     pub sigma_next: f64,
     /// σ_r/σ_{r+1}; infinite (`null`) if σ_{r+1} = 0.
     pub gap: f64,
@@ -25,12 +26,12 @@ pub struct EvidenceDocument {
     /// Uncertainty of the entries of the equilibrated matrix, including the residual of the
     /// constraints.
     pub constraint_residual: f64,
-    /// Whether the redundancy is the same at other configurations; `None` if that is not known.
+    /// Whether the redundancy is the same at other configurations; `None` if unknown.
     pub permanent: Option<bool>,
     /// Whether the rank is decided and a certificate proves that it is not lower; `grounds` states
     /// why it is not higher.
     pub certified: bool,
-    /// Proved lower bound on the rank.
+    /// Proved lower bound on the rank of C.
     pub rank_at_least: Option<usize>,
     /// Proved lower bound on σ_r; 0 if only arithmetic modulo primes proves the rank.
     pub sigma_bound: Option<f64>,
@@ -50,16 +51,16 @@ pub struct EvidenceDocument {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NearlyRedundantDocument {
-    /// σ_r
+    /// The singular value σ_r.
     pub sigma: f64,
-    /// Relative change of reactions if a point is displaced by 10⁻⁶ m: 1 is a change by their own
-    /// size. An estimate of first order.
+    /// Relative change of reactions if a point is displaced by 10⁻⁶ m; the value 1 means a change
+    /// by the full size of the reactions. This is a first-order estimate.
     pub change_per_micrometre: f64,
-    /// Weights of all equilibrated rows whose combination is a row of norm σ_r.
+    /// Weights of all equilibrated rows; their weighted sum is a row of norm σ_r.
     pub direction: Vec<f64>,
 }
 
-/// The misalignment whose effect is given (m).
+/// The misalignment for which the effect is given (m).
 const MICROMETRE: f64 = 1e-6;
 
 /// Ranks at other configurations of the same component.
@@ -89,8 +90,8 @@ pub struct PointDocument {
 }
 
 impl EvidenceDocument {
-    /// The evidence of the part whose rank is least certain. The rank of the whole is proved if
-    /// those of all parts are.
+    /// Returns the evidence of the part whose rank is least certain. The rank of the whole
+    /// mechanism is proved if the ranks of all parts are proved.
     pub(super) fn new(analysis: &Analysis, generic: Option<&Generic>) -> Self {
         let weakest = analysis.weakest();
         let evidence = weakest.decision.evidence();
@@ -130,7 +131,8 @@ impl EvidenceDocument {
     }
 }
 
-/// The result of the part whose rows come closest to a dependence, relative to its size.
+/// Returns the result of the part whose rows come closest to a dependence, relative to the size of
+/// the part.
 fn nearly_redundant(analysis: &Analysis) -> Option<NearlyRedundantDocument> {
     let nearly = analysis.nearly_redundant.as_ref()?;
     let is_here = |part: &&PartAnalysis| {

@@ -14,15 +14,16 @@ const NAMED: usize = 12;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NoteDocument {
-    /// The joints concerned.
+    /// Joints to which the note applies.
     pub joints: Vec<String>,
-    /// The note, with names of joints.
+    /// The text of the note, with names of joints.
     pub text: String,
 }
 
 impl NoteDocument {
-    /// The notes of all definitions that have one, in the order of their first joints. A joint is
-    /// left out if nothing else acts on its bodies, because then its reaction cannot be misread.
+    /// Returns the notes of all definitions that have one, in the order of their first joints. A
+    /// joint is left out if no other joint or force acts on its bodies, because then its reaction
+    /// cannot be misread.
     #[must_use]
     pub fn all(layout: &Layout) -> Vec<Self> {
         let has_note = |g: &&ConstraintGroup| g.spec.note.is_some();
@@ -58,7 +59,7 @@ impl NoteDocument {
     }
 }
 
-/// The first names, and the number of the others.
+/// Lists the first names, and the number of the other joints.
 fn named(joints: &[String]) -> String {
     let first = joints.iter().take(NAMED);
     let first: Vec<String> = first.map(|name| format!("`{name}`")).collect();

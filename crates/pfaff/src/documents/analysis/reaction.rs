@@ -17,58 +17,60 @@ use crate::questions::analyze::{about, frames};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ReactionDocument {
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
-    /// Its type in scene files.
+    /// Type of the joint or drive in scene files.
     #[serde(rename = "type")]
     pub kind: &'static str,
-    /// Its rows of C.
+    /// Rows of C that belong to the joint or drive.
     pub rows: Vec<usize>,
-    /// Verdict of force and torque, with ‖B_X‖ as margin.
+    /// Verdict on force and torque together, with ‖B_X‖ as margin.
     #[serde(flatten)]
     pub wrench: VerdictDocument,
-    /// The verdict at nearly all configurations: on the stretch of the motion that contains the
-    /// instant, where a motion is run; otherwise at the other configurations that were compared.
-    /// `null` if none could be reached.
+    /// The verdict at nearly all configurations. If a motion is run, it is the verdict on the
+    /// stretch of the motion that contains the instant. Otherwise it is the verdict at the other
+    /// configurations that were compared. `null` if no other configuration could be reached.
     pub generic_verdict: Option<&'static str>,
-    /// How strongly it depends on the data; [`super::AnalysisDocument::add_sensitivities`] fills
-    /// it, and those of components and directions.
+    /// Sensitivity of the reaction to the data; [`super::AnalysisDocument::add_sensitivities`] adds
+    /// it, and the sensitivities of components and directions.
     #[serde(flatten)]
     pub data: SensitivityDocument,
-    /// Verdict of all its multipliers together.
+    /// Verdict on all multipliers of the joint or drive together.
     pub multipliers: &'static str,
-    /// Verdict of the multiplier of each row.
+    /// Verdict on the multiplier of each row.
     pub row_verdicts: Vec<RowDocument>,
-    /// Verdicts of the components that are not identically zero, and of the `load` of a coupling.
+    /// Verdicts on the components that are not identically zero, and on the `load` of a coupling.
     pub components: Vec<ComponentDocument>,
-    /// Basis of the unique directions, without those along which the reaction is zero under any
-    /// load: in the plane in these components, in space of six numbers, a force and a moment about
-    /// the place. `null` if their number is undecided.
+    /// Basis of the unique directions, without the directions along which the reaction is zero
+    /// under any load. In the plane a direction has these components; in space it has six numbers,
+    /// a force and a moment about the reference point. `null` if the number of directions is
+    /// undecided.
     pub unique_directions: Option<Vec<Vec<f64>>>,
-    /// How strongly the reaction along each of these directions depends on the data; absent if not
-    /// known.
+    /// Sensitivity of the reaction along each of these directions to the data; absent if unknown.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub direction_sensitivities: Vec<SensitivityDocument>,
-    /// The largest part, in the unit of margins, that had to count as zero within the stated
-    /// tolerance for these directions; absent if there is none.
+    /// The largest component, in the unit of margins, that counts as zero within the stated
+    /// tolerance for these directions; absent if there is no such component.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unique_directions_within_tolerance: Option<f64>,
-    /// Reason why it is unique without any numbers: `peeled` or `bridge`.
+    /// Reason why the reaction is unique by the structure of the mechanism alone, without numbers:
+    /// `peeled` or `bridge`.
     pub settled: Option<&'static str>,
-    /// Explanation if it is not unique.
+    /// Explanation if the reaction is not unique.
     pub explanation: Option<String>,
-    /// Its load in each self-stress in which it takes part.
+    /// Load of the reaction in each self-stress in which it takes part.
     pub free_directions: Vec<FreeDirectionDocument>,
-    /// Its verdicts in other frames, if requested.
+    /// Verdicts on the reaction in other frames, if requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub frames: Vec<frames::FrameDocument>,
-    /// Verdicts on its moment about another point, if requested.
+    /// Verdicts on the moment of the reaction about another point, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment: Option<about::MomentAboutDocument>,
-    /// The nearest point (m) about which its moment is unique, if it is not about the place.
+    /// The nearest point (m) about which the moment is unique, if the moment about the reference
+    /// point is not unique.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment_unique_about: Option<Vec<f64>>,
-    /// Why it has no number in the motion, whatever its verdict.
+    /// Reason why the reaction has no finite value in the motion, whatever its verdict.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_finite_reaction: Option<NoFiniteReaction>,
 }
@@ -80,7 +82,7 @@ pub struct ReactionDocument {
 pub struct RowDocument {
     /// Row of C.
     pub row: usize,
-    /// Its verdict.
+    /// Verdict on the multiplier.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
 }
@@ -95,24 +97,24 @@ pub struct FreeDirectionDocument {
     pub dependency: usize,
     /// Point at which it acts on the first body (m), with the components of the space.
     pub place: Vec<f64>,
-    /// Force.
+    /// Force on the first body.
     pub force: Vec<f64>,
-    /// Torque about the place.
+    /// Torque about the reference point.
     pub torque: TorqueDocument,
 }
 
-/// A torque: a number in the plane, where it has one direction only.
+/// A torque: a number in the plane, in which torques have only one direction.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum TorqueDocument {
-    /// T
+    /// The torque T.
     Number(f64),
-    /// Tx, Ty, Tz
+    /// The torque components Tx, Ty, Tz.
     Vector([f64; 3]),
 }
 
-/// The components that a vector has in a space.
+/// Returns the components that a vector has in a space.
 pub(crate) fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
     vector[..space.n_translations()].to_vec()
 }
@@ -122,12 +124,12 @@ pub(crate) fn components(space: SpaceKind, vector: [f64; 3]) -> Vec<f64> {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct GroupDocument {
-    /// Its name or expression.
+    /// Name or expression of the combination.
     pub name: String,
-    /// Its verdict.
+    /// Verdict on the combination.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
-    /// How strongly it depends on the data: the largest of its unique numbers or members.
+    /// Sensitivity to the data: the largest sensitivity of its unique numbers or members.
     #[serde(flatten)]
     pub data: SensitivityDocument,
     /// Verdicts on force and torque of a sum of wrenches.
@@ -136,14 +138,14 @@ pub struct GroupDocument {
     /// The point (m, global components) about which the torque of a sum of wrenches is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub about: Option<Vec<f64>>,
-    /// Its numbers with their verdicts (N, N·m): the `sum` of components, or those of force and
-    /// torque; without values where they are not determined.
+    /// Numbers of the combination with their verdicts (N, N·m): the `sum` of components, or the
+    /// force and torque; numbers that are not determined have no value.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<ValueDocument>,
 }
 
 impl ReactionDocument {
-    /// The components to which the numbers of its unique directions belong.
+    /// Returns the components to which the numbers of the unique directions belong.
     #[must_use]
     pub fn direction_components(&self) -> Vec<&'static str> {
         let own = self.components.iter().map(|c| c.name);
@@ -154,7 +156,8 @@ impl ReactionDocument {
         }
     }
 
-    /// The names of what is fragile: of the reaction, if all of it is, or else of components.
+    /// Returns the ill-determined names: the reaction, if all of it is ill-determined, or else its
+    /// components.
     #[must_use]
     pub fn fragile_names(&self) -> Vec<String> {
         if !self.data.fragile {
@@ -166,7 +169,7 @@ impl ReactionDocument {
             .collect();
         let is_all = |c: &ComponentDocument| c.data.fragile || c.data.sensitivity == Some(0.0);
         let is_whole = self.wrench.verdict == "unique" && self.components.iter().all(is_all);
-        // Without components the named one of the definition is fragile.
+        // If no component is listed, the named component of the definition is ill-determined.
         if is_whole || named.is_empty() {
             vec![self.name.clone()]
         } else {
@@ -174,8 +177,8 @@ impl ReactionDocument {
         }
     }
 
-    /// The verdict as one line of text, including whether it depends on the last digits or on the
-    /// tolerance that the scene states.
+    /// Returns the verdict as one line of text; the line states whether the verdict depends on the
+    /// last digits or on the tolerance of the scene.
     #[must_use]
     pub fn said(&self) -> String {
         let verdict = self.wrench.verdict.replace('_', " ");
@@ -200,8 +203,8 @@ impl ReactionDocument {
         }
     }
 
-    /// The verdicts that hold at nearly all configurations, where they differ from those here, by
-    /// name: of the reaction, or else of its components.
+    /// Returns by name the verdicts that hold at nearly all configurations and differ from the
+    /// verdicts here. The names are the reaction, or else its components.
     #[must_use]
     pub fn differing(&self) -> Vec<(String, &'static str)> {
         let own = self.components.iter().filter_map(|c| {
@@ -316,7 +319,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
     }
 }
 
-/// A direction of a reaction as it is written: in space in all components.
+/// Returns a direction of a reaction in its written form: in space with all six components.
 fn written(r: &ReactionVerdict, direction: &[f64]) -> Vec<f64> {
     if r.space.n_rotations() == 1 {
         return direction.to_vec();
@@ -331,7 +334,7 @@ fn written(r: &ReactionVerdict, direction: &[f64]) -> Vec<f64> {
 }
 
 impl GroupDocument {
-    /// The verdict on a group, with its name.
+    /// Builds the document of the verdict on a group, with its name.
     #[must_use]
     pub fn new(name: &str, verdict: &GroupVerdict) -> Self {
         Self {
@@ -344,7 +347,7 @@ impl GroupDocument {
         }
     }
 
-    /// Adds how strongly its unique numbers depend on the data.
+    /// Adds the sensitivities of its unique numbers to the data.
     pub fn add_sensitivities(&mut self, found: &GroupSensitivities, layout: &Layout) {
         for ValueDocument { name, value, .. } in &mut self.values {
             let own = name.and_then(|name| found.number(name));

@@ -1,4 +1,5 @@
-//! Documents of mechanisms in space: six components, six numbers of a direction, three of a place.
+//! Documents of mechanisms in space: a reaction has six components, a direction six numbers, and a
+//! point three coordinates.
 
 use std::sync::Arc;
 
@@ -9,8 +10,9 @@ use solvability::{Group, Questions, analyse};
 
 use super::super::{AnalysisDocument, GroupDocument};
 
-/// The planar four-bar A(0, 0), B(.3, .8), C(1.5, 1.1), D(1.4, 0) on four revolutes along z; the
-/// ground stands first in A and the rocker in D. The frame of the crank is at A.
+/// The planar four-bar A(0, 0), B(.3, .8), C(1.5, 1.1), D(1.4, 0) has four revolutes along z; the
+/// ground is the first body of A and the rocker is the first body of D. The frame of the crank is
+/// at A.
 fn four_bar() -> Mechanism {
     let mut d = SpatialDescription::new("four-bar");
     let tensor = [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 4.0]];
@@ -42,7 +44,7 @@ fn four_bar() -> Mechanism {
     Mechanism::build(&d).expect("a four-bar")
 }
 
-/// The document with everything, and that of the sum of A and D.
+/// Returns the document with all results, and the document of the sum of A and D.
 fn documents(mechanism: &Mechanism) -> (Value, Value) {
     let (q, _) = mechanism.described_state();
     let analysis = analyse(mechanism, 0.0, &q).expect("a configuration");
@@ -66,7 +68,7 @@ fn documents(mechanism: &Mechanism) -> (Value, Value) {
     (document, sum)
 }
 
-/// `[name, verdict]` of components.
+/// Returns `[name, verdict]` of components.
 fn verdicts(components: &Value) -> Vec<[&str; 2]> {
     let components = components.as_array().expect("a list").iter();
     let text = |c: &Value, key: &str| c[key].as_str().expect("a text").to_owned();
@@ -81,7 +83,7 @@ fn verdicts(components: &Value) -> Vec<[&str; 2]> {
         .collect()
 }
 
-/// V3: Fx and Fy unique, Fz, Tx and Ty not, Tz zero.
+/// V3: Fx and Fy are unique, Fz, Tx and Ty are not, and Tz is zero.
 #[test]
 fn an_analysis_in_space_has_forces_and_moments() {
     let (d, sum) = documents(&four_bar());
@@ -110,7 +112,7 @@ fn an_analysis_in_space_has_forces_and_moments() {
         [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]
     ]);
     assert_eq!(b["unique_directions"], directions);
-    // The body is not turned, and its axes are those of the joint.
+    // The body is not rotated, and its axes are parallel to those of the joint.
     let names = [
         ("global", ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"]),
         ("first_body", ["Fx'", "Fy'", "Fz'", "Tx'", "Ty'", "Tz'"]),
@@ -141,14 +143,15 @@ fn an_analysis_in_space_has_forces_and_moments() {
     for (x, y) in load.iter().flatten().zip(derived.as_flattened()) {
         assert!((x - y).abs() < 1e-12 && f.abs() == 1.0, "{load:?}");
     }
-    let words = "`A`, `B`, `C` and `D` can carry a load across the plane of the linkage (force along z and two \
-        moments) that the bodies cannot tell apart: 3 numbers are missing to determine all of them";
+    let words = "`A`, `B`, `C` and `D` share 3 load components that equilibrium does not determine (a load across \
+        the plane of the linkage (force along z and two moments))";
     assert_eq!(d["mixing"][0]["text"], words);
     assert_eq!(sum["about"], json!([0.0, 0.0, 0.0]));
     assert_eq!(sum["components"].as_array().map(Vec::len), Some(6));
 }
 
-/// The crank turns about A, where its frame is; `wz` of the coupler is −1/5.16 of that.
+/// The crank turns about A, the origin of its frame; `wz` of the coupler is −1/5.16 times that of
+/// the crank.
 #[test]
 fn free_motions_in_space_are_written_for_frames() {
     let (d, _) = documents(&four_bar());

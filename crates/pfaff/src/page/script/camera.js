@@ -89,10 +89,10 @@ class Camera {
 
   /** Where the eye is, in words. */
   inWords() {
-    const kind = this.isPerspective ? "perspective" : "parallel";
-    if (this.standsAt) return `Seen along ${this.standsAt}, ${kind}`;
+    const kind = this.isPerspective ? "perspective projection" : "parallel projection";
+    if (this.standsAt) return `View along ${this.standsAt}, ${kind}`;
     const toDegrees = (x) => Math.round((180 * x) / Math.PI);
     const height = toDegrees(Math.asin(Math.min(Math.max(dot3(this.towards, this.above), -1), 1)));
-    return `Seen from ${Math.abs(height)}° ${height < 0 ? "below" : "above"}, ${kind}`;
+    return `View from ${Math.abs(height)}° ${height < 0 ? "below" : "above"}, ${kind}`;
   }
 }

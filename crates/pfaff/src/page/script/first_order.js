@@ -116,7 +116,7 @@ function setUpFirstOrder(picture) {
 function showStress(stress) {
   const place = byId("stress-loads");
   make(place, "p", {}, ...withNames(stress.text));
-  make(place, "p", { className: "grey", textContent: "Full arrows act on the first body of a joint, hollow ones on the other. Together they load no body." });
+  make(place, "p", { className: "grey", textContent: "Filled arrows show loads on the first body of a joint. Hollow arrows show loads on the other body. The loads on each body cancel." });
   const list = make(place, "ul");
   stress.joints.forEach((j, n) => {
     const loads = stress.wrenches[n].flatMap((x, k) => (Math.abs(x) > 1e-9 ? [`${COMPONENTS[k]} ${spoken(x, 3)}`] : []));

@@ -14,7 +14,7 @@ function setUpTheme() {
     ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
   const tell = () => {
     button.textContent = isDark() ? "Light" : "Dark";
-    button.setAttribute("aria-label", `Show the page ${isDark() ? "light" : "dark"}`);
+    button.setAttribute("aria-label", `Switch to the ${isDark() ? "light" : "dark"} theme`);
   };
   button.addEventListener("click", () => {
     document.documentElement.dataset.theme = isDark() ? "light" : "dark";
@@ -88,8 +88,8 @@ function setUpKeys() {
 /** Check boxes for what the picture shows. */
 function setUpOptions(picture) {
   const options = [
-    ["forces", "Reactions"], ["freedom", "Free directions"], ["names", "Names"],
-    ["centres", "Centres of mass"], ["grid", "Grid"], ["follow", "Camera follows"],
+    ["forces", "Reactions"], ["freedom", "Undetermined directions"], ["names", "Names"],
+    ["centres", "Centres of mass"], ["grid", "Grid"], ["follow", "Camera follows mechanism"],
   ];
   for (const [key, words] of options) {
     if (key === "follow" && !picture.travels) continue;
@@ -106,9 +106,9 @@ function setUpOptions(picture) {
   rate.addEventListener("change", () => {
     byId("rate").hidden = !rate.checked;
   });
-  make(byId("options"), "label", {}, rate, "Pictures per second");
+  make(byId("options"), "label", {}, rate, "Frames per second");
   clock.listeners.push(() => {
-    if (!byId("rate").hidden) byId("rate").textContent = `${clock.picturesPerSecond.toFixed(0)} pictures a second`;
+    if (!byId("rate").hidden) byId("rate").textContent = `${clock.picturesPerSecond.toFixed(0)} frames per second`;
   });
   for (const [id, factor] of [["zoom-in", 1.3], ["zoom-out", 1 / 1.3], ["zoom-reset", 0]]) {
     byId(id).addEventListener("click", () => picture.zoomBy(factor));
@@ -266,7 +266,7 @@ function showChoices(joint, legend = byId("reaction-legend")) {
   if (!joint.choices.length) return;
   const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
   draw(key, "rect", { x: 0, y: 1, width: 28, height: 10, class: "band" });
-  make(legend, "span", { className: "entry" }, key, "range of the choices compared");
+  make(legend, "span", { className: "entry" }, key, "range of the compared choices");
   joint.choices.forEach((choice, place) => legendEntry(legend, choiceSeries(choice, place, null)));
 }
 
@@ -275,13 +275,13 @@ function choiceSeries(choice, place, values) {
 }
 
 function reactionInWords(joint) {
-  const on = `Force and torque on \`${joint.bodies[0]}\`, at the place of \`${joint.name}\`.`;
-  if (joint.verdict === "unique") return `${on} Unique: these numbers follow from the model.`;
-  if (joint.verdict === "undecided") return `${on} Whether it is unique is not decided.`;
+  const on = `The curves show the force and torque on \`${joint.bodies[0]}\` at the reference point of \`${joint.name}\`.`;
+  if (joint.verdict === "unique") return `${on} The reaction is unique: the model determines these values.`;
+  if (joint.verdict === "undecided") return `${on} The verdict on this reaction is undecided.`;
   const why = joint.explanation ? ` At the start, ${joint.explanation}.` : "";
   const compared = joint.choices.length
-    ? " Bands reach from the smallest to the largest value of the choices compared; other choices leave them."
-    : " No choices were compared for it, so components that are not unique have no curve.";
+    ? " Each band extends from the smallest to the largest value of the compared choices. Other choices can give values outside the band."
+    : " No choices were compared for this reaction. Components that are not unique therefore have no curve.";
   return `${on}${why}${determinedInWords(joint)}${compared}`;
 }
 
@@ -289,7 +289,7 @@ function reactionInWords(joint) {
 function determinedInWords(joint) {
   const some = joint.components.filter((c) => c.determined?.length);
   const on = (c) => c.determined.map(([from, to]) => `${spoken(from)} … ${spoken(to)} s`).join(", ");
-  return some.length ? ` Determined on parts of the run: ${some.map((c) => `${c.name} on ${on(c)}`).join("; ")}.` : "";
+  return some.length ? ` Components that are determined on parts of the run: ${some.map((c) => `${c.name} on ${on(c)}`).join("; ")}.` : "";
 }
 
 /** A wrench along the axes of a body. */
@@ -336,9 +336,9 @@ function showComponent(chart, joint, name, k, { large, frame }) {
     const values = curves.map((c) => c[f]).filter(Number.isFinite);
     return values.length ? of(...values) : NaN;
   });
-  const band = { low: at(Math.min), high: at(Math.max), label: "range of the choices compared" };
+  const band = { low: at(Math.min), high: at(Math.max), label: "range of the compared choices" };
   const series = joint.choices.map((choice, place) => choiceSeries(choice, place, curves[place]));
-  if (partly) series.unshift({ label: `${name}, where it is determined`, values: own, colour: 0 });
+  if (partly) series.unshift({ label: `${name} (determined values only)`, values: own, colour: 0 });
   chart.show(series, { ...options, band });
 }
 
@@ -357,13 +357,13 @@ function setUpChecks() {
   const energy = new Chart(byId("energy-curves"), { title: "Energy", unit: "J", onSeek: seek });
   const [kinetic, potential, work] = [data.energy.kinetic, data.energy.potential, data.energy.work].map(decode);
   const parts = [
-    { label: "kinetic", values: kinetic, colour: 0, dash: 0 },
-    { label: "potential of the weight", values: potential, colour: 2, dash: 1 },
+    { label: "kinetic energy", values: kinetic, colour: 0, dash: 0 },
+    { label: "potential energy of gravity", values: potential, colour: 2, dash: 1 },
     { label: "work of drives and applied forces", values: work, colour: 1, dash: 2 },
   ];
   energy.show(parts.filter((s, k) => k === 0 || s.values.some((x) => x !== 0)));
   const checks = [
-    ["Energy balance", "share of kinetic energy", [["|E − E₀ − work| / largest kinetic energy", data.energy.gap]]],
+    ["Energy error", "relative to kinetic energy", [["|E − E₀ − work| / largest kinetic energy", data.energy.gap]]],
     ["Constraint residuals", "m, rad and m/s, rad/s", [["largest |Φ|", data.residuals.position], ["largest |C·v − b|", data.residuals.velocity]]],
   ];
   for (const [title, unit, curves] of checks) {

@@ -1,4 +1,4 @@
-//! Moments about another point than the places of the joints.
+//! Moments about a point other than the reference points of the joints.
 
 mod answer;
 
@@ -21,7 +21,7 @@ use crate::words::Block;
 /// Axes of the ground.
 const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Moments about the point that is asked for.
+/// Moments about the requested point.
 pub(super) struct Moments;
 
 impl Addition for Moments {
@@ -80,7 +80,7 @@ impl Addition for Moments {
     }
 }
 
-/// The point of `--about`: coordinates, or the place of a marker.
+/// Reads the point of `--about`: coordinates, or the position of a marker.
 fn point(text: &str, configuration: &ConfigurationAnalysis<'_>) -> Result<[f64; 3], Refusal> {
     if let Some(place) = configuration.marker(text) {
         return Ok(place);

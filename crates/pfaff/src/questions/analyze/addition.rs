@@ -1,4 +1,4 @@
-//! What an analysis says besides, if it is asked to.
+//! Optional parts of an analysis.
 
 use solvability::ComponentVerdict;
 
@@ -9,14 +9,14 @@ use crate::error::StudyError;
 use crate::refusal::Refusal;
 use crate::words::Block;
 
-/// What an analysis also says if it is asked to.
+/// An optional part of an analysis.
 pub(super) trait Addition: Sync {
-    /// Refuses what cannot be answered, before anything is computed.
+    /// Rejects invalid requests before the computation.
     fn check(&self, _asked: &Analyze, _of: &ConfigurationAnalysis<'_>) -> Result<(), Refusal> {
         Ok(())
     }
 
-    /// Adds it to the document, if it is asked for.
+    /// Adds the requested results to the document.
     fn add(
         &self,
         asked: &Analyze,
@@ -24,11 +24,11 @@ pub(super) trait Addition: Sync {
         document: &mut AnalysisDocument,
     ) -> Result<(), StudyError>;
 
-    /// The same in words.
+    /// Returns the same results as text.
     fn words(&self, d: &AnalysisDocument) -> Vec<Block>;
 }
 
-/// The places of unique components.
+/// Iterates over the indices of unique components.
 pub(super) fn unique(components: &[ComponentVerdict]) -> impl Iterator<Item = usize> + '_ {
     let all = components.iter().enumerate();
     all.filter(|(_, c)| c.judgement.verdict.is_unique())

@@ -1,7 +1,7 @@
-//! The list of what an analysis also says if it is asked to, each in a folder of its own.
+//! The list of the optional parts of an analysis, each in a folder of its own.
 
 use super::addition::Addition;
 use super::{about, frames};
 
-/// All of them, in the order of the words.
+/// All optional parts, in the order of the text.
 pub(super) const ADDITIONS: &[&dyn Addition] = &[&frames::OtherFrames, &about::Moments];

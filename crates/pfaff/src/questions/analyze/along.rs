@@ -1,4 +1,4 @@
-//! Verdicts along the motion in words.
+//! Text on the verdicts along the motion.
 
 use crate::documents::{AlongDocument, AlongReactionDocument, SpecialDocument};
 use model::words::rounded;
@@ -6,18 +6,19 @@ use model::words::rounded;
 use super::phrases::spoken;
 use crate::words::{Block, count};
 
-/// Judged states farther apart than this may miss a change: a fraction of the mechanism's size, or
-/// radians.
+/// If analysed states are farther apart than this, they may not show a change: a fraction of the
+/// size of the mechanism, or an angle (rad).
 const COARSE: f64 = 0.2;
 
 /// Number of instants that are listed.
 const INSTANTS: usize = 12;
 
-/// The verdicts over the motion, instants and intervals with others, and singular configurations.
+/// Describes the verdicts over the motion, the instants and intervals with different verdicts, and
+/// the singular configurations.
 pub(super) fn of(along: &AlongDocument) -> Vec<Block> {
     let (to, judged) = (
         seconds(along.to),
-        count(along.samples, "state judged", "states judged"),
+        count(along.samples, "state analysed", "states analysed"),
     );
     let heading = format!("Along the motion, t = 0 to {to} s ({judged}):");
     let mut out = vec![Block::Heading(heading)];
@@ -38,31 +39,31 @@ pub(super) fn of(along: &AlongDocument) -> Vec<Block> {
     all.iter().for_each(|text| say((*text).clone()));
     let is_constant = |(_, r): &(String, AlongReactionDocument)| r.of_run.determined.is_empty();
     if all.is_empty() && along.reactions.0.iter().all(is_constant) {
-        say("nothing else holds at any time".to_owned());
+        say("the verdicts are the same at all times".to_owned());
     }
     if special.len() > INSTANTS {
-        let more = count(special.len() - INSTANTS, "instant more", "instants more");
-        say(format!("and {more} (`--json` has all)"));
+        let more = count(special.len() - INSTANTS, "more instant", "more instants");
+        say(format!("and {more} (`--json` prints all)"));
     }
     if along.reach > COARSE {
         say(format!(
-            "warning: between judged states bodies move by up to {:.1} of the mechanism's size or radians: short events may be missed",
+            "warning: bodies move by up to {:.1} sizes of the mechanism (or radians) between analysed states; short events may be missed",
             along.reach
         ));
     }
     if let Some(reason) = &along.stopped {
         say(match along.continued_to {
             Some(to) => format!(
-                "the motion stopped there; continued as smoothly as it came, it was judged up to t = {} s: {reason}",
+                "the motion stopped; a smooth continuation was analysed up to t = {} s: {reason}",
                 seconds(to)
             ),
-            None => format!("the motion stopped, and was judged only so far: {reason}"),
+            None => format!("the motion stopped; later times were not analysed: {reason}"),
         });
     }
     out
 }
 
-/// The rank, and the verdict of each reaction over the motion.
+/// Describes the rank, and the verdict on each reaction over the motion.
 fn over_the_motion(along: &AlongDocument) -> String {
     let generic = &along.generic;
     let reactions = &along.reactions.0;
@@ -85,7 +86,7 @@ fn over_the_motion(along: &AlongDocument) -> String {
     text
 }
 
-/// The verdict of each component over the motion.
+/// Describes the verdict on each component over the motion.
 fn components(name: &str, reaction: &AlongReactionDocument) -> String {
     let each = reaction.components.0.iter().map(|(component, track)| {
         let on = match track.on_intervals() {
@@ -97,7 +98,7 @@ fn components(name: &str, reaction: &AlongReactionDocument) -> String {
     format!("`{name}`: {}", each.collect::<Vec<_>>().join(", "))
 }
 
-/// What else holds at single instants that are no singular configurations.
+/// Describes different verdicts at single instants that are not singular configurations.
 fn special(along: &AlongDocument) -> Vec<String> {
     let is_apart = |s: &&SpecialDocument| along.passages.iter().all(|p| p.time != s.time);
     let mut instants: Vec<(String, Vec<(&str, String)>)> = Vec::new();
@@ -125,7 +126,7 @@ fn special(along: &AlongDocument) -> Vec<String> {
         };
         let words = ["unique", "not_unique", "undecided"].into_iter();
         let words: Vec<String> = words.filter_map(of).collect();
-        format!("at t = {time} s, for an instant, {}", words.join("; "))
+        format!("only at the instant t = {time} s: {}", words.join("; "))
     };
     instants.iter().map(text).collect()
 }

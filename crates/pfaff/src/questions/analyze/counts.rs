@@ -1,5 +1,5 @@
-//! The verdicts if there are too many joints and drives for a table: counts by type, and the first
-//! names.
+//! Text on the verdicts if there are too many joints and drives for a table: counts by type, and
+//! the first names.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::words::Block;
 /// Number of names that are listed.
 const LISTED: usize = 12;
 
-/// Counts by type, and the first names.
+/// Counts verdicts by type, and lists the first names.
 pub(super) fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
     const WORDS: [&str; 3] = ["unique", "not_unique", "undecided"];
     let mut by_type: BTreeMap<&str, [usize; 3]> = BTreeMap::new();
@@ -40,7 +40,7 @@ pub(super) fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
         }
         let mut listed = names[..names.len().min(LISTED)].join(", ");
         if names.len() > LISTED {
-            listed += &format!(" and {} more (`--json` lists all)", names.len() - LISTED);
+            listed += &format!(" and {} more (`--json` prints all)", names.len() - LISTED);
         }
         out.extend([Block::Gap, Block::after(said, listed)]);
     }

@@ -1,11 +1,11 @@
-//! The tolerances of the data and their consequences, in sentences.
+//! Sentences on the tolerances of the data and their consequences.
 
 use crate::documents::AnalysisDocument;
 use model::words::length;
 
 use crate::words::Block;
 
-/// Nothing if no tolerance is stated and no lower rank is near.
+/// Returns no text if no tolerance is stated and no lower rank is near.
 pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     let data = &d.data;
     let sentences = [
@@ -18,16 +18,16 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
         .collect()
 }
 
-/// The tolerances that the scene or the command line states.
+/// Describes the tolerances that the scene or the command line states.
 fn stated(tolerance: Option<f64>, angle: Option<f64>) -> Option<String> {
     match (tolerance, angle) {
         (Some(tolerance), Some(angle)) => Some(format!(
-            "data known to {} (angles {angle:.1e} rad)",
+            "data accurate to {} (angles {angle:.1e} rad)",
             length(tolerance)
         )),
-        (Some(tolerance), None) => Some(format!("data known to {}", length(tolerance))),
+        (Some(tolerance), None) => Some(format!("data accurate to {}", length(tolerance))),
         (None, Some(angle)) => Some(format!(
-            "angles known to {angle:.1e} rad, lengths to their rounding"
+            "angles accurate to {angle:.1e} rad, lengths to rounding"
         )),
         (None, None) => None,
     }
@@ -42,12 +42,12 @@ mod tests {
         let said = stated(Some(1e-4), Some(4.2e-5));
         assert_eq!(
             said.as_deref(),
-            Some("data known to 0.1 mm (angles 4.2e-5 rad)")
+            Some("data accurate to 0.1 mm (angles 4.2e-5 rad)")
         );
         let said = stated(None, Some(1e-5));
         assert_eq!(
             said.as_deref(),
-            Some("angles known to 1.0e-5 rad, lengths to their rounding")
+            Some("angles accurate to 1.0e-5 rad, lengths to rounding")
         );
         assert_eq!(stated(None, None), None);
     }

@@ -1,42 +1,56 @@
-//! The rows that may be deleted, in words.
+//! Text on the rows that may be deleted.
 
 use crate::documents::AnalysisDocument;
 use crate::documents::MakeUniqueDocument;
 
 use crate::words::{Block, count};
 
-/// Number of sets that are listed for a reaction if no option requested them.
+/// Number of sets that are listed for a reaction without a request by an option.
 const WAYS: usize = 1;
 
 /// Number of reactions for which such hints are listed.
 pub(super) const HINTS: usize = 8;
 
-/// The hints, or the requested answers if there are any, and the number of admissible sets.
+/// Returns the hints, or the requested results if there are any, and the number of admissible sets.
 pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Block> {
     let mut out = Vec::new();
     let item = |text: String| Block::after("- ", text);
     if d.answers.make_unique.is_empty() && hints.iter().any(|hint| hint.reason.is_none()) {
-        let heading = "What would make it unique (a decision of the designer, not a finding):";
-        out.push(Block::Heading(heading.to_owned()));
-        let hint = |hint: &MakeUniqueDocument| {
-            Block::after(format!("- {}: ", hint.reaction), ways(hint, WAYS))
-        };
-        out.extend(hints.iter().take(HINTS).map(hint));
-        if hints.len() > HINTS {
-            out.push(item("others: `--make-unique NAME`".to_owned()));
+        // Reactions with the same way have one line.
+        let mut lines: Vec<(Vec<&str>, String)> = Vec::new();
+        for hint in hints.iter().take(HINTS) {
+            let text = ways(hint, WAYS);
+            match lines.iter_mut().find(|(_, known)| *known == text) {
+                Some((names, _)) => names.push(&hint.reaction),
+                None => lines.push((vec![&hint.reaction], text)),
+            }
         }
+        if let [(_, text)] = lines.as_slice()
+            && hints.iter().all(|hint| hint.ways.is_empty())
+        {
+            let lead = "Ways to make a reaction unique (design decisions): ";
+            out.extend([Block::Gap, Block::after(lead, text)]);
+            lines.clear();
+        } else {
+            let heading = "Ways to make a reaction unique (design decisions; `--make-unique NAME` lists all):";
+            out.push(Block::Heading(heading.to_owned()));
+        }
+        let line = |(names, text): &(Vec<&str>, String)| {
+            Block::after(format!("- {}: ", names.join(", ")), text)
+        };
+        out.extend(lines.iter().map(line));
     }
     for wanted in &d.answers.make_unique {
         let allowed = match wanted.allowed {
-            "sensible" => "no joint of several rows loses all of them",
+            "sensible" => "a joint of several rows keeps at least one",
             "sensible, whole" => {
-                "joints of several rows would have to keep one; that is not enough"
+                "also whole joints: it is not enough to delete some rows of each joint"
             }
-            "whole" => "joints and drives as a whole",
-            _ => "of the rows allowed",
+            "whole" => "whole joints and drives",
+            _ => "only the rows that --allow names",
         };
         out.push(Block::Heading(format!(
-            "To make {} unique, with the motion as it is ({allowed}):",
+            "Ways to make {} unique without changing the motion ({allowed}):",
             wanted.reaction
         )));
         match wanted.ways.as_slice() {
@@ -44,16 +58,24 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
             all => out.extend(all.iter().map(|way| item(way.text.clone()))),
         }
         if !wanted.complete && wanted.reason.is_none() {
-            out.push(item("and others: the search was not finished".to_owned()));
+            out.push(item(
+                "there may be more ways: the search was not completed".to_owned(),
+            ));
         }
     }
-    if d.ranks.redundancy > 0 && d.answers.eliminations.is_some() {
-        out.extend([Block::Gap, Block::sentence(eliminations(d))]);
+    if d.ranks.redundancy > 0
+        && let Some(found) = &d.answers.eliminations
+    {
+        let sentence = [Block::Gap, Block::sentence(eliminations(d))];
+        match found.sets {
+            Some(_) => out.extend(sentence),
+            None => out.extend(sentence.map(|block| Block::Detail(Box::new(block)))),
+        }
     }
     out
 }
 
-/// The number of sets of rows that can be eliminated, and those that were asked for.
+/// Describes the number of sets of rows that can be eliminated, and lists the requested sets.
 fn eliminations(d: &AnalysisDocument) -> String {
     let rows = count(d.ranks.redundancy, "row", "rows");
     let Some(found) = &d.answers.eliminations else {
@@ -61,7 +83,7 @@ fn eliminations(d: &AnalysisDocument) -> String {
     };
     let Some(n) = &found.count else {
         let reason = found.reason.as_deref().unwrap_or_default();
-        return format!("the sets of {rows} that can be eliminated are not counted: {reason}");
+        return format!("the sets of {rows} that can be eliminated were not counted: {reason}");
     };
     let sets = match &found.sets {
         None => " (`--eliminations` lists them)".to_owned(),
@@ -75,13 +97,13 @@ fn eliminations(d: &AnalysisDocument) -> String {
     };
     let n = n.to_string();
     let word = if n == "1" { "set" } else { "sets" };
-    format!("{n} {word} of {rows} can be eliminated without a change of motion{sets}")
+    format!("{n} {word} of {rows} can be eliminated without changing the motion{sets}")
 }
 
-/// The first sets in words, and the number of others.
+/// Describes the first sets, and the number of the other sets.
 fn ways(found: &MakeUniqueDocument, most: usize) -> String {
     if let Some(reason) = &found.reason {
-        return format!("not known: {reason}");
+        return format!("undecided: {reason}");
     }
     let texts: Vec<&str> = found
         .ways
@@ -91,14 +113,13 @@ fn ways(found: &MakeUniqueDocument, most: usize) -> String {
         .collect();
     let more = found.ways.len() - texts.len();
     match (texts.as_slice(), found.complete) {
-        ([], true) => "nothing that is allowed to be deleted makes it so".to_owned(),
-        ([], false) => "nothing was found in the sets that were tried".to_owned(),
+        ([], true) => "no set of the allowed rows makes it unique".to_owned(),
+        ([], false) => "no way was found among the sets that were tried".to_owned(),
         (texts, _) if more == 0 => texts.join("; or "),
         (texts, _) => format!(
-            "{}; or {more} other {} (`--make-unique \"{}\"`)",
+            "{}; or {more} other {}",
             texts.join("; or "),
-            if more == 1 { "way" } else { "ways" },
-            found.reaction
+            if more == 1 { "way" } else { "ways" }
         ),
     }
 }

@@ -1,4 +1,4 @@
-//! The document of one configuration, with answers to the options.
+//! The document of one configuration, with the results that the options request.
 
 use crate::documents::AnalysisDocument;
 use crate::documents::{
@@ -18,10 +18,10 @@ use crate::question::Control;
 use crate::refusal::Refusal;
 use crate::start::Start;
 
-/// Number of sets that are tried for a hint that nobody requested.
+/// Number of sets that are tried for a hint without a request.
 const HINT_TRIALS: usize = 5_000;
 
-/// All answers except those along the motion.
+/// Computes all results except those along the motion.
 pub(super) fn of(
     asked: &Analyze,
     of: &Start<'_>,
@@ -72,7 +72,7 @@ pub(super) fn of(
     Ok(document)
 }
 
-/// For each reaction that is not unique, the deletions that would make it unique.
+/// Returns, for each reaction that is not unique, the deletions that would make it unique.
 pub(super) fn hints(
     configuration: &ConfigurationAnalysis<'_>,
     control: &Control<'_>,
@@ -86,7 +86,7 @@ pub(super) fn hints(
     };
     let reactions = configuration.analysis.reactions.iter();
     let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
-    // One more than is listed, to know whether there are more.
+    // One more than the listed number shows whether there are more.
     open.take(HINTS + 1)
         .map(
             |r| match configuration.make_unique(r.id, &DeletableRows::Sensible, limits) {

@@ -1,11 +1,11 @@
-//! Reactions in numbers, for the requested choices.
+//! Values of reactions for the requested choices.
 
 use crate::documents::{DistributionDocument, ValueDocument, ValuesDocument};
 
 use crate::words::Block;
 
-/// Components that do not depend on a choice are listed once; those that do have one column for
-/// each choice.
+/// Components that do not depend on a choice are listed once; components that depend on it have one
+/// column for each choice.
 pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
     if choices.is_empty() {
         return Vec::new();
@@ -44,7 +44,7 @@ pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
     out
 }
 
-/// Formats a number with six digits, zero as `0`, and no number as `none`.
+/// Formats a number with six digits; zero is `0`, and a missing number is `none`.
 pub(super) fn number(value: Option<f64>) -> String {
     match value {
         None => "none".to_owned(),

@@ -1,18 +1,18 @@
-//! Phrases of several parts of the answer.
+//! Phrases that several parts of the text use.
 
 use crate::documents::{ComponentDocument, SensitivityDocument, VerdictDocument};
 
-/// A word of the document in prose, as `not unique` for `not_unique`.
+/// Converts a word of the document to prose, such as `not unique` for `not_unique`.
 pub(super) fn spoken(word: &str) -> String {
     word.replace('_', " ")
 }
 
-/// The addition to a verdict that depends on the last digits of the data.
+/// Returns the addition to a verdict that depends on the last digits of the data.
 pub(super) fn hanging(data: &SensitivityDocument) -> &'static str {
     if data.fragile { ", FRAGILE" } else { "" }
 }
 
-/// The addition to a verdict that holds only within the tolerance, with its margin.
+/// Returns the addition to a verdict that is valid only within the tolerance, with its margin.
 fn within(v: &VerdictDocument) -> String {
     if v.within_tolerance {
         format!(" within the tolerance ({:.1e})", v.margin)
@@ -21,7 +21,7 @@ fn within(v: &VerdictDocument) -> String {
     }
 }
 
-/// Components with their verdicts.
+/// Lists components with their verdicts.
 pub(super) fn each(components: &[ComponentDocument]) -> String {
     let words = components.iter();
     let words: Vec<String> = words
@@ -34,7 +34,7 @@ pub(super) fn each(components: &[ComponentDocument]) -> String {
     words.join(", ")
 }
 
-/// A point with four decimals.
+/// Formats a point with four decimals.
 pub(super) fn coordinates(point: &[f64]) -> String {
     let rounded = |x: &f64| ((1e4 * x).round() / 1e4 + 0.0).to_string();
     let numbers: Vec<String> = point.iter().map(rounded).collect();

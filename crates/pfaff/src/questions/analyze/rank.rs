@@ -1,4 +1,4 @@
-//! The rank and the facts that it is based on, in sentences.
+//! Sentences on the rank and its evidence.
 
 use crate::documents::AnalysisDocument;
 use crate::documents::{PartsDocument, ReactionDocument};
@@ -6,10 +6,11 @@ use solvability::ONE_PART;
 
 use crate::words::{Block, count};
 
-/// A row of a near dependence is named if its weight exceeds this fraction of the largest weight.
+/// The text names a row of a near dependence if its weight exceeds this fraction of the largest
+/// weight.
 const NAMED: f64 = 0.1;
 
-/// Rank, proof, and whether the rank is the same at other configurations.
+/// Describes the rank, its proof, and whether the rank is the same at other configurations.
 pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     let mut blocks = ranks(d);
     let mut say = |text: String| blocks.push(Block::after("  ", text));
@@ -18,7 +19,7 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
         None => proof(d),
     });
     nearly(d).into_iter().for_each(&mut say);
-    say(elsewhere(d));
+    elsewhere(d).into_iter().for_each(&mut say);
     let motions = d.ranks.freedoms.sentences().into_iter();
     blocks.extend(motions.map(|(lead, text)| Block::after(format!("  {lead}: "), text)));
     let continuation = d.answers.continuation.iter();
@@ -26,39 +27,44 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     blocks
 }
 
-/// The proof of a mechanism whose parts were analysed separately.
+/// Describes the proof for a mechanism whose parts were analysed separately.
 fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
     let number = count(parts.number, "part", "parts");
     let largest = count(parts.largest, "row", "rows");
-    let lead = format!("judged in {number} that share no cycle, the largest of {largest}; ");
+    let lead = format!("analysed in {number} without common cycles, the largest of {largest}; ");
     let e = &d.evidence;
     let said = match &e.reason {
-        Some(reason) => format!("UNDECIDED in one of them: {reason}"),
-        None if e.certified => "the rank of each is proved".to_owned(),
+        Some(reason) => format!("UNDECIDED in one part: {reason}"),
+        None if e.certified => "the rank of each part is proved".to_owned(),
         None => format!(
-            "decided with a clear gap in double precision, not all proved: the smallest σ_r is {:.1e}",
+            "decided by a clear gap in double precision, not all proved: smallest σ_r = {:.1e}",
             e.sigma_r
         ),
     };
     lead + &said
 }
 
-/// The ranks with the drives, and without them if these differ.
+/// Describes the ranks with the drives, and without them if these differ.
 fn ranks(d: &AnalysisDocument) -> Vec<Block> {
     let ranks = &d.ranks;
     let mut out = vec![Block::sentence(format!(
-        "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, {}",
+        "rank {}, redundancy {}, {}",
         ranks.rank,
-        ranks.rank_holonomic,
-        ranks.rank_nonholonomic,
         ranks.redundancy,
-        ranks.freedoms.sentence(ranks.mobility),
+        ranks.freedoms.summary(ranks.mobility),
     ))];
+    let (holonomic, nonholonomic) = (ranks.rank_holonomic, ranks.rank_nonholonomic);
+    out.push(Block::detail(
+        "  ",
+        format!(
+            "holonomic rows alone: rank {holonomic}; nonholonomic rows alone: rank {nonholonomic}"
+        ),
+    ));
     let without = ranks.freedoms.without_drives.as_ref();
     if let Some(without) = without.filter(|without| without.redundancy != ranks.redundancy) {
         let (rank, redundancy) = (without.rank, without.redundancy);
         let whose = without.possessive();
-        let text = format!("without {whose} rank {rank} and redundancy {redundancy}");
+        let text = format!("without {whose}: rank {rank}, redundancy {redundancy}");
         out.push(Block::after("  ", text));
     }
     out
@@ -72,7 +78,7 @@ fn proof(d: &AnalysisDocument) -> String {
     }
     if !e.certified {
         return format!(
-            "decided with a clear gap in double precision, not proved: σ_{r} = {:.1e}, σ_{} = {:.1e}, tolerance {:.1e}",
+            "decided by a clear gap in double precision, not proved: σ_{r} = {:.1e}, σ_{} = {:.1e}, tolerance {:.1e}",
             e.sigma_r,
             r + 1,
             e.sigma_next,
@@ -80,8 +86,8 @@ fn proof(d: &AnalysisDocument) -> String {
         );
     }
     let others = match d.ranks.redundancy {
-        1 => "the other row is".to_owned(),
-        p => format!("the {p} other rows are"),
+        1 => "the remaining row is".to_owned(),
+        p => format!("the {p} remaining rows are"),
     };
     let next = e.sigma_next_extended.unwrap_or(f64::NAN);
     match e.grounds {
@@ -90,32 +96,30 @@ fn proof(d: &AnalysisDocument) -> String {
             rows => format!("proved: all {rows} rows are independent"),
         },
         Some("full_rank") => {
-            format!("proved: there are no more columns, so {others} redundant exactly")
+            format!("proved: the rank equals the number of columns; {others} exactly redundant")
         }
         Some("within_tolerance") => {
-            format!(
-                "rank {r}: {others} not redundant as read, but within the tolerance that is stated"
-            )
+            format!("rank {r}: {others} redundant only within the stated tolerance")
         }
-        Some("exact") => format!("proved in exact arithmetic: {others} redundant exactly"),
+        Some("exact") => format!("proved in exact arithmetic: {others} exactly redundant"),
         Some("vanishes") => format!(
-            "rank {r} proved; σ_{} vanishes in doubled precision (below 1e-26): {others} redundant exactly",
+            "rank {r} proved: σ_{} is zero in double-double precision (below 1e-26); {others} exactly redundant",
             r + 1
         ),
         _ if next > e.tolerance => format!(
-            "rank {r}: σ_{} = {next:.1e} would vanish if the data were wrong by less than a third of their rounding: {others} redundant to \
+            "rank {r}: a change of the data by less than a third of their rounding makes σ_{} = {next:.1e} zero; {others} redundant to \
              within the rounding of the data",
             r + 1
         ),
-        // The bound of `rank` for what vanishes.
+        // The crate `rank` uses the same bound for entries that vanish.
         _ if next <= 1e-26 => format!(
-            "rank {r} proved; σ_{} vanishes in doubled precision (below 1e-26), where lever arms that are rounding count as zero: {others} \
+            "rank {r} proved: with lever arms below rounding set to zero, σ_{} is zero in double-double precision (below 1e-26); {others} \
              redundant to within the rounding of the data",
             r + 1
         ),
         _ => format!(
-            "rank {r} proved; σ_{} = {next:.1e} stays in doubled precision, but is below the {:.1e} that the rounding of the data \
-             leaves open: {others} redundant to within the rounding of the data",
+            "rank {r} proved: σ_{} = {next:.1e} (double-double) is below the rounding error of the data, {:.1e}; {others} \
+             redundant to within rounding",
             r + 1,
             e.tolerance
         ),
@@ -143,15 +147,14 @@ fn nearly(d: &AnalysisDocument) -> Option<String> {
         None => d.ranks.rank.to_string(),
     };
     Some(format!(
-        "NEARLY REDUNDANT: σ_{index} = {:.1e} is not zero, but the rows of {} almost depend on each other. The rank is that of the data as \
-         read, and so are the verdicts; but reactions are of size 1/σ = {:.0e} per unit of load",
-        nearly.sigma,
+        "NEARLY REDUNDANT for the data as read: the rows of {} almost depend on each other; reactions reach 1/σ_{index} = {:.0e} \
+         per unit of load",
         names.join(", "),
         nearly.sigma.recip(),
     ))
 }
 
-fn elsewhere(d: &AnalysisDocument) -> String {
+fn elsewhere(d: &AnalysisDocument) -> Option<String> {
     let compared = d.generic.as_ref().map(|g| {
         let n = count(
             g.points.len(),
@@ -160,22 +163,21 @@ fn elsewhere(d: &AnalysisDocument) -> String {
         );
         (g.redundancy, n)
     });
-    match (d.evidence.permanent, compared) {
+    Some(match (d.evidence.permanent, compared) {
         (_, Some((p, n))) if p > d.ranks.redundancy => format!(
-            "at {n} the redundancy is {p}, more than here: what is independent here depends on digits that the data may not have"
+            "the redundancy is {p} at {n}, more than here: the additional rank depends on digits that the data may not have"
         ),
-        (Some(true), Some((_, n))) => format!("permanent: the same redundancy at {n}"),
+        (Some(true), Some((_, n))) => format!("permanent: the redundancy is the same at {n}"),
         (_, Some((p, n))) if d.evidence.permanent == Some(false) => {
-            format!("ONLY HERE: at {n} the redundancy falls to {p}; this configuration is singular")
+            format!("SINGULAR: the redundancy is only {p} at {n}")
         }
-        (_, Some((p, n))) => format!("at {n} the redundancy is {p}"),
-        (_, None) if d.ranks.freedoms.cannot_move == Some(true) => {
-            let sentence = d.ranks.freedoms.cannot_move_sentence(d.ranks.mobility);
-            format!("{sentence}: there is no other configuration to compare with")
-        }
+        (_, Some((p, n))) => format!("the redundancy is {p} at {n}"),
+        (_, None) if d.ranks.freedoms.cannot_move == Some(true) => return None,
         (_, None) if d.configuration.rows > ONE_PART => {
-            format!("not compared with other configurations: that takes long above {ONE_PART} rows")
+            format!("not compared with other configurations (skipped above {ONE_PART} rows)")
         }
-        (_, None) => "not compared with other configurations: none could be reached".to_owned(),
-    }
+        (_, None) => {
+            "not compared with other configurations: no other configuration was reached".to_owned()
+        }
+    })
 }

@@ -1,4 +1,5 @@
-//! The document of an analysis in words and columns, the most important facts for a designer first.
+//! The document of an analysis as text and tables, with the most important facts for a designer
+//! first.
 
 use std::collections::BTreeSet;
 
@@ -16,21 +17,33 @@ use crate::words::{Block, count};
 /// Number of reasons that are listed.
 const REASONS: usize = 10;
 
-/// Largest number of joints and drives for which each has a line.
+/// Number of self-stresses of a set of joints that are listed.
+const LISTED: usize = 5;
+
+/// Largest number of joints and drives for which the table has one line each.
 const LINES: usize = 250;
 
 /// Number of warnings that are listed.
 const WARNINGS: usize = 12;
 
 pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Block> {
-    let mut out = heading(d);
+    let has_lines = d.reactions.len() <= LINES;
+    let mut out = vec![Block::sentence(format!(
+        "{} at t = {} s",
+        d.configuration.scene, d.configuration.time
+    ))];
+    out.extend(if has_lines {
+        verdicts(d)
+    } else {
+        counts::verdicts(d)
+    });
+    out.push(Block::Gap);
+    out.push(size(d));
     out.extend(rank::of(d));
     out.extend(data::of(d));
-    out.extend(if d.reactions.len() > LINES {
-        counts::verdicts(d)
-    } else {
-        verdicts(d)
-    });
+    if has_lines {
+        out.push(table(d));
+    }
     out.extend(fragile(d));
     out.extend(groups(d));
     out.extend(ADDITIONS.iter().flat_map(|addition| addition.words(d)));
@@ -50,21 +63,21 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
     if warnings.len() > WARNINGS {
         let more = warnings.len() - WARNINGS;
         out.push(Block::sentence(format!(
-            "and {more} warnings more (`--json` has all)"
+            "and {more} more warnings (`--json` prints all)"
         )));
     }
-    // The notes on reactions in the definitions of the joints.
+    // The notes on reactions from the definitions of the joints.
     for note in &d.notes {
         out.extend([Block::Gap, Block::after("note: ", &note.text)]);
     }
     out
 }
 
-/// The name and the size of the analysed mechanism.
-fn heading(d: &AnalysisDocument) -> Vec<Block> {
+/// The size of the analysed mechanism.
+fn size(d: &AnalysisDocument) -> Block {
     let c = &d.configuration;
     let velocities = match c.velocities {
-        // In the plane both are three for each body.
+        // In the plane both numbers are three for each body.
         n if n == c.coordinates => String::new(),
         n => format!(", {n} velocities"),
     };
@@ -72,16 +85,14 @@ fn heading(d: &AnalysisDocument) -> Vec<Block> {
     let coordinates = count(c.coordinates, "coordinate", "coordinates");
     let rows = count(c.rows, "row", "rows");
     let (holonomic, nonholonomic) = (c.holonomic_rows, c.nonholonomic_rows);
-    vec![
-        Block::sentence(format!("{} at t = {} s", c.scene, c.time)),
-        Block::sentence(format!(
-            "{bodies}, {coordinates}{velocities}, {rows}: {holonomic} holonomic, {nonholonomic} nonholonomic"
-        )),
-    ]
+    Block::sentence(format!(
+        "{bodies}, {coordinates}{velocities}, {rows}: {holonomic} holonomic, {nonholonomic} nonholonomic"
+    ))
 }
 
+/// The names of the reactions by their verdicts.
 fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
-    let mut out = vec![Block::Gap];
+    let mut out = Vec::new();
     let mut say = |lead: &str, text: String| {
         if !text.is_empty() {
             out.push(Block::after(format!("{:<12}", format!("{lead}:")), text));
@@ -101,6 +112,11 @@ fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
         (!names.is_empty()).then(|| format!("{}: {}", spoken(word), names.join(", ")))
     });
     say("elsewhere", elsewhere.collect::<Vec<_>>().join("; "));
+    out
+}
+
+/// A line for each reaction.
+fn table(d: &AnalysisDocument) -> Block {
     let header = [
         "reaction",
         "type",
@@ -109,8 +125,7 @@ fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
         "margin",
         "components",
     ];
-    out.push(Block::table(header, d.reactions.iter().map(line)));
-    out
+    Block::table(header, d.reactions.iter().map(line))
 }
 
 fn line(r: &ReactionDocument) -> [String; 6] {
@@ -135,7 +150,8 @@ fn line(r: &ReactionDocument) -> [String; 6] {
     ]
 }
 
-/// The fragile components of a unique reaction of which others are not fragile.
+/// Lists the ill-determined components of a unique reaction whose other components are well
+/// determined.
 fn fragile_components(r: &ReactionDocument) -> String {
     let names = r.fragile_names();
     if names == [r.name.clone()] {
@@ -145,7 +161,7 @@ fn fragile_components(r: &ReactionDocument) -> String {
     each(&fragile.collect::<Vec<_>>())
 }
 
-/// The data that fragile reactions depend on.
+/// Lists the data on which ill-determined reactions depend.
 fn fragile(d: &AnalysisDocument) -> Vec<Block> {
     let sentences = &d.fragile;
     let first = sentences.iter().take(REASONS);
@@ -153,22 +169,28 @@ fn fragile(d: &AnalysisDocument) -> Vec<Block> {
     if sentences.len() > REASONS {
         let more = sentences.len() - REASONS;
         out.push(Block::sentence(format!(
-            "and {more} sentences more (`--json` has all)"
+            "and {more} more sentences (`--json` prints all)"
         )));
     }
     out
 }
 
-/// A margin that consists only of rounding is not printed; the document contains it. A reaction
-/// that is unique only within a tolerance has a margin to check.
+/// A margin that consists only of rounding error is not printed; the document contains it. The
+/// margin of a reaction that is unique only within a tolerance is printed.
 fn margin(v: &VerdictDocument) -> String {
     match v.verdict {
         "unique" if !v.within_tolerance => "~0".to_owned(),
+        // Formats a number with two digits, without an exponent if it is short enough.
+        _ if (1e-2..1e2).contains(&v.margin) => {
+            let decimals = if v.margin < 1.0 { 2 } else { 1 };
+            format!("{:.decimals$}", v.margin)
+        }
         _ => format!("{:.1e}", v.margin),
     }
 }
 
-/// Unique directions that are not parallel to an axis: the components do not show them.
+/// Lists unique directions that are not parallel to an axis, because the components do not show
+/// them.
 fn oblique(r: &ReactionDocument) -> String {
     let is_oblique = |d: &&Vec<f64>| d.iter().filter(|x| **x != 0.0).count() > 1;
     let names = r.direction_components();
@@ -191,7 +213,7 @@ fn groups(d: &AnalysisDocument) -> Vec<Block> {
         let mut text = format!(
             "{}{} (margin {})",
             spoken(g.verdict.verdict),
-            // Of others the components say it.
+            // If the sum is not unique, its components show the verdicts.
             if g.verdict.verdict == "unique" {
                 hanging(&g.data)
             } else {
@@ -208,8 +230,8 @@ fn groups(d: &AnalysisDocument) -> Vec<Block> {
     out
 }
 
-/// The components of a group: a unique one with its number if it is known, the others with their
-/// verdicts.
+/// Lists the components of a group: a unique component with its number if it is known, and every
+/// other component with its verdict.
 fn numbers_of(g: &GroupDocument) -> String {
     let value = |name: &str| {
         let given = |v: &&ValueDocument| {
@@ -240,7 +262,7 @@ fn numbers_of(g: &GroupDocument) -> String {
     }
 }
 
-/// Points about which moments are unique.
+/// Lists points about which moments are unique.
 fn centres(d: &AnalysisDocument) -> Vec<Block> {
     let mut out = Vec::new();
     let mut centres: Vec<(String, Vec<&str>)> = Vec::new();
@@ -258,33 +280,51 @@ fn centres(d: &AnalysisDocument) -> Vec<Block> {
             [name] => (format!("The moment of `{name}`"), "is"),
             _ => (format!("The moments of `{}`", names.join("`, `")), "are"),
         };
-        let text = format!("{names} {verb} unique about {centre}, though not about the place.");
+        let text =
+            format!("{names} {verb} unique about {centre}, but not about the reference point.");
         out.extend([Block::Gap, Block::sentence(text)]);
     }
     out
 }
 
 fn why(d: &AnalysisDocument) -> Vec<Block> {
-    if d.reasons.dependencies.is_empty() {
+    let (mixing, dependencies) = (&d.reasons.mixing, &d.reasons.dependencies);
+    if dependencies.is_empty() {
         return Vec::new();
     }
-    let mut out = vec![Block::Heading("Why:".to_owned())];
-    // One dependency that contains all mixing rows replaces the list.
-    let of_dependencies: BTreeSet<&Vec<String>> =
-        d.reasons.dependencies.iter().map(|x| &x.joints).collect();
+    // The joints of a large set can load each other in so many ways that the list is less useful
+    // than the sums.
+    let is_large = |m: &&MixingDocument| m.redundancy > LISTED;
+    let large: Vec<&MixingDocument> = mixing.iter().filter(is_large).collect();
+    let is_in_large = |joints: &[String]| {
+        large
+            .iter()
+            .any(|m| joints.iter().all(|joint| m.reactions.contains(joint)))
+    };
+    let listed = dependencies.iter().filter(|x| !is_in_large(&x.joints));
+    // One dependency that contains all mixing rows replaces the set.
+    let of_dependencies: BTreeSet<&Vec<String>> = listed.clone().map(|x| &x.joints).collect();
     let is_said = |m: &&MixingDocument| of_dependencies.contains(&m.reactions);
-    let mixing = d
-        .reasons
-        .mixing
-        .iter()
-        .filter(|m| m.redundancy > 1 || !is_said(m));
-    let dependencies = d.reasons.dependencies.iter().map(|x| &x.text);
-    let reasons: Vec<&String> = mixing.map(|m| &m.text).chain(dependencies).collect();
+    let sets = mixing.iter().filter(|m| m.redundancy > 1 || !is_said(m));
+    let reasons: Vec<&String> = sets
+        .map(|m| &m.text)
+        .chain(listed.map(|x| &x.text))
+        .collect();
+    let mut out = vec![Block::Heading("Why:".to_owned())];
     let item = |text: &str| Block::after("- ", text);
     out.extend(reasons.iter().take(REASONS).map(|text| item(text)));
     if reasons.len() > REASONS {
         let more = reasons.len() - REASONS;
-        out.push(item(&format!("and {more} more (`--json` has all)")));
+        out.push(item(&format!("and {more} more (`--json` prints all)")));
+    }
+    let stresses: usize = large.iter().map(|m| m.redundancy).sum();
+    if stresses > 0 {
+        out.push(Block::detail(
+            "- ",
+            format!(
+                "these joints have {stresses} independent self-stresses (`--json` prints them)"
+            ),
+        ));
     }
     out
 }

@@ -1,4 +1,4 @@
-//! What a scene is, once it is assembled.
+//! Properties of an assembled scene.
 
 use crate::documents::FreedomsDocument;
 use model::{Mechanism, System};
@@ -9,7 +9,7 @@ use solvability::Freedoms;
 use crate::question::Answer;
 use crate::words::{Block, count};
 
-/// A scene that was read and assembled.
+/// Result for a scene that was read and assembled.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
@@ -28,7 +28,7 @@ pub struct CheckAnswer {
     pub holonomic_rows: usize,
     /// Number of nonholonomic rows h.
     pub nonholonomic_rows: usize,
-    /// The largest correction of a coordinate of the start (m, rad).
+    /// The largest correction of a coordinate at the start (m, rad).
     pub start_correction: f64,
     /// The largest correction of a velocity (m/s, rad/s), if there is a motion.
     pub start_velocity_correction: Option<f64>,
@@ -41,21 +41,21 @@ pub struct CheckAnswer {
     /// Joints, drives, forces and groups that are in the scene, but not active.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub inactive: Vec<String>,
-    /// The warnings of the text with their places: a scene with errors is refused.
+    /// Warnings about the text with their positions; a scene with errors has no answer.
     pub problems: Vec<Diagnostic>,
-    /// The same as sentences, then why the mechanism cannot be moved, if that is the only fault,
-    /// and what the start shows.
+    /// The same warnings as sentences, then warnings about the start. If the mechanism cannot be
+    /// moved and there is no other error, the list also contains the reason.
     pub warnings: Vec<String>,
     /// Number of joints and drives.
     #[serde(skip)]
     pub reactions: usize,
-    /// The mobility in words.
+    /// The mobility as text.
     #[serde(skip)]
     pub freedoms: Option<String>,
 }
 
 impl CheckAnswer {
-    /// The answer for an assembled scene whose coordinates were corrected by this.
+    /// Builds the answer for an assembled scene; the argument is the correction of its coordinates.
     pub(super) fn new((scene, mechanism): (&Scene, &Mechanism), correction: &[f64]) -> Self {
         let layout = mechanism.layout();
         Self {
@@ -79,7 +79,7 @@ impl CheckAnswer {
         }
     }
 
-    /// The same with how the mechanism can move.
+    /// Adds the possible motions of the mechanism.
     pub(super) fn moving(self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         let document = FreedomsDocument::new(freedoms, mechanism);
         Self {
@@ -104,11 +104,11 @@ impl Answer for CheckAnswer {
         ))];
         blocks.extend(self.freedoms.iter().map(Block::sentence));
         let velocity = match self.start_velocity_correction {
-            Some(correction) => format!(" and {correction:.1e} in velocity"),
+            Some(correction) => format!(", velocity {correction:.1e}"),
             None => String::new(),
         };
         blocks.push(Block::sentence(format!(
-            "assembled; the start was corrected by {:.1e} in position{velocity}",
+            "assembled; initial corrections: position {:.1e}{velocity}",
             self.start_correction
         )));
         if !self.inactive.is_empty() {
@@ -125,7 +125,7 @@ impl Answer for CheckAnswer {
     }
 }
 
-/// The largest size of the numbers.
+/// Returns the largest absolute value of the numbers.
 pub(super) fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
 }

@@ -1,4 +1,4 @@
-//! The differences of two scenes.
+//! The differences between two scenes.
 
 use std::path::Path;
 
@@ -30,13 +30,13 @@ pub struct DiffAnswer {
     pub dependencies_new: Vec<DependencyDocument>,
     /// Differences of the motions; `null` if they were not compared.
     pub motion: Option<DiffMotion>,
-    /// Why they were not.
+    /// Reason why the motions were not compared.
     pub motion_not_compared: Option<String>,
 }
 
 impl DiffAnswer {
-    /// The differences of two starts, whose scenes have these names in messages, and of their
-    /// motions, or why those are not compared.
+    /// Builds the answer from two starts, whose scenes have these names in messages, and from the
+    /// differences of the motions or the reason why these are not compared.
     pub(super) fn new(
         names: [&str; 2],
         documents: &[AnalysisDocument; 2],
@@ -77,7 +77,8 @@ impl DiffAnswer {
     }
 }
 
-/// Names of files, with their directories only if the names are equal otherwise.
+/// Returns names of files without directories; the directories are included only if the names would
+/// be equal.
 fn in_short(names: [&str; 2]) -> [String; 2] {
     let short = names.map(|name| match Path::new(name).file_name() {
         Some(file) => file.to_string_lossy().into_owned(),
@@ -95,7 +96,7 @@ fn in_short(names: [&str; 2]) -> [String; 2] {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DiffSide {
-    /// Its name.
+    /// Name of the scene.
     pub scene: String,
     /// Number of bodies.
     pub bodies: usize,
@@ -107,12 +108,13 @@ pub struct DiffSide {
     pub redundancy: usize,
     /// Degrees of freedom.
     pub mobility: usize,
-    /// The same without its drives, if it has some.
+    /// Degrees of freedom without the drives, if the scene has drives.
     pub mobility_without_drives: Option<usize>,
-    /// Name of its file.
+    /// Name of the scene file.
     #[serde(skip)]
     pub(super) file: String,
-    /// Numbers of joints and drives: all, those that are not unique, and fragile ones.
+    /// Numbers of joints and drives: in total, with reactions that are not unique, and with
+    /// ill-determined reactions.
     #[serde(skip)]
     pub(super) reactions: [usize; 3],
 }
@@ -143,21 +145,21 @@ impl DiffSide {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct DiffReaction {
-    /// Its name, unless the object that contains it gives the name.
+    /// Name of the joint or drive, unless the object that contains it gives the name.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Its type.
+    /// Type of the joint or drive.
     #[serde(rename = "type")]
     pub kind: &'static str,
-    /// Its rows, from 1.
+    /// Rows of the joint or drive, counted from 1.
     pub rows: Vec<usize>,
-    /// Its verdict.
+    /// Verdict on the reaction.
     pub verdict: &'static str,
-    /// Whether it, or a component, is fragile.
+    /// Whether the reaction, or a component, is ill-determined.
     pub fragile: bool,
-    /// Its components.
+    /// Components of the reaction.
     pub components: Vec<ComponentDocument>,
-    /// The verdict in words.
+    /// The verdict as text.
     #[serde(skip)]
     pub(super) said: String,
 }
@@ -176,7 +178,8 @@ impl From<&ReactionDocument> for DiffReaction {
     }
 }
 
-/// The verdict of a reaction with its components that are not unique or fragile.
+/// Describes the verdict on a reaction with its components that are not unique or are
+/// ill-determined.
 fn said(r: &ReactionDocument) -> String {
     let names = |is: &dyn Fn(&&ComponentDocument) -> bool| -> String {
         let those = r.components.iter().filter(|c| is(c)).map(|c| c.name);
@@ -198,11 +201,11 @@ fn said(r: &ReactionDocument) -> String {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DiffChange {
-    /// Its name.
+    /// Name of the joint or drive.
     pub name: String,
-    /// In the first scene.
+    /// The joint or drive in the first scene.
     pub a: DiffReaction,
-    /// In the second scene.
+    /// The joint or drive in the second scene.
     pub b: DiffReaction,
 }
 
@@ -210,19 +213,19 @@ pub struct DiffChange {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DiffMotion {
-    /// How far both were run (s): to the earlier of their ends.
+    /// Time up to which both scenes were run (s): the earlier of their end times.
     pub t_end: f64,
-    /// Bodies that both scenes have, in the order of the first.
+    /// Bodies that both scenes have, in the order of the first scene.
     pub bodies: Vec<DiffBody>,
 }
 
-/// The largest differences of the motions of a body, and when (s).
+/// The largest differences of the motions of a body, with their times (s).
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct DiffBody {
-    /// The body.
+    /// Name of the body.
     pub body: String,
-    /// Distance of the origins of its frame (m).
+    /// Distance between the origins of its frame in both motions (m).
     pub distance: f64,
     /// Time of the largest distance (s).
     pub t_distance: f64,

@@ -20,8 +20,8 @@ pub(super) struct Comparison<'a> {
     pub(super) removed: Vec<&'a ReactionDocument>,
     /// Joints and drives that only the second scene has.
     pub(super) added: Vec<&'a ReactionDocument>,
-    /// Joints and drives whose type, number of rows or verdicts differ, or of which a component
-    /// is fragile in only one, in the order of the first scene.
+    /// Joints and drives whose type, number of rows or verdicts differ, or with a component that is
+    /// ill-determined in only one scene; in the order of the first scene.
     pub(super) verdicts: Vec<VerdictChange<'a>>,
     /// Dependencies of the first scene that the second does not have.
     pub(super) gone: Vec<&'a DependencyDocument>,
@@ -29,13 +29,13 @@ pub(super) struct Comparison<'a> {
     pub(super) new: Vec<&'a DependencyDocument>,
 }
 
-/// A joint or drive that both scenes have, with another type or another verdict, or fragile in only
-/// one of them.
+/// A joint or drive that both scenes have, with a different type or a different verdict, or
+/// ill-determined in only one of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct VerdictChange<'a> {
-    /// Its name.
+    /// Name of the joint or drive.
     pub(super) name: &'a str,
-    /// In the first scene and in the second.
+    /// The reactions in the first scene and in the second scene.
     pub(super) sides: [&'a ReactionDocument; 2],
 }
 
@@ -99,7 +99,7 @@ impl VerdictChange<'_> {
     }
 }
 
-/// The joints of a dependency, in any order.
+/// Returns the joints of a dependency, in any order.
 fn joints(dependency: &DependencyDocument) -> Vec<&str> {
     let mut names: Vec<&str> = dependency.joints.iter().map(String::as_str).collect();
     names.sort_unstable();
@@ -107,7 +107,7 @@ fn joints(dependency: &DependencyDocument) -> Vec<&str> {
     names
 }
 
-/// Times at which motions are compared, besides the start.
+/// Number of times at which motions are compared, in addition to the start.
 const TIMES: f64 = 200.0;
 
 /// Runs both scenes with their own options and compares 201 states, body by body. Returns `None` if
@@ -161,7 +161,7 @@ pub(super) fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion
     Ok(Some(DiffMotion { t_end, bodies }))
 }
 
-/// Indices of the bodies that both mechanisms have.
+/// Returns the indices of the bodies that both mechanisms have.
 fn common(first: &Mechanism, second: &Mechanism) -> Vec<[usize; 2]> {
     let others = second.bodies().iter().enumerate();
     let others: BTreeMap<&str, usize> = others.map(|(j, b)| (b.name.as_str(), j)).collect();

@@ -1,4 +1,4 @@
-//! The differences of two scenes in words.
+//! Text on the differences of two scenes.
 
 use std::cmp::Ordering;
 
@@ -7,7 +7,7 @@ use crate::documents::DependencyDocument;
 use super::answer::{DiffAnswer, DiffMotion, DiffReaction};
 use crate::words::Block;
 
-/// Number of bodies whose motion is listed; the document contains all.
+/// Number of bodies whose motion is listed; the document contains all bodies.
 const LISTED: usize = 12;
 
 pub(super) fn of(d: &DiffAnswer) -> Vec<Block> {
@@ -41,10 +41,10 @@ pub(super) fn of(d: &DiffAnswer) -> Vec<Block> {
     blocks
 }
 
-/// Counts of both scenes and their difference.
+/// Lists counts of both scenes and their differences.
 fn numbers(d: &DiffAnswer) -> Block {
     let (a, b) = (&d.a, &d.b);
-    // Of scenes without drives it is the same number again.
+    // For scenes without drives the second number would equal the first.
     let is_driven = [a, b].iter().any(|d| d.mobility_without_drives.is_some());
     let [x, y] = [a, b].map(|d| d.mobility_without_drives.unwrap_or(d.mobility));
     let released = is_driven.then_some(("mobility without drives", x, y));
@@ -71,7 +71,7 @@ fn numbers(d: &DiffAnswer) -> Block {
     Block::table(["", &a.file, &b.file, ""], lines)
 }
 
-/// Joints and drives that were added, removed or changed; `None` if there are none.
+/// Lists joints and drives that were added, removed or changed; `None` if there are no changes.
 fn reactions(d: &DiffAnswer) -> Option<Block> {
     let absent = || "–".to_owned();
     let name = |r: &DiffReaction| r.name.clone().unwrap_or_default();
@@ -90,7 +90,7 @@ fn reactions(d: &DiffAnswer) -> Option<Block> {
     (!lines.is_empty()).then(|| Block::table(columns, lines))
 }
 
-/// The verdict of a reaction, with its type if the types differ.
+/// Describes the verdict on a reaction, with its type if the types differ.
 fn words(r: &DiffReaction, with_type: bool) -> String {
     if with_type {
         format!("{}, {}", r.kind, r.said)
@@ -99,7 +99,7 @@ fn words(r: &DiffReaction, with_type: bool) -> String {
     }
 }
 
-/// Bodies by the distance of their motions, the largest first.
+/// Lists bodies by the distance between their motions, the largest distance first.
 fn moved(motion: &DiffMotion) -> Vec<Block> {
     if motion.bodies.is_empty() {
         let none = "no body has the same name in both scenes: no motion to compare";

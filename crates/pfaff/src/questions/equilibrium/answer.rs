@@ -1,4 +1,4 @@
-//! A place of rest: how far it is from the start, what is left of the forces, reactions there.
+//! An equilibrium: its distance from the start, its residual forces, and its reactions.
 
 use crate::documents::{SensitivityDocument, VerdictDocument};
 use dynamics::equilibrium::{Equilibrium, RestStability};
@@ -10,84 +10,83 @@ use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 
 use crate::study::Study;
 
-/// A place of rest.
+/// An equilibrium of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct EquilibriumAnswer {
     /// Name of the scene.
     pub scene: String,
-    /// Time at which functions of time were taken (s).
+    /// Time at which functions of time were evaluated (s).
     pub time: f64,
     /// Steps of the search.
     pub steps: usize,
-    /// Pushes that left places that were not stable.
+    /// Number of perturbations that left unstable equilibria.
     pub pushes: usize,
-    /// What is left of the forces along free motions, as a share of the largest force.
+    /// Residual force along free motions, as a fraction of the largest force.
     pub residual: f64,
     /// The largest force, or torque divided by the size of the mechanism (N).
     pub largest_force: f64,
     /// `immovable`, `stable`, `idle`, `unstable` or `not_judged`.
     pub stability: &'static str,
-    /// Reason why it is not judged.
+    /// Reason why the stability is not analysed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub not_judged_because: Option<&'static str>,
-    /// How far each body is from the start, and where.
+    /// Position of each body, and its distance from the start.
     pub bodies: ByName<RestingBody>,
-    /// Free motions that nothing pushes and nothing resists.
+    /// Free motions without driving force and without restoring force.
     pub idle: Vec<String>,
-    /// Free motions along which forces push away.
+    /// Free motions along which forces drive the mechanism away.
     pub falling: Vec<String>,
-    /// Whether another way leads to another place: nonholonomic rows.
+    /// Whether the equilibrium depends on the path to it, because of nonholonomic rows.
     pub depends_on_way: bool,
-    /// Drives, held where they are at that time, without rate or acceleration.
+    /// Drives, locked at their positions at that time, with zero rate and acceleration.
     pub held: Vec<String>,
-    /// Drives and joints that are held, and that functions of time accelerate at once.
+    /// Locked drives and joints that functions of time would accelerate immediately.
     pub moving_on: Vec<String>,
-    /// Reactions of joints and drives there.
+    /// Reactions of joints and drives at the equilibrium.
     pub reactions: ByName<ReactionAtRest>,
-    /// Why there are no numbers of reactions.
+    /// Reason why there are no values of reactions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_reactions_because: Option<String>,
-    /// Scene file that starts there.
+    /// Scene file that starts at the equilibrium.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<&'static str>,
-    /// The text of that file.
+    /// Text of the scene file.
     #[serde(skip)]
     pub text_at_rest: String,
 }
 
-/// A body at rest.
+/// A body at the equilibrium.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RestingBody {
-    /// Distance of the origin of its frame from the start (m).
+    /// Distance of the origin of the frame from the start (m).
     pub moved: f64,
-    /// Angle by which it is turned from the start (rad); in the plane with its sign.
+    /// Angle of the rotation from the start (rad); in the plane with its sign.
     pub turned: f64,
-    /// Where its frame is: the columns of a trajectory, without velocities.
+    /// Position of the frame: the columns of a trajectory, without velocities.
     pub at: ByName<f64>,
 }
 
-/// A reaction at rest.
+/// A reaction at the equilibrium.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ReactionAtRest {
-    /// Its verdict.
+    /// Verdict on the reaction.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
-    /// How strongly it depends on the data.
+    /// Sensitivity of the reaction to the data.
     #[serde(flatten)]
     pub data: SensitivityDocument,
-    /// Force and torque on the first body by component (N, N·m), as far as they are not identically
-    /// zero.
+    /// Components of force and torque on the first body (N, N·m) that are not identically zero.
     pub values: ByName<Value>,
 }
 
 impl ReactionAtRest {
-    /// The documents of all reactions of an analysed configuration, with their names.
+    /// Returns the documents of all reactions of an analysed configuration, with their names.
     pub(super) fn all(
         verdicts: &[ReactionVerdict],
         values: &[ReactionValues],
@@ -109,8 +108,8 @@ impl ReactionAtRest {
 }
 
 impl EquilibriumAnswer {
-    /// The answer of a study, with its reactions at the place with functions of time held, or why
-    /// there are none.
+    /// Builds the answer of a study, with its reactions at the equilibrium while functions of time
+    /// are held constant, or the reason why there are no reactions.
     pub(super) fn new(
         study: &Study,
         x: &Equilibrium,

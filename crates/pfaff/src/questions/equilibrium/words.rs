@@ -1,11 +1,11 @@
-//! The place of rest in words.
+//! Text on the equilibrium.
 
 use model::words::rounded;
 
 use super::answer::EquilibriumAnswer;
 use crate::words::{Block, count, marked};
 
-/// Numbers below this share of the largest of their kind are shown as zero.
+/// Numbers below this fraction of the largest number of their kind are shown as zero.
 const VISIBLE: f64 = 1e-12;
 
 pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
@@ -13,21 +13,21 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
     let mut say = |text: String| blocks.push(Block::sentence(text));
     if !d.idle.is_empty() {
         say(format!(
-            "free motions that nothing pushes, so that other places along them are places of rest, too: {}",
+            "neutral free motions (equilibrium at every position along them): {}",
             d.idle.join("; ")
         ));
     }
     if d.depends_on_way {
-        say("rolling and knife edges restrict the way, not the place: other ways lead to other places of rest".to_owned());
+        say("nonholonomic rows restrict the path, not the position: other paths lead to other equilibria".to_owned());
     }
     if !d.held.is_empty() {
         let held = marked(&d.held);
-        say(format!("drives are held at t = {} s: {held}", d.time));
+        say(format!("drives locked at t = {} s: {held}", d.time));
     }
     if !d.moving_on.is_empty() {
         let names = marked(&d.moving_on);
         say(format!(
-            "a run from here begins with other forces, since functions of time accelerate: {names}"
+            "a simulation from here starts with other forces, because these functions of time accelerate: {names}"
         ));
     }
     blocks.push(bodies(d));
@@ -38,7 +38,7 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
     }
     if let Some(file) = d.file {
         blocks.push(Block::sentence(format!(
-            "`{file}` starts there: `pfaff simulate` and `pfaff linearise` take it"
+            "`{file}` starts at the equilibrium, e.g. for `pfaff simulate` and `pfaff linearise`"
         )));
     }
     blocks
@@ -47,32 +47,32 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
 fn found(d: &EquilibriumAnswer) -> String {
     let balance = match d.residual {
         0.0 => "forces balance".to_owned(),
-        left => format!("forces balance to {left:.1e} of the largest"),
+        left => format!("forces balance to {left:.1e} of the largest force"),
     };
     let steps = count(d.steps, "step", "steps");
     let found = match (d.steps, d.pushes) {
-        (0, 0) => "rests where it starts".to_owned(),
-        (_, 0) => format!("rests, found in {steps}"),
+        (0, 0) => "the start is an equilibrium".to_owned(),
+        (_, 0) => format!("equilibrium found in {steps}"),
         (_, pushes) => {
-            let pushes = count(pushes, "push", "pushes");
-            format!("rests, found in {steps} after {pushes}")
+            let pushes = count(pushes, "perturbation", "perturbations");
+            format!("equilibrium found in {steps} after {pushes}")
         }
     };
     let (scene, time) = (&d.scene, d.time);
-    format!("{scene} {found}, with functions of time at t = {time} s: {balance}")
+    format!("{scene}: {found} (functions of time at t = {time} s): {balance}")
 }
 
 fn stability(d: &EquilibriumAnswer) -> String {
     match d.stability {
-        "immovable" => "nothing can move".to_owned(),
-        "stable" => "stable: forces push back from every displacement".to_owned(),
-        "idle" => "no displacement is pushed further, and some are not pushed back".to_owned(),
+        "immovable" => "no body can move".to_owned(),
+        "stable" => "stable: every displacement causes a restoring force".to_owned(),
+        "idle" => "neutral: no displacement grows, but some cause no restoring force".to_owned(),
         "unstable" => format!(
-            "unstable: forces push further along: {}; `--stable` leaves such places",
+            "unstable along: {}; `--stable` skips unstable equilibria",
             d.falling.join("; ")
         ),
         _ => format!(
-            "whether it is stable is not judged: {}",
+            "stability is undecided: {}",
             d.not_judged_because.unwrap_or_default()
         ),
     }
@@ -91,7 +91,10 @@ fn bodies(d: &EquilibriumAnswer) -> Block {
             at.collect::<Vec<_>>().join(", "),
         ]
     });
-    Block::table(["body", "moved (m)", "turned (rad)", "is at"], lines)
+    Block::table(
+        ["body", "displacement (m)", "rotation (rad)", "position"],
+        lines,
+    )
 }
 
 fn reactions(d: &EquilibriumAnswer) -> Block {
@@ -100,7 +103,7 @@ fn reactions(d: &EquilibriumAnswer) -> Block {
     let largest = values.fold(0.0, |a: f64, x| a.max(x.abs()));
     let lines = d.reactions.0.iter().map(|(name, reaction)| {
         let values = reaction.values.0.iter();
-        // What is not determined has no number.
+        // Components that are not determined have no number.
         let values = values.map(|(name, x)| match x.determined() {
             None => format!("{name} = –"),
             Some(x) => format!("{name} = {}", short(x, largest)),
@@ -111,10 +114,11 @@ fn reactions(d: &EquilibriumAnswer) -> Block {
             reaction.verdict.verdict.replace('_', " "),
         ]
     });
-    Block::table(["reaction", "on the first body", "verdict"], lines)
+    Block::table(["reaction", "value on the first body", "verdict"], lines)
 }
 
-/// A number with six digits; what is a rounding of the largest of its kind is zero.
+/// Formats a number with six digits; a rounding error relative to the largest number of its kind is
+/// shown as zero.
 fn short(x: f64, largest: f64) -> String {
     match x.abs() {
         size if size <= VISIBLE * largest => "0".to_owned(),

@@ -16,50 +16,50 @@ pub struct LineariseAnswer {
     pub time: f64,
     /// The states x: positions, then velocities.
     pub states: Vec<NamedState>,
-    /// How many of them are positions.
+    /// Number of positions among the states.
     pub positions: usize,
     /// The inputs u.
     pub inputs: Vec<NamedInput>,
-    /// Drives and joints that are held at this time because the state is at rest, and that
+    /// Drives and joints that are locked at this time because the state is at rest, and that
     /// functions of time would accelerate.
     pub held: Vec<String>,
-    /// A of `ẋ = A·x + B·u`, by rows.
+    /// The matrix A of `ẋ = A·x + B·u`, by rows.
     pub a: Vec<Vec<f64>>,
-    /// B, by rows.
+    /// The matrix B, by rows.
     pub b: Vec<Vec<f64>>,
-    /// M, D and K of `M·ÿ + D·ẏ + K·y`; `null` for states that move, for nonholonomic rows and if a
-    /// coordinate is followed.
+    /// M, D and K of `M·ÿ + D·ẏ + K·y`; `null` for moving states, for nonholonomic rows and if a
+    /// cyclic coordinate is eliminated.
     pub second_order: Option<SecondOrderMatrices>,
-    /// Difference of two orders of approximation, as a share of the largest derivative.
+    /// Difference between two orders of approximation, as a fraction of the largest derivative.
     pub accuracy: f64,
-    /// What first order says of small motions; `null` without eigenvalues.
+    /// First-order stability of small motions; `null` without eigenvalues.
     pub stability: Option<&'static str>,
-    /// The modes, those that grow fastest first; `null` without eigenvalues.
+    /// The modes, the fastest growing modes first; `null` without eigenvalues.
     pub modes: Option<Vec<ModeOfMotion>>,
-    /// Pages of modes, each with the number of its mode, from 0.
+    /// Pages of modes, each with the index of its mode, from 0.
     #[serde(skip)]
     pub pages: Vec<(usize, String)>,
 }
 
-/// A state.
+/// A state of the linearised motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NamedState {
-    /// Body and coordinate.
+    /// Name of the body and coordinate.
     pub name: String,
-    /// Its unit.
+    /// Unit of the state.
     pub unit: &'static str,
 }
 
-/// An input.
+/// An input of the linearised motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct NamedInput {
-    /// The drive or force.
+    /// Name of the drive or force.
     pub name: String,
-    /// What of it: `value`, `rate` or `acceleration` of a drive, the function of a force.
+    /// Kind of the input: `value`, `rate` or `acceleration` of a drive, or the function of a force.
     pub what: String,
 }
 
@@ -68,36 +68,37 @@ pub struct NamedInput {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct SecondOrderMatrices {
-    /// M.
+    /// Matrix M.
     pub mass: Vec<Vec<f64>>,
-    /// D.
+    /// Matrix D.
     pub damping: Vec<Vec<f64>>,
-    /// K.
+    /// Matrix K.
     pub stiffness: Vec<Vec<f64>>,
 }
 
-/// A mode. Of a conjugate pair the eigenvalue with the positive imaginary part is listed.
+/// A mode of the linearised motion. A conjugate pair is listed once, by the eigenvalue with the
+/// positive imaginary part.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct ModeOfMotion {
     /// Real part of the eigenvalue (1/s).
     pub real: f64,
-    /// Its imaginary part (rad/s).
+    /// Imaginary part of the eigenvalue (rad/s).
     pub imaginary: f64,
-    /// Frequency at which it oscillates, with its damping (Hz): Im λ/2π; zero if it does not.
+    /// Frequency of the damped oscillation (Hz): Im λ/2π; zero if the mode does not oscillate.
     pub frequency: f64,
-    /// The frequency that it would have without its damping (Hz): |λ|/2π; `null` if it does not
+    /// Frequency of the oscillation without damping (Hz): |λ|/2π; `null` if the mode does not
     /// oscillate.
     pub natural_frequency: Option<f64>,
-    /// −Re λ/|λ|; `null` for λ = 0.
+    /// Damping ratio −Re λ/|λ|; `null` for λ = 0.
     pub damping_ratio: Option<f64>,
-    /// Shape: real and imaginary part of each state; the largest position is 1.
+    /// Shape: real and imaginary part of each state; the largest position is scaled to 1.
     pub shape: ByName<[f64; 2]>,
 }
 
 impl LineariseAnswer {
-    /// The answer for a linearised motion of a scene, with its modes if they are known.
+    /// Builds the answer for a linearised motion of a scene, with its modes if they are known.
     pub(super) fn new(scene: &str, x: &Linearisation, modes: Option<&[Mode]>) -> Self {
         let states: Vec<&Coordinate> = x.positions.iter().chain(&x.velocities).collect();
         let mode = |mode: &Mode| ModeOfMotion {

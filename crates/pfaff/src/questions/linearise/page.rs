@@ -1,4 +1,4 @@
-//! Pages on which modes move.
+//! Pages with animated modes.
 
 use crate::page::{Origin, RunPage, Shows, run_page};
 use dynamics::linearise::{Linearisation, Mode};
@@ -9,20 +9,21 @@ use super::words::value;
 use crate::report_builder::written_scene;
 use crate::study::Study;
 
-/// Modes with pages of their own, first those that are not zero: others are in the tables only.
+/// Number of modes with separate pages, first the modes with non-zero eigenvalues; other modes are
+/// only in the tables.
 const PAGES: usize = 12;
 
-/// Frames of the page of a mode in one period.
+/// Frames in one period on the page of a mode.
 const FRAMES: usize = 40;
 
-/// Periods of the page of a mode.
+/// Number of periods on the page of a mode.
 const PERIODS: usize = 8;
 
-/// The largest displacement of a mode on its page, as a share of the size of the mechanism or in
-/// radians.
+/// The largest displacement of a mode on its page: a fraction of the size of the mechanism, or an
+/// angle (rad).
 const AMPLITUDE: f64 = 0.15;
 
-/// The pages of the modes that have one, each with the number of its mode, from 0.
+/// Returns the pages of the modes that have one, each with the index of its mode, from 0.
 pub(super) fn all(
     study: &Study,
     found: &Linearisation,
@@ -33,7 +34,7 @@ pub(super) fn all(
     shown(modes).into_iter().map(page).collect()
 }
 
-/// The modes that have pages: the first of those that are not zero, then of the others.
+/// Selects the modes that have pages: first modes with non-zero eigenvalues, then others.
 fn shown(modes: &[Mode]) -> Vec<usize> {
     let (zero, moving): (Vec<usize>, Vec<usize>) =
         (0..modes.len()).partition(|&k| modes[k].value == [0.0; 2]);
@@ -42,7 +43,7 @@ fn shown(modes: &[Mode]) -> Vec<usize> {
     shown
 }
 
-/// A page on which a mode moves for a period, or for a second if it has none.
+/// Builds a page on which a mode moves for a period, or for one second if it does not oscillate.
 fn page(
     study: &Study,
     found: &Linearisation,
@@ -76,8 +77,8 @@ fn page(
         recording.frames.push(frame);
     }
     let what = format!(
-        "Mode {number} of small motions about t = {} s, with eigenvalue {} (1/s): drawn enlarged, and \
-         without decay or growth",
+        "Mode {number} of the small motions about the configuration at t = {} s has the eigenvalue {} (1/s). \
+         The picture enlarges the amplitude and omits decay and growth.",
         found.time,
         value(mode.value)
     );

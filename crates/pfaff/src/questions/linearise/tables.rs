@@ -6,8 +6,8 @@ use report::{Table, TableError};
 
 use super::answer::LineariseAnswer;
 
-/// Matrices with the names of their files: a letter and the names of the columns, then the name of
-/// each row and its numbers.
+/// Returns matrices with the names of their files. Each file has a header line with a letter and
+/// the names of the columns, then the name of each row and its numbers.
 pub(super) fn matrices(of: &LineariseAnswer) -> Result<Vec<(&'static str, Vec<u8>)>, TableError> {
     let states: Vec<String> = of.states.iter().map(|state| state.name.clone()).collect();
     let inputs = of.inputs.iter().map(|i| format!("{}.{}", i.name, i.what));
@@ -38,8 +38,8 @@ pub(super) fn matrices(of: &LineariseAnswer) -> Result<Vec<(&'static str, Vec<u8
     written.collect()
 }
 
-/// Eigenvalue, frequency with and without its damping, damping ratio and shape of each mode; empty
-/// where there is no such value.
+/// Writes the eigenvalue, the damped and undamped frequency, the damping ratio and the shape of
+/// each mode; cells without a value are empty.
 pub(super) fn modes(file: &'static str, of: &LineariseAnswer) -> Result<Vec<u8>, TableError> {
     let known = [
         "mode",

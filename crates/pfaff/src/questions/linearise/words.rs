@@ -1,4 +1,4 @@
-//! Small motions in words.
+//! Text on small motions.
 
 use super::answer::{LineariseAnswer, ModeOfMotion};
 use crate::words::{Block, count, marked};
@@ -24,11 +24,11 @@ pub(super) fn of(d: &LineariseAnswer) -> Vec<Block> {
     if !d.held.is_empty() {
         let (time, held) = (d.time, marked(&d.held));
         say(format!(
-            "held at t = {time} s, since the state is at rest: {held}"
+            "locked at t = {time} s, because the state is at rest: {held}"
         ));
     }
     let Some(modes) = &d.modes else {
-        say("the eigenvalues were not found: matrices alone".to_owned());
+        say("the eigenvalues were not found; only the matrices are available".to_owned());
         return blocks;
     };
     let lines = modes.iter().enumerate().map(|(k, mode)| {
@@ -38,7 +38,8 @@ pub(super) fn of(d: &LineariseAnswer) -> Vec<Block> {
             value([mode.real, mode.imaginary]),
             hertz(Some(mode.frequency).filter(|f| *f != 0.0)),
             hertz(mode.natural_frequency),
-            // Rounding of an undamped motion has no sign.
+            // The damping ratio of an undamped motion is a rounding error and is printed without a
+            // sign.
             ratio.map_or("–".to_owned(), |x| {
                 format!("{:.4} %", (1e6 * x).round() / 1e4 + 0.0)
             }),
@@ -55,17 +56,17 @@ pub(super) fn of(d: &LineariseAnswer) -> Vec<Block> {
     ];
     blocks.push(Block::table(columns, lines));
     let first = match d.stability {
-        _ if d.states.is_empty() => "nothing can move",
+        _ if d.states.is_empty() => "no body can move",
         Some("stable") => "stable: all small motions decay",
         Some("unstable") => "unstable: some small motions grow",
-        _ => "first order does not decide: some small motions neither decay nor grow",
+        _ => "undecided at first order: some small motions neither decay nor grow",
     };
     blocks.push(Block::sentence(first));
     blocks.extend(pages(d, modes.len()));
     blocks
 }
 
-/// Which modes have pages, if any were wanted.
+/// Lists the modes with pages, if pages were requested.
 fn pages(d: &LineariseAnswer, modes: usize) -> Option<Block> {
     if d.pages.is_empty() {
         return None;
@@ -74,14 +75,14 @@ fn pages(d: &LineariseAnswer, modes: usize) -> Option<Block> {
     let left: Vec<usize> = (0..modes).filter(|k| !has_page(k)).map(|k| k + 1).collect();
     let without = match left.as_slice() {
         [] => String::new(),
-        left => format!("; modes {} have none", ranges(left)),
+        left => format!("; no pages for modes {}", ranges(left)),
     };
     Some(Block::sentence(format!(
-        "pages of modes open in any browser{without}"
+        "open the pages of the modes in a browser{without}"
     )))
 }
 
-/// Ascending numbers in words, as `1–3, 7`.
+/// Formats ascending numbers as ranges, such as `1–3, 7`.
 fn ranges(all: &[usize]) -> String {
     let mut runs: Vec<[usize; 2]> = Vec::new();
     for &k in all {
@@ -98,12 +99,12 @@ fn ranges(all: &[usize]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// A frequency of a mode that oscillates.
+/// Formats the frequency of an oscillating mode.
 fn hertz(frequency: Option<f64>) -> String {
     frequency.map_or("–".to_owned(), |f| format!("{f:.6}"))
 }
 
-/// An eigenvalue, a conjugate pair as one.
+/// Formats an eigenvalue; a conjugate pair is one text.
 pub(super) fn value([re, im]: [f64; 2]) -> String {
     match (re, im) {
         (0.0, 0.0) => "0".to_owned(),
@@ -112,7 +113,7 @@ pub(super) fn value([re, im]: [f64; 2]) -> String {
     }
 }
 
-/// The positions that take part most, or velocities if none does.
+/// Lists the positions with the largest amplitudes, or the velocities if all positions are zero.
 fn movers(mode: &ModeOfMotion, positions: usize) -> String {
     let size = |z: &[f64; 2]| z[0].hypot(z[1]);
     let takes_part = |part: &[(String, [f64; 2])]| -> Vec<String> {

@@ -6,26 +6,27 @@ use crate::documents::decision_key;
 use dynamics::plan::{ComponentPlan, Line, Plan, Saving};
 use serde::Serialize;
 
-/// What a run computes and omits.
+/// The computed and omitted results of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PlanAnswer {
     /// Name of the scene.
     pub scene: String,
-    /// Last time of the run (s).
+    /// End time of the run (s).
     pub t_end: f64,
     /// Treatment of redundancy.
     pub formulation: &'static str,
-    /// Treatment of drift.
+    /// Method against constraint drift.
     pub stabilisation: &'static str,
     /// Estimated upper bound on the memory of a run, including reading (bytes).
     pub memory: usize,
-    /// Components that are independent of each other; one if all bodies affect each other.
+    /// Components that are independent of each other; there is one component if all bodies affect
+    /// each other.
     pub components: Vec<PlannedComponent>,
     /// The decisions.
     pub decisions: Vec<PlannedDecision>,
-    /// What evaluates the runs of a sweep, if one was asked for.
+    /// Evaluation method for the runs of a sweep, if a sweep was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<String>,
 }
@@ -35,9 +36,9 @@ pub struct PlanAnswer {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct PlannedComponent {
-    /// Its bodies as text, as used in decisions.
+    /// Bodies of the component as text, as used in decisions.
     pub name: String,
-    /// Names of its bodies.
+    /// Names of the bodies.
     pub bodies: Vec<String>,
     /// Number of velocities.
     pub velocities: usize,
@@ -51,7 +52,7 @@ pub struct PlannedComponent {
     pub redundancy: usize,
     /// Degrees of freedom.
     pub mobility: usize,
-    /// Its integrator.
+    /// Integrator of the component.
     pub method: &'static str,
 }
 
@@ -67,7 +68,7 @@ pub struct PlannedDecision {
     pub decision: String,
     /// The decision.
     pub taken: String,
-    /// Its reason.
+    /// Reason for the decision.
     pub reason: String,
     /// The computations that it saves, if they can be counted.
     pub saves: Option<PlannedSaving>,
@@ -87,7 +88,7 @@ pub struct PlannedSaving {
 }
 
 impl PlanAnswer {
-    /// The answer of a plan, with the memory (bytes) that the run needs.
+    /// Builds the answer of a plan, with the memory (bytes) that the run needs.
     pub(super) fn new(plan: &Plan<'_>, memory: usize, sweep: Option<String>) -> Self {
         let options = plan.options();
         Self {

@@ -1,4 +1,4 @@
-//! The plan of a run in words.
+//! Text on the plan of a run.
 
 use super::answer::{PlanAnswer, PlannedDecision};
 use crate::memory::Bytes;
@@ -11,7 +11,7 @@ pub(super) fn of(d: &PlanAnswer) -> Vec<Block> {
     let (formulation, stabilisation) = (d.formulation, d.stabilisation);
     let mut blocks = vec![
         Block::sentence(format!(
-            "{scene}: the plan of a run to t = {t_end} s ({formulation}, {stabilisation}), about {memory} of memory"
+            "{scene}: plan of a run to t = {t_end} s ({formulation}, {stabilisation}), about {memory} of memory"
         )),
         table(d, None),
     ];
@@ -27,12 +27,12 @@ pub(super) fn of(d: &PlanAnswer) -> Vec<Block> {
         }
     }
     if let Some(sweep) = &d.sweep {
-        blocks.push(Block::after("runs of the sweep: ", sweep));
+        blocks.push(Block::after("sweep: ", sweep));
     }
     blocks
 }
 
-/// The decisions about a component, or about the whole.
+/// Lists the decisions about a component, or about the whole mechanism.
 fn table(d: &PlanAnswer, component: Option<&str>) -> Block {
     let of = |line: &&PlannedDecision| line.component.as_deref() == component;
     let lines = d.decisions.iter().filter(of).map(|line| {
@@ -45,5 +45,5 @@ fn table(d: &PlanAnswer, component: Option<&str>) -> Block {
             line.reason.clone(),
         ]
     });
-    Block::table(["decision", "taken", "saves", "reason"], lines)
+    Block::table(["decision", "result", "saves", "reason"], lines)
 }

@@ -1,4 +1,4 @@
-//! A run in words.
+//! Text on a run.
 
 use crate::documents::RunDocument;
 use crate::documents::{ChoiceDocument, MisfitDocument, RunReactionDocument, choice_file};
@@ -8,8 +8,8 @@ use super::SimulateAnswer;
 use crate::words::{Block, count};
 
 /// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
-/// energy. With the default tolerances the error is below a thousandth of this; larger errors are
-/// visible in a plot.
+/// energy. With the default tolerances the error is below a thousandth of this limit; larger errors
+/// are visible in a plot.
 pub const TRUSTED_BALANCE: f64 = 1e-3;
 
 pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
@@ -18,7 +18,7 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
     let mut say = |text: String| out.push(Block::sentence(text));
     let ending = if d.partial {
         let [at, of] = [d.t_end, answer.t_end].map(rounded);
-        format!("interrupted at t = {at} s of {of}")
+        format!("interrupted at t = {at} s of {of} s")
     } else {
         format!("done to t = {} s", d.t_end)
     };
@@ -39,14 +39,14 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
     ));
     if d.energy_balance.is_nan() || d.energy_balance > TRUSTED_BALANCE {
         say(format!(
-            "warning: the energy balance is off by {:.1e} of the largest kinetic energy: do not trust this run; try \
+            "warning: the error of the energy balance is {:.1e} of the largest kinetic energy: do not trust this run; use \
              tighter tolerances",
             d.energy_balance
         ));
     }
     if d.start_correction > 0.0 || d.start_velocity_correction > 0.0 {
         say(format!(
-            "the start was corrected by {:.1e} in position and {:.1e} in velocity",
+            "initial corrections: position {:.1e}, velocity {:.1e}",
             d.start_correction, d.start_velocity_correction
         ));
     }
@@ -57,7 +57,9 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
         say(format!("within the tolerance: {line}"));
     }
     if let Some(spread) = &d.spread {
-        say(format!("which rows are kept is a choice: {spread}"));
+        say(format!(
+            "effect of the choice of independent rows: {spread}"
+        ));
     }
     for event in &d.events {
         say(format!("t = {:.6} s: {}", event.time, event.text));
@@ -71,19 +73,19 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
     let fragile: Vec<&str> = fragile.map(|(name, _)| name.as_str()).collect();
     if !fragile.is_empty() {
         say(format!(
-            "warning: unique but fragile at the start: {}. Their numbers are made of the last digits of the data; summary.json says of which.",
+            "warning: unique but ill-determined (fragile) at the start: {}. Their values depend on the last digits of the data; summary.json names these data.",
             listed(&fragile),
         ));
     }
     out.extend(open(d).into_iter().map(Block::sentence));
     if answer.has_report {
-        let words = "report.html opens in any browser";
+        let words = "open report.html in a browser";
         out.push(Block::sentence(words));
     }
     out
 }
 
-/// What the model does not determine, and where its numbers are.
+/// Lists the numbers that the model does not determine, and the files that contain values for them.
 fn open(d: &RunDocument) -> Vec<String> {
     let of = |word: &str| -> Vec<&str> {
         let reactions = d.reactions.0.iter();
@@ -96,7 +98,7 @@ fn open(d: &RunDocument) -> Vec<String> {
     if !undecided.is_empty() {
         let names = listed(&undecided);
         out.push(format!(
-            "undecided: {names}; summary.json gives the reasons."
+            "undecided: {names}; see summary.json for the reasons."
         ));
     }
     let open = of("not_unique");
@@ -105,7 +107,7 @@ fn open(d: &RunDocument) -> Vec<String> {
     };
     let names = listed(&open);
     out.push(format!(
-        "not determined by the model: {names}. In reactions.csv only what is determined has numbers; {solutions}.",
+        "not determined by the model: {names}. reactions.csv contains only determined values; {solutions}.",
     ));
     for (k, choice) in d.choice.iter().enumerate() {
         let Some(gap) = &choice.gap else { continue };
@@ -121,12 +123,12 @@ fn open(d: &RunDocument) -> Vec<String> {
     let some: Vec<String> = some.collect();
     if !some.is_empty() {
         let some = some.join("; ");
-        out.push(format!("determined on parts of the run: {some}."));
+        out.push(format!("determined during parts of the run: {some}."));
     }
     out
 }
 
-/// Which tables have which solutions, in words.
+/// Describes which tables contain which solutions.
 fn solutions(choices: &[ChoiceDocument]) -> Option<String> {
     let [first, others @ ..] = choices else {
         return None;
@@ -134,20 +136,20 @@ fn solutions(choices: &[ChoiceDocument]) -> Option<String> {
     if first.file.is_none() {
         let more = match others {
             [] => "",
-            _ => " at first; summary.json has the others",
+            _ => " at first; see summary.json for the others",
         };
         return Some(format!(
-            "choice.csv has one solution of many ({first}{more})"
+            "choice.csv contains one of many solutions ({first}{more})"
         ));
     }
     let each = choices.iter().filter_map(|choice| {
         let file = choice.file.as_ref()?;
-        Some(format!("{file} has one solution of many ({choice})"))
+        Some(format!("{file} contains one of many solutions ({choice})"))
     });
     Some(each.collect::<Vec<_>>().join("; "))
 }
 
-/// The components of a reaction that are determined on parts of the run.
+/// Lists the components of a reaction that are determined on parts of the run.
 fn partly(name: &str, reaction: &RunReactionDocument) -> Option<String> {
     let components = reaction.components.0.iter();
     let some = components.filter(|(_, c)| !c.of_run.determined.is_empty());

@@ -1,4 +1,4 @@
-//! Runs of a sweep in words.
+//! Text on the runs of a sweep.
 
 use report::SweepDocument;
 use report::sweep::Runs;
@@ -8,7 +8,7 @@ use crate::questions::simulate::TRUSTED_BALANCE;
 use crate::sweep::Shard;
 use crate::words::{Block, count};
 
-/// Most gaps and shards that are named.
+/// Largest number of gaps and shards that are listed.
 const NAMED: usize = 10;
 
 pub(super) fn of(answer: &SweepAnswer) -> Vec<Block> {
@@ -66,7 +66,7 @@ pub(super) fn of(answer: &SweepAnswer) -> Vec<Block> {
     blocks
 }
 
-/// The runs that are missing, with the shards that make them.
+/// Lists the missing runs, with the shards that perform them.
 fn gaps(d: &SweepDocument, shards: Option<u64>) -> Vec<Block> {
     let option = |shard: &Shard| format!("`--shard {shard}`");
     let known = |runs: &Runs| Shard::of(*runs, d.runs, shards?);

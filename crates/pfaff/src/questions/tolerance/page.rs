@@ -1,5 +1,5 @@
-//! `tolerance.html`: how far verdicts, reactions and places hold while data vary within their
-//! tolerances. One file that opens offline, without scripts.
+//! The page `tolerance.html` with the ranges of verdicts, reactions and positions for data that
+//! vary within their tolerances. The page is one file that opens offline and contains no scripts.
 
 use crate::documents::{
     MarkerRangeDocument, RangeDocument, ReactionRangeDocument, ToleranceDocument,
@@ -9,24 +9,26 @@ use report::{Provenance, figures};
 
 use super::words::digits;
 
-/// Reactions and markers that are drawn; the tables have all.
+/// Largest number of reactions and markers that are drawn; the tables contain all.
 const DRAWN: usize = 24;
 
-/// Explanation of the numbers.
-const EXPLANATION: &str = "<p>Each sample is a mechanism whose points, directions and numbers are somewhere within their \
-tolerances; it is assembled again from the described pose and analysed there. Numbers are given in two readings. A reaction that is \
-<em>unique</em> as described has its values with the redundancy as it is described: redundant rows stay redundant, and play or elasticity \
-takes what they miss. For a reaction that is <em>not unique</em> the data may decide what the mechanism leaves open: its values \
-are those of rigid parts without play, if all samples determine them. They show how much hangs on the last digits of the data; no real machine \
-is as stiff. Histograms show the middle of the samples; the table has the extremes.</p>\n";
+/// Explanation of the numbers on the page.
+const EXPLANATION: &str = "<p>Each sample is a mechanism whose points, directions and numbers lie within their tolerances. The sample is \
+assembled again from the pose described in the scene and is analysed in the assembled pose. The page computes reactions under one of two \
+assumptions. If a reaction is <em>unique</em> as described in the scene, its values assume the redundancy of the described mechanism: \
+redundant rows stay redundant, and clearance or elasticity absorbs their constraint violations. If a reaction is <em>not unique</em> as \
+described, the data of a sample can determine its value. The page then shows the values for rigid parts without clearance, marked \
+<em>rigid</em>, if all samples determine them. These values show how strongly the reaction depends on the last digits of the data. No real \
+machine is as stiff as rigid parts without clearance. The histograms show the central part of the samples. The table lists the extremes.</p>\n";
 
-/// The page of samples; `clouds` are the places of markers (m), the described one first.
+/// Builds the page of the samples; `clouds` contains the positions of markers (m), the described
+/// position first.
 pub(super) fn of(
     d: &ToleranceDocument,
     clouds: &[(String, Vec<[f64; 3]>)],
     provenance: &Provenance,
 ) -> String {
-    let mut page = open(&format!("{}: within tolerances", d.scene));
+    let mut page = open(&format!("{}: tolerance analysis", d.scene));
     let mut sentences = d.sentences();
     let has_range =
         |r: &&ReactionRangeDocument| r.values.first().is_some_and(|v| v.range.is_some());
@@ -60,25 +62,25 @@ fn reactions(page: &mut String, d: &ToleranceDocument) {
             let left = drawn.len() - DRAWN;
             add(
                 page,
-                format_args!("<p class=\"grey\">{left} more are in the table.</p>\n"),
+                format_args!("<p class=\"grey\">The table contains {left} more reactions.</p>\n"),
             );
         }
     }
     page.push_str(
-        "<div class=\"wide\"><table>\n<tr><th class=\"name\">reaction</th><th class=\"name\">as described</th>\
-         <th>unique</th><th>not unique</th><th>undecided</th><th class=\"name\">what</th><th>described</th><th>least</th>\
-         <th>5 %</th><th>median</th><th>95 %</th><th>greatest</th><th>mean</th><th>deviation</th><th>samples</th></tr>\n",
+        "<div class=\"wide\"><table>\n<tr><th class=\"name\">reaction</th><th class=\"name\">verdict as described</th>\
+         <th>samples: unique</th><th>not unique</th><th>undecided</th><th class=\"name\">quantity</th><th>value as described</th><th>minimum</th>\
+         <th>5 %</th><th>median</th><th>95 %</th><th>maximum</th><th>mean</th><th>standard deviation</th><th>samples</th></tr>\n",
     );
     for reaction in &d.reactions {
         reaction_rows(page, reaction);
     }
     page.push_str(
-        "</table></div>\n<p class=\"grey\">Verdicts are counted with exact numbers.</p>\n",
+        "</table></div>\n<p class=\"grey\">The verdicts in the columns <em>unique</em>, <em>not unique</em> and <em>undecided</em> treat the data of each sample as exact.</p>\n",
     );
     list(page, &d.without_range());
 }
 
-/// The numbers of a reaction, each in its row.
+/// Writes the numbers of a reaction, one row for each number.
 fn reaction_rows(page: &mut String, reaction: &ReactionRangeDocument) {
     let verdict = match (reaction.verdict, reaction.fragile) {
         ("unique", true) => "unique, fragile".to_owned(),
@@ -117,10 +119,10 @@ fn reaction_rows(page: &mut String, reaction: &ReactionRangeDocument) {
     }
 }
 
-/// Cells of a range, or why there is no range.
+/// Writes the cells of a range, or the reason why there is no range.
 fn numbers(page: &mut String, range: Option<&RangeDocument>, reason: Option<&str>) {
     let Some(range) = range else {
-        let reason = reason.unwrap_or("no sample determines it");
+        let reason = reason.unwrap_or("no sample determines this value");
         add(
             page,
             format_args!("<td colspan=\"9\" class=\"name grey\">{reason}</td>"),
@@ -146,15 +148,15 @@ fn numbers(page: &mut String, range: Option<&RangeDocument>, reason: Option<&str
 }
 
 fn places(page: &mut String, d: &ToleranceDocument, clouds: &[(String, Vec<[f64; 3]>)]) {
-    page.push_str("<h2 id=\"places\">Places</h2>\n");
+    page.push_str("<h2 id=\"places\">Positions</h2>\n");
     let spatial = d.markers.0.iter().any(|(_, m)| m.described.len() == 3);
     for (name, places) in clouds.iter().take(DRAWN) {
         page.push_str(&figures::cloud(name, places, spatial));
     }
     if !d.markers.is_empty() {
         page.push_str(
-            "<div class=\"wide\"><table>\n<tr><th class=\"name\">marker</th><th class=\"name\">axis</th><th>described (m)</th>\
-             <th>least (m)</th><th>greatest (m)</th><th>mean distance (mm)</th><th>largest distance (mm)</th></tr>\n",
+            "<div class=\"wide\"><table>\n<tr><th class=\"name\">marker</th><th class=\"name\">axis</th><th>position as described (m)</th>\
+             <th>minimum (m)</th><th>maximum (m)</th><th>mean displacement (mm)</th><th>largest displacement (mm)</th></tr>\n",
         );
         for (name, marker) in &d.markers.0 {
             marker_rows(page, name, marker);
@@ -163,8 +165,8 @@ fn places(page: &mut String, d: &ToleranceDocument, clouds: &[(String, Vec<[f64;
     }
     if !d.measures.is_empty() {
         page.push_str(
-            "<div class=\"wide\"><table>\n<tr><th class=\"name\">measure</th><th>described</th><th>least</th><th>5 %</th>\
-             <th>median</th><th>95 %</th><th>greatest</th><th>mean</th><th>deviation</th><th>samples</th></tr>\n",
+            "<div class=\"wide\"><table>\n<tr><th class=\"name\">measure</th><th>value as described</th><th>minimum</th><th>5 %</th>\
+             <th>median</th><th>95 %</th><th>maximum</th><th>mean</th><th>standard deviation</th><th>samples</th></tr>\n",
         );
         for (name, measure) in &d.measures.0 {
             add(
@@ -181,8 +183,8 @@ fn places(page: &mut String, d: &ToleranceDocument, clouds: &[(String, Vec<[f64;
         page.push_str("</table></div>\n");
     }
     page.push_str(
-        "<div class=\"wide\"><table>\n<tr><th class=\"name\">body</th><th>moved on average (mm)</th><th>at most (mm)</th>\
-         <th>turned at most (mrad)</th></tr>\n",
+        "<div class=\"wide\"><table>\n<tr><th class=\"name\">body</th><th>mean displacement (mm)</th><th>largest displacement (mm)</th>\
+         <th>largest rotation (mrad)</th></tr>\n",
     );
     for (name, moved) in &d.bodies.0 {
         add(
@@ -197,7 +199,7 @@ fn places(page: &mut String, d: &ToleranceDocument, clouds: &[(String, Vec<[f64;
         );
     }
     page.push_str(
-        "</table></div>\n<p class=\"grey\">Distances from where things are described; free motions stay as they are described.</p>\n",
+        "</table></div>\n<p class=\"grey\">Displacements and rotations are relative to the pose described in the scene. The coordinates of free motions keep the values described in the scene.</p>\n",
     );
 }
 

@@ -1,14 +1,14 @@
-//! How far verdicts, reactions and places hold, in words.
+//! Text on the ranges of verdicts, reactions and positions.
 
 use crate::documents::{ReactionRangeDocument, ToleranceDocument, distance};
 use model::words::rounded;
 
 use crate::words::Block;
 
-/// Reactions that also have a sentence.
+/// Number of reactions that also have a sentence.
 const IN_WORDS: usize = 3;
 
-/// Lines of a list; a longer one is its first lines and a count.
+/// Largest number of lines of a list; a longer list is cut to its first lines and a count.
 const LISTED: usize = 12;
 
 pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
@@ -24,7 +24,7 @@ pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
             "as described",
             "least",
             "greatest",
-            "nine tenths between",
+            "90 % between",
         ];
         let lines = ranged.iter().take(LISTED).filter_map(|r| row(r));
         blocks.push(Block::table(columns, lines));
@@ -44,7 +44,7 @@ pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
 fn more(listed: usize) -> Option<Block> {
     let more = listed.checked_sub(LISTED).filter(|more| *more > 0)?;
     Some(Block::sentence(format!(
-        "and {more} more: `--json` lists all"
+        "and {more} more (`--json` prints all)"
     )))
 }
 
@@ -72,16 +72,14 @@ fn row(reaction: &ReactionRangeDocument) -> Option<[String; 7]> {
     ])
 }
 
-/// Markers and measures, and the body that moves farthest.
+/// Lists markers and joint coordinates, and the body with the largest displacement.
 fn places(d: &ToleranceDocument) -> Vec<Block> {
     let mut blocks = Vec::new();
     for (name, marker) in d.markers.0.iter().take(LISTED) {
         let (farthest, mean) = (distance(marker.farthest), distance(marker.mean));
         blocks.push(Block::sentence(match marker.farthest {
-            0.0 => format!("marker {name}: does not move"),
-            _ => format!(
-                "marker {name}: up to {farthest} from where it is described, {mean} on average"
-            ),
+            0.0 => format!("marker {name}: no displacement"),
+            _ => format!("marker {name}: displaced by up to {farthest}, {mean} on average"),
         }));
     }
     blocks.extend(more(d.markers.0.len()));
@@ -102,7 +100,7 @@ fn places(d: &ToleranceDocument) -> Vec<Block> {
         && moved.greatest > 0.0
     {
         blocks.push(Block::sentence(format!(
-            "body {name} moves farthest: up to {}, turned by up to {:.1e} rad",
+            "largest displacement: body {name}, up to {}, rotated by up to {:.1e} rad",
             distance(moved.greatest),
             moved.turned
         )));
@@ -110,7 +108,7 @@ fn places(d: &ToleranceDocument) -> Vec<Block> {
     blocks
 }
 
-/// A number with four significant digits.
+/// Formats a number with four significant digits.
 pub(super) fn digits(x: f64) -> String {
     let short: f64 = format!("{x:.3e}").parse().unwrap_or(x);
     rounded(short + 0.0)

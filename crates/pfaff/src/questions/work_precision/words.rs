@@ -1,4 +1,4 @@
-//! A comparison in words.
+//! Text on a comparison.
 
 use report::WorkPrecisionDocument;
 
@@ -15,7 +15,7 @@ pub(super) fn of(document: &WorkPrecisionDocument, ending: &Ending) -> Vec<Block
         }));
         let reference = &scene.reference;
         let (limit, agreement) = (reference.motion_limit(), &reference.agreement);
-        let known = format!("reference known to {limit:.0e}. {agreement}");
+        let known = format!("reference accurate to {limit:.0e}. {agreement}");
         let sentences = scene.summary.iter().cloned();
         let sentences = std::iter::once(known).chain(sentences);
         blocks.extend(sentences.map(|sentence| Block::after("  ", sentence)));

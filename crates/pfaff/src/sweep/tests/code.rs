@@ -1,11 +1,11 @@
-//! Runs on code, several at once, compared with each run alone and with the interpreter.
+//! Runs on generated code, several at once, compared with each run alone and with the interpreter.
 
 use super::super::job::Keep;
 use super::super::make::TOGETHER;
 use super::*;
 use report::sweep::Extreme;
 
-/// A cart on two knife edges, whose forces along them are not unique, with a pendulum.
+/// A cart has two knife edges, whose longitudinal forces are not unique, and a pendulum.
 const CART: &str = r#"
 scene = { name = "cart", space = "plane", gravity = [0.0, -9.81] }
 body = [
@@ -20,7 +20,7 @@ joint = [
 simulate = { t_end = 2.0, output_step = 0.1, rtol = 1e-8, atol = 1e-10 }
 "#;
 
-/// A crank that turns through both dead centres, with a torsional spring and a function of time.
+/// A crank turns through both dead centres, with a torsional spring and a function of time.
 const SLIDER: &str = r#"
 scene = { name = "slider", space = "plane", gravity = [0.0, -9.81] }
 body = [
@@ -37,8 +37,8 @@ joint = [
 simulate = { t_end = 1.0, output_step = 0.05, rtol = 1e-8, atol = 1e-10 }
 "#;
 
-/// A chassis on two wheels, pushed; a wheel without inertia about its axle has no mass where only
-/// positions are held.
+/// A chassis on two wheels is pushed; a wheel without moment of inertia about its axle has no mass
+/// if only positions are constrained.
 const WHEELS: &str = r#"
 scene = { name = "wheels", space = "spatial", gravity = [0.0, 0.0, -9.81] }
 body = [
@@ -56,8 +56,8 @@ force = [{ name = "push", type = "point-force", body = "chassis", point = [0.0, 
 simulate = { t_end = 0.3, output_step = 0.05, rtol = 1e-8, atol = 1e-10 }
 "#;
 
-/// A parallelogram of two cranks that turns over and over: at its flat poses code is left,
-/// and used again behind them.
+/// A parallelogram of two cranks makes many revolutions: at its singular configurations generated
+/// code stops, and is used again behind them.
 const CRANKS: &str = r#"
 scene = { name = "cranks", space = "plane" }
 body = [
@@ -93,7 +93,7 @@ const CASES: [(&str, &[&str]); 4] = [
     ),
 ];
 
-/// A row without the column of seconds.
+/// Returns a row without the column of seconds.
 fn cells(row: &SweepRow) -> Vec<u64> {
     let motion = row.motion.as_ref().expect("it moved");
     let numbers = [
@@ -136,7 +136,7 @@ fn made_together(sweep: &Sweep<'_>) -> Vec<SweepRow> {
     rows
 }
 
-/// Each run has the bits of the run alone, whatever is made at the same time.
+/// Each run has the same bits as the run alone, whatever other runs are performed at the same time.
 #[test]
 fn runs_made_together_are_those_made_alone() {
     let registry = Registry::standard();
@@ -153,7 +153,7 @@ fn runs_made_together_are_those_made_alone() {
     }
 }
 
-/// The interpreter is another derivation of the same equations: rows agree to 1e-9.
+/// The interpreter derives the same equations independently: rows agree to 1e-9.
 #[test]
 fn runs_on_code_are_those_of_the_interpreter() {
     let registry = Registry::standard();
@@ -184,8 +184,8 @@ fn runs_on_code_are_those_of_the_interpreter() {
     }
 }
 
-/// Where masses alone are varied, runs take the decisions of the scene without changes: the rows
-/// are those of deciding each time, bit for bit. Other joints are decided by themselves.
+/// If only masses vary, runs use the decisions of the scene without changes: the rows are bitwise
+/// the same as with separate decisions. Runs with other joints need separate decisions.
 #[test]
 fn decisions_are_shared_where_constraints_are_the_same() {
     let registry = Registry::standard();
@@ -206,8 +206,9 @@ fn decisions_are_shared_where_constraints_are_the_same() {
     }
 }
 
-/// Runs that leave their code at flat poses, of which the interpreter passes all, pass them, too;
-/// what is told of them is the motion, not how it was computed.
+/// At singular configurations runs leave their generated code. The interpreter passes all these
+/// configurations, and so do the runs. Their rows describe the motion and not the way in which it
+/// was computed.
 #[test]
 fn runs_that_leave_their_code_end_as_interpreted_ones() {
     let registry = Registry::standard();

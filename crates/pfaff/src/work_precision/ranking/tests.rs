@@ -30,7 +30,7 @@ fn run(method: &'static str, tolerance: f64, error: f64, seconds: f64) -> WorkPr
     }
 }
 
-/// Time of a method at an error.
+/// Returns the time of a method at an error.
 fn seconds(rows: &[WorkPrecisionRow], method: &str, error: f64) -> Option<f64> {
     let lines = ranking(rows, LIMIT);
     let line = lines.iter().find(|line| line.error == error)?;
@@ -40,7 +40,7 @@ fn seconds(rows: &[WorkPrecisionRow], method: &str, error: f64) -> Option<f64> {
 
 #[test]
 fn between_two_runs_the_time_is_straight_in_logarithms() {
-    // A hundredth of the error takes ten times the time, so a tenth takes √10 times.
+    // A hundredth of the error takes ten times the time, so a tenth takes √10 times the time.
     let rows = [run("a", 1e-4, 1e-4, 1e-3), run("a", 1e-6, 1e-6, 1e-2)];
     let at = seconds(&rows, "a", 1e-5).expect("reached");
     assert!((at - 1e-3 * 10_f64.sqrt()).abs() < 1e-12, "{at}");
@@ -51,7 +51,7 @@ fn between_two_runs_the_time_is_straight_in_logarithms() {
 
 #[test]
 fn luck_is_not_accuracy() {
-    // Accurate at 1e-4, on another branch at 1e-6, accurate again at 1e-8.
+    // The method is accurate at 1e-4, on another branch at 1e-6, and accurate again at 1e-8.
     let rows = [
         run("a", 1e-4, 1e-6, 1e-3),
         run("a", 1e-6, 1.0, 2e-3),
@@ -84,7 +84,7 @@ fn winners_are_told_for_ranges() {
     let mut rows = Vec::new();
     for k in 3..=12 {
         let tolerance = 10_f64.powi(-k);
-        // The second method is faster down to 1e-6 and is given up there.
+        // The second method is faster down to 1e-6, and its run is abandoned there.
         rows.push(run("steady", tolerance, tolerance, 1e-3 * f64::from(k)));
         if k <= 6 {
             rows.push(run("quick", tolerance, tolerance, 5e-4 * f64::from(k)));
@@ -94,8 +94,8 @@ fn winners_are_told_for_ranges() {
     assert_eq!(
         words,
         [
-            "Errors of 1e-3 … 1e-6: quick; the next, at the tight end steady, takes 2.0 times as long.",
-            "Errors of 1e-7 … 1e-12: steady, at the tight end alone.",
+            "For errors of 1e-3 … 1e-6, quick is the fastest method. The second-fastest method (at the smallest error: steady) takes 2.0 times as long.",
+            "For errors of 1e-7 … 1e-12, steady is the fastest method, and no other method reaches the smallest error.",
         ]
     );
 }

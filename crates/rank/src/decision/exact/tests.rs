@@ -1,4 +1,5 @@
-//! Exact decisions against fraction-free elimination of big integers, and against cases by hand.
+//! Compares exact decisions with fraction-free elimination of big integers, and with manually
+//! solved cases.
 
 use num_bigint::BigInt;
 use num_traits::{Signed, ToPrimitive, Zero};
@@ -7,7 +8,7 @@ use super::*;
 use crate::decision::tests::{Numbers, kahan, parallel_cranks};
 use crate::{ExactNullSpace, components};
 
-/// The entries times 2^1074: integers.
+/// Returns the entries times 2^1074, which are integers.
 fn integers(c: &Matrix) -> Vec<Vec<BigInt>> {
     let entry = |x: f64| {
         let bits = x.to_bits();
@@ -101,7 +102,8 @@ fn check(c: &Matrix) -> RankDecision {
     decision
 }
 
-/// det of the kept rows with one exchanged over det of the kept rows, for square kept rows.
+/// Returns the determinant of the kept rows with one exchanged row, divided by the determinant of
+/// the kept rows, for square kept rows.
 fn cramer(c: &Matrix, decision: &RankDecision, j: usize, k: usize) -> f64 {
     fn det(mut a: Vec<Vec<BigInt>>) -> BigInt {
         let n = a.len();
@@ -146,8 +148,8 @@ fn planted_integers_sizes_and_near_redundancy_agree_with_big_integers() {
         let mut small = |m, n| Matrix::from_fn(m, n, |_, _| numbers.below(5) as f64 - 2.0);
         let mut c = small(m, r).product(&small(r, n));
         if case % 3 == 1 {
-            // Sizes over 1e±8: rows are multiplied by factors that f64 rounds, so rounding may
-            // destroy a redundancy.
+            // The sizes extend over 1e±8. Rows are multiplied by factors that f64 rounds, so
+            // rounding may destroy a redundancy.
             for i in 0..m {
                 let factor = 10f64.powf(8.0 * numbers.unit());
                 c.row_mut(i).iter_mut().for_each(|x| *x *= factor);
@@ -177,7 +179,7 @@ fn kahan_has_full_rank_and_a_copy_of_its_last_row_is_seen() {
     assert_eq!(components(&decision).coupled, [[29, 30]]);
     let kahan90 = certify_exact(&kahan(90, 1.2)).unwrap();
     assert_eq!(kahan90.rank, 90);
-    // Known from other tests: the smallest singular value is about 1e-15.
+    // Other tests show that the smallest singular value is about 1e-15.
     assert!(kahan90.nearly_redundant().is_some());
     assert!(kahan90.evidence.certificate.unwrap().sigma_bound > 0.0);
 }
@@ -194,7 +196,8 @@ fn powers_of_two_are_no_trap() {
     }
 }
 
-/// As the misalignment falls from 1e-8 to 1e-300 the kept rows stay independent and T stays right.
+/// If the misalignment decreases from 1e-8 to 1e-300, the kept rows stay independent and T stays
+/// accurate.
 #[test]
 fn near_redundancy_beside_exact_redundancy() {
     for k in [8, 10, 12, 14, 16, 18, 20, 27, 29, 31, 40, 100, 300] {
@@ -231,7 +234,7 @@ fn near_redundancy_beside_exact_redundancy() {
             let bound = decision.evidence.certificate.as_ref().unwrap().sigma_bound;
             assert!(bound > 1e-3 * near.sigma, "ε = 1e-{k}: {bound:e}");
         }
-        // The direction involves rows 0, 1 and 3 only, and is orthogonal to the exact dependency.
+        // The direction involves only rows 0, 1 and 3, and is orthogonal to the exact dependency.
         let d = &near.direction;
         assert!(d[2].abs() < 1e-5 && d[4].abs() < 1e-5, "{d:?}");
         let cancelled = decision.scaling.apply(&c).transpose_times(d);
@@ -285,8 +288,8 @@ fn tall_matrices() {
     );
 }
 
-/// Cranks at an angle whose sine and cosine are rounded: the tips of the couplers still agree
-/// exactly, so the third crank is redundant to the last bit; with other rounding it would not be.
+/// Cranks at an angle with rounded sine and cosine. The tips of the couplers still agree exactly,
+/// so the third crank is redundant to the last bit. With other rounding it would not be redundant.
 #[test]
 fn cranks_as_they_stand() {
     let c = parallel_cranks(1.0, 0.7);
@@ -295,7 +298,8 @@ fn cranks_as_they_stand() {
     assert!(decision.nearly_redundant().is_none());
 }
 
-/// Blocks whose determinants are the first two primes: regular, but not modulo either.
+/// Blocks whose determinants are the first two primes. They are regular, but not modulo these
+/// primes.
 #[test]
 fn primes_that_divide_a_determinant_are_outvoted() {
     let mut c = Matrix::zeros(4, 4);

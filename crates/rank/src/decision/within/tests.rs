@@ -1,4 +1,4 @@
-//! Singular values when the precision is doubled, and the three zones of the uncertainty.
+//! Singular values at doubled precision, and the three zones of the uncertainty.
 
 use super::*;
 use crate::decision::tests::{Numbers, parallel_cranks};
@@ -28,7 +28,8 @@ fn cranks(epsilon: f64) -> DdMatrix {
     c
 }
 
-/// A row whose uncertainty is as large as the row is not redundant: nothing is known about it.
+/// A row whose uncertainty is as large as the row is not redundant, because it contains no
+/// information.
 #[test]
 fn what_the_data_hide_is_undecided() {
     let c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0]]));
@@ -40,8 +41,8 @@ fn what_the_data_hide_is_undecided() {
     let hidden = reading(3.0);
     assert_eq!(hidden.rank, 0);
     assert!(!hidden.is_decided());
-    // Rows that differ by less than the uncertainty of the data: redundant within the data only if
-    // the uncertainty is below a hundredth of a row.
+    // Rows that differ by less than the uncertainty of the data are redundant within the data only
+    // if the uncertainty is below a hundredth of a row.
     let c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.05]]));
     let decision = certify_within(&c, crate::Accuracy::Absolute(0.01)).unwrap();
     let RankStatus::Undecided(Doubt::Hidden { sigma, tolerance }) = decision.status else {
@@ -63,8 +64,8 @@ fn what_the_data_hide_is_undecided() {
     );
 }
 
-/// A rank below that of the entries, read from data within their uncertainty, although the entries
-/// themselves are free of rounding: their zeros prove nothing then.
+/// A rank below that of the entries, decided from data within their uncertainty, although the
+/// entries themselves have no rounding errors. In this case, their zeros prove nothing.
 #[test]
 fn a_lower_rank_within_the_data_is_not_exact() {
     let rows = Matrix::from_rows(&[[1.0, 0.0]]);
@@ -88,8 +89,8 @@ fn a_lower_rank_within_the_data_is_not_exact() {
     assert!(!decision(0, Grounds::WithinData).is_exact());
 }
 
-/// numerics.md, 2.1: exactly redundant 8e-18 / 4e-34; misaligned by 1e-13: the same at every
-/// precision; by 1e-20: seen at 32 digits.
+/// Values of numerics.md, 2.1. Exactly redundant: 8e-18 / 4e-34. Misaligned by 1e-13: the same at
+/// every precision. Misaligned by 1e-20: visible with 32 digits.
 #[test]
 fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
     let decision = certify_within(&cranks(0.0), crate::Accuracy::Absolute(DATA)).unwrap();
@@ -148,7 +149,7 @@ fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
     }
 }
 
-/// A circuit at misalignments of 1e-20 is right to 1e-10 if the data are known that well.
+/// A circuit at misalignments of 1e-20 is accurate to 1e-10 if the data have that accuracy.
 #[test]
 fn dependencies_of_a_nearly_redundant_matrix_are_those_of_the_matrix_as_read() {
     for epsilon in [1e-7, 1e-12, 1e-20] {
@@ -169,7 +170,7 @@ fn dependencies_of_a_nearly_redundant_matrix_are_those_of_the_matrix_as_read() {
         );
         assert_eq!(components(&decision).coupled, [[0, 1, 3]]);
         assert_eq!(components(&decision).coloops, [2]);
-        // row 0 − 2·row 1 + row 3 = 0.
+        // The dependency is row 0 − 2·row 1 + row 3 = 0.
         let z = dependencies(&decision);
         let z: Vec<f64> = (0..4).map(|i| z[(i, 0)] / z[(0, 0)]).collect();
         for (z, exact) in z.iter().zip([1.0, -2.0, 0.0, 1.0]) {
@@ -264,7 +265,7 @@ fn a_thousandth_is_nearly_redundant() {
     }
 }
 
-/// Levels read σ₂ up to √2.
+/// The levels cover values of σ₂ up to √2.
 #[test]
 fn what_vanishes_is_ten_digits_below_rounding() {
     for (e, expected) in [(3e-27, Grounds::Vanishes), (3e-26, Grounds::WithinData)] {
@@ -274,7 +275,7 @@ fn what_vanishes_is_ten_digits_below_rounding() {
     }
 }
 
-/// A singular value that clears what the data are known to by less than 4 is not decided on.
+/// A singular value that exceeds the accuracy of the data by a factor below 4 is undecided.
 #[test]
 fn a_singular_value_clears_the_data_by_four() {
     for (times, is_decided) in [(2.5, false), (4.5, true)] {
@@ -287,8 +288,8 @@ fn a_singular_value_clears_the_data_by_four() {
     }
 }
 
-/// Rows a, b, a of [`nearly_parallel`]: σ₂ is 2e/√3. Data known to u leave coefficients open by
-/// √6·u/σ₂, unless σ₂ is below 1e-6.
+/// Rows a, b, a of [`nearly_parallel`], with σ₂ = 2e/√3. With data of accuracy u, the coefficients
+/// are undecided within √6·u/σ₂, unless σ₂ is below 1e-6.
 #[test]
 fn coefficients_of_a_nearly_redundant_matrix_are_as_read() {
     for (e, is_as_read) in [(0.5e-6, true), (2e-6, false)] {

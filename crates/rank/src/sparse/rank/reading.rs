@@ -6,25 +6,27 @@ use crate::{CoefficientReading, Doubt, RankStatus, Readings};
 use linalg::kernels;
 
 impl SparseRank {
-    /// Whether the rank is decided.
+    /// Returns whether the rank is decided.
     pub fn is_decided(&self) -> bool {
         self.status == RankStatus::Decided
     }
 
-    /// An estimate of the norm of row i of an orthonormal basis Z of the left null space: zero iff
-    /// the multiplier of the row is unique, one iff the row alone is dependent (a row of zeros).
+    /// Returns an estimate of the norm of row i of an orthonormal basis Z of the left null space.
+    /// The norm is zero iff the multiplier of the row is unique, and one iff the row alone is
+    /// dependent (a row of zeros).
     ///
     /// # Panics
-    /// If `i` is not a row.
+    /// Panics if `i` is not a row.
     pub fn margin(&self, i: usize) -> f64 {
         kernels::norm(self.sketch.row(i))
     }
 
     /// Classifies the margin of row i: whether its multiplier is unique. Margins within the noise
-    /// are zero if they are smaller than all others by a factor of 10⁴, otherwise unclear.
+    /// are zero if they are smaller than all other margins by a factor of 10⁴. Otherwise they are
+    /// unclear.
     ///
     /// # Panics
-    /// If `i` is not a row.
+    /// Panics if `i` is not a row.
     pub fn read_row(&self, i: usize) -> CoefficientReading {
         self.readings().read(self.margin(i), self.noise())
     }
@@ -38,16 +40,16 @@ impl SparseRank {
         }
     }
 
-    /// Bound on the error (norm) of a row of W. The part of W outside the left null space is at
-    /// most ‖Cᵀ·W‖/σ_r; in addition, W differs from that of the intended matrix by the uncertainty
-    /// divided by σ_r.
+    /// Returns a bound on the error (norm) of a row of W. The part of W outside the left null space
+    /// is at most ‖Cᵀ·W‖/σ_r; in addition, W differs from that of the intended matrix by the
+    /// uncertainty divided by σ_r.
     pub fn noise(&self) -> f64 {
         let e = &self.evidence;
         let known = e.sigma_next.max(tolerance(1, 1, e.uncertainty));
         coefficient_noise(known, e.sigma_r)
     }
 
-    /// The largest margin within the noise, and the smallest above it.
+    /// Returns the largest margin within the noise, and the smallest above it.
     pub(super) fn margins(&self) -> (f64, f64) {
         let noise = self.noise();
         let (mut zero, mut other) = (0.0_f64, f64::INFINITY);

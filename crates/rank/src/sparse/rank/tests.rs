@@ -1,4 +1,4 @@
-//! Comparison with the dense decision, and matrices of known rank.
+//! Compares with the dense decision, and with matrices of known rank.
 
 use super::*;
 use crate::{CoefficientReading, decide, orthonormal};
@@ -25,8 +25,8 @@ impl Dice {
     }
 }
 
-/// Groups of one to three rows on one to three bodies; then rows that are combinations of others,
-/// copies among them.
+/// Groups of one to three rows on one to three bodies, followed by rows that are combinations or
+/// copies of others.
 fn planted(dice: &mut Dice) -> (Matrix, Vec<Range<usize>>, Vec<Range<usize>>) {
     let bodies = 1 + dice.below(7);
     let n = 3 * bodies;
@@ -83,7 +83,7 @@ fn planted_matrices_read_as_by_the_dense_code() {
         redundant += usize::from(dense.redundancy > 0);
         assert_eq!(found.rank, dense.rank, "{case}");
         assert_eq!(found.scaling, dense.scaling, "{case}");
-        // A lower bound that is not far from the true value.
+        // The lower bound is close to the true value.
         let kept = found.scaling.apply(&c).select_rows(&found.kept);
         let sigma = singular_values(&kept)
             .last()
@@ -114,7 +114,8 @@ fn planted_matrices_read_as_by_the_dense_code() {
                 assert_eq!(reading, CoefficientReading::Zero, "{case}: {i} {margin:e}");
             }
         }
-        // The left null space of each group is the same: equal ranks, also if combined.
+        // The left null space of each group is the same: the ranks are equal, also if they are
+        // combined.
         for group in groups {
             let rows: Vec<usize> = group.collect();
             let (z_j, w_j) = (z.select_rows(&rows), found.sketch.select_rows(&rows));
@@ -132,8 +133,8 @@ fn planted_matrices_read_as_by_the_dense_code() {
     assert!(redundant > 100, "{redundant} redundant");
 }
 
-/// A row changed by 1e-17 … 1, and columns in units of 1e±8: the result may be undecided if the
-/// dense code decides, but must not contradict it.
+/// A row with a change of 1e-17 … 1, and columns in units of 1e±8. The result may be undecided if
+/// the dense code decides, but must not contradict it.
 #[test]
 fn nearly_dependent_rows_are_never_misread() {
     let mut dice = Dice(0x0fed_cba9_8765_4321);
@@ -206,8 +207,8 @@ fn trivial_matrices() {
         &Matrix::from_rows(&[[1.0, 2.0, 3.0], [0.0; 3], [2.0, 4.0, 6.0]]),
         body,
     );
-    // The row of zeros is dependent alone: margin one, estimated from eight numbers of variance
-    // one.
+    // The row of zeros is dependent by itself, so its margin is one, estimated from eight numbers
+    // of variance one.
     assert!((0.3..2.0).contains(&last.margin(1)), "{}", last.margin(1));
     assert!(last.margin(0) > 0.1 && last.margin(2) > 0.1);
 }
@@ -326,7 +327,7 @@ fn bad_input_is_named() {
 
 #[test]
 fn what_would_take_hours_is_refused() {
-    // A row on 20 000 bodies connects each of them to each other.
+    // A row on 20 000 bodies connects each body to every other body.
     let c = SparseMatrix::from_rows(60_000, [(0..60_000).map(|j| (j, 1.0))]).expect("columns");
     let bodies: Vec<_> = (0..20_000).map(|b| 3 * b..3 * b + 3).collect();
     let error = decide_sparse(&c, 0.0, &bodies, Sketch::default()).unwrap_err();

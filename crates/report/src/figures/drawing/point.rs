@@ -18,7 +18,7 @@ impl Point {
         Self { at, count }
     }
 
-    /// In space; in the plane z = 0.
+    /// The point in space; in the plane z = 0.
     pub(crate) fn at(self) -> [f64; 3] {
         self.at
     }
@@ -42,7 +42,7 @@ impl Curves {
         Self(named.map(|(k, name)| (*name, curve(k))).collect())
     }
 
-    /// Up to three of them at the first frame, as a vector.
+    /// Up to three curves at the first frame, as a vector.
     pub(crate) fn first(&self) -> [f64; 3] {
         let mut first = [0.0; 3];
         for (value, (_, curve)) in first.iter_mut().zip(&self.0) {

@@ -1,5 +1,5 @@
-//! Bodies whose tensors of inertia differ in their products are drawn alike, by figures and by the
-//! scripts of pages.
+//! Tests that figures and the scripts of pages draw bodies equally if their inertia tensors differ
+//! only in their products of inertia.
 
 use joints::space3::{Axes, Pose, Revolute};
 use model::{BodyRef, Marker, Mechanism, SpatialBody, SpatialDescription, System};
@@ -11,14 +11,15 @@ use crate::recording::Frame;
 /// Figures compute with all digits.
 const ROUNDING: f64 = 1e-12;
 
-/// Curves of pages have 100 000 levels: those of centres, which move by up to 1 m here, are off by
-/// half a level of 1e-5 m, and those of quaternions, which change by up to 2, by 1e-5 in each of
-/// two numbers, which turn an arm of 1 m by twice as much.
+/// Curves of pages have 100 000 levels. Centres of mass move by up to 1 m here, so their error is
+/// half a level of 1e-5 m. Quaternions change by up to 2, so each of two numbers has an error of
+/// 1e-5, which rotates an arm of 1 m by twice as much.
 const PAGE: f64 = 0.5e-5 + 2.0 * 1.414 * 1e-5;
 
 const DIAGONAL: [[f64; 3]; 3] = [[0.02, 0.0, 0.0], [0.0, 0.03, 0.0], [0.0, 0.0, 0.04]];
 
-/// Tensors whose principal axes are those of the frame, nearly so, in another order, and turned.
+/// Tensors whose principal axes are the axes of the frame, nearly so, in another order, and
+/// rotated.
 const TENSORS: [[[f64; 3]; 3]; 4] = [
     DIAGONAL,
     [[0.02, 0.0, 1e-19], [0.0, 0.03, 0.0], [1e-19, 0.0, 0.03]],
@@ -30,12 +31,12 @@ const TENSORS: [[[f64; 3]; 3]; 4] = [
     ],
 ];
 
-/// Points of the first body in its frame: its centre, both hinges and a marker.
+/// Points of the first body in its frame: its centre of mass, both hinges and a marker.
 const CENTRE: [f64; 3] = [0.5, 0.0, 0.0];
 const TIP: [f64; 3] = [0.5, 0.3, 0.2];
 const HINGE: [f64; 3] = [1.0, 0.0, 0.0];
 
-/// An arm on a hinge about y, turned by `turn` about it, with a second arm.
+/// An arm on a hinge about y, rotated by `turn` about it, with a second arm.
 fn arms(tensor: [[f64; 3]; 3], turn: f64) -> Mechanism {
     let mut d = SpatialDescription::new("arms");
     let (sin, cos) = (0.5 * turn).sin_cos();
@@ -60,7 +61,7 @@ fn arms(tensor: [[f64; 3]; 3], turn: f64) -> Mechanism {
     Mechanism::build(&d).expect("builds")
 }
 
-/// A vector turned about y.
+/// A vector rotated about y.
 fn turned(turn: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
     let (sin, cos) = turn.sin_cos();
     [cos * x + sin * z, y, cos * z - sin * x]
@@ -68,7 +69,7 @@ fn turned(turn: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
 
 const TURNS: [f64; 3] = [0.0, 0.7, -2.1];
 
-/// What is drawn of a run through the three turns.
+/// The drawing of a run through the three rotations.
 fn drawn(tensor: [[f64; 3]; 3]) -> DrawingModel {
     let mechanism = arms(tensor, TURNS[0]);
     let frames = TURNS.map(|turn| {
@@ -128,7 +129,7 @@ fn pages_place_the_points_of_bodies_with_products_of_inertia() {
             near(&page["markers"][0], TIP, "marker");
             near(&page["sites"][0]["place"], [0.0; 3], "first hinge");
             near(&page["sites"][1]["place"], HINGE, "second hinge");
-            // The hull of the first body has its hinges and its centre as corners.
+            // The corners of the hull of the first body are its hinges and its centre of mass.
             let outline = page["bodies"][0]["outline"].as_array().expect("a list");
             assert_eq!(outline.len(), 3);
             for corner in [[0.0; 3], CENTRE, HINGE] {
@@ -140,7 +141,7 @@ fn pages_place_the_points_of_bodies_with_products_of_inertia() {
                 };
                 assert!(outline.iter().map(distance).any(|d| d <= 3.0 * PAGE));
             }
-            // The origin of the frame, which is traced.
+            // The origin of the frame, whose path is drawn.
             let origin = serde_json::json!({ "b": 0, "p": page["bodies"][0]["frame"] });
             near(&origin, [0.0; 3], "origin");
             let axis = &page["sites"][1]["axis"];

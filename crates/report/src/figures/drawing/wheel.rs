@@ -1,4 +1,4 @@
-//! Circles of bodies that roll: pitch circles, and wheels on the ground.
+//! Rolling circles of bodies: pitch circles, and wheels on the ground.
 
 use model::space::{cross, difference, norm};
 use model::{ConstraintId, SpaceKind};
@@ -9,23 +9,23 @@ use crate::channel::FewDigits;
 use crate::figures::geometry::Pitch;
 use crate::figures::projection::unit;
 
-/// A circle rolls with a body if its radius, its centre and its axis in the body change by no more
-/// than this, relative to the size of the picture: contacts hold to the tolerance of a run.
+/// A circle rolls with a body if its radius, its centre and its axis in the body change by at most
+/// this, relative to the size of the picture. Contacts are accurate to the tolerance of a run.
 const ROUND: f64 = 1e-6;
 
-/// Corners of a circle that is drawn as a polygon.
+/// Number of corners of a circle that is drawn as a polygon.
 const CORNERS: usize = 72;
 
-/// A circle of a body that rolls.
+/// A rolling circle of a body.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct DrawnWheel {
     pub(crate) b: isize,
-    /// Its centre in the frame of the body (m).
+    /// Centre in the frame of the body (m).
     pub(crate) p: Point,
-    /// In space the direction across it, in the axes of the body.
+    /// In space: direction normal to the circle, in the axes of the body.
     #[serde(skip_serializing_if = "Option::is_none")]
     axis: Option<Point>,
-    /// Its radius (m).
+    /// Radius (m).
     r: FewDigits,
 }
 
@@ -53,7 +53,7 @@ impl DrawingModel {
 }
 
 impl Stage<'_> {
-    /// Circles of a joint that are the same at all probes.
+    /// Circles of a joint that are the same in all probes.
     pub(super) fn wheels(&self, id: ConstraintId, probes: &[Probe], size: f64) -> Vec<DrawnWheel> {
         let space = self.mechanism.space();
         let Some(first) = probes.first() else {

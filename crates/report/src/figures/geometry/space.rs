@@ -1,4 +1,4 @@
-//! The kind of freedom that a joint in space leaves, from the forces and torques of its rows.
+//! The kind of freedom that a joint in space allows, from the forces and torques of its rows.
 
 #[cfg(test)]
 mod tests;
@@ -11,12 +11,12 @@ use model::space::{cross, norm};
 use crate::figures::projection::unit;
 use crate::figures::symbol::Symbol;
 
-/// Parts of unit forces and torques below this are rounding: rows of definitions are along and
-/// about unit vectors, and their lever arms are known to ten digits.
+/// Components of unit forces and torques below this are rounding errors: the rows of definitions
+/// are along and about unit vectors, and their lever arms are accurate to ten digits.
 const ROUNDING: f64 = 1e-6;
 
-/// The symbol of a joint or drive whose rows have these wrenches (N, N·m) about its place; `arm`
-/// leads to its second point, about which it turns.
+/// The symbol of a joint or drive whose rows have these wrenches (N, N·m) about its reference
+/// point; `arm` points to its second point, about which it rotates.
 pub(super) fn symbol(group: &ConstraintGroup, wrenches: &Matrix, arm: [f64; 3]) -> Symbol {
     let rows = 0..group.rows.len();
     let part = |first: usize, row: usize| [0, 1, 2].map(|k| wrenches[(first + k, row)]);

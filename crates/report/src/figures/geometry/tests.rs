@@ -57,7 +57,7 @@ fn two_bodies(element: impl ConstraintKernels + 'static, drives: bool) -> Mechan
     mechanism
 }
 
-/// The site computed for their joint.
+/// The computed site of the joint between them.
 fn site(element: impl ConstraintKernels + 'static, drives: bool) -> super::Site {
     let mechanism = two_bodies(element, drives);
     let mut s = mechanism.scratch();
@@ -138,7 +138,7 @@ fn wheels_touch_where_their_speeds_agree() {
     assert_eq!(gear(1.0).pitch, []);
 }
 
-/// The same wheels with teeth: they touch in the pitch point whatever the pressure angle is.
+/// The same wheels with a gear mesh: they touch at the pitch point for every pressure angle.
 #[test]
 fn teeth_are_at_the_pitch_point() {
     for pressure_angle in [None, Some(0.35), Some(-0.2)] {
@@ -173,7 +173,7 @@ fn the_far_end_of_a_rod_is_found_from_gamma() {
 
 #[test]
 fn a_slider_holds_the_second_body_on_its_axis() {
-    // The second point is put on the axis of the first body.
+    // The second point is on the axis of the first body.
     let axis = first([0.6, 0.8]);
     let on_axis = [0, 1].map(|k| first(S_I)[k] + 1.7 * axis[k]);
     let s_j = joints::Pose::new(2.0, 1.0, -0.7).to_local(on_axis);

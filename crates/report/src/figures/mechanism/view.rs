@@ -1,10 +1,10 @@
-//! The place and the size of a drawing on its page.
+//! The position and the size of a drawing on its page.
 
 use super::{LARGEST_HEIGHT, ROOM, TITLE, WIDTH};
 use crate::figures::axis::{DRAWABLE, range};
 use crate::figures::drawing::DrawingModel;
 
-/// From the plane of the picture (m) to the page (px).
+/// Conversion from the plane of the picture (m) to the page (px).
 pub(super) struct View {
     /// px/m
     pub(super) scale: f64,
@@ -35,8 +35,8 @@ impl View {
         let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
         let room = [WIDTH - 2.0 * ROOM[0], LARGEST_HEIGHT - 2.0 * ROOM[1]];
         let size = dx.max(dy);
-        // Something without size, or with a size that is rounding relative to its distance from the
-        // origin, gets one metre.
+        // A drawing without extent, or with an extent that is a rounding error relative to its
+        // distance from the origin, gets an extent of one metre.
         let far = x[0].abs().max(y[0].abs());
         let scale = if size > 1e-9 * far && size > 1.0 / DRAWABLE {
             (room[0] / dx).min(room[1] / dy)

@@ -82,7 +82,7 @@ impl<'m> PathRecorder<'m> {
         })
     }
 
-    /// Takes the configuration q at time t.
+    /// Records the configuration q at time t.
     ///
     /// # Errors
     /// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is not a configuration of the

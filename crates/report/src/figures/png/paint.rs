@@ -1,4 +1,4 @@
-//! Paints SVG with resvg, and packs the pixels.
+//! Renders SVG with resvg, and compresses the pixels.
 
 use std::collections::BTreeSet;
 use std::sync::{Arc, Once};
@@ -13,10 +13,10 @@ use super::{Png, PngError, SOFTWARE, measure};
 const REGULAR: &[u8] = include_bytes!("../../../fonts/DejaVuSansCondensed.ttf");
 const BOLD: &[u8] = include_bytes!("../../../fonts/DejaVuSansCondensed-Bold.ttf");
 
-/// From this weight on browsers take the bold of two faces.
+/// From this weight on, browsers use the bold font of a family.
 const BOLD_FROM: u16 = 600;
 
-/// Pixels of a metre at scale 1: 96 to the inch, as CSS has it.
+/// Pixels per metre at scale 1: 96 per inch, as in CSS.
 const PER_METRE: f64 = 96.0 / 0.0254;
 
 pub(super) fn paint(svg: &str, scale: Option<f64>) -> Result<Png, PngError> {
@@ -44,7 +44,7 @@ pub(super) fn paint(svg: &str, scale: Option<f64>) -> Result<Png, PngError> {
     })
 }
 
-/// Our two fonts for all text, whatever families it names.
+/// Uses the two fonts of this crate for all text, whatever the font families in the text.
 fn options() -> Options<'static> {
     let mut fonts = Database::new();
     let mut add = |face: &'static [u8]| {
@@ -102,7 +102,7 @@ fn find_boxes(group: &Group, found: &mut BTreeSet<char>) {
     }
 }
 
-/// The pixels as a file. They are opaque, as the page is white.
+/// The pixels as a file. They are opaque, because the page is white.
 fn pack(picture: &Pixmap, scale: f64) -> Result<Vec<u8>, png::EncodingError> {
     let colours = picture.data().chunks_exact(4);
     let colours: Vec<u8> = colours.flat_map(|p| [p[0], p[1], p[2]]).collect();
@@ -112,7 +112,7 @@ fn pack(picture: &Pixmap, scale: f64) -> Result<Vec<u8>, png::EncodingError> {
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Balanced);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    // A document shows it in the size of the figure, whatever its scale.
+    // Documents show the picture in the size of the figure, whatever its scale.
     let per_metre = (scale * PER_METRE).round() as u32;
     encoder.set_pixel_dims(Some(PixelDimensions {
         xppu: per_metre,

@@ -1,4 +1,4 @@
-//! Sizes and refusals, and pictures as another program reads them.
+//! Tests of sizes and errors, and of pictures as read by another program.
 
 use super::*;
 
@@ -6,7 +6,8 @@ use super::*;
 fn a_picture_has_two_pixels_for_each_px_if_it_is_not_too_large() {
     assert_eq!(measure([960.0, 535.4], None), Ok((2.0, [1920, 1071])));
     assert_eq!(measure([960.0, 535.4], Some(0.5)), Ok((0.5, [480, 268])));
-    // 1000 x 100 000 px, a quarter of which can be painted: half a pixel for each.
+    // 1000 x 100 000 px, of which a quarter of the pixels can be rendered: half a pixel for each
+    // px.
     assert_eq!(measure([1e3, 1e5], None), Ok((0.5, [500, 50_000])));
 }
 
@@ -38,12 +39,12 @@ mod painted {
     use crate::figures::svg::Svg;
     use crate::figures::{Panel, Series, Style, histories};
 
-    /// What another program reads of a picture.
+    /// Properties of a picture that another program reads.
     struct Read {
         size: [usize; 2],
         colours: Vec<[u8; 3]>,
         software: String,
-        /// Pixels of a metre.
+        /// Pixels per metre.
         density: u32,
     }
 
@@ -144,7 +145,7 @@ mod painted {
 
     #[test]
     fn a_character_that_no_font_has_is_a_box_and_told() {
-        // Characters that are not assigned, and one that is told once.
+        // Unassigned characters; a repeated one is reported once.
         let picture = text("a\u{378}b\u{378}\u{380}", "400");
         assert_eq!(picture.boxes, "\u{378}\u{380}");
         let with_box = Read::of(&picture);

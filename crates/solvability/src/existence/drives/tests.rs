@@ -1,5 +1,5 @@
-//! Drives that agree, drives that contradict each other, and drives that contradict joints; their
-//! differences are computed by hand.
+//! Drives that agree, drives that contradict each other, and drives that contradict joints. The
+//! expected differences are calculated manually.
 
 use std::f64::consts::PI;
 
@@ -25,7 +25,7 @@ fn motor(d: &mut Description, name: &str, body: BodyRef, place: [f64; 2], motion
     d.drive(name, &[GROUND, body], drive, motion);
 }
 
-/// A beam on two rails along x, each with a motor of its own.
+/// A beam on two rails along x, each with a separate motor.
 fn gantry(motions: [Function; 2]) -> Description {
     let mut d = Description::new("gantry");
     let beam = d.body(Body::new("beam", 40.0, 10.0));
@@ -59,7 +59,7 @@ fn assembled(d: &Description) -> (Mechanism, Vec<f64>) {
     (mechanism, q)
 }
 
-/// The configuration to which the independent drives lead.
+/// The configuration that the independent drives reach.
 fn followed_drives(mechanism: &Mechanism, q: &[f64], t: f64) -> Option<Vec<f64>> {
     let mut last = None;
     let seen = walk(mechanism, q, t, None, |time, q| {
@@ -101,15 +101,15 @@ fn motors_of_two_speeds_are_named_at_the_start() {
     assert!(one.is_of_drives());
 }
 
-/// The motors differ by 0.3 m and 0.6 m; however large the difference, no rail is named.
+/// The motors differ by 0.3 m and 0.6 m. For any size of the difference, no rail is named.
 #[test]
 fn motors_that_part_later_are_named_with_the_time() {
     for (far, said) in [(0.6, "0.6 m"), (600.0, "600 m")] {
         let d = gantry([late(0.3), late(far)]);
         assert_eq!(at_start(&d), []);
         assert_eq!(along(&d, 0.5), None);
-        // At 13 positions up to 1.5 s, 0.625 s is the first at which they differ: s = 1/4, 10s³ −
-        // 15s⁴ + 6s⁵ = 0.103516.
+        // At 13 positions up to 1.5 s, 0.625 s is the first time at which the motors differ: s =
+        // 1/4, 10s³ − 15s⁴ + 6s⁵ = 0.103516.
         let one = along(&d, 1.5).expect("they differ");
         let share = 10.0 * 0.25_f64.powi(3) - 15.0 * 0.25_f64.powi(4) + 6.0 * 0.25_f64.powi(5);
         assert_eq!((one.time, one.level), (0.625, ConstraintLevel::Position));
@@ -137,8 +137,7 @@ fn motors_that_part_later_are_named_with_the_time() {
     }
 }
 
-/// A drive that leads too far to be followed to the end is compared up to where it has been
-/// followed.
+/// A drive that moves too far for the continuation is compared up to the last reached position.
 #[test]
 fn what_leads_far_away_is_compared_on_the_way() {
     let one = along(&gantry([late(1e6), late(0.3)]), 1.5).expect("they differ");
@@ -148,8 +147,8 @@ fn what_leads_far_away_is_compared_on_the_way() {
     );
 }
 
-/// Functions of time that differ slightly: reported to rounding at a single time; along the motion
-/// only if a run would notice the difference.
+/// Functions of time that differ slightly. At a single time, differences above rounding are
+/// reported; along the motion only if they would stop a simulation.
 #[test]
 fn small_differences_are_told_at_their_time() {
     for size in [1e-3, 1e-6, 1e-9, 1e-12] {
@@ -158,7 +157,7 @@ fn small_differences_are_told_at_their_time() {
         let (mechanism, q) = assembled(&d);
         let there = followed_drives(&mechanism, &q, 2.0).expect("reached");
         let found = contradicting_drives(&mechanism, 2.0, &there).expect("a configuration");
-        // The positions differ by less than the 1e-9 that is noticed, the rates by twice as much.
+        // The positions differ by less than the limit of 1e-9, and the rates by twice as much.
         assert_eq!(along(&d, 2.0).is_some(), size > 1e-10, "{size}");
         if size < 1e-10 {
             assert_eq!(found, [], "below what the poses are known to");
@@ -205,8 +204,8 @@ fn locomotive(motions: [Function; 2]) -> Description {
     d
 }
 
-/// The motion passes six poses at which the rank drops and the second wheel could turn the other
-/// way; it does not.
+/// The motion passes six configurations at which the rank drops and the second wheel could rotate
+/// in the opposite direction. It does not do so.
 #[test]
 fn agreeing_motors_are_followed_through_flat_poses() {
     for turns in [0.7, 3.0] {
@@ -232,7 +231,7 @@ fn a_motor_that_lags_behind_is_named_with_the_joints_between() {
         0.1,
     );
     let one = one.expect("they differ");
-    // At rest the second one starts with no speed.
+    // At rest, the second motor starts with zero speed.
     assert_eq!(one.time, 0.1 / 12.0);
     let text = one.to_string();
     assert!(
@@ -245,9 +244,9 @@ fn a_motor_that_lags_behind_is_named_with_the_joints_between() {
     );
 }
 
-/// Two motors that differ by a ten-thousandth, on parts known to a millimetre: the wheels follow
-/// either within the tolerance, at other speeds as at other angles. A difference of half a radian
-/// is no matter of the parts.
+/// Two motors that differ by a ten-thousandth, on parts with an accuracy of one millimetre. Within
+/// the tolerance, the wheels can follow both motors at other angles and other speeds. A difference
+/// of half a radian cannot be explained by the parts.
 #[test]
 fn motors_that_differ_by_less_than_the_parts_contradict_nothing() {
     let step = |to: f64| Function::steps(0.0, &[[0.0, 1.0, to]]).expect("ordered");
@@ -296,7 +295,7 @@ fn a_drive_that_asks_for_what_joints_forbid_is_named_with_them() {
     assert_eq!(along(&locked_door(rate(0.0)), 1.0), None);
 }
 
-/// There is no contradiction if no row is redundant or if there are no drives.
+/// There is no contradiction if no row is redundant, or if there are no drives.
 #[test]
 fn a_drive_that_is_needed_contradicts_nothing() {
     let mut d = Description::new("crank");
@@ -310,8 +309,8 @@ fn a_drive_that_is_needed_contradicts_nothing() {
     assert!(contradicting_drives_along(&mechanism, &q, f64::NAN).is_err());
 }
 
-/// A slider-crank in line: its motor is redundant at this configuration only, so nothing
-/// contradicts it.
+/// A slider-crank in line: its motor is redundant only at this configuration, so there is no
+/// contradiction.
 #[test]
 fn a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later() {
     let mut d = Description::new("dead centre");

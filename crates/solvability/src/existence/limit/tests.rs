@@ -1,4 +1,4 @@
-//! Places that drives cannot pass, from the lengths of triangles.
+//! Limit positions of drives, calculated from the lengths of triangles.
 
 use std::f64::consts::PI;
 
@@ -11,7 +11,7 @@ use super::*;
 
 const GROUND: BodyRef = BodyRef::Ground;
 
-/// A bar of 1 m from a pivot, whose end is at this angle.
+/// Adds a bar of 1 m with this foot, whose other end is at this angle.
 fn bar(d: &mut Description, foot: BodyRef, at: [f64; 2], angle: f64) -> ([f64; 2], BodyRef) {
     let end = [at[0] + angle.cos(), at[1] + angle.sin()];
     let position = [0.5 * (at[0] + end[0]), 0.5 * (at[1] + end[1])];
@@ -34,7 +34,7 @@ fn rate(rate: f64) -> Function {
     Function::constant_rate(rate).expect("finite")
 }
 
-/// The limit that is found from the start, with velocities of the rows.
+/// Returns the limit that is found from the start, with velocities that satisfy the rows.
 fn limit(d: &Description) -> Option<DriveLimit> {
     let mut mechanism = Mechanism::build(d).expect("builds");
     let q = assemble(&mut mechanism, &StartOptions::default())
@@ -78,12 +78,12 @@ fn a_winch_stops_where_its_bar_is_stretched() {
             .ends_with("beyond 3 m: there is no configuration"),
         "{found}"
     );
-    // Wound up, the end comes nearer; far from the stretched bar nothing is near.
+    // If the winch winds up, the end comes nearer; far from the stretched bar there is no limit.
     assert_eq!(stretched(0.2, -0.1), None);
     assert_eq!(stretched(1.5, 0.1), None);
 }
 
-/// Two motors carry the ends of a two-bar chain apart by way of sliders: 2 m is the most.
+/// Two motors move the ends of a two-bar chain apart by sliders; the largest distance is 2 m.
 #[test]
 fn two_drives_reach_as_far_as_the_arm() {
     let mut d = Description::new("two sliders");
@@ -122,13 +122,13 @@ fn two_drives_reach_as_far_as_the_arm() {
     assert!(
         found
             .to_string()
-            .contains("drives `left` and `right` cannot go on together"),
+            .contains("drives `left` and `right` cannot continue together"),
         "{found}"
     );
 }
 
-/// An arm of two bars that turns freely about its foot is straight at 2 m, at any angle; a crank
-/// that turns round has no such place.
+/// An arm of two bars that rotates freely about its foot is straight at 2 m, for any angle. A crank
+/// that makes full revolutions has no such limit.
 #[test]
 fn a_free_arm_reaches_as_far_as_it_is_long() {
     let mut d = Description::new("arm");
@@ -140,7 +140,7 @@ fn a_free_arm_reaches_as_far_as_it_is_long() {
     let value = found.drives[0].value.expect("a length");
     assert!((value - 2.0).abs() < 1e-9, "{value}");
 
-    // Pendulums beside it are free as well, and do not matter.
+    // Additional pendulums are free as well, and have no influence.
     for place in [3.0, 4.0, 5.0] {
         bar(&mut d, GROUND, [place, 0.0], 0.3);
     }
@@ -156,8 +156,8 @@ fn a_free_arm_reaches_as_far_as_it_is_long() {
     assert_eq!(limit(&d), None);
 }
 
-/// A parallelogram passes the pose in which its bars are in line, where the branches of its motion
-/// meet: its drive goes on, from whichever place near that pose the search begins.
+/// A parallelogram passes the configuration with collinear bars, where the branches of its motion
+/// meet. Its drive can continue, from any start of the search near that configuration.
 #[test]
 fn branches_that_meet_are_no_limit() {
     for angle in [0.0, -1e-14, -1e-12, -1e-9, -1e-6, -1e-3] {
@@ -180,7 +180,7 @@ fn branches_that_meet_are_no_limit() {
         let q = assemble(&mut mechanism, &StartOptions::default())
             .expect("assembles")
             .q;
-        // All bars turn with 1 rad/s, and the coupler follows without turning.
+        // All bars rotate with 1 rad/s, and the coupler follows without rotation.
         let of_crank = |x: f64| [-(0.5 * angle.sin()), 0.5 * angle.cos(), x];
         let [left, right] = [of_crank(1.0), of_crank(1.0)];
         let coupler = [-angle.sin(), angle.cos(), 0.0];

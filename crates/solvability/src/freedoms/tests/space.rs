@@ -1,4 +1,4 @@
-//! Free motions in space compared with screws derived by hand.
+//! Free motions in space, compared with manually derived screws.
 
 use joints::space3::Pose;
 
@@ -9,7 +9,7 @@ use crate::sketch::{GROUND, Kind, Sketch, X, Y, Z, bennett, door, four_bar, loop
 
 use Kind::{Cylindrical, Planar, Revolute, Spherical, Translational};
 
-/// Allowed difference between computed and derived numbers: rounding.
+/// Permitted difference between computed and derived numbers: rounding.
 const ROUNDING: f64 = 1e-11;
 
 fn freedoms(sketch: &Sketch) -> Freedoms {
@@ -18,7 +18,7 @@ fn freedoms(sketch: &Sketch) -> Freedoms {
     found.expect("the same configuration")
 }
 
-/// Compares the texts of the motions at home.
+/// Compares the texts of the motions in the home pose.
 fn tells(sketch: &Sketch, expected: &[&str]) {
     let found = freedoms(sketch);
     assert_eq!(texts(&found.motions), expected);
@@ -32,36 +32,37 @@ fn tells(sketch: &Sketch, expected: &[&str]) {
 fn a_door_turns_about_its_hinges() {
     let words = "`door` turns about the axis through `H0` and `H1` along (0, 0, 1)";
     tells(&door(&[Revolute; 3], Pose::GROUND), &[words]);
-    // The joint that constrains most is named.
+    // The text names the joint with the most constraints.
     let words = "`door` turns about the axis through `H1` along (0, 0, 1)";
     tells(&door(&[Cylindrical, Revolute], Pose::GROUND), &[words]);
 }
 
-/// The coupler turns about the point where A–B and D–C meet: s·(.3, .8) = (1.4, 0) + t·(.1, 1.1).
+/// The coupler rotates about the intersection of A–B and D–C: s·(.3, .8) = (1.4, 0) + t·(.1, 1.1).
 const FOUR_BAR: &str = "`crank` turns about the axis through `A` along (0, 0, 1); with it `coupler` turns about \
     the axis through (1.848, 4.928, 0) along (0, 0, −1) and `rocker` turns about the axis through `D` along (0, 0, 1)";
 
 #[test]
 fn few_other_bodies_are_told_with_their_axes() {
     tells(&four_bar([Revolute; 4], Pose::GROUND), &[FOUR_BAR]);
-    // Four bodies follow: it is told only that they turn.
+    // Four bodies follow, so the text only states that they rotate.
     let mut s = four_bar([Revolute; 4], Pose::GROUND);
     let [crank, rocker] = [0, 2].map(model::BodyRef::Body);
     let [b, c] = [[0.3, 0.8, 0.0], [1.5, 1.1, 0.0]];
     for (name, shift) in [("second", 0.1), ("third", 0.2)] {
-        // Carried by the crank, and turning against the rocker about its own line.
+        // The link is carried by the crank, and rotates relative to the rocker about its own line.
         let link = s.body(name, [0.9, 0.95, shift]);
         let at = |p: [f64; 3]| [p[0], p[1], shift];
         s.joint(&format!("{name} B"), Revolute, [crank, link], at(b), Z);
         s.joint(&format!("{name} C"), Revolute, [link, rocker], at(c), Z);
     }
-    // They move as the coupler does, and are told with it.
+    // They move like the coupler, and the text names them together with it.
     let together = FOUR_BAR.replace(
         "`coupler` turns",
         "`coupler`, `second` and `third` turn together",
     );
     tells(&s, &[&together]);
-    // A second loop on the rocker: of four others it is told only that they turn.
+    // With a second loop on the rocker, there are four other bodies, so the text only states that
+    // they rotate.
     let mut s = four_bar([Revolute; 4], Pose::GROUND);
     let link = s.body("link", [2.0, 1.2, 0.0]);
     let lever = s.body("lever", [2.5, 0.6, 0.0]);
@@ -74,7 +75,7 @@ fn few_other_bodies_are_told_with_their_axes() {
     tells(&s, &[words]);
 }
 
-/// O(0, 0), A(.3, .4), B(1.5, 0): the rod turns about (1.5, 2) at −1/4 of the crank.
+/// For O(0, 0), A(.3, .4), B(1.5, 0), the rod rotates about (1.5, 2) at −1/4 of the crank.
 #[test]
 fn a_block_slides_with_the_crank() {
     let names = ["crank", "rod", "block", "O", "A", "B", "slide"];
@@ -100,8 +101,8 @@ fn the_middle_link_of_bennett_moves_as_a_screw() {
     tells(&bennett(Pose::GROUND), &[words]);
 }
 
-/// Axes through the origin: the coupler turns about the line in which the planes of neighbouring
-/// axes meet, x = 0 and 1.2·x + y = 1.6·z.
+/// The axes pass through the origin. The coupler rotates about the intersection of the planes of
+/// neighbouring axes, x = 0 and 1.2·x + y = 1.6·z.
 #[test]
 fn a_spherical_four_bar_turns_about_its_centre() {
     let axes = [
@@ -151,8 +152,8 @@ fn single_joints_leave_their_screws() {
     tells(&alone(Planar, Z), &[slides[0], slides[1], &z]);
 }
 
-/// Six motions in one entry: along the axes of the ground, and about them at the centre of mass,
-/// which is off the frame.
+/// Six motions in one entry: along the axes of the ground, and about these axes through the centre
+/// of mass, which differs from the origin of the frame.
 #[test]
 fn a_body_that_nothing_holds_has_six_motions() {
     let mut s = Sketch::new();
@@ -183,7 +184,8 @@ fn a_body_that_nothing_holds_has_six_motions() {
     }
 }
 
-/// Two bodies that hold only each other: six motions of both, and those between them.
+/// Two bodies that are joined only to each other have six motions of both, and the motions between
+/// them.
 #[test]
 fn bodies_in_space_that_hold_only_each_other_are_free_together() {
     let mut s = Sketch::new();
@@ -222,7 +224,7 @@ fn a_car_rolls_straight_on() {
     tells(&s, &[words]);
 }
 
-/// The velocities turn with the mechanism; their sign is that of the ground axes.
+/// The velocities rotate with the mechanism; their sign is that of the ground axes.
 #[test]
 fn motions_do_not_depend_on_where_a_mechanism_stands() {
     let all: [fn(Pose) -> Sketch; 3] = [
@@ -231,7 +233,7 @@ fn motions_do_not_depend_on_where_a_mechanism_stands() {
         |moved| door(&[Revolute, Cylindrical, Cylindrical], moved),
     ];
     for sketch in all {
-        // The first link turns about z; points of ground that its frame takes.
+        // The first link rotates about z; the frame passes these points of the ground.
         for place in places() {
             let s = sketch(place);
             let found = freedoms(&s);
@@ -263,7 +265,8 @@ fn motions_do_not_depend_on_where_a_mechanism_stands() {
     }
 }
 
-/// A rotation about a point 1e8 sizes away is one; what is left of a rotation by rounding is not.
+/// A rotation about a point at a distance of 1e8 sizes counts as a rotation, but a rotation that is
+/// only rounding does not.
 #[test]
 fn far_axes_and_translations_are_told_apart() {
     let moves = |omega: f64, along: f64| {
@@ -283,14 +286,14 @@ fn far_axes_and_translations_are_told_apart() {
         panic!("no screw");
     };
     assert_eq!((point, along), ([1.0, 1.5, 3.0], [0.0, 0.0, -1.0]));
-    // Left-handed: half a metre in 1/2π·2 turns a second, against the rotation.
+    // The screw is left-handed: half a metre in 1/2π·2 revolutions a second, against the rotation.
     assert!((pitch + std::f64::consts::PI / 2.0).abs() < ROUNDING);
 }
 
 /// V24: six bars between corners at 120°·k + 150° above and feet at 120°·k below. A bar from foot f
 /// to corner a keeps its length if `(a − f)·(ω × a + v) = 0`, that is `v_z = f·(ω × a) = −ω·sin α`
-/// with the angle α from f to a: 150° or 30°, so v_z = −ω/2 and the pitch is −π m. Second order
-/// blocks this, and not the pendulum beside it.
+/// with the angle α from f to a. This angle is 150° or 30°, so v_z = −ω/2 and the pitch is −π m.
+/// Second order blocks this motion, but not the additional pendulum.
 #[test]
 fn a_screw_that_second_order_blocks_is_told() {
     let mut s = Sketch::new();
@@ -319,11 +322,11 @@ fn a_screw_that_second_order_blocks_is_told() {
     let bob = s.body("bob", [3.0, 0.0, 0.0]);
     s.joint("pivot", Revolute, [GROUND, bob], [3.0, 0.0, 1.0], Y);
     assert_eq!(blocked(&s), (2, vec![screw.to_owned()]));
-    // A linkage that moves has no freedom that is blocked.
+    // A movable linkage has no blocked freedom.
     assert_eq!(blocked(&bennett(Pose::GROUND)), (1, Vec::new()));
 }
 
-/// What is told does not depend on the unit of length, nor on the distance from the origin.
+/// The texts depend neither on the unit of length nor on the distance from the origin.
 #[test]
 fn small_large_and_far_linkages_are_told_alike() {
     use crate::sketch::scaled_four_bar;

@@ -1,4 +1,4 @@
-//! Walks away from a pose: which rows they satisfy, and how they change with the data.
+//! Continuation from a configuration: the rows that it satisfies, and its change with the data.
 
 use joints::{Direction, KnifeEdge, Revolute, Translational};
 use model::start::{assemble, scene_size};
@@ -6,7 +6,7 @@ use model::{Body, BodyRef, DataUnit, Description, Mechanism, StartOptions, Syste
 
 use super::*;
 
-/// A walk from the described positions of the bodies.
+/// A continuation from the described positions of the bodies.
 fn walked(description: &Description, kept: &[usize]) -> (Mechanism, Vec<f64>, Walk) {
     let mut mechanism = Mechanism::build(description).expect("it builds");
     let start = assemble(&mut mechanism, &StartOptions::default()).expect("it assembles");
@@ -26,7 +26,7 @@ fn walked(description: &Description, kept: &[usize]) -> (Mechanism, Vec<f64>, Wa
 
 /// Two sliders of a tonne on the axes, connected by a rod of four metres and one gram: the middle
 /// of the rod moves on a circle of two metres. A step along the tangent has a residual that only
-/// the sliders can correct; with masses as weights the rod would rotate instead.
+/// the sliders can correct. With masses as weights, the rod would rotate in place of the sliders.
 #[test]
 fn a_long_arm_of_a_light_body_is_no_obstacle() {
     let (length, turn) = (4.0_f64, -0.7_f64);
@@ -65,9 +65,9 @@ fn a_long_arm_of_a_light_body_is_no_obstacle() {
     }
 }
 
-/// Two bodies with a hinge at (3, 1), each on two knife edges whose normals meet in the origin:
-/// both rotate about it as one, although no row constrains their positions. If steps left the
-/// circles, the two centres would drift apart and the hinge would lock.
+/// Two bodies with a hinge at (3, 1), each on two knife edges whose normals intersect at the
+/// origin. Both rotate about the origin together, although no row constrains their positions. If
+/// steps left the circles, the two centres would drift apart and the hinge would lock.
 #[test]
 fn what_edges_lead_stays_on_its_way() {
     let mut d = Description::new("carts");
@@ -110,7 +110,7 @@ fn what_edges_lead_stays_on_its_way() {
     }
 }
 
-/// A cart on one edge moves straight ahead: if the direction of the edge, or the cart at the start,
+/// A cart on one edge moves straight ahead. If the direction of the edge, or the cart at the start,
 /// is rotated by α, the cart is displaced sideways by s·α after s metres.
 #[test]
 fn what_the_data_make_of_the_way_adds_up() {
@@ -132,7 +132,7 @@ fn what_the_data_make_of_the_way_adds_up() {
     };
     let mut way = Vec::new();
     for _ in 0..8 {
-        let (there, step) = ground.flow(&q, vec![0.05, 0.0, 0.0]).expect("it goes on");
+        let (there, step) = ground.flow(&q, vec![0.05, 0.0, 0.0]).expect("it continues");
         q = there;
         way.push(step);
     }

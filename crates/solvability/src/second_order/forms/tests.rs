@@ -1,9 +1,9 @@
-//! Forms whose solutions stand in closed form, on either side of what is decided by.
+//! Forms with solutions in closed form, on both sides of the limits of the decisions.
 
 use super::*;
 use crate::second_order::{branches::others, definite::is_blocked};
 
-/// Forms with one regular motion at most, `x`, and new ones.
+/// Forms with at most one regular motion `x`, and new ones.
 fn forms(x: usize, matrices: &[Matrix]) -> Forms {
     Forms {
         x,
@@ -18,7 +18,7 @@ fn diagonal(g: [f64; 2]) -> Matrix {
     Matrix::from_rows(&[[g[0], 0.0], [0.0, g[1]]])
 }
 
-/// `g·y² = 0` has no solution but y = 0, if g is not rounding.
+/// The equation `g·y² = 0` has only the solution y = 0, if g is not rounding.
 #[test]
 fn a_definite_form_blocks_from_its_margin_on() {
     for (g, expected) in [(0.7e-5, false), (1.4e-5, true)] {
@@ -27,8 +27,9 @@ fn a_definite_form_blocks_from_its_margin_on() {
     }
 }
 
-/// x·y₁ + x·y₂ + y₁² + y₂² and x·y₁ + (1 + 2d)·x·y₂: their difference is without x·y₁, and it has
-/// singular values of about d that contain the motion. Only if they are rounding is it a proof.
+/// The forms are x·y₁ + x·y₂ + y₁² + y₂² and x·y₁ + (1 + 2d)·x·y₂. Their difference does not
+/// contain x·y₁, and has singular values of about d that contain the motion. It is a proof only if
+/// these values are rounding.
 #[test]
 fn a_proof_contains_the_motion_by_rounding_only() {
     for (d, expected) in [(5e-9, true), (5e-8, false)] {
@@ -40,18 +41,18 @@ fn a_proof_contains_the_motion_by_rounding_only() {
     }
 }
 
-/// diag(1, −0.99) and diag(−9.7, 10): the sum of 9.8 times the first and the second is definite,
-/// and so are few others.
+/// The forms are diag(1, −0.99) and diag(−9.7, 10). The sum of 9.8 times the first and the second
+/// is definite, but only few other combinations are.
 #[test]
 fn narrow_proofs_are_found() {
     let pair = [diagonal([1.0, -0.99]), diagonal([-9.7, 10.0])];
     assert!(is_blocked(&forms(0, &pair)));
-    // Nothing is definite here: y₁ = y₂ solves both.
+    // No combination is definite: y₁ = y₂ solves both equations.
     let pair = [diagonal([1.0, -1.0]), diagonal([-1.0, 1.0])];
     assert!(!is_blocked(&forms(0, &pair)));
 }
 
-/// `y·(y − s·x) = 0`: the other branch is y = s·x.
+/// The other branch of `y·(y − s·x) = 0` is y = s·x.
 #[test]
 fn a_branch_differs_from_the_motion_by_a_thousandth() {
     for (s, expected) in [(0.7e-3, 0), (1.4e-3, 1)] {
@@ -81,7 +82,7 @@ fn branches_nearer_than_a_thousandth_are_one() {
     }
 }
 
-/// One new motion alone, y = ±1: it meets `g·y² = 0` if g is rounding.
+/// A single new motion, y = ±1, satisfies `g·y² = 0` if g is rounding.
 #[test]
 fn a_branch_meets_its_equations_to_rounding() {
     for (g, expected) in [(0.7e-12, 1), (1.4e-12, 0)] {
@@ -90,8 +91,8 @@ fn a_branch_meets_its_equations_to_rounding() {
     }
 }
 
-/// The given motion solves its equations to 1e-6 of their coefficients; coefficients below 1e-10 of
-/// their terms are none.
+/// The given motion solves its equations to 1e-6 of their coefficients. Coefficients below 1e-10 of
+/// their terms count as zero.
 #[test]
 fn forms_are_of_a_motion_and_no_rounding() {
     let normalised = |own: f64, terms: f64| {

@@ -1,11 +1,11 @@
-//! A proof that there is no common zero: boxes that cover the sphere, each without a zero of some
+//! Proves that there is no common zero by boxes that cover the sphere, each without a zero of some
 //! combination of the forms.
 //!
-//! Zeros are directions, so the faces `a_i = 1`, `|a_k| ≤ 1` of the cube hold all of them. In a box
-//! with centre c and half width h a form differs from its value at c by at most
-//! `h·Σ|g_k| + h²·Σ|M_kl|`, g its gradient at c. Four kinds of combinations are tried: the forms
-//! themselves, the one that is steepest for the values at c, what of it the gradients do not reach,
-//! and those of Newton's method, whose gradients are along one unknown each.
+//! Zeros are directions, so the faces `a_i = 1`, `|a_k| ≤ 1` of the cube contain all of them. In a
+//! box with centre c and half width h, a form differs from its value at c by at most
+//! `h·Σ|g_k| + h²·Σ|M_kl|`, where g is its gradient at c. Four kinds of combinations are tried: the
+//! forms themselves, the steepest combination for the values at c, its part that is orthogonal to
+//! the gradients, and the combinations of Newton's method, whose gradients have one unknown each.
 
 use crate::limits::{BOX_HALVINGS, BOXES};
 use linalg::{Matrix, small_svd};
@@ -21,7 +21,7 @@ struct Part {
     halvings: i32,
 }
 
-/// Whether boxes without a common zero cover the sphere.
+/// Returns whether boxes without a common zero cover the sphere.
 pub(super) fn excludes(forms: &Independent) -> bool {
     let mut open: Vec<Part> = (0..forms.unknowns)
         .map(|face| Part {
@@ -56,7 +56,7 @@ impl Part {
         (0..self.centre.len()).filter(|k| *k != self.face)
     }
 
-    /// The parts of half the width.
+    /// Returns the parts of half the width.
     fn halved(&self) -> impl Iterator<Item = Self> + '_ {
         let step = 0.5 * self.half_width();
         let free: Vec<usize> = self.free().collect();
@@ -73,7 +73,7 @@ impl Part {
         })
     }
 
-    /// Whether some combination of the forms has no zero here.
+    /// Returns whether some combination of the forms has no zero in this part.
     fn has_no_zero(&self, forms: &Independent) -> bool {
         let singles = forms.forms.iter().zip(&forms.error);
         let mut singles = singles.map(|(m, error)| (m, *error));
@@ -84,7 +84,7 @@ impl Part {
             })
     }
 
-    /// Whether a form with these errors of its coefficients has no zero here.
+    /// Returns whether a form with these errors of its coefficients has no zero in this part.
     fn is_free_of(&self, m: &Matrix, error: f64) -> bool {
         let h = self.half_width();
         let image = m.times(&self.centre);
@@ -99,7 +99,7 @@ impl Part {
         value(m, &self.centre).abs() > h * slope + h * h * curvature + error * size * size
     }
 
-    /// Combinations of the forms that are large here compared with their gradients.
+    /// Returns combinations of the forms that are large here compared with their gradients.
     fn weights(&self, forms: &Independent) -> Vec<Vec<f64>> {
         let values = forms.values(&self.centre);
         let free: Vec<usize> = self.free().collect();

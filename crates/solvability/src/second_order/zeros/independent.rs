@@ -9,15 +9,15 @@ pub(super) struct Independent {
     pub(super) unknowns: usize,
     /// Symmetric d × d matrices, orthonormal in the Frobenius product.
     pub(super) forms: Vec<Matrix>,
-    /// How much each coefficient of each form may be wrong.
+    /// Error bound of the coefficients of each form.
     pub(super) error: Vec<f64>,
-    /// Whether the given forms are combinations of these, but for forms that are rounding. If not,
-    /// a common zero of these is no zero of the given ones.
+    /// Whether the given forms are combinations of these, except for forms that are rounding.
+    /// Otherwise a common zero of these forms need not be a zero of the given forms.
     pub(super) spans_all: bool,
 }
 
 impl Independent {
-    /// The combinations of these forms, whose coefficients may be wrong by `error`.
+    /// Returns the combinations of these forms, whose coefficients have errors up to `error`.
     pub(super) fn of(forms: &[Matrix], unknowns: usize, error: f64) -> Self {
         let pairs: Vec<(usize, usize)> = (0..unknowns)
             .flat_map(|i| (i..unknowns).map(move |j| (i, j)))
@@ -54,25 +54,25 @@ impl Independent {
         }
     }
 
-    /// The combination `Σ w_s·M_s`, and how much each of its coefficients may be wrong.
+    /// Returns the combination `Σ w_s·M_s` and the error bound of its coefficients.
     pub(super) fn combination(&self, w: &[f64]) -> (Matrix, f64) {
         let entry = |i, j| w.iter().zip(&self.forms).map(|(w, m)| w * m[(i, j)]).sum();
         let error = w.iter().zip(&self.error).map(|(w, e)| w.abs() * e).sum();
         (Matrix::from_fn(self.unknowns, self.unknowns, entry), error)
     }
 
-    /// The values of the forms at a.
+    /// Returns the values of the forms at a.
     pub(super) fn values(&self, a: &[f64]) -> Vec<f64> {
         self.forms.iter().map(|m| value(m, a)).collect()
     }
 }
 
-/// `aᵀ·M·a`
+/// Returns `aᵀ·M·a`.
 pub(super) fn value(m: &Matrix, a: &[f64]) -> f64 {
     a.iter().zip(m.times(a)).map(|(a, m)| a * m).sum()
 }
 
-/// Column sums of |R⁻¹|: by how much the errors of the forms grow in each combination.
+/// Returns the column sums of |R⁻¹|: the growth of the errors of the forms in each combination.
 fn growth(r: &Matrix, rank: usize) -> Vec<f64> {
     let column = |j: usize| {
         let mut x = vec![0.0; j + 1];

@@ -1,4 +1,4 @@
-//! Forms whose common zeros stand in closed form.
+//! Forms whose common zeros are known in closed form.
 
 use super::*;
 use CommonZero::{None, Undecided};
@@ -6,12 +6,12 @@ use CommonZero::{None, Undecided};
 /// Rounding of coefficients that are exact numbers.
 const ERROR: f64 = 1e-15;
 
-/// a·x² + 2·b·x·y + c·y²
+/// Returns the form a·x² + 2·b·x·y + c·y².
 fn two(a: f64, b: f64, c: f64) -> Matrix {
     Matrix::from_rows(&[[a, b], [b, c]])
 }
 
-/// (p·x)·(q·x), the product of two linear forms.
+/// Returns (p·x)·(q·x), the product of two linear forms.
 fn product<const N: usize>(p: [f64; N], q: [f64; N]) -> Matrix {
     Matrix::from_fn(N, N, |i, j| 0.5 * (p[i] * q[j] + p[j] * q[i]))
 }
@@ -20,7 +20,7 @@ fn diagonal<const N: usize>(d: [f64; N]) -> Matrix {
     Matrix::from_fn(N, N, |i, j| if i == j { d[i] } else { 0.0 })
 }
 
-/// A zero of these forms to the accuracy of the search.
+/// Checks that a zero of these forms is found to the accuracy of the search.
 fn assert_free(forms: &[Matrix]) {
     let CommonZero::Transversal(a) = common_zero(forms, ERROR) else {
         panic!("{forms:?}: {:?}", common_zero(forms, ERROR));
@@ -41,7 +41,7 @@ fn one_unknown() {
     assert_eq!(common_zero(&[], ERROR), Undecided);
 }
 
-/// Two unknowns: the roots of each form are y/x = tan of two angles.
+/// With two unknowns, the roots of each form are y/x = tan of two angles.
 #[test]
 fn two_unknowns() {
     // No combination is definite, and the roots ±1 are neither 0 nor ∞.
@@ -52,7 +52,8 @@ fn two_unknowns() {
     assert_free(&[two(1.0, 0.0, -1.0)]);
     assert_free(&[two(0.0, 1.0, 0.0), two(0.0, -3.0, 0.0)]);
     assert_eq!(common_zero(&[two(1.0, -2.0, 4.0)], ERROR), Undecided);
-    // (x − y)·(x + 2y) and (x − y)·(x + 5y): one more root changes a little, and both part.
+    // The forms are (x − y)·(x + 2y) and (x − y)·(x + 5y). If one root changes slightly, the common
+    // root splits.
     let both = [
         product([1.0, -1.0], [1.0, 2.0]),
         product([1.0, -1.0], [1.0, 5.0]),
@@ -63,7 +64,7 @@ fn two_unknowns() {
     assert_eq!(common_zero(&three, ERROR), None);
 }
 
-/// Roots 1 and 1 + d of two forms are different numbers from some roundings on.
+/// The roots 1 and 1 + d of two forms are different numbers above a few roundings.
 #[test]
 fn nearly_common_zeros_are_told_apart() {
     for (d, expected) in [(1e-10, None), (1e-6, None), (1e-17, Undecided)] {
@@ -75,8 +76,9 @@ fn nearly_common_zeros_are_told_apart() {
     }
 }
 
-/// x² + y² − 2·z² and x·y − c·z²: with x = r·cos φ, y = r·sin φ the first says r² = 2·z², the
-/// second sin 2φ = c. There are four zeros for |c| < 1, none for |c| > 1, and double ones at ±1.
+/// The forms are x² + y² − 2·z² and x·y − c·z². With x = r·cos φ, y = r·sin φ, the first gives r² =
+/// 2·z², and the second sin 2φ = c. There are four zeros for |c| < 1, no zeros for |c| > 1, and
+/// double zeros at ±1.
 #[test]
 fn three_unknowns() {
     let circle = diagonal([1.0, 1.0, -2.0]);
@@ -92,8 +94,9 @@ fn three_unknowns() {
     assert_eq!(common_zero(&with(1.0), ERROR), Undecided);
 }
 
-/// x·y, y·z, z·x have the axes in common; with x² − 2y² + 4z² nothing. No combination is definite
-/// in the directions of the three axes and of (1, 1, 1)-like ones at once.
+/// The forms x·y, y·z, z·x have the axes in common; together with x² − 2y² + 4z² they have no
+/// common zero. No combination is definite both in the directions of the three axes and in
+/// directions such as (1, 1, 1).
 #[test]
 fn no_definite_combination_is_needed_in_three_unknowns() {
     let axes = |i: usize, j: usize| {
@@ -107,8 +110,9 @@ fn no_definite_combination_is_needed_in_three_unknowns() {
     assert_eq!(common_zero(&all, ERROR), None);
 }
 
-/// The real and the imaginary part of (x + i·y)² = x² − y² + 2i·x·y, and of the product with (z +
-/// i·w)², which vanish with it only: blocked, and traces are zero, so nothing is definite.
+/// The forms are the real and the imaginary part of (x + i·y)² = x² − y² + 2i·x·y, and of the
+/// product with (z + i·w)², which vanish only together. The motion is blocked. The traces are zero,
+/// so no combination is definite.
 #[test]
 fn four_unknowns_are_covered() {
     let (x, y, z, w) = (0, 1, 2, 3);
@@ -128,29 +132,31 @@ fn four_unknowns_are_covered() {
     ];
     assert!(!has_definite_combination(&forms, 4));
     assert_eq!(common_zero(&forms, ERROR), None);
-    // x = ±y and z = ±w cross; z and w alone are double zeros of the first two forms.
+    // The solutions x = ±y and z = ±w intersect; z and w alone are double zeros of the first two
+    // forms.
     assert_free(&[forms[0].clone(), forms[2].clone()]);
     assert_eq!(common_zero(&forms[..2], ERROR), Undecided);
 }
 
-/// x·y and x·y + 1e-9·(x² − y²): 1e-9 is little, but far above the error.
+/// The forms are x·y and x·y + 1e-9·(x² − y²): 1e-9 is small, but far above the error.
 #[test]
 fn nearly_dependent_forms_are_used() {
     let forms = [two(0.0, 0.5, 0.0), two(1e-9, 0.5, -1e-9)];
     assert_eq!(common_zero(&forms, ERROR), None);
-    // As an error it may be none.
+    // With this size, the difference may be an error and therefore zero.
     assert_free(&[two(0.0, 0.5, 0.0), two(1e-17, 0.5, -1e-17)]);
 }
 
-/// What is left of the second form is above its error, but too little to be used: x·y alone has
-/// zeros, and whether they are common is not known.
+/// The remainder of the second form is above its error, but too small to be used. The form x·y
+/// alone has zeros, and it is not known whether they are common.
 #[test]
 fn a_form_above_its_error_is_no_rounding() {
     let forms = [two(0.0, 0.5, 0.0), two(1e-13, 0.5, -1e-13)];
     assert_eq!(common_zero(&forms, ERROR), Undecided);
 }
 
-/// x² − s²·y² has the roots ±s: simple, if s² is above the error of the coefficients.
+/// The form x² − s²·y² has the roots ±s. They are simple, if s² is above the error of the
+/// coefficients.
 #[test]
 fn a_double_zero_is_one_to_the_root_of_the_error() {
     assert_free(&[two(1.0, 0.0, -1e-10)]);

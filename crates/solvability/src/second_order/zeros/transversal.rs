@@ -1,4 +1,4 @@
-//! A common zero at which the gradients are independent, proved by Krawczyk's test on a subspace.
+//! Proves that a common zero with independent gradients exists, by Krawczyk's test on a subspace.
 //!
 //! At a with `a_i = 1`, let J be the gradients in the other unknowns u and A = J⁺. On the subspace
 //! `u = u₀ + A·t` the equations are `G(t) = F(u₀ + A·t) = 0` with `G'(0) = J·A = I`. If
@@ -11,9 +11,9 @@ use linalg::{Matrix, small_svd};
 use super::super::branches::{solve, starting_point};
 use super::independent::Independent;
 
-/// A unit vector near a proved common zero, if a search finds one.
+/// Returns a unit vector near a proved common zero, if a search finds one.
 pub(super) fn found(forms: &Independent) -> Option<Vec<f64>> {
-    // As many equations as unknowns on the sphere have transversal zeros at most.
+    // Transversal zeros exist only if there are fewer forms than unknowns.
     if !forms.spans_all || forms.forms.len() >= forms.unknowns {
         return None;
     }
@@ -22,7 +22,7 @@ pub(super) fn found(forms: &Independent) -> Option<Vec<f64>> {
         .find(|a| is_proved(forms, a))
 }
 
-/// Whether there is a common zero near a, for all coefficients within their errors.
+/// Returns whether there is a common zero near a, for all coefficients within their errors.
 pub(super) fn is_proved(forms: &Independent, a: &[f64]) -> bool {
     if !forms.spans_all || forms.forms.len() >= forms.unknowns {
         return false;
@@ -42,10 +42,10 @@ pub(super) fn is_proved(forms: &Independent, a: &[f64]) -> bool {
     let size: f64 = a.iter().map(|x| x.abs()).sum();
     let error = norm(forms.error.iter().copied());
     let residual = norm(forms.values(&a)) + error * size * size;
-    // ‖J·A − I‖: the errors of J, and the rounding of A.
+    // ‖J·A − I‖ is bounded by the errors of J and the rounding of A.
     let slope = steep * 2.0 * error * size * (free.len() as f64).sqrt()
         + f64::EPSILON * 16.0 * count * svd.sigma[0] * steep;
-    // The forms are orthonormal: the second derivatives of all together are below 2·√e.
+    // The forms are orthonormal, so the second derivatives of all forms together are below 2·√e.
     let curvature = 2.0 * count.sqrt() * steep * steep;
     let radius = 2.0 * residual;
     slope + curvature * radius <= 0.5

@@ -1,13 +1,13 @@
-//! A machine has the same sensitivities alone, among others, at another place, and next to bodies
-//! that no joint connects to it.
+//! A machine has the same sensitivities alone, among other machines, at another position, and next
+//! to bodies without a joint to it.
 
 use joints::{PointOnLine, Revolute, RevoluteAngleDrive, SpringDamper};
 use model::{Body, BodyRef, Description, Function, Mechanism, System};
 
 use crate::value::Sensitivity;
 
-/// Adds a driven crank with a rod whose end moves on an oblique line, at the given place and with
-/// the given motion. Returns the crank.
+/// Adds a driven crank with a rod whose end moves on an oblique line, at the given position and
+/// with the given motion. Returns the crank.
 fn add_machine(d: &mut Description, name: &str, [x, y]: [f64; 2], motion: &[f64]) -> BodyRef {
     let crank = d.body(Body {
         position: [x + 0.12, y + 0.08],
@@ -90,7 +90,7 @@ fn agree(found: &[Sensitivity], alone: &[Sensitivity], what: &str) {
     }
 }
 
-/// Cases: under weights and moving, and without any load at rest.
+/// Cases: with weights and motion, and without load at rest.
 const CASES: [([f64; 2], &[f64]); 2] = [([0.3, -9.81], &[0.0, 3.0, 4.0]), ([0.0; 2], &[0.0])];
 
 #[test]
@@ -128,7 +128,7 @@ fn machines_of_a_fleet_are_asked_alone() {
 }
 
 /// A spring is a load: a spring to a neighbour is equivalent to a spring to a wall at the same
-/// place.
+/// position.
 #[test]
 fn a_spring_to_a_neighbour_is_one_to_a_wall() {
     for (gravity, motion) in CASES {
@@ -138,7 +138,7 @@ fn a_spring_to_a_neighbour_is_one_to_a_wall() {
         let second = add_machine(&mut two, "second", [0.0, 2.0], &[0.0]);
         two.force("spring", &[first, second], spring([0.05, 0.0], [0.0; 2]));
         let neighbour = started(&two);
-        // The wall is at the place of the second crank after assembly.
+        // The wall is at the position of the second crank after assembly.
         let (_, q, _) = assembled(&two);
         two.forces.clear();
         let wall = spring([0.05, 0.0], [q[6], q[7]]);

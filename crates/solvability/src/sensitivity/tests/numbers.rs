@@ -1,6 +1,6 @@
-//! Numbers of reactions in random mechanisms, compared with mechanisms in which one datum is moved:
-//! the pose follows by Newton's method, the rows that were dropped stay dropped, and the loads stay
-//! as they are.
+//! Numbers of reactions in random mechanisms, compared with mechanisms in which one datum is moved.
+//! The configuration follows by Newton's method, the dropped rows do not change, and the loads are
+//! constant.
 
 use joints::{Direction, Distance, Gear, PinInSlot, Translational};
 use linalg::Matrix;
@@ -14,13 +14,13 @@ use crate::sensitivity::instant::units;
 /// Steps of the differences, as share of the size or in radians.
 const H: f64 = 1e-6;
 
-/// Agreement of a derivative with its difference.
+/// Permitted relative difference between a derivative and its difference quotient.
 const AGREEMENT: f64 = 2e-3;
 
 /// Rounding of differences, relative to the load.
 const ROUNDING: f64 = 1e-8;
 
-/// Numbers that look random, from −1 to 1.
+/// Pseudo-random numbers from −1 to 1.
 struct Draw(u64);
 
 impl Draw {
@@ -41,7 +41,7 @@ impl Draw {
     }
 }
 
-/// A plane mechanism: a tree with a few joints more.
+/// A planar mechanism: a tree with a few additional joints.
 fn plane(draw: &mut Draw) -> Mechanism {
     let mut d = Description::new("plane");
     d.gravity = [3.0, -9.0];
@@ -136,7 +136,7 @@ struct At {
     a: Vec<f64>,
 }
 
-/// The least change x with `rows·x = r`, velocities in these units.
+/// Returns the smallest change x with `rows·x = r`, for velocities in these units.
 fn least(rows: &Matrix, units: &[f64], r: &[f64]) -> Vec<f64> {
     let scaled = Matrix::from_fn(rows.nrows(), units.len(), |i, j| rows[(i, j)] * units[j]);
     let normal = scaled.product(&scaled.transpose());
@@ -200,10 +200,10 @@ fn follow(
     At { q, v, s, lambda, a }
 }
 
-/// A number, how to read it, and whether it is a moment.
+/// A number, a function that computes it, and whether it is a moment.
 type Asked = (ReactionNumber, Box<dyn Fn(&Mechanism, &At) -> f64>, bool);
 
-/// All components of all reactions, moments about a point, components in other frames and sums.
+/// All components of all reactions, moments about a point, components in other frames, and sums.
 fn asked(mechanism: &Mechanism) -> Vec<Asked> {
     let layout = mechanism.layout();
     let space = layout.space;
@@ -299,8 +299,9 @@ fn expected(mechanism: &Mechanism, at: &At, kept: &[usize], all: &[Asked]) -> Ve
     largest
 }
 
-/// How many numbers of a mechanism are compared; zero if its bodies are not connected, so that each
-/// set has its own size and loads, if it has no decided rank, or if it is nearly singular.
+/// Returns the number of compared numbers of a mechanism. It is zero in three cases: if its bodies
+/// are not connected, so that each set has its own size and loads; if it has no decided rank; or if
+/// it is nearly singular.
 fn compare(mechanism: &Mechanism, draw: &mut Draw, what: &str) -> usize {
     let (q, _) = mechanism.described_state();
     let groups: Vec<usize> = (0..mechanism.layout().groups.len()).collect();
@@ -342,7 +343,7 @@ fn compare(mechanism: &Mechanism, draw: &mut Draw, what: &str) -> usize {
         expected[k] / value(mechanism, &at).abs().max(load * unit)
     };
     let shares: Vec<f64> = all.iter().enumerate().map(share).collect();
-    // Near a limit position changes are those of the displaced mechanism, which are larger.
+    // Near a limit position, the changes are those of the displaced mechanism, which are larger.
     let first_order = crate::limits::FIRST_ORDER;
     let is_curved = sigma < 0.1 && shares.iter().any(|share| *share > 0.99 * first_order);
     for (k, expected) in shares.into_iter().enumerate() {

@@ -6,11 +6,11 @@ use joints::PointForce;
 use super::*;
 use crate::value::Sensitivity;
 
-/// Number of bars of 0.1 m and 0.01 kg that hang in a row from the beam, at rest.
+/// Number of bars of 0.1 m and 0.01 kg that hang in a row from the beam at rest.
 const LINKS: usize = 320;
 
-/// The beam of 2 m between a pin and a roller with its own 10 N in the middle, loaded at a point
-/// 1.5 m from the pin by a row of hanging bars or by their weight as a force.
+/// The beam of 2 m between a pin and a roller with its own weight of 10 N in the middle. A row of
+/// hanging bars, or their weight as a force, loads it at a point 1.5 m from the pin.
 fn loaded_beam(links: bool) -> Mechanism {
     let mut d = Description::new("beam");
     d.gravity = [0.0, -10.0];
@@ -50,7 +50,7 @@ fn loaded_beam(links: bool) -> Mechanism {
     Mechanism::build(&d).expect("it builds")
 }
 
-/// The load of the beam is the same whether bars or a force cause it.
+/// The load of the beam is the same for bars and for a force.
 #[test]
 fn a_part_is_asked_under_what_the_rest_does_to_it() {
     let sensitivities = |mechanism: &Mechanism| {

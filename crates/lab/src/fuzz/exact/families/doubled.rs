@@ -1,5 +1,5 @@
 //! Two or three joints between the same two bodies: a second bearing, a second slider on a parallel
-//! line, a second weld.
+//! line, a second rigid connection.
 
 use super::super::drawing::{GROUND, Side, Tie, Vector};
 use super::pen::Pen;
@@ -14,8 +14,8 @@ pub(super) fn doubled(pen: &mut Pen<'_>) {
         let first = pen.numbers.below(7);
         one_of(pen, first, [base, body], at, u);
         for _ in 0..pen.numbers.below(3) {
-            // Mostly the same kind again, at the same place or elsewhere, rarely along another
-            // line.
+            // The second joint usually has the same kind. It is at the same point or elsewhere, and
+            // rarely has another line.
             let kind = if pen.once_in(4) {
                 pen.numbers.below(7)
             } else {

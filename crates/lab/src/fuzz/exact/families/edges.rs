@@ -1,5 +1,5 @@
-//! Wheels and blades: if their normals meet in a point, the body can rotate about it; if they are
-//! parallel, it can slide.
+//! Wheels and knife edges: if their normals meet in a point, the body can rotate about it; if they
+//! are parallel, it can slide.
 
 use super::super::drawing::{GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
@@ -25,7 +25,7 @@ pub(super) fn edges(pen: &mut Pen<'_>) {
     }
 }
 
-/// A condition on the velocity of a point: along the first line, or, for a wheel, across its
+/// Adds a condition on the velocity of a point: along the first line, or, for a wheel, across its
 /// direction of rolling.
 fn edge(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) {
     match pen.numbers.below(4) {
@@ -34,8 +34,8 @@ fn edge(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) {
     };
 }
 
-/// Three wheels at 120°, or up to six at 60°, with radial normals: irrational coordinates if the
-/// drawing is stretched by √3.
+/// Adds three wheels at 120°, or up to six at 60°, with radial normals: irrational coordinates if
+/// the drawing is stretched by √3.
 fn at_angles_of_the_hexagon(pen: &mut Pen<'_>, body: Side) {
     if pen.drawing.links.is_empty() {
         pen.drawing.stretch = 3;
@@ -96,7 +96,7 @@ fn parallel_edges(pen: &mut Pen<'_>, body: Side) {
         edge(pen, body, at, u);
     }
     if pen.once_in(3) {
-        // Two wheels on one axle, or on two: both prescribe how the body rolls.
+        // Two wheels are on one axle, or on two: both prescribe the rolling of the body.
         let way = pen.drawing.across(u);
         let (first, second) = (pen.point(), pen.point());
         let axle = spinner(pen, body, first, way);
@@ -113,7 +113,8 @@ fn parallel_edges(pen: &mut Pen<'_>, body: Side) {
     }
 }
 
-/// A wheel that rolls as a point of the body moves along u, with or without a bearing there.
+/// Adds a wheel that rolls while a point of the body moves along u, with or without a bearing
+/// there.
 fn spinner(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) -> Side {
     let wheel = pen.drawing.body_at(at);
     if pen.once_in(2) {

@@ -5,7 +5,7 @@ use super::super::drawing::{GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
 use super::pen::Pen;
 
-/// Ratios that are not exact as doubles, nor are their products.
+/// Ratios that are not exact as doubles, and whose products are not exact either.
 const RATIOS: [(i128, i128); 10] = [
     (1, 3),
     (-1, 3),
@@ -36,7 +36,7 @@ fn ratio(pen: &mut Pen<'_>) -> Ratio {
     Ratio::new(n, d)
 }
 
-/// A wheel in a bearing of the carrier, mostly at its centre.
+/// Adds a wheel in a bearing of the carrier, usually at its centre.
 fn geared(pen: &mut Pen<'_>, carrier: Side) -> Side {
     let centre = pen.point();
     let wheel = if pen.once_in(4) {
@@ -54,7 +54,7 @@ fn mesh(pen: &mut Pen<'_>, first: Side, second: Side, carrier: Side, ratio: Rati
     pen.link(&[first, second, carrier], Tie::Gear { ratio });
 }
 
-/// A wheel held by two meshes with the ground: they are dependent for any ratios.
+/// Adds a wheel with two meshes with the ground: they are dependent for any ratios.
 fn held(pen: &mut Pen<'_>) {
     let wheel = geared(pen, GROUND);
     for _ in 0..2 {
@@ -68,7 +68,7 @@ fn held(pen: &mut Pen<'_>) {
     pen.drawing.redundancy = Some(1);
 }
 
-/// Wheels in a ring.
+/// Adds wheels in a ring.
 fn closed_train(pen: &mut Pen<'_>) {
     let carrier = if pen.once_in(2) {
         GROUND
@@ -101,7 +101,7 @@ fn closed_train(pen: &mut Pen<'_>) {
     }
 }
 
-/// A sun, a ring on the ground or free, and planets on a carrier.
+/// Adds a sun, a ring on the ground or free, and planets on a carrier.
 fn planets(pen: &mut Pen<'_>) {
     let centre = pen.point();
     let (sun, carrier) = (pen.drawing.body_at(centre), pen.drawing.body_at(centre));
@@ -128,21 +128,21 @@ fn planets(pen: &mut Pen<'_>) {
         } else {
             Ratio::ONE
         };
-        // Planets of different sizes: the product of the ratios of both meshes is the same.
+        // The planets have different sizes: the product of the ratios of both meshes is the same.
         let shrink = if k == 0 { Ratio::ONE } else { shrink };
         mesh(pen, sun, planet, carrier, inner * shrink);
         mesh(pen, planet, ring, carrier, outer * shrink.inverse() * spoil);
     }
-    // Each further planet gives the same condition on sun and ring as the first one; another ratio
-    // locks both, once.
+    // Each further planet gives the same condition on sun and ring as the first one; one different
+    // ratio locks both.
     pen.drawing.redundancy = Some(count - 1 - usize::from(is_locked));
 }
 
-/// A rack on a slider or free, and pinions on both sides, geared to each other.
+/// Adds a rack on a slider or free, and pinions on both sides, geared to each other.
 fn racks(pen: &mut Pen<'_>) {
     let rack = pen.body();
     let way = pen.direction();
-    // The line of force that is perpendicular to the direction of the rack after the plane is
+    // Line of force that is perpendicular to the direction of the rack after the plane is
     // stretched: the axis of this slider is the direction of the rack.
     let (k, at) = (Ratio::whole(i64::from(pen.drawing.stretch)), pen.point());
     let normal = [-(k * way[1]), way[0]];
@@ -160,7 +160,7 @@ fn racks(pen: &mut Pen<'_>) {
     }
     for pair in pinions.windows(2) {
         let ([first, second], [r, s]) = ([pair[0].0, pair[1].0], [pair[0].1, pair[1].1]);
-        // −v = r·ω_1 = s·ω_2
+        // The condition is −v = r·ω_1 = s·ω_2.
         let ratio = if pen.once_in(3) {
             r * s.inverse() * Ratio::new(5, 4)
         } else {
@@ -171,7 +171,7 @@ fn racks(pen: &mut Pen<'_>) {
         }
     }
     if pen.once_in(4) {
-        // A second mesh of the same rack with the same pinion.
+        // Adds a second mesh of the same rack with the same pinion.
         let (pinion, radius) = pinions[0];
         let centre = pinion.and_then(|p| pen.drawing.origins[p]);
         if let Some(centre) = centre {

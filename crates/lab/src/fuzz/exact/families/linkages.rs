@@ -1,5 +1,5 @@
-//! Linkages at configurations where they are flat, stretched or aligned, and parallel cranks, which
-//! are redundant everywhere.
+//! Linkages at flat, stretched or aligned configurations, and parallel cranks, which are redundant
+//! everywhere.
 
 use super::super::drawing::{GROUND, Side, Vector, along};
 use super::super::ratio::Ratio;
@@ -14,7 +14,7 @@ pub(super) fn linkage(pen: &mut Pen<'_>) {
     }
 }
 
-/// Two to five cranks under one coupler, all equal or one different; some are driven.
+/// Adds two to five cranks under one coupler, all equal or one different; some are driven.
 fn cranks(pen: &mut Pen<'_>) {
     let count = 2 + pen.numbers.below(4);
     let arm = pen.vector(6);
@@ -33,7 +33,7 @@ fn cranks(pen: &mut Pen<'_>) {
     };
     let [x, y] = [0, 1].map(|axis| pivots[1][axis] - pivots[0][axis]);
     if !is_spoilt && !(x * arm[1] - y * arm[0]).is_zero() {
-        // Two cranks hold the coupler, which keeps one freedom.
+        // Two cranks support the coupler, which has one remaining freedom.
         pen.drawing.redundancy = Some(count - 2 + drives.saturating_sub(1));
     }
     for (k, pivot) in pivots.into_iter().enumerate() {
@@ -50,7 +50,7 @@ fn cranks(pen: &mut Pen<'_>) {
     }
 }
 
-/// Hinges on a line between two pivots of the ground, on a line that may turn back; one end is
+/// Adds hinges on a line between two pivots of the ground, on a line that may turn back; one end is
 /// driven.
 fn chain(pen: &mut Pen<'_>) {
     let n = 2 + pen.numbers.below(4);
@@ -80,7 +80,7 @@ fn chain(pen: &mut Pen<'_>) {
     }
 }
 
-/// Crank and coupler aligned or not; the rocker or the crank fixed.
+/// Adds crank and coupler, aligned or not, with the rocker or the crank locked.
 fn four_bar(pen: &mut Pen<'_>) {
     let [a, d] = [pen.point(), pen.point()];
     let arm = pen.vector(4);
@@ -104,7 +104,7 @@ fn four_bar(pen: &mut Pen<'_>) {
     }
 }
 
-/// A slider-crank at a dead centre, or one step of the grid off it.
+/// Adds a slider-crank at a dead centre, or one step of the grid off it.
 fn slider_crank(pen: &mut Pen<'_>) {
     let (pivot, way) = (pen.point(), pen.direction());
     let tip = along(pivot, pen.not_zero(3) * pen.step, way);
@@ -121,7 +121,7 @@ fn slider_crank(pen: &mut Pen<'_>) {
     pen.slider([GROUND, slider], end, normal);
     match pen.numbers.below(3) {
         0 => pen.drawing.drive(bearing),
-        // Fixed at the slider: the crank is at a position where the slider cannot turn it.
+        // The slider is locked: the crank is at a position at which the slider cannot turn it.
         1 => {
             let anchor = along(end, Ratio::whole(2), way);
             pen.bar([GROUND, slider], anchor, end);

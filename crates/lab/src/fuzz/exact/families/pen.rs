@@ -1,4 +1,4 @@
-//! Draws on a grid: random points, directions and links of the families.
+//! Draws random points, directions and links of the families on a grid.
 
 use super::super::drawing::{Drawing, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
@@ -32,17 +32,17 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// True in one of n cases.
+    /// Returns true in one of n cases.
     pub(super) fn once_in(&mut self, n: usize) -> bool {
         self.numbers.once_in(n)
     }
 
-    /// A whole number in low..=high.
+    /// Returns an integer in low..=high.
     pub(super) fn whole(&mut self, low: i32, high: i32) -> Ratio {
         Ratio::whole(self.numbers.between(low, high).into())
     }
 
-    /// A whole number between −most and most, but not 0.
+    /// Returns an integer between −most and most, but not 0.
     pub(super) fn not_zero(&mut self, most: i32) -> Ratio {
         loop {
             let x = self.whole(-most, most);
@@ -52,12 +52,12 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A point of the grid.
+    /// Returns a point of the grid.
     pub(super) fn point(&mut self) -> Vector {
         [0; 2].map(|_| self.step * self.whole(-10, 10))
     }
 
-    /// A vector of the grid that is not zero.
+    /// Returns a vector of the grid that is not zero.
     pub(super) fn vector(&mut self, most: i32) -> Vector {
         loop {
             let v = [0; 2].map(|_| self.step * self.whole(-most, most));
@@ -67,7 +67,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A direction, often one of the axes.
+    /// Returns a direction, often one of the axes.
     pub(super) fn direction(&mut self) -> Vector {
         match self.numbers.below(6) {
             0 => [Ratio::ONE, Ratio::ZERO],
@@ -80,19 +80,19 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A point one step off a point, perpendicular to a direction.
+    /// Returns a point one step off a given point, perpendicular to a direction.
     pub(super) fn beside(&mut self, p: Vector, [x, y]: Vector) -> Vector {
         let sign = self.not_zero(1);
         along(p, sign * self.step, [-y, x])
     }
 
-    /// A point on the line through p along d, some steps away.
+    /// Returns a point on the line through p along d, some steps away.
     pub(super) fn on_line(&mut self, p: Vector, d: Vector, most: i32) -> Vector {
         let steps = self.whole(-most, most);
         along(p, steps * self.step, d)
     }
 
-    /// Distinct points on a line.
+    /// Returns distinct points on a line.
     pub(super) fn places(&mut self, p: Vector, d: Vector, n: usize) -> Vec<Vector> {
         let mut steps: Vec<i32> = Vec::new();
         while steps.len() < n {
@@ -109,7 +109,7 @@ impl<'a> Pen<'a> {
         self.drawing.body()
     }
 
-    /// The point in which lines meet.
+    /// Returns the point in which lines meet.
     pub(super) fn centre(&mut self) -> Vector {
         if self.once_in(2) {
             [Ratio::ZERO; 2]
@@ -118,7 +118,8 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Often places the origin of a body at the point in which lines meet: their arms vanish there.
+    /// Often places the origin of a body at the point in which lines meet: their lever arms vanish
+    /// there.
     pub(super) fn often_at(&mut self, body: Side, centre: Vector) {
         if let Some(k) = body.filter(|_| self.numbers.once_in(2)) {
             self.drawing.origins[k] = Some(centre);

@@ -1,6 +1,6 @@
-//! Drawings of full rank that are near a lower one: displaced pins, dead centres, lines at small
-//! angles, thin loops. With a tolerance of at most a third of their distance from the lower rank,
-//! they must not be called redundant.
+//! Drawings of full rank near a lower rank: displaced pins, dead centres, lines at small angles,
+//! thin loops. With a tolerance of at most a third of their distance from the lower rank, the
+//! program must not call them redundant.
 
 use suite::numbers::Numbers;
 
@@ -8,18 +8,18 @@ use super::super::drawing::{Drawing, GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
 use super::pen::Pen;
 
-/// A kind of such drawings.
+/// A kind of drawings near a lower rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slender {
     /// Parallel cranks with one displaced pin.
     OffsetCrank,
     /// Two pins of one door.
     OffsetPin,
-    /// A four-bar near its dead centre, with its rocker fixed.
+    /// A four-bar near its dead centre, with its rocker locked.
     DeadCentre,
-    /// A slider-crank near its dead centre, with its slider fixed.
+    /// A slider-crank near its dead centre, with its slider locked.
     SliderCrank,
-    /// A bar held by two others that nearly meet on its line.
+    /// A bar supported by two others that nearly meet on its line.
     ThinTriangle,
     /// A parallelogram with short sides.
     ThinLoop,
@@ -34,7 +34,7 @@ pub enum Slender {
 }
 
 impl Slender {
-    /// All of them.
+    /// All kinds.
     pub const ALL: [Self; 10] = [
         Self::OffsetCrank,
         Self::OffsetPin,
@@ -48,7 +48,7 @@ impl Slender {
         Self::Train,
     ];
 
-    /// Its name.
+    /// Returns the name of the kind.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -65,7 +65,7 @@ impl Slender {
         }
     }
 
-    /// A drawing.
+    /// Returns a drawing of the kind.
     #[must_use]
     pub fn draw(self, numbers: &mut Numbers) -> Drawing {
         let mut pen = Pen::new(numbers);
@@ -90,7 +90,7 @@ fn quarter([x, y]: Vector) -> Vector {
     [-y, x]
 }
 
-/// A random number from 1e-4 to 5e-2, with either sign.
+/// Returns a random number from 1e-4 to 5e-2, with either sign.
 fn little(pen: &mut Pen<'_>) -> Ratio {
     let [n, d] = [
         [1, 2, 5][pen.numbers.below(3)],
@@ -100,7 +100,7 @@ fn little(pen: &mut Pen<'_>) -> Ratio {
     Ratio::new(sign * n, d)
 }
 
-/// A vector of the grid, turned by a small angle.
+/// Returns a vector of the grid, rotated by a small angle.
 fn turned(pen: &mut Pen<'_>, v: Vector) -> Vector {
     let little = little(pen);
     along(v, little, quarter(v))
@@ -147,7 +147,7 @@ fn offset_pin(pen: &mut Pen<'_>) {
             },
         );
     } else {
-        // Without the row along the line of the pins, which exists already.
+        // The row along the line of the pins is omitted, because it already exists.
         let u = quarter(off);
         let from = beside;
         pen.link(
@@ -272,7 +272,7 @@ fn steep_slot(pen: &mut Pen<'_>) {
     );
 }
 
-/// A rear wheel, and two front wheels that are steered equally: no common centre.
+/// Adds a rear wheel, and two front wheels that are steered equally: there is no common centre.
 fn steering(pen: &mut Pen<'_>) {
     let (rear, ahead) = (pen.point(), pen.vector(5));
     let side = quarter(ahead);

@@ -1,5 +1,5 @@
-//! Nodes on a line connected by distances: bars along one line have one redundant constraint for
-//! each loop, and a bar off their line does not change that.
+//! Nodes on a line are connected by distances: bars along one line have one redundant constraint
+//! for each loop, and a bar off their line does not change that.
 
 use super::super::drawing::{GROUND, Side, Vector};
 use super::pen::Pen;
@@ -17,13 +17,13 @@ pub(super) fn truss(pen: &mut Pen<'_>) {
         let is_shared = k > 0 && pen.once_in(8);
         let side = match (k, pen.once_in(8)) {
             (_, true) if k > 0 => GROUND,
-            // Two nodes on one body.
+            // Two nodes are on one body.
             _ if is_shared => nodes[k - 1],
             _ => node(pen, places[k]),
         };
         nodes.push(side);
     }
-    // A ring, so that there is a loop, and chords.
+    // The bars form a ring, so that there is a loop, and chords.
     let mut bars: Vec<[usize; 2]> = (0..n).map(|k| [k, (k + 1) % n]).collect();
     if pen.once_in(3) {
         bars.remove(0);
@@ -41,7 +41,7 @@ pub(super) fn truss(pen: &mut Pen<'_>) {
     }
 }
 
-/// A point mass, or a small body.
+/// Adds a point mass, or a small body.
 fn node(pen: &mut Pen<'_>, place: Vector) -> Side {
     if pen.once_in(3) {
         pen.body()
@@ -50,7 +50,7 @@ fn node(pen: &mut Pen<'_>, place: Vector) -> Side {
     }
 }
 
-/// A bar from a node to the ground, or to a body without other joints.
+/// Adds a bar from a node to the ground, or to a body without other joints.
 fn oblique(pen: &mut Pen<'_>, nodes: &[Side], places: &[Vector]) {
     let (k, end) = (pen.numbers.below(nodes.len()), pen.point());
     let other = if pen.once_in(4) { pen.body() } else { GROUND };

@@ -1,5 +1,5 @@
-//! Wheels pinned at their centres: the arm of the pin is exactly zero, and in doubles often a few
-//! 1e-17 m. Castors on forks, pulleys on the ground and on vehicles.
+//! Wheels pinned at their centres: the lever arm of the pin is exactly zero, and in doubles often a
+//! few 1e-17 m. The wheels are castors on forks, and pulleys on the ground and on vehicles.
 
 use super::super::drawing::{GROUND, Side, Tie, along};
 use super::pen::Pen;
@@ -34,13 +34,13 @@ pub(super) fn wheels(pen: &mut Pen<'_>) {
     }
 }
 
-/// A wheel in a bearing at its centre.
+/// Adds a wheel in a bearing at its centre.
 fn wheel(pen: &mut Pen<'_>, carrier: Side) -> Side {
     let centre = pen.point();
     let wheel = pen.drawing.body_at(centre);
     pen.hinge([carrier, wheel], centre);
     match pen.numbers.below(8) {
-        // A second bearing at the centre, or a bar to it.
+        // Adds a second bearing at the centre, or a bar to it.
         0 => {
             pen.hinge([carrier, wheel], centre);
         }
@@ -84,7 +84,7 @@ fn wheel(pen: &mut Pen<'_>, carrier: Side) -> Side {
     wheel
 }
 
-/// A fork that rotates about its pivot, and a wheel at its end, with or without an edge.
+/// Adds a fork that rotates about its pivot, and a wheel at its end, with or without an edge.
 fn castor(pen: &mut Pen<'_>, chassis: Side) {
     let (pivot, arm) = (pen.point(), pen.vector(4));
     let fork = pen.drawing.body_at(pivot);

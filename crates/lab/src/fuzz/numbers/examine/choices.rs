@@ -1,4 +1,5 @@
-//! (a): the choices of the product at one state, compared with the same ones of the oracle.
+//! Test (a): the choices of the product at one state are compared with the same choices of the
+//! oracle.
 
 use std::sync::Arc;
 
@@ -14,11 +15,11 @@ use crate::fuzz::numbers::sets::{elastic, without};
 use crate::fuzz::numbers::verdicts::Judge;
 use suite::numbers::Numbers;
 
-/// Agreement of chosen numbers, of the largest of them.
+/// Agreement of chosen numbers, as a fraction of the largest number.
 const CHOSEN: f64 = 1e-7;
 
 impl Examined<'_> {
-    /// The choices of the product at one state, compared with the same ones of the oracle.
+    /// Compares the choices of the product at one state with the same choices of the oracle.
     pub(super) fn choices(&self, judge: &dyn Judge, which: usize, findings: &mut Findings) {
         let state = &self.states[which];
         let (row, instant, forms) = state;
@@ -36,7 +37,7 @@ impl Examined<'_> {
             Err(error) => {
                 let at = (row.t_before, &row.q[..]);
                 let [here, near] = ranks(self.mechanism, at, &mut Numbers::new(1));
-                // At a singular configuration there may be none.
+                // At a singular configuration there may be no choices.
                 if here == near {
                     let text = format!("no solution at t = {} s: {error}", row.t);
                     findings.note(Kind::Failed, text);
@@ -77,7 +78,7 @@ impl Examined<'_> {
                 let components = &found.reactions[form.group].components;
                 let of = components.iter().find(|(name, _)| *name == form.name);
                 let Some((_, value)) = of else { continue };
-                // No number is not a wrong one.
+                // A missing number is not a wrong number.
                 let Some(given) = value.in_solution() else {
                     continue;
                 };

@@ -1,4 +1,4 @@
-//! (c) at one state: data displaced one at a time.
+//! Test (c) at one state: data are displaced one at a time.
 
 use model::System;
 
@@ -7,15 +7,16 @@ use crate::fuzz::numbers::displaced::Displaced;
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
 use crate::fuzz::numbers::verdicts::Judge;
 
-/// Changes with one datum: most of a component that is not fragile, least of one that is.
+/// Limits of changes with one datum: the largest for a component that is not ill-determined, and
+/// the smallest for one that is.
 const STURDY: f64 = 0.12;
 const FRAGILE: f64 = 0.08;
 
 impl Examined<'_> {
-    /// (c) at one state.
+    /// Performs test (c) at one state.
     pub(super) fn displaced(&self, judge: &dyn Judge, which: usize, findings: &mut Findings) {
         let (row, instant, forms) = &self.states[which];
-        // Each set of connected bodies has a size and loads of its own.
+        // Each set of connected bodies has a separate size and separate loads.
         let joints: Vec<usize> = (0..self.mechanism.layout().groups.len()).collect();
         if instant.load <= LOAD || self.mechanism.joined(&joints).len() > 1 {
             return;

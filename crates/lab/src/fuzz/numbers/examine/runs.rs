@@ -1,19 +1,19 @@
-//! (a) in separate runs of the product, each without other rows.
+//! Test (a) in separate runs of the product, each with other redundant rows.
 
 use super::Examined;
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
 use crate::fuzz::numbers::run::{Row, prepared, run};
 use crate::fuzz::numbers::verdicts::Judge;
 
-/// Agreement of two runs, of the load, where their states agree to [`SAME_STATE`].
+/// Agreement of two runs, as a fraction of the load, if their states agree to [`SAME_STATE`].
 const BETWEEN_RUNS: f64 = 1e-7;
 const SAME_STATE: f64 = 1e-10;
 
 impl Examined<'_> {
-    /// (a) in separate runs, each without other rows.
+    /// Performs test (a) in separate runs, each with other redundant rows.
     pub(super) fn between_runs(&self, judge: &dyn Judge, text: &str, findings: &mut Findings) {
         for rows in self.sets.iter().take(2) {
-            // A set that is admissible on the way may not be at the start.
+            // A set that is admissible during the run may not be admissible at the start.
             let Ok(study) = prepared(text, Some(rows)) else {
                 continue;
             };

@@ -1,4 +1,4 @@
-//! (a) and (b): the solutions at each state, and the product's value there.
+//! Tests (a) and (b): the solutions at each state, and the value of the product there.
 
 use super::{AT_STATE, Examined, LOAD, span};
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
@@ -7,18 +7,19 @@ use crate::fuzz::numbers::oracle::Instant;
 use crate::fuzz::numbers::run::Row;
 use crate::fuzz::numbers::verdicts::{Judge, Word};
 
-/// Two solutions differ where a component does by more than this share of the load.
+/// Two solutions differ if a component differs by more than this fraction of the load.
 const DIFFERS: f64 = 1e-6;
 
-/// A component is free if this share of it lies in the left null space, divided by the smallest
-/// singular value: that is how well states on the constraints to 1e-12 know the null space.
+/// A component is free if this fraction of it is in the left null space, divided by the smallest
+/// singular value. For states that satisfy the constraints to 1e-12, this is the accuracy of the
+/// null space.
 const FREE: f64 = 1e-10;
 
 impl Examined<'_> {
-    /// (a) and (b) at each state.
+    /// Performs tests (a) and (b) at each state.
     pub(super) fn at_states(&self, judge: &dyn Judge, findings: &mut Findings) {
-        // By component and its own stretches: whether solutions differ inside, whether it is free
-        // there; `None` where no state is.
+        // By component and stretch: whether solutions differ inside, and whether the component is
+        // free there; `None` if the stretch contains no state.
         let own = self.verdicts.iter().map(|own| own.stretches.len());
         let mut found: Vec<Vec<Option<[bool; 2]>>> = own.map(|count| vec![None; count]).collect();
         for state in &self.states {
@@ -47,7 +48,7 @@ impl Examined<'_> {
                     }
                     self.value(judge, state, k, findings);
                 } else if own.stretches[at].from < row.t {
-                    // An instant at which it begins may differ.
+                    // The instant at which the stretch begins may differ.
 
                     let [differs, free] = found[k][at].get_or_insert_default();
                     *differs |= span > DIFFERS * instant.load.max(LOAD);
@@ -78,7 +79,7 @@ impl Examined<'_> {
         }
     }
 
-    /// The value of the product for a determined component.
+    /// Returns the value of the product for a determined component.
     fn value(
         &self,
         judge: &dyn Judge,

@@ -1,4 +1,4 @@
-//! What pieces stand on: the ground, bases that turn or slide, vehicles.
+//! Carriers of pieces: the ground, bases that rotate or slide, vehicles.
 
 use super::pieces::{Stand, hinge};
 use super::sketch::{Flat, Place, Sketch, ground};
@@ -25,7 +25,7 @@ impl Carrier {
         }
     }
 
-    /// Draws it; returns the bodies that carry.
+    /// Draws the carrier; returns its bodies.
     pub(super) fn draw(self, s: &mut Sketch<'_>, place: &Place) -> Stand {
         match self {
             Self::Ground => (ground(), [0.0; 2]),
@@ -36,7 +36,7 @@ impl Carrier {
     }
 }
 
-/// A motion that a drive prescribes, with rates of about `size` per second.
+/// Returns a motion that a drive prescribes, with rates of about `size` per second.
 fn motion(s: &mut Sketch<'_>, size: f64) -> String {
     let x = size * s.numbers.within(0.5, 2.0);
     match s.numbers.below(4) {
@@ -53,7 +53,7 @@ fn motion(s: &mut Sketch<'_>, size: f64) -> String {
     }
 }
 
-/// Drives one of the measures in one of `chance` cases.
+/// Drives one of the joint coordinates in one of `chance` cases.
 pub(super) fn drive_one(s: &mut Sketch<'_>, from: usize, chance: usize) {
     let measured = s.measured[from..].to_vec();
     if measured.is_empty() || !s.numbers.once_in(chance) {
@@ -89,9 +89,9 @@ fn sliding(s: &mut Sketch<'_>, place: &Place) -> Stand {
     (base, [0.0; 2])
 }
 
-/// A chassis on two to four wheels without sideways motion, in half of the cases with a steered
-/// axle; in space it also keeps to the plane of its place. It goes at up to 1.5 m/s, and without a
-/// steered axle it may turn about a point of its own.
+/// Draws a chassis on two to four wheels without sideways motion, in half of the cases with a
+/// steered axle; in space it also remains in the plane of its place. It moves at up to 1.5 m/s, and
+/// without a steered axle it may turn about a separate point.
 fn vehicle(s: &mut Sketch<'_>, place: &Place) -> Stand {
     let is_steered = s.numbers.once_in(2);
     let (speed, turn) = (s.numbers.within(0.2, 1.5), s.numbers.within(-1.5, 1.5));
@@ -121,7 +121,7 @@ fn vehicle(s: &mut Sketch<'_>, place: &Place) -> Stand {
     (chassis, [0.4, 0.0])
 }
 
-/// A knife edge across the direction of travel, which is the first axis of the place.
+/// Adds a knife edge across the direction of travel, which is the first axis of the place.
 fn edge(s: &mut Sketch<'_>, place: &Place, body: &str, p: Flat) {
     s.single("knife-edge", &body.to_owned());
     s.at_height(place, p, 0.0);

@@ -1,14 +1,15 @@
-//! Pieces of mechanisms: pivots and slides that are written more than once, cranks, chains,
-//! sliders, gears, and bodies that are braced or hinged more often than they need, some of them
-//! slightly off. A piece returns a body and a point of it, on which another piece may stand.
+//! Pieces of mechanisms: repeated pivots and slides, cranks, chains, sliders, gears, and bodies
+//! with more bars or hinges than necessary, some of them with a small misalignment. A piece returns
+//! a body and a point of it, on which another piece may be mounted.
 
 use super::sketch::{Flat, Place, Side, Sketch, across, along};
 use crate::fuzz::scenes::Space;
 
-/// A body and a point of it.
+/// A body and one of its points.
 pub(super) type Stand = (Side, Flat);
 
-/// A pivot of two bodies in the plane of a piece, in one of many ways, most of them redundant.
+/// Adds a pivot of two bodies in the plane of a piece, in one of many forms, most of them
+/// redundant.
 pub(super) fn pivot(s: &mut Sketch<'_>, place: &Place, [a, b]: [&Side; 2], p: Flat) {
     match s.numbers.below(8) {
         0 | 1 => {
@@ -40,7 +41,7 @@ pub(super) fn pivot(s: &mut Sketch<'_>, place: &Place, [a, b]: [&Side; 2], p: Fl
     }
 }
 
-/// A hinge `height` above the plane; in the plane all heights are the same.
+/// Adds a hinge `height` above the plane; in the plane all heights are the same.
 pub(super) fn hinge(
     s: &mut Sketch<'_>,
     place: &Place,
@@ -62,7 +63,7 @@ fn ball(s: &mut Sketch<'_>, place: &Place, pair: [&Side; 2], p: Flat, height: f6
     s.at_height(place, p, height);
 }
 
-/// Slots across each other with a common pin.
+/// Adds perpendicular slots with a common pin.
 fn slots(s: &mut Sketch<'_>, place: &Place, pair: [&Side; 2], p: Flat, count: usize) {
     let first = s.heading();
     for k in 0..count {
@@ -77,7 +78,7 @@ fn slots(s: &mut Sketch<'_>, place: &Place, pair: [&Side; 2], p: Flat, count: us
     }
 }
 
-/// A point of a body on two or three lines of the ground.
+/// Adds a point of a body on two or three lines of the ground.
 fn lines(s: &mut Sketch<'_>, place: &Place, body: &Side, p: Flat) {
     let count = 2 + s.numbers.below(2);
     for k in 0..count {
@@ -89,7 +90,7 @@ fn lines(s: &mut Sketch<'_>, place: &Place, body: &Side, p: Flat) {
     }
 }
 
-/// A slide along a direction; doubled in half of the cases.
+/// Adds a slide along a direction; doubled in half of the cases.
 fn slide(s: &mut Sketch<'_>, place: &Place, pair: [&Side; 2], p: Flat, d: Flat) {
     let name = s.joint("translational", pair);
     s.at_height(place, p, 0.0);
@@ -102,7 +103,7 @@ fn slide(s: &mut Sketch<'_>, place: &Place, pair: [&Side; 2], p: Flat, d: Flat) 
     }
 }
 
-/// Two to four parallel cranks under a coupler.
+/// Adds two to four parallel cranks under a coupler.
 pub(super) fn cranks(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let (h, l) = (s.heading(), s.length(4, 10));
     let count = 2 + s.numbers.below(3);
@@ -139,7 +140,7 @@ pub(super) fn cranks(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> S
     (coupler, tips[0])
 }
 
-/// One to three links with pivots that are written more than once.
+/// Adds one to three links with repeated pivots.
 pub(super) fn chain(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let (mut side, mut p) = (base.clone(), *at);
     for _ in 0..=s.numbers.below(3) {
@@ -152,7 +153,7 @@ pub(super) fn chain(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> St
     (side, p)
 }
 
-/// A body on a slide, in half of the cases with a crank and a rod.
+/// Adds a body on a slide, in half of the cases with a crank and a rod.
 pub(super) fn slider(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let d = s.heading();
     if s.numbers.once_in(2) {
@@ -178,7 +179,7 @@ pub(super) fn slider(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> S
     (block, pin)
 }
 
-/// Wheels on pins of a body; in half of the cases the train of gears is closed.
+/// Adds wheels on pins of a body; in half of the cases the train of gears is closed.
 pub(super) fn gears(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let radii = [0.1, s.one(&[0.1, 0.2]), 0.15];
     let (mut wheels, mut pins) = (Vec::new(), Vec::new());
@@ -214,7 +215,7 @@ pub(super) fn gears(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> St
     (wheels[2].clone(), p)
 }
 
-/// A body on more bars than it needs; in the plane three to five, in space six to eight.
+/// Adds a body on more bars than necessary; in the plane three to five, in space six to eight.
 pub(super) fn braced(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let far = along(*at, 0.6, s.heading());
     let body = s.body(place, far);
@@ -234,8 +235,8 @@ pub(super) fn braced(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> S
     (body, far)
 }
 
-/// A body that some tenths of a millimetre hold: hinges in a row with one off its axis, or a pin
-/// and a bar that nearly passes through it.
+/// Adds a body that some tenths of a millimetre lock: hinges in a row with one off the axis, or a
+/// pin and a bar that nearly passes through it.
 pub(super) fn slightly_off(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let h = s.heading();
     let far = along(*at, 0.6, h);

@@ -1,5 +1,5 @@
-//! A mechanism that is being written as the text of a scene: pieces are drawn in a plane of their
-//! own, which lies in the plane of the scene or anywhere in space.
+//! A mechanism that is being written as the text of a scene: pieces are drawn in a separate plane,
+//! which is the plane of the scene or any plane in space.
 
 use std::fmt::Write;
 
@@ -17,7 +17,7 @@ pub(super) fn ground() -> Side {
     "ground".to_owned()
 }
 
-/// Where the plane of a piece lies.
+/// Position of the plane of a piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     origin: [f64; 3],
@@ -46,7 +46,7 @@ pub(super) struct Sketch<'n> {
     joints: usize,
     drives: usize,
     forces: usize,
-    /// Joints that a drive may move: name and measure.
+    /// Joints that a drive may move: name and joint coordinate.
     pub(super) measured: Vec<(String, &'static str)>,
 }
 
@@ -64,7 +64,7 @@ impl<'n> Sketch<'n> {
         }
     }
 
-    /// The text of all tables.
+    /// Returns the text of all tables.
     pub(super) fn finish(self) -> String {
         self.text
     }
@@ -78,17 +78,17 @@ impl<'n> Sketch<'n> {
         let _ = writeln!(self.text, "\n{head}");
     }
 
-    /// One of these with equal chances.
+    /// Returns one of these with equal probabilities.
     pub(super) fn one<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.numbers.below(from.len())]
     }
 
-    /// A length in steps of 5 cm.
+    /// Returns a length in steps of 5 cm.
     pub(super) fn length(&mut self, low: i32, high: i32) -> f64 {
         0.05 * f64::from(self.numbers.between(low, high))
     }
 
-    /// A unit vector: in three of five cases upright, straight or square.
+    /// Returns a unit vector: in three of five cases vertical, horizontal or diagonal.
     pub(super) fn heading(&mut self) -> Flat {
         match self.numbers.below(10) {
             0 | 1 => [0.0, 1.0],
@@ -100,14 +100,14 @@ impl<'n> Sketch<'n> {
         }
     }
 
-    /// A unit vector without symmetry.
+    /// Returns a unit vector without symmetry.
     pub(super) fn any_heading(&mut self) -> Flat {
         let (sin, cos) = self.numbers.within(0.1, 6.1).sin_cos();
         [cos, sin]
     }
 
-    /// A plane for a piece: in the scene of the plane, the plane itself; in space one of the planes
-    /// of the axes, or any.
+    /// Returns a plane for a piece: in a planar scene the plane itself, in space one of the
+    /// coordinate planes or any plane.
     pub(super) fn place(&mut self) -> Place {
         let origin = [0, 1, 2].map(|_| self.numbers.below(3) as f64 * 0.25);
         if self.space == Space::Plane {
@@ -126,7 +126,7 @@ impl<'n> Sketch<'n> {
         Place { origin, axes }
     }
 
-    /// A point in the axes of the ground.
+    /// Returns a point in the axes of the ground.
     pub(super) fn written(&self, p: [f64; 3]) -> String {
         match self.space {
             Space::Plane => format!("[{:?}, {:?}]", p[0], p[1]),
@@ -138,12 +138,12 @@ impl<'n> Sketch<'n> {
         self.written(place.point(p, 0.0))
     }
 
-    /// A body with its mass centre at a point.
+    /// Adds a body with its mass centre at a point.
     pub(super) fn body(&mut self, place: &Place, centre: Flat) -> Side {
         self.moving_body(place, centre, None)
     }
 
-    /// A body that may have an angular velocity about the normal of the plane (rad/s).
+    /// Adds a body that may have an angular velocity about the normal of the plane (rad/s).
     pub(super) fn moving_body(&mut self, place: &Place, centre: Flat, omega: Option<f64>) -> Side {
         let name = format!("b{}", self.bodies);
         self.bodies += 1;
@@ -176,28 +176,28 @@ impl<'n> Sketch<'n> {
         self.line("angular_velocity", &value);
     }
 
-    /// The velocities of the body that was written last.
+    /// Adds the velocities of the last body.
     pub(super) fn velocity(&mut self, place: &Place, v: Flat, omega: f64) {
         let value = self.written(place.direction(v));
         self.line("velocity", &value);
         self.turning(place, omega);
     }
 
-    /// A joint of two bodies, without its place.
+    /// Adds a joint of two bodies, without its position.
     pub(super) fn joint(&mut self, kind: &str, [a, b]: [&Side; 2]) -> String {
         let name = self.head(kind);
         self.line("bodies", &format!("[\"{a}\", \"{b}\"]"));
         name
     }
 
-    /// A joint of one body, without its place.
+    /// Adds a joint of one body, without its position.
     pub(super) fn single(&mut self, kind: &str, body: &Side) -> String {
         let name = self.head(kind);
         self.line("body", &format!("\"{body}\""));
         name
     }
 
-    /// A coupling of the angles of two joints, without its ratio.
+    /// Adds a coupling of the angles of two joints, without its ratio.
     pub(super) fn coupling(&mut self, [a, b]: [&str; 2]) {
         self.head("coupling");
         self.line("measures", &format!("[\"{a}.angle\", \"{b}.angle\"]"));
@@ -212,48 +212,48 @@ impl<'n> Sketch<'n> {
         name
     }
 
-    /// A key with a point `height` above the plane of the piece.
+    /// Adds a key with a point `height` above the plane of the piece.
     pub(super) fn at_height(&mut self, place: &Place, p: Flat, height: f64) {
         let at = self.written(place.point(p, height));
         self.line("at", &at);
     }
 
-    /// A key with a direction in the plane of the piece.
+    /// Adds a key with a direction in the plane of the piece.
     pub(super) fn direction(&mut self, key: &str, place: &Place, d: Flat) {
         let value = self.written(place.direction(d));
         self.line(key, &value);
         self.in_ground_axes();
     }
 
-    /// A key with the normal of the plane of the piece.
+    /// Adds a key with the normal of the plane of the piece.
     pub(super) fn normal(&mut self, key: &str, place: &Place) {
         let value = self.written(place.axes[2]);
         self.line(key, &value);
         self.in_ground_axes();
     }
 
-    /// Bodies of the plane have the axes of the ground at the start.
+    /// At the start planar bodies have the axes of the ground.
     fn in_ground_axes(&mut self) {
         if self.space == Space::Space {
             self.line("frame", "\"global\"");
         }
     }
 
-    /// A bar without mass between two points.
+    /// Adds a massless bar between two points.
     pub(super) fn bar(&mut self, place: &Place, pair: [&Side; 2], [p, q]: [Flat; 2]) {
         self.joint("distance", pair);
         let ends = [p, q].map(|p| self.point(place, p));
         self.line("at", &format!("[{}, {}]", ends[0], ends[1]));
     }
 
-    /// A bar between two points at heights above the plane.
+    /// Adds a bar between two points at heights above the plane.
     pub(super) fn bar_in_space(&mut self, place: &Place, pair: [&Side; 2], ends: [(Flat, f64); 2]) {
         self.joint("distance", pair);
         let ends = ends.map(|(p, height)| self.written(place.point(p, height)));
         self.line("at", &format!("[{}, {}]", ends[0], ends[1]));
     }
 
-    /// A drive of a joint.
+    /// Adds a drive of a joint.
     pub(super) fn drive(&mut self, joint: &str, measure: &str, motion: &str) {
         let name = format!("d{}", self.drives);
         self.drives += 1;
@@ -264,7 +264,7 @@ impl<'n> Sketch<'n> {
         self.line("motion", motion);
     }
 
-    /// A spring between two points.
+    /// Adds a spring between two points.
     pub(super) fn spring(&mut self, place: &Place, pair: [&Side; 2], [p, q]: [Flat; 2]) {
         let name = format!("f{}", self.forces);
         self.forces += 1;
@@ -282,7 +282,7 @@ impl<'n> Sketch<'n> {
     }
 }
 
-/// Axes turned about z by the first angle, then about the new x by the second.
+/// Returns axes rotated about z by the first angle, then about the new x by the second.
 fn turned(first: f64, second: f64) -> [[f64; 3]; 3] {
     let ((s, c), (sin, cos)) = (first.sin_cos(), second.sin_cos());
     [
@@ -292,12 +292,12 @@ fn turned(first: f64, second: f64) -> [[f64; 3]; 3] {
     ]
 }
 
-/// `p + factor·d`
+/// Returns `p + factor·d`.
 pub(super) fn along([x, y]: Flat, factor: f64, d: Flat) -> Flat {
     [x + factor * d[0], y + factor * d[1]]
 }
 
-/// The direction turned by a quarter.
+/// Returns the direction rotated by a quarter turn.
 pub(super) fn across([x, y]: Flat) -> Flat {
     [-y, x]
 }

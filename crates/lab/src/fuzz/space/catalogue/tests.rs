@@ -1,25 +1,25 @@
-//! Answers by hand for the mechanisms of the catalogue: textbooks of mechanism theory (Bennett,
-//! Sarrus, Bricard, Oldham, Hooke), and the planar answers lifted into space: three out-of-plane
-//! rows are redundant for each loop that keeps its bodies in a plane.
+//! Results by hand for the mechanisms of the catalogue. They come from textbooks of mechanism
+//! theory (Bennett, Sarrus, Bricard, Oldham, Hooke), and from planar results converted to space. In
+//! these, three out-of-plane rows are redundant for each loop that keeps its bodies in a plane.
 
 use super::*;
 use crate::fuzz::exact::expected::{Expected, Verdict};
 use crate::fuzz::exact::truth::Truth;
 use crate::fuzz::exact::wrench::{Owner, Wrench};
 
-/// The answer, after a check that everything is drawn where it holds.
+/// Returns the results, after a check that every joint is satisfied as drawn.
 fn answer(drawing: &Drawing) -> Expected {
     assert_eq!(drawing.broken(), Vec::<&str>::new());
     Expected::of(drawing)
 }
 
-/// Rows, rank, redundancy, mobility.
+/// Returns rows, rank, redundancy and mobility.
 fn counts(expected: &Expected) -> [usize; 4] {
     let e = expected;
     [e.rows, e.rank, e.redundancy, e.mobility]
 }
 
-/// The components of a joint as letters, unique ones as `u`.
+/// Returns the components of a joint as letters; unique components are `u`.
 fn letters(expected: &Expected, joint: usize) -> String {
     let components = expected.reactions[joint].components().iter();
     let letter = |v: &Verdict| if v.is_unique() { 'u' } else { 'n' };
@@ -80,7 +80,8 @@ fn v3_four_bars() {
 
     let expected = answer(&four_bar([R, R, R, S]));
     assert_eq!(counts(&expected), [18, 17, 1, 1]);
-    // A force along z through D is handed round; its moment about A has no part along A–D ∥ x.
+    // The self-stress is a force along z through D; its moment about A has no component along A–D ∥
+    // x.
     assert_eq!(
         all_letters(&expected),
         ["uununu", "uunnnu", "uunnnu", "uunuuu"]
@@ -108,7 +109,7 @@ fn v3_four_bars_with_a_universal_joint() {
 
     let mut drawing = four_bar_with_flat_cross();
     assert_eq!(counts(&answer(&drawing)), [17, 16, 1, 2]);
-    // The same with the axes in the other bodies.
+    // The test repeats this with the axes in the other bodies.
     let swapped = drawing.joints[2].kind.swapped();
     drawing.joints[2].kind = swapped.expect("its axes can be exchanged");
     assert_eq!(counts(&answer(&drawing)), [17, 16, 1, 2]);
@@ -206,8 +207,8 @@ fn v18_hexapod() {
     assert_eq!(left, Some([72, 0, 6]));
 }
 
-/// Three redundant rows for each parallelogram, and three for the platform, whose three turns are
-/// excluded by two couples of each leg.
+/// Each parallelogram has three redundant rows, and the platform has three more, because two
+/// couples of each leg exclude its three rotations.
 #[test]
 fn v19_delta() {
     assert_eq!(counts(&answer(&delta())), [105, 93, 12, 3]);
@@ -228,7 +229,7 @@ fn v22_cars() {
     assert_eq!(counts(&straight), [32, 29, 3, 1]);
     let turned = answer(&car(&Ratio::new(1, 10)));
     assert_eq!(counts(&turned), [32, 30, 2, 0]);
-    // The four contacts carry a pattern of normal forces that sums to nothing.
+    // The four contacts carry a pattern of normal forces with a zero sum.
     for expected in [straight, turned] {
         assert_eq!(
             (expected.rank_holonomic, expected.rank_nonholonomic),

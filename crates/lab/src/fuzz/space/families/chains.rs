@@ -14,8 +14,8 @@ pub(super) fn chains(pen: &mut Pen<'_>) {
     }
 }
 
-/// A tree: rows of joints that close no loop are independent. An edge on its last body is
-/// independent too, if that body can move along it; theory does not ask.
+/// Draws a tree: rows of joints that close no loop are independent. An edge on its last body is
+/// also independent, if that body can move along its normal; theory does not check this.
 fn tree(pen: &mut Pen<'_>) {
     let mut bodies: Vec<Side> = vec![pen.base];
     for _ in 0..1 + pen.numbers.below(4) {
@@ -34,7 +34,7 @@ fn tree(pen: &mut Pen<'_>) {
     }
 }
 
-/// A loop of joints, most of whose axes are parallel in two loops of three.
+/// Draws a loop of joints; in two of three loops most of the axes are parallel.
 fn ring(pen: &mut Pen<'_>) {
     let n = 3 + pen.numbers.below(4);
     let (common, centre) = (pen.direction(), pen.point());
@@ -59,7 +59,7 @@ fn ring(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Axes through one point: all wrenches are forces through it, as far as the axes span space.
+/// Draws axes through one point: all wrenches are forces through it, if the axes span space.
 pub(super) fn spherical(pen: &mut Pen<'_>) {
     let n = 3 + pen.numbers.below(4);
     let centre = pen.point();

@@ -15,8 +15,8 @@ pub(super) fn couplings(pen: &mut Pen<'_>) {
     }
 }
 
-/// R P P R with parallel shafts and sliders across them, which need not be perpendicular: p = 3.
-/// With parallel sliders the shafts turn together, or the middle piece slides: p = 4.
+/// Draws R P P R with parallel shafts and sliders across them, which need not be perpendicular: p
+/// = 3. With parallel sliders the shafts rotate together, or the middle piece slides: p = 4.
 fn oldham(pen: &mut Pen<'_>) {
     let z = Vector::unit(2);
     let zero = Ratio::zero();
@@ -45,7 +45,7 @@ fn oldham(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Two shafts whose axes meet, and the axes of a cross between them.
+/// Returns two shafts whose axes meet, and the axes of a cross between them.
 fn shafts(pen: &mut Pen<'_>) -> [Vector; 4] {
     loop {
         let (first, second) = (pen.direction(), pen.direction());
@@ -57,13 +57,13 @@ fn shafts(pen: &mut Pen<'_>) -> [Vector; 4] {
     }
 }
 
-/// A bearing of a shaft, some steps from its centre.
+/// Adds a bearing of a shaft, some steps from its centre.
 fn bearing(pen: &mut Pen<'_>, centre: &Vector, axis: &Vector) -> Vector {
     let steps = &pen.not_zero(4) * &pen.step;
     centre.along(&steps, axis)
 }
 
-/// The cross as a body: four axes through one point.
+/// Draws the cross as a body: four axes through one point.
 fn hooke(pen: &mut Pen<'_>) {
     let [first, a, b, second] = shafts(pen);
     let centre = pen.point();
@@ -92,7 +92,7 @@ fn hooke(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// The same as one universal joint: p = 3.
+/// Draws the cross as one universal joint: p = 3.
 fn universal(pen: &mut Pen<'_>) {
     let [first, _, _, second] = shafts(pen);
     let centre = pen.point();
@@ -100,7 +100,7 @@ fn universal(pen: &mut Pen<'_>) {
         bearing(pen, &centre, &first),
         bearing(pen, &centre, &second),
     );
-    // The axes of the cross are any that are perpendicular, each across its own shaft.
+    // The axes of the cross are any perpendicular axes, each perpendicular to its own shaft.
     let a = pen.across(&first);
     let b = second.cross(&a);
     let kinds = [
@@ -117,7 +117,7 @@ fn universal(pen: &mut Pen<'_>) {
     pen.drives(joint);
 }
 
-/// A shaft between two universal joints, with or without a sliding piece.
+/// Draws a shaft between two universal joints, with or without a sliding piece.
 fn cardan(pen: &mut Pen<'_>) {
     let [first, a, _, middle] = shafts(pen);
     let centre = pen.point();

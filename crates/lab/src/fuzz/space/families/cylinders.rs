@@ -1,4 +1,4 @@
-//! A lid that is lifted by parallel hydraulic cylinders.
+//! Draws a lid that parallel hydraulic cylinders lift.
 
 use super::super::catalogue::{cylindrical, revolute, translational};
 use super::super::drawing::{Kind, Measure};
@@ -25,7 +25,7 @@ pub(super) fn cylinders(pen: &mut Pen<'_>) {
         let [foot, pin] = [1, 2].map(|i| points[i].along(&height, &z));
         let rod = &pin - &foot;
         let middle = foot.along(&Ratio::new(1, 3), &rod);
-        // A cylindrical joint in place of the translational one frees the spin of its tube.
+        // If a cylindrical joint replaces the translational one, its tube can spin.
         let slides = if with_guides {
             translational(&middle, &rod)
         } else {

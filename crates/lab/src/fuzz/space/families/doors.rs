@@ -1,4 +1,4 @@
-//! A door on two to four coaxial hinges.
+//! Draws a door on two to four coaxial hinges.
 
 use super::super::catalogue::{cylindrical, revolute};
 use super::super::drawing::{Kind, Measure};
@@ -35,7 +35,8 @@ pub(super) fn doors(pen: &mut Pen<'_>) {
         let joint = pen.joint([base, door], kind);
         hinge = measure.map(|m| (joint, m)).or(hinge);
     }
-    // Any two of them leave the rotation, and the sliding if none holds the door along the axis.
+    // Any two hinges leave the rotation free, and also the sliding if no hinge constrains the door
+    // along the axis.
     pen.expects(rows - if holds_along { 5 } else { 4 });
     if let Some((joint, measure)) = hinge.filter(|_| pen.once_in(4)) {
         pen.drive(joint, measure);

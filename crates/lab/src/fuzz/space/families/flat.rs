@@ -15,7 +15,7 @@ pub(super) fn flat(pen: &mut Pen<'_>) {
     }
 }
 
-/// Three to five joints of any kind at points of a plane.
+/// Draws three to five joints of any kind at points of a plane.
 fn ring(pen: &mut Pen<'_>) {
     const KINDS: [Flat; 9] = [
         Flat::R,
@@ -40,7 +40,7 @@ fn ring(pen: &mut Pen<'_>) {
                 at: p.clone(),
                 normal: Vector::unit(2),
             },
-            // Sliders along any direction of the plane, universal joints about any axes.
+            // Sliders have any direction in the plane, and universal joints any axes.
             (kind, _) => joint(kind, p).mapped(&Vector::clone, &|d| turn.of(d)),
         }
     });
@@ -50,8 +50,8 @@ fn ring(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Parallel revolute axes, at points of different heights: p = 3, and one more if all axes lie in
-/// one plane.
+/// Draws parallel revolute axes, at points of different heights: p = 3, and one more if all axes
+/// are in one plane.
 fn revolute_ring(pen: &mut Pen<'_>) {
     let n = 4 + pen.numbers.below(2);
     let zero = Ratio::zero();
@@ -68,7 +68,7 @@ fn revolute_ring(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// A coupler on two to four parallel cranks of equal length.
+/// Draws a coupler on two to four parallel cranks of equal length.
 fn cranks(pen: &mut Pen<'_>) {
     let n = 2 + pen.numbers.below(3);
     let (base, coupler) = (pen.base, pen.body());
@@ -87,15 +87,15 @@ fn cranks(pen: &mut Pen<'_>) {
         let (_, joint) = pen.chain(base, coupler, &joints);
         first = first.min(joint);
     }
-    // In the plane each further crank repeats the angle of the coupler; one that points along the
-    // line of all feet is at its flat pose.
+    // In the plane each further crank repeats the angle of the coupler; if the cranks point along
+    // the line of all feet, the configuration is singular.
     let is_flat = feet.iter().all(|f| (f - &feet[0]).is_along(&crank));
     let in_plane = if is_flat { n - 1 } else { n - 2 };
     pen.expects(in_plane + 3 * (n - 1));
     pen.drives(first);
 }
 
-/// Parallelograms side by side.
+/// Draws parallelograms side by side.
 fn parallelograms(pen: &mut Pen<'_>) {
     let n = 1 + pen.numbers.below(3);
     let zero = Ratio::zero();

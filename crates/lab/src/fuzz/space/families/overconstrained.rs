@@ -11,9 +11,9 @@ use super::pen::Pen;
 ///
 /// Source: O. Bottema, B. Roth, Theoretical Kinematics (1979), ch. VII: a/sin α = b/sin β and
 /// tan(θ/2)·tan(φ/2) = (tan(β/2) + tan(α/2))/(tan(β/2) − tan(α/2)) for the angles θ, φ, −θ, −φ at
-/// the joints; so fractions for half tangents and a make all coordinates fractions.
+/// the joints. So all coordinates are fractions if the half tangents and a are fractions.
 struct Bennett {
-    /// a, tan(α/2), tan(β/2), tan(θ/2).
+    /// The values a, tan(α/2), tan(β/2), tan(θ/2).
     length: Ratio,
     alpha: Ratio,
     beta: Ratio,
@@ -40,7 +40,7 @@ impl Bennett {
         let mut frame = first.clone();
         links.map(|(length, twist, turn)| {
             let joint = revolute(&frame.shift, &frame.direction(&z));
-            // Along the link and about it, then about the next joint.
+            // The motion is along the link and about it, then about the next joint.
             let along = Motion::rigid(Rotation::about(&x, twist), x.times(length));
             let about = Motion::rigid(Rotation::about(&z, &turn), Vector::zero());
             frame = frame.after(&along).after(&about);
@@ -49,7 +49,7 @@ impl Bennett {
     }
 }
 
-/// A linkage with the link of another one: the same a and α.
+/// Returns a linkage with the link of another linkage: the same a and α.
 fn another(pen: &mut Pen<'_>, like: Option<&Bennett>) -> Bennett {
     let (length, alpha) = match like {
         Some(b) => (b.length.clone(), b.alpha.clone()),
@@ -91,9 +91,10 @@ pub(super) fn bennett(pen: &mut Pen<'_>) {
     }
 }
 
-/// Two Bennett linkages that share the link 1–2. Their links 4–1 are one body, the base. Without
-/// the shared link the other two links at joint 2 are hinged to each other: Goldberg's 5R linkage,
-/// 25 rows of rank 23. With it: 35 rows of rank 29. If the linkages coincide, theory says nothing.
+/// Draws two Bennett linkages that share the link 1–2. Their links 4–1 are one body, the base.
+/// Without the shared link a hinge connects the other two links at joint 2: Goldberg's 5R linkage,
+/// 25 rows of rank 23. With the shared link there are 35 rows of rank 29. If the linkages coincide,
+/// theory gives no result.
 fn goldberg(pen: &mut Pen<'_>, one: [Kind; 4], other: [Kind; 4], is_merged: bool) {
     let coincide = one[2] == other[2];
     let base = pen.base;
@@ -103,7 +104,7 @@ fn goldberg(pen: &mut Pen<'_>, one: [Kind; 4], other: [Kind; 4], is_merged: bool
     if is_merged {
         pen.expects(2);
     } else {
-        // The joint at 2 leads to the shared link, which is hinged to the base at 1.
+        // The joint at 2 connects to the shared link, which has a hinge with the base at 1.
         let shared = pen.body();
         pen.joint([base, shared], j1);
         pen.joint([shared, bodies[2]], k2);
@@ -124,9 +125,9 @@ pub(super) fn six_bars(pen: &mut Pen<'_>) {
     }
 }
 
-/// Two to four legs of three parallel revolute joints: a platform that keeps its orientation and
-/// moves along one line. Each leg holds it by one force and two couples; together they leave one
-/// freedom if two legs differ in direction.
+/// Draws two to four legs of three parallel revolute joints: a platform that keeps its orientation
+/// and moves along one line. Each leg constrains it by one force and two couples; together they
+/// leave one freedom if two legs differ in direction.
 fn sarrus(pen: &mut Pen<'_>) {
     let n = 2 + pen.numbers.below(3);
     let (base, platform) = (pen.base, pen.body());
@@ -144,7 +145,7 @@ fn sarrus(pen: &mut Pen<'_>) {
         let joints = [low, knee, high].map(|p| revolute(&turn.of(&p.times(&pen.step)), &axis));
         let (_, joint) = pen.chain(base, platform, &joints);
         first = first.min(joint);
-        // The second leg never stands opposite to the first.
+        // The second leg is never opposite to the first.
         let next = if k == 0 {
             Rotation::about(&Vector::unit(2), &Ratio::new(1, 2))
         } else {
@@ -156,7 +157,7 @@ fn sarrus(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Bricard's linkage along the edges of a cube.
+/// Draws Bricard's linkage along the edges of a cube.
 fn cube(pen: &mut Pen<'_>) {
     let joints = super::super::catalogue::bricard().joints.into_iter();
     let step = pen.step.clone();
@@ -167,18 +168,19 @@ fn cube(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Bricard's line-symmetric linkage: three axes, and their images in a half turn.
+/// Draws Bricard's line-symmetric linkage: three axes, and their images under a half turn.
 fn symmetric(pen: &mut Pen<'_>, image: impl Fn(&Vector) -> Vector) {
     let own = [0; 3].map(|_| revolute(&pen.point(), &pen.direction()));
     let joints = own.each_ref().map(|j| j.mapped(&image, &image));
     let joints: Vec<Kind> = own.into_iter().chain(joints).collect();
     let (_, first) = pen.chain(pen.base, pen.base, &joints);
-    // Generic ones have p = 1; axes of small whole numbers may have more in common.
+    // Generic linkages have p = 1; axes of small integers may have more common properties.
     pen.unknown();
     pen.drives(first);
 }
 
-/// Bricard's plane-symmetric linkage: two axes in the mirror, and two with their images.
+/// Draws Bricard's plane-symmetric linkage: two axes in the mirror plane, and two with their
+/// images.
 fn mirrored(pen: &mut Pen<'_>) {
     let zero = Ratio::zero();
     let mirror = |p: &Vector| Vector([p.0[0].clone(), p.0[1].clone(), -&p.0[2]]);

@@ -1,4 +1,4 @@
-//! Draws on a grid: random points, directions and joints of the families.
+//! Draws random points, directions and joints of the families on a grid.
 
 use super::super::drawing::{Drawing, Kind, Measure, Side};
 use super::super::pose::{any_turn, quarter};
@@ -10,7 +10,7 @@ use suite::numbers::Numbers;
 /// Step sizes of the grid.
 const STEPS: [(i64, i64); 6] = [(1, 1), (1, 2), (1, 3), (1, 10), (3, 10), (1, 7)];
 
-/// Legs and hypotenuses.
+/// Legs and hypotenuses of right triangles.
 const TRIPLES: [[i64; 3]; 6] = [
     [3, 4, 5],
     [5, 12, 13],
@@ -20,15 +20,15 @@ const TRIPLES: [[i64; 3]; 6] = [
     [12, 35, 37],
 ];
 
-/// Draws a piece in coordinates of its own.
+/// Draws a piece in separate coordinates.
 pub(super) struct Pen<'a> {
     drawing: &'a mut Drawing,
     pub(super) numbers: &'a mut Numbers,
-    /// What the piece stands on.
+    /// Base of the piece.
     pub(super) base: Side,
     /// The step of the grid.
     pub(super) step: Ratio,
-    /// From the coordinates of the piece to the drawing.
+    /// Transformation from the coordinates of the piece to the drawing.
     placement: Motion,
 }
 
@@ -54,22 +54,22 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Leaves the piece where it is in its own coordinates, as one that needs the ground.
+    /// Keeps the piece at its own coordinates, for a piece that needs the ground.
     pub(super) fn stand_on_ground(&mut self) {
         self.base = None;
     }
 
-    /// True in one of n cases.
+    /// Returns true in one of n cases.
     pub(super) fn once_in(&mut self, n: usize) -> bool {
         self.numbers.once_in(n)
     }
 
-    /// A whole number in low..=high.
+    /// Returns an integer in low..=high.
     pub(super) fn whole(&mut self, low: i32, high: i32) -> Ratio {
         Ratio::whole(self.numbers.between(low, high).into())
     }
 
-    /// A whole number between −most and most, but not 0.
+    /// Returns an integer between −most and most, but not 0.
     pub(super) fn not_zero(&mut self, most: i32) -> Ratio {
         loop {
             let x = self.whole(-most, most);
@@ -79,20 +79,20 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A point of the grid.
+    /// Returns a point of the grid.
     pub(super) fn point(&mut self) -> Vector {
         let whole = [0; 3].map(|_| self.whole(-8, 8));
         Vector(whole).times(&self.step)
     }
 
-    /// A point of the grid with this third coordinate.
+    /// Returns a point of the grid with this third coordinate.
     pub(super) fn point_at(&mut self, z: &Ratio) -> Vector {
         let mut p = self.point();
         p.0[2] = z.clone();
         p
     }
 
-    /// Points that lie in pairs at different places.
+    /// Returns points that are pairwise different.
     pub(super) fn points(&mut self, n: usize, z: &Ratio) -> Vec<Vector> {
         let mut points: Vec<Vector> = Vec::new();
         while points.len() < n {
@@ -104,7 +104,7 @@ impl<'a> Pen<'a> {
         points
     }
 
-    /// A direction, often along a coordinate axis.
+    /// Returns a direction, often along a coordinate axis.
     pub(super) fn direction(&mut self) -> Vector {
         match self.numbers.below(3) {
             0 => Vector::unit(self.numbers.below(3)),
@@ -112,19 +112,19 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A direction across another one.
+    /// Returns a direction perpendicular to another one.
     pub(super) fn across(&mut self, w: &Vector) -> Vector {
         any_across(w, self.numbers)
     }
 
-    /// Cosine and sine of an angle, both fractions.
+    /// Returns cosine and sine of an angle, both fractions.
     pub(super) fn angle(&mut self) -> [Ratio; 2] {
         let [a, b, c] = TRIPLES[self.numbers.below(TRIPLES.len())];
         let (a, b) = if self.once_in(2) { (a, b) } else { (b, a) };
         [a, b].map(|x| Ratio::new(x, c))
     }
 
-    /// A half tangent that is neither 0 nor ±1.
+    /// Returns a half tangent that is neither 0 nor ±1.
     pub(super) fn half_tangent(&mut self) -> Ratio {
         let (n, d) = (self.numbers.between(1, 4), self.numbers.between(1, 4));
         let n = if n == d { n + 1 } else { n };
@@ -135,7 +135,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// A rotation about an axis of the piece, one of the three coordinate axes.
+    /// Returns a rotation about an axis of the piece, one of the three coordinate axes.
     pub(super) fn turn_about(&mut self, axis: usize) -> Rotation {
         Rotation::about(&Vector::unit(axis), &self.half_tangent())
     }
@@ -171,12 +171,12 @@ impl<'a> Pen<'a> {
         (bodies, first)
     }
 
-    /// Adds what theory says of the redundancy of this piece.
+    /// Adds the redundancy of this piece according to theory.
     pub(super) fn expects(&mut self, redundancy: usize) {
         self.drawing.redundancy = self.drawing.redundancy.map(|p| p + redundancy);
     }
 
-    /// Theory says nothing of this piece.
+    /// States that theory gives no result for this piece.
     pub(super) fn unknown(&mut self) {
         self.drawing.redundancy = None;
     }
@@ -204,19 +204,19 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Drives a joint. What theory says does not hold any more.
+    /// Drives a joint. The redundancy according to theory is no longer valid.
     pub(super) fn drive(&mut self, joint: usize, measure: Measure) {
         self.drawing.drive(joint, measure);
         self.unknown();
     }
 
-    /// Any joint of two bodies, anywhere.
+    /// Returns any joint of two bodies, at a random position.
     pub(super) fn any_joint(&mut self) -> Kind {
         let (at, axis) = (self.point(), self.direction());
         self.any_joint_at(at, axis)
     }
 
-    /// Any joint of two bodies, at a point and about an axis.
+    /// Returns any joint of two bodies, at a point and about an axis.
     pub(super) fn any_joint_at(&mut self, at: Vector, axis: Vector) -> Kind {
         let across = self.across(&axis);
         let (steps, aside) = (self.whole(-3, 3), self.whole(-3, 3));

@@ -1,5 +1,4 @@
-//! Platforms on rods and legs: rods that spin about themselves, lines of force that depend on each
-//! other.
+//! Platforms on rods and legs: rods that spin about their own axes, and dependent lines of force.
 
 use super::super::catalogue::translational;
 use super::super::drawing::{Kind, Measure};
@@ -15,7 +14,7 @@ pub(super) fn platforms(pen: &mut Pen<'_>) {
     }
 }
 
-/// Ends of n bars: on the base and on the platform.
+/// Returns ends of n bars: on the base and on the platform.
 fn ends(pen: &mut Pen<'_>, n: usize) -> Vec<[Vector; 2]> {
     let way = pen.numbers.below(6);
     let (zero, height) = (Ratio::zero(), &pen.whole(1, 6) * &pen.step);
@@ -25,11 +24,11 @@ fn ends(pen: &mut Pen<'_>, n: usize) -> Vec<[Vector; 2]> {
         let (low, high) = (pen.point_at(&zero), pen.point_at(&height));
         let factor = &pen.not_zero(3) * &pen.step;
         let pair = match way {
-            // Through one point, parallel, or all meeting one line.
+            // The lines pass through one point, are parallel, or all meet one line.
             0 => [centre.clone(), high],
             1 => [low.clone(), low.along(&factor, &common)],
             2 => [centre.along(&factor, &common), high],
-            // In one plane.
+            // The lines are in one plane.
             3 => [pen.point_at(&zero), low],
             _ => [low, high],
         };
@@ -40,7 +39,7 @@ fn ends(pen: &mut Pen<'_>, n: usize) -> Vec<[Vector; 2]> {
     ends
 }
 
-/// Massless bars.
+/// Draws massless bars.
 fn bars(pen: &mut Pen<'_>) {
     let (base, platform) = (pen.base, pen.body());
     let n = 4 + pen.numbers.below(4);
@@ -50,7 +49,7 @@ fn bars(pen: &mut Pen<'_>) {
     pen.unknown();
 }
 
-/// The same as bodies between spherical joints, each of which spins idly; some have a universal
+/// Draws the bars as bodies between spherical joints, each with a free spin; some have a universal
 /// joint at one end.
 fn rods(pen: &mut Pen<'_>) {
     let (base, platform) = (pen.base, pen.body());
@@ -72,7 +71,7 @@ fn rods(pen: &mut Pen<'_>) {
     pen.unknown();
 }
 
-/// Legs with a universal, a translational and a spherical joint, driven or not.
+/// Draws legs with a universal, a translational and a spherical joint, driven or not.
 fn legs(pen: &mut Pen<'_>) {
     let (base, platform) = (pen.base, pen.body());
     let n = 3 + pen.numbers.below(3);
@@ -94,6 +93,6 @@ fn legs(pen: &mut Pen<'_>) {
             pen.drive(joint + 1, Measure::Displacement);
         }
     }
-    // Each leg leaves all six freedoms of the platform, if it is not driven.
+    // Each leg without a drive leaves all six freedoms of the platform.
     pen.expects(0);
 }

@@ -25,7 +25,8 @@ fn rests(pen: &mut Pen<'_>, pair: [Side; 2], at: Vector, normal: Vector) {
     pen.joint(pair, kind);
 }
 
-/// A table on three to five points of a plane: three of them hold it, two if all lie on a line.
+/// Draws a table on three to five points of a plane: three of them constrain it, or two if all are
+/// on a line.
 fn table(pen: &mut Pen<'_>) {
     let (base, table) = (pen.base, pen.body());
     let zero = Ratio::zero();
@@ -51,7 +52,7 @@ fn point_on(side: &Vector, k: usize) -> Vector {
     side.times(&Ratio::whole(k as i64 * 2 - 3))
 }
 
-/// Three to five balls in grooves that meet in a point, are parallel, or are arbitrary.
+/// Draws three to five balls in grooves that meet in a point, are parallel, or are arbitrary.
 fn grooves(pen: &mut Pen<'_>) {
     let (base, body) = (pen.base, pen.body());
     let zero = Ratio::zero();
@@ -76,8 +77,8 @@ fn grooves(pen: &mut Pen<'_>) {
     pen.unknown();
 }
 
-/// A ball in a cone, one in a groove and one on a plane: six rows, independent as long as the
-/// groove does not point across the line to the cone.
+/// Draws a ball in a cone, one in a groove and one on a plane: the six rows are independent unless
+/// the groove is perpendicular to the line to the cone.
 fn cone_groove_plane(pen: &mut Pen<'_>) {
     let (base, body) = (pen.base, pen.body());
     let zero = Ratio::zero();
@@ -96,7 +97,7 @@ fn cone_groove_plane(pen: &mut Pen<'_>) {
     pen.unknown();
 }
 
-/// A body on up to eight points of three perpendicular planes, or oblique ones.
+/// Draws a body on up to eight points of three perpendicular planes, or oblique ones.
 fn box_on_planes(pen: &mut Pen<'_>) {
     let (base, body) = (pen.base, pen.body());
     let is_square = pen.once_in(2);

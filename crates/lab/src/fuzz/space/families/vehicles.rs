@@ -1,4 +1,4 @@
-//! Chassis on wheels that roll without slip, and bodies on edges.
+//! Chassis on wheels that roll without slip, and bodies on knife edges.
 
 use super::super::catalogue::{cylindrical, revolute};
 use super::super::drawing::{GROUND, Kind, Side};
@@ -20,8 +20,7 @@ pub(super) fn vehicles(pen: &mut Pen<'_>) {
     }
 }
 
-/// A wheel in a hub of the chassis, with its contact at z = 0 and the axis turned by a rotation
-/// about z.
+/// Adds a wheel in a hub of the chassis, with its contact at z = 0 and the axis rotated about z.
 fn wheel(pen: &mut Pen<'_>, chassis: Side, [x, y]: [&Ratio; 2], radius: &Ratio, turn: &Rotation) {
     let axis = turn.of(&Vector::unit(1));
     let contact = Vector([x.clone(), y.clone(), Ratio::zero()]);
@@ -45,9 +44,10 @@ fn wheel(pen: &mut Pen<'_>, chassis: Side, [x, y]: [&Ratio; 2], radius: &Ratio, 
     pen.joint([wheel, GROUND], kind);
 }
 
-/// Four wheels at the corners of a rectangle; the front ones are turned in parallel. Straight: one
-/// pattern of normal forces, one side force on each axle. Turned, if the front axle is not at the
-/// rear one: the two side forces of the axles act at two lines each, and all motion is blocked.
+/// Draws four wheels at the corners of a rectangle; the front wheels are steered in parallel. In
+/// the straight position there is one pattern of normal forces, and one side force on each axle. In
+/// the steered position, if the front axle is not at the rear one, the two side forces of each axle
+/// act on two separate lines, and all motion is blocked.
 fn car(pen: &mut Pen<'_>, half_tangent: &Ratio) {
     let chassis = pen.body();
     let (length, width) = (&pen.whole(1, 6) * &pen.step, &pen.whole(1, 4) * &pen.step);
@@ -65,7 +65,7 @@ fn car(pen: &mut Pen<'_>, half_tangent: &Ratio) {
     }
 }
 
-/// Three to five wheels anywhere, each turned on its own or as the others.
+/// Draws three to five wheels anywhere, each rotated independently or like the others.
 fn turned(pen: &mut Pen<'_>) {
     let chassis = pen.body();
     let n = 2 + pen.numbers.below(4);
@@ -83,7 +83,8 @@ fn turned(pen: &mut Pen<'_>) {
     }
 }
 
-/// Free disks that lean, some of them joined to another body at their centre or about their axis.
+/// Draws free disks that lean; some have a joint with another body at their centre or about their
+/// axis.
 fn tilted(pen: &mut Pen<'_>) {
     let body = pen.body();
     pen.unknown();
@@ -93,7 +94,7 @@ fn tilted(pen: &mut Pen<'_>) {
         let [cosine, sine] = pen.angle();
         let turn = pen.turn_about(2);
         let radius = &pen.whole(1, 4) * &pen.step;
-        // The lowest spoke is (0, −sine, −cosine) before the turn, across the axis.
+        // The lowest spoke is (0, −sine, −cosine) before the rotation, perpendicular to the axis.
         let axis = Vector([zero.clone(), cosine.clone(), -&sine]);
         let spoke = Vector([zero.clone(), -&sine, -&cosine]);
         let (axis, spoke) = (turn.of(&axis), turn.of(&spoke));
@@ -114,7 +115,8 @@ fn tilted(pen: &mut Pen<'_>) {
     }
 }
 
-/// A sledge on a plane, or free, with edges whose normals are parallel, meet, or do neither.
+/// Draws a sledge on a plane, or a free one, with edges whose normals are parallel, meet, or do
+/// neither.
 fn edges(pen: &mut Pen<'_>) {
     let sledge = pen.body();
     let zero = Ratio::zero();

@@ -1,5 +1,5 @@
-//! Rows do no work in the motions that a joint allows, and they forbid all others. The motions are
-//! written down joint by joint: velocities of the second body while the first rests.
+//! Tests that rows do no work in the motions that a joint allows, and that they exclude all others.
+//! The motions are listed joint by joint: velocities of the second body while the first is at rest.
 
 use super::super::drawing::GROUND;
 use super::super::ratio::{Ratio, whole_multiples};
@@ -7,13 +7,13 @@ use super::super::vector::{Rotation, parts, whole};
 use super::*;
 use exact::Exact;
 
-/// A velocity of the second body: of its point at the origin of the ground, and of rotation.
+/// A velocity of the second body: of its point at the origin of the ground, and of the rotation.
 struct Twist {
     velocity: Vector,
     rotation: Vector,
 }
 
-/// A rotation about an axis through p.
+/// Returns a rotation about an axis through p.
 fn turn(p: &Vector, axis: &Vector) -> Twist {
     Twist {
         velocity: p.cross(axis),
@@ -28,7 +28,7 @@ fn slide(along: &Vector) -> Twist {
     }
 }
 
-/// Rotations about all axes through a point.
+/// Returns rotations about all axes through a point.
 fn ball(p: &Vector) -> Vec<Twist> {
     (0..3).map(|k| turn(p, &Vector::unit(k))).collect()
 }
@@ -37,7 +37,7 @@ fn power(wrench: &Wrench, twist: &Twist) -> Ratio {
     &wrench.force.dot(&twist.velocity) + &wrench.moment.dot(&twist.rotation)
 }
 
-/// Checks the rows of a joint between a turned body and a second one against its free motions.
+/// Compares the rows of a joint between a rotated body and a second body with its free motions.
 fn check(kind: Kind, free: &[Twist]) {
     let name = kind.name();
     assert!(kind.holds(), "{name}");
@@ -51,7 +51,7 @@ fn check(kind: Kind, free: &[Twist]) {
     };
     drawing.joint(pair, kind);
     let rows = Wrenches::from(&drawing).rows;
-    // On the second body.
+    // The wrenches act on the second body.
     let wrenches = || rows.iter().map(|row| &row.loads[1].1);
     for wrench in wrenches() {
         for twist in free {
@@ -176,7 +176,7 @@ fn rods_edges_and_wheels_do_no_work_in_the_motions_that_they_allow() {
         },
         &free,
     );
-    // A wheel turns about every axis through the point that touches.
+    // A wheel rotates about every axis through the point of contact.
     let contact = parts([1, 1, 0], 2);
     check(
         Kind::Wheel {
@@ -216,7 +216,7 @@ fn the_basis_follows_the_least_axis_of_the_first_body() {
         axis: axis.clone(),
     };
     drawing.joint([body, GROUND], kind);
-    // y lies least along the axis: u = 9·y − (2, 1, 2).
+    // The y-axis has the smallest component along the axis: u = 9·y − (2, 1, 2).
     let [u, v] = basis(&drawing, &drawing.joints[0], &axis);
     assert_eq!(u, whole([-2, 8, -2]));
     assert_eq!(v, axis.cross(&u));
@@ -226,7 +226,8 @@ fn the_basis_follows_the_least_axis_of_the_first_body() {
         &drawing.joints[0],
         &Vector::unit(2)
     ));
-    // After half of a turn about the diagonal of x and z the same axis of the body stays least.
+    // After half a turn about the diagonal of x and z the same axis of the body still has the
+    // smallest component.
     drawing.bodies[0].orientation = Rotation::whole([0, 1, 0, 1]);
     let [turned, _] = basis(&drawing, &drawing.joints[0], &axis);
     assert_eq!(turned, whole([2, -8, 2]));

@@ -1,4 +1,4 @@
-//! The text, read by a second reader in doubles, puts every joint where it is drawn.
+//! Tests that a second reader of the text, in doubles, obtains every joint at its drawn position.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use toml::{Table, Value};
 use super::super::{catalogue, scenes};
 use super::*;
 
-/// Relative error of places and directions that are computed from the text in doubles.
+/// Relative error of points and directions that are computed from the text in doubles.
 const ROUNDING: f64 = 1e-13;
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -84,7 +84,7 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|x| x / length)
 }
 
-/// Points of the first and of the second body, in the ground.
+/// Returns points of the first and of the second body, in the ground.
 fn points(joint: &Table, names: &[&str], frames: &BTreeMap<String, Frame>) -> Vec<[f64; 3]> {
     if let Some(at) = joint.get("at") {
         let list = at.as_array().expect("a list");
@@ -103,7 +103,7 @@ fn points(joint: &Table, names: &[&str], frames: &BTreeMap<String, Frame>) -> Ve
     names.iter().map(place).collect()
 }
 
-/// Directions of the first and of the second axis, in the ground, of length 1.
+/// Returns directions of the first and of the second axis, in the ground, of length 1.
 fn directions(joint: &Table, names: &[&str], frames: &BTreeMap<String, Frame>) -> Vec<[f64; 3]> {
     let is_global = joint.get("frame").is_some();
     let frame = &frames[if is_global { "ground" } else { names[0] }];
@@ -123,7 +123,7 @@ fn directions(joint: &Table, names: &[&str], frames: &BTreeMap<String, Frame>) -
     found.map(in_frame).collect()
 }
 
-/// Points and directions as they are drawn.
+/// Returns points and directions as drawn.
 fn drawn(kind: &Kind) -> (Vec<&Vector>, Vec<&Vector>) {
     match kind {
         Kind::Spherical { at } | Kind::Fixed { at } => (vec![at, at], vec![]),

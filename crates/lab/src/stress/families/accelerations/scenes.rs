@@ -1,4 +1,4 @@
-//! Mechanisms in ordinary configurations, with extraordinary masses and lengths.
+//! Mechanisms in ordinary configurations, with extreme masses and lengths.
 
 use model::{Body, BodyRef, Description, Function};
 
@@ -19,11 +19,11 @@ const LINKS: usize = 6;
 /// A mechanism at its start.
 pub(super) struct Scene {
     pub(super) name: String,
-    /// The quantity that is extraordinary, and its power of ten.
+    /// The extreme quantity, and its power of ten.
     pub(super) varied: &'static str,
     pub(super) value: f64,
     pub(super) description: Description,
-    /// The words of the refusal, if the data in 53 bits do not define the mechanism.
+    /// The words of the error message, if the data in 53 bits do not define the mechanism.
     pub(super) limit: Option<&'static str>,
 }
 
@@ -39,7 +39,7 @@ impl Scene {
     }
 }
 
-/// All of them.
+/// Returns all scenes.
 pub(super) fn scenes() -> Vec<Scene> {
     let mut scenes = Vec::new();
     for power in MASSES {
@@ -83,7 +83,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     scenes
 }
 
-/// A chain of rods, hanging from the origin at general angles and rates.
+/// Returns a chain of rods, hanging from the origin at general angles and rates.
 fn chain(mass: impl Fn(usize) -> f64, length: impl Fn(usize) -> f64) -> Description {
     let mut bodies: Vec<Body> = Vec::new();
     let mut joints = Vec::new();
@@ -121,7 +121,7 @@ fn power_of_ten(power: f64) -> f64 {
     10_f64.powf(power)
 }
 
-/// A mass or length that grows from 1 to 10^power along the chain.
+/// Returns a mass or length that grows from 1 to 10^power along the chain.
 fn growing(power: i32) -> impl Fn(usize) -> f64 {
     move |k| power_of_ten(f64::from(power) * k as f64 / (LINKS - 1) as f64)
 }
@@ -184,7 +184,7 @@ fn chains_of_lengths(power: i32) -> [(&'static str, Description); 4] {
     ]
 }
 
-/// Closed loops with one body of another mass.
+/// Returns closed loops with one body of a different mass.
 fn loops(power: i32) -> [(&'static str, Description); 5] {
     let by = power_of_ten(f64::from(power));
     let heavier = |mut d: Description, body: usize| {
@@ -210,7 +210,7 @@ fn loops(power: i32) -> [(&'static str, Description); 5] {
     ]
 }
 
-/// A crank, a coupler and a rocker of unequal lengths.
+/// Returns a crank, a coupler and a rocker of unequal lengths.
 fn four_bar() -> Description {
     let points = [[0.0, 0.0], [0.6, 0.8], [3.5, 2.1], [4.0, 0.0]];
     let names = ["crank", "coupler", "rocker"];
@@ -251,8 +251,8 @@ fn robots(power: i32) -> [(&'static str, Description); 3] {
     ]
 }
 
-/// The robot, turned relative to the axes of the ground, with its trolley at an angle and its
-/// steering in motion; masses multiplied.
+/// Returns the robot, rotated relative to the axes of the ground, with its trolley at an angle and
+/// its steering in motion; masses are multiplied.
 fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
     let steering = Function::constant_rate(0.05).expect("a finite rate");
     let mut d = robot(steering);
@@ -266,7 +266,7 @@ fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
         body.velocity = body.velocity.map(turn);
         body.angle += 0.4;
     }
-    // The trolley is perpendicular to the robot, and so rotates while it is pulled.
+    // The trolley is perpendicular to the robot, and so rotates while the robot pulls it.
     let hitch = turn([-0.4, 0.0]);
     let arm = 0.35_f64;
     let angle = 0.4 + 0.3;

@@ -15,7 +15,7 @@ pub(super) struct Errors {
     /// Error of accelerations, each relative to itself, or to a fraction of the largest of its body
     /// and kind.
     pub(super) acceleration: f64,
-    /// Error of the multipliers of kept rows, relative to the largest of their joint.
+    /// Error of the multipliers of independent rows, relative to the largest of their joint.
     pub(super) multipliers: f64,
     /// The heaviest mass or moment of inertia divided by the lightest.
     pub(super) spread: f64,
@@ -35,7 +35,7 @@ pub(super) fn errors(
     }
 }
 
-/// `x − y` relative to a size; if the size is zero, any difference is infinite.
+/// Returns `x − y` relative to a size; if the size is zero, any difference is infinite.
 fn relative(x: f64, y: f64, size: f64) -> f64 {
     match x - y {
         0.0 => 0.0,
@@ -43,7 +43,7 @@ fn relative(x: f64, y: f64, size: f64) -> f64 {
     }
 }
 
-/// The size of the terms of accelerations, in units of the mechanism: Q/m, v²/L, or the
+/// Returns the size of the terms of accelerations, in units of the mechanism: Q/m, v²/L, or the
 /// accelerations themselves.
 fn rate(prepared: &PreparedMechanism, exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
@@ -59,8 +59,8 @@ fn rate(prepared: &PreparedMechanism, exact: &[f64]) -> f64 {
     worst(terms)
 }
 
-/// The largest error of accelerations, each relative to its own size or to a fraction of the
-/// largest of its body and kind.
+/// Returns the largest error of accelerations, each relative to its own size or to a fraction of
+/// the largest of its body and kind.
 pub(super) fn of_accelerations(prepared: &PreparedMechanism, a: &[f64], exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
     let kind = |j: usize| {

@@ -11,6 +11,6 @@ use crate::documents::analysis::ComponentDocument;
 pub struct MomentAboutDocument {
     /// The point (m), ground axes.
     pub about: Vec<f64>,
-    /// Verdicts on its components.
+    /// Verdicts on the components of the moment.
     pub components: Vec<ComponentDocument>,
 }

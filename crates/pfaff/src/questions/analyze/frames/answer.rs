@@ -13,7 +13,7 @@ use crate::documents::analysis::ComponentDocument;
 pub struct FrameDocument {
     /// `global`, `first_body`, `joint` or `edge`.
     pub frame: &'static str,
-    /// Unit vectors of the axes, global components.
+    /// Unit vectors of the axes, in global components.
     pub axes: Vec<Vec<f64>>,
     /// Verdicts on the components along the axes, and on the torque.
     pub components: Vec<ComponentDocument>,

@@ -15,14 +15,15 @@ use crate::figures::symbol::Symbol;
 
 const BODIES: [BodyRef; 2] = [BodyRef::Body(0), BodyRef::Body(1)];
 
-/// Where the centre of the second body is in the axes of the first, which are also its own.
+/// Position of the centre of the second body in the axes of the first body, which has the same
+/// axes.
 const APART: [f64; 3] = [0.7, -0.4, 1.1];
 
 /// A point of the first body, and an axis there with its directions across.
 const POINT: [f64; 3] = [0.3, -0.2, 0.5];
 const AXIS: [f64; 3] = [0.36, 0.48, 0.8];
 
-/// Where the first body is.
+/// Pose of the first body.
 fn pose() -> Pose {
     Pose::new([5.0, -3.0, 2.0], [0.9, 0.1, -0.3, 0.2])
 }
