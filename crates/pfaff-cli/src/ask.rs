@@ -10,7 +10,7 @@ use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Subcommand, ValueHint
 use pfaff::question::{self, AnyAnswer, Control, Ending, NOTHING_WRITTEN, Output, Place, Writing};
 use pfaff::questions::{Facts, Questions};
 use pfaff::report::{FileError, OutputDirectory};
-use pfaff::words::{self, Verbosity};
+use pfaff::words;
 
 use crate::args::SceneOptions;
 use crate::console::Console;
@@ -158,11 +158,7 @@ impl AskCommand {
         Asking {
             output: output.zip(self.place.as_ref()),
             is_json: self.of.json,
-            verbosity: if self.of.verbose {
-                Verbosity::Details
-            } else {
-                Verbosity::Normal
-            },
+            is_verbose: self.of.verbose,
             threads: self.of.resources.threads,
             hears,
         }
@@ -195,8 +191,8 @@ pub struct Asking<'a> {
     pub output: Option<(Output, &'a OutputOptions)>,
     /// Whether the answer is requested as a document.
     pub is_json: bool,
-    /// How much of it is printed in words.
-    pub verbosity: Verbosity,
+    /// Whether details are printed, too.
+    pub is_verbose: bool,
     /// Number of threads.
     pub threads: Option<NonZeroUsize>,
     /// Whether requests to stop apply to this answer.
@@ -254,7 +250,7 @@ impl Asking<'_> {
         let text = if self.is_json {
             answer.json()?
         } else {
-            words::text(&answer.words(), self.verbosity) + &written
+            words::text(&answer.words(), self.is_verbose) + &written
         };
         Ok((text, answer.ending()))
     }

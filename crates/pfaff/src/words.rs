@@ -25,16 +25,6 @@ pub enum Block {
     Detail(Box<Block>),
 }
 
-/// How much of an answer is printed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Verbosity {
-    /// Without details.
-    #[default]
-    Normal,
-    /// Everything.
-    Details,
-}
-
 impl Block {
     /// Creates a sentence.
     #[must_use]
@@ -72,12 +62,12 @@ impl Block {
 /// Converts the blocks to text. Sentences follow each other; there is an empty line before headings
 /// and around tables that have no heading.
 #[must_use]
-pub fn text(blocks: &[Block], verbosity: Verbosity) -> String {
+pub fn text(blocks: &[Block], is_verbose: bool) -> String {
     let mut out = String::new();
     let mut before: Option<&Block> = None;
     for block in blocks {
         let block = match block {
-            Block::Detail(_) if verbosity == Verbosity::Normal => continue,
+            Block::Detail(_) if !is_verbose => continue,
             Block::Detail(detail) => detail.as_ref(),
             block => block,
         };
@@ -97,7 +87,7 @@ pub fn text(blocks: &[Block], verbosity: Verbosity) -> String {
             Block::Sentence { lead, text } => out.push_str(&wrapped(lead, text)),
             Block::Table(lines) => out.push_str(&columns(lines)),
             // A detail within a detail.
-            Block::Detail(inner) => out.push_str(&text(std::slice::from_ref(inner), verbosity)),
+            Block::Detail(inner) => out.push_str(&text(std::slice::from_ref(inner), is_verbose)),
         }
         before = Some(block);
     }
@@ -146,6 +136,18 @@ pub fn wrapped(lead: &str, text: &str) -> String {
     out
 }
 
+/// The keys in the order of their first values, each with all its values.
+pub fn grouped<K: PartialEq, V>(pairs: impl IntoIterator<Item = (K, V)>) -> Vec<(K, Vec<V>)> {
+    let mut groups: Vec<(K, Vec<V>)> = Vec::new();
+    for (key, value) in pairs {
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, values)) => values.push(value),
+            None => groups.push((key, vec![value])),
+        }
+    }
+    groups
+}
+
 /// Aligns lines of cells in columns; the first line is the header.
 #[must_use]
 pub fn columns(rows: &[Vec<String>]) -> String {
@@ -190,16 +192,16 @@ mod tests {
             Block::sentence("end"),
         ];
         let expected = "one\n- two\n\na  bc\n1  2\na: letter\nthree\n\nnext:\na  bc\n1  2\n\na  bc\n1  2\n\nend\n";
-        assert_eq!(text(&blocks, Verbosity::Normal), expected);
+        assert_eq!(text(&blocks, false), expected);
         let detail = [Block::sentence("one"), Block::detail("- ", "two")];
-        assert_eq!(text(&detail, Verbosity::Normal), "one\n");
-        assert_eq!(text(&detail, Verbosity::Details), "one\n- two\n");
+        assert_eq!(text(&detail, false), "one\n");
+        assert_eq!(text(&detail, true), "one\n- two\n");
     }
 
     #[test]
     fn lines_of_a_sentence_begin_below_its_first_word() {
         let long = "word ".repeat(40);
-        let lines = text(&[Block::after("note: ", long)], Verbosity::Normal);
+        let lines = text(&[Block::after("note: ", long)], false);
         let widths: Vec<usize> = lines.lines().map(|line| line.chars().count()).collect();
         assert_eq!(widths.len(), 3);
         assert!(widths.iter().all(|width| *width <= 100), "{widths:?}");

@@ -255,24 +255,21 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
         let names = names(layout, &reactions);
         let text = match names.as_slice() {
             [one] => {
-                let number = match redundancy {
-                    1 => "one multiplier".to_owned(),
-                    p => format!("{p} multipliers"),
-                };
-                format!("the rows of {one} depend on each other: {number} can be chosen freely")
+                format!("the rows of {one} depend on each other: free multipliers: {redundancy}")
             }
             several => {
                 let spanning = spanning(solvability, &rows);
                 let size = scene_size(mechanism, q);
                 let loads = loads::tell(mechanism, s, size, &reactions, &spanning);
-                let loads = match loads {
-                    None => String::new(),
-                    Some(LoadDescription::Common(load)) => format!(" ({load})"),
-                    Some(LoadDescription::Each(load)) => format!(" ({load} at each)"),
-                    // Of many components the sums say more.
-                    Some(LoadDescription::Various(_)) if redundancy > MANY_LOADS => String::new(),
-                    Some(LoadDescription::Various(loads)) => format!(" ({loads})"),
-                };
+                let loads = loads.and_then(|loads| match loads {
+                    // The sums of many components are shorter than their list.
+                    LoadDescription::Various(_) if redundancy > MANY_LOADS => None,
+                    LoadDescription::Each(load) => Some(format!(" ({load} at each)")),
+                    LoadDescription::Common(all) | LoadDescription::Various(all) => {
+                        Some(format!(" ({all})"))
+                    }
+                });
+                let loads = loads.unwrap_or_default();
                 let components = match redundancy {
                     1 => "one load component that equilibrium does not determine".to_owned(),
                     p => format!("{p} load components that equilibrium does not determine"),

@@ -22,7 +22,7 @@ class Run:
     """
     def chosen(self, /) -> list[tuple[str, Incomplete]]:
         """
-        The columns of `reactions` by each choice, with its name.
+        The columns of `reactions` for each choice, with its name.
         """
     @property
     def columns(self, /) -> list[tuple[str, str, str]]: ...
@@ -38,7 +38,7 @@ class Run:
     def reactions(self, /) -> Incomplete: ...
     def stopped(self, /) -> Any | None:
         """
-        The exception that says why the run stopped before its end, if it did so by itself.
+        The exception with the reason why the run stopped before its end, if an error stopped it.
         """
     @property
     def t(self, /) -> Incomplete: ...
@@ -50,13 +50,13 @@ class Run:
 @final
 class Scene:
     """
-    The text of a scene. It does not change; what was read from it is kept.
+    The text of a scene. The text does not change; results that were computed from it are stored.
     """
     def __new__(cls, /, name: str, text: str) -> Scene: ...
     def ask(self, /, question: str, options: str, others: SupportsGetItem[int, Scene], common: Incomplete, files: bool) -> tuple[str, list[tuple[str, bytes]]]:
         """
-        Asks a question by its name about this scene and perhaps others, with its options as a JSON
-        object; returns the document, and the files if they are asked for.
+        Answers a question, given by its name, about this scene and further scenes, with its options
+        as a JSON object; returns the document, and the files if they are requested.
         """
     @staticmethod
     def from_file(path: str | PathLike[str]) -> Scene:
@@ -66,68 +66,69 @@ class Scene:
     @staticmethod
     def imported(format: str, path: str | PathLike[str], text: str | None, base: str, fixed: bool, snap: bool, keyframe: str | None, pose: SupportsGetItem[int, tuple[str, SupportsFloat | SupportsIndex]], loops: str | PathLike[str] | None) -> tuple[Scene, list[str], list[tuple[str, str, int]]]:
         """
-        Makes a scene of a model of a robot. Returns it, and what it says of itself: remarks, and
-        what is left out as pairs of kind and subject.
+        Converts a robot model to a scene. Returns the scene, its remarks, and the omitted elements
+        as pairs of kind and subject.
         """
     def matrices(self, /, q: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, v: SupportsGetItem[int, SupportsFloat | SupportsIndex] | None, t: SupportsFloat | SupportsIndex, max_memory: SupportsIndex | str | None) -> tuple[Incomplete, Incomplete, Incomplete, Incomplete, Incomplete, Incomplete]:
         """
-        C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; those of the start if
-        they are `None`.
+        Returns C, the diagonal of M, Γ, Q, b and Φ at coordinates and velocities; `None` selects
+        those of the start.
         """
     @property
     def name(self, /) -> str: ...
     def names(self, /) -> tuple[str, list[str], list[str]]:
         """
-        The name that the scene gives itself, the names of its bodies, and of its joints and drives
-        in the order of the rows.
+        Returns the name that the scene states, the names of its bodies, and of its joints and
+        drives in the order of the rows.
         """
     @staticmethod
     def of_template(name: str) -> Scene:
         """
-        The scene of a template.
+        Returns the scene of a template.
         """
     def simulate(self, /, options: Incomplete, numbers_of_choice: bool, choices: SupportsGetItem[int, str], on_event: Any | None, on_row: Any | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> Run:
         """
-        Runs the scene. With `numbers_of_choice` numbers that are not determined on their stretch of
-        the run are those of the rows that the run keeps, otherwise NaN; `choices` have arrays of
-        their own. `drives` are functions of time, measure and rate in place of laws, `forces`
-        functions of the states of bodies, each with its name.
+        Runs the scene. With `numbers_of_choice`, numbers that are not determined on their stretch
+        of the run have the values for the independent rows of the run; otherwise they are NaN.
+        `choices` have separate arrays. `drives` are functions of time, joint coordinate and rate
+        that replace laws; `forces` are functions of the states of bodies. Each has its name.
         """
     def simulate_into(self, /, directory: str | PathLike[str], options: Incomplete, choices: SupportsGetItem[int, str], until: SupportsFloat | SupportsIndex | None, drives: SupportsGetItem[int, tuple[str, Any]], forces: SupportsGetItem[int, tuple[str, Any]]) -> str:
         """
         Runs the scene and writes the files of the command into a directory; returns the summary.
-        With `until` the run ends at the row of this time (s), as one that was asked to end there.
+        With `until` the run ends at the row of this time (s), like a run that was requested to end
+        there.
         """
     def state(self, /, t: SupportsFloat | SupportsIndex, common: Incomplete, drop: SupportsGetItem[int, SupportsIndex] | None) -> tuple[list[float], list[float]]:
         """
-        Coordinates and velocities at a time of the motion; the velocities are empty if none are
-        known.
+        Returns coordinates and velocities at a time of the motion; the velocities are empty if they
+        are unknown.
         """
     @property
     def text(self, /) -> str: ...
     def view(self, /, path: str | PathLike[str], scale: SupportsFloat | SupportsIndex | None, common: Incomplete) -> tuple[bytes, str]:
         """
-        The assembled start as a page or a picture, by the end of a name; with the characters that
-        no font of a PNG has.
+        Returns the assembled start as a page or a picture, selected by the extension of a file
+        name, and the characters of a PNG that no font contains.
         """
     def with_settings(self, /, keys: SupportsGetItem[int, str], expressions: SupportsGetItem[int, str]) -> Scene:
         """
-        The same scene with other numbers or expressions.
+        Returns the same scene with other numbers or expressions.
         """
 
 @final
 class Sweep:
     """
-    A scene and what is varied in it.
+    A scene with its varied numbers.
     """
     def __new__(cls, /, name: str, text: str, vary: SupportsGetItem[int, str], keep_rows: bool) -> Sweep: ...
     def make(self, /, directory: str | PathLike[str], k: SupportsIndex, n: SupportsIndex, threads: SupportsIndex, on_runs: Any | None, stop: Any | None) -> tuple[str, int, bool]:
         """
-        Makes the runs of a shard that are not finished. Returns its summary, the number of runs
-        that were made, and whether the tables of all runs were written.
+        Performs the unfinished runs of a shard. Returns the summary of the shard, the number of
+        runs that were performed, and whether the tables of all runs were written.
 
-        `on_runs` gets the number of finished runs and of failed ones among them, from time to time;
-        the shard ends where it or `stop` returns `True`.
+        `on_runs` receives the number of finished runs and of failed runs among them, from time to
+        time; the shard ends if `on_runs` or `stop` returns `True`.
         """
     @property
     def runs(self, /) -> int:
@@ -136,15 +137,15 @@ class Sweep:
         """
     def seconds(self, /, run: SupportsIndex) -> float:
         """
-        Makes a run without writing anything, and returns how long that took (s).
+        Performs a run without writing any file, and returns its time (s).
         """
     def shards(self, /, directory: str | PathLike[str]) -> int | None:
         """
-        The number of shards in which a directory is being filled, if it tells.
+        Returns the number of shards of a directory, if its files determine it.
         """
     def unfinished(self, /, directory: str | PathLike[str], n: SupportsIndex) -> list[int]:
         """
-        Which of n shards are not finished.
+        Returns the shards, of n, that are not finished.
         """
 
 def _panics() -> None:
@@ -154,37 +155,37 @@ def _panics() -> None:
 
 def explain(code: str) -> str:
     """
-    What the code of an error means, and what to do.
+    Returns the meaning of the code of an error, and the possible remedies.
     """
 
 def forget_crashed(directory: str | PathLike[str]) -> int:
     """
-    Forgets the rows of runs that have ended their process, so that they are made again. Returns
-    their number.
+    Deletes the rows of runs that ended their process, so that these runs are repeated. Returns the
+    number of these runs.
     """
 
 def input_code() -> str:
     """
-    The code of wrong input.
+    Returns the code of invalid input.
     """
 
 def merge(directories: SupportsGetItem[int, str | PathLike[str]], into: str | PathLike[str]) -> str:
     """
-    Writes the tables of what is in some directories. Returns the summary.
+    Writes the tables of the results in some directories. Returns the summary of the tables.
     """
 
 def nearest(name: str, known: SupportsGetItem[int, str]) -> str | None:
     """
-    The known name that is most similar to a name, if one is.
+    Returns the known name that is most similar to a name, if there is one.
     """
 
 def sweep_columns(directory: str | PathLike[str]) -> tuple[str, list[tuple[str, Any]]]:
     """
-    The summary of what is in a directory, and its columns: counts as whole numbers, or with NaN if
-    some are unknown, numbers, and lists of texts.
+    Returns the summary of the results in a directory, and its columns: counts as integers, or with
+    NaN if some are unknown, numbers, and lists of texts.
     """
 
 def templates() -> list[tuple[str, str]]:
     """
-    Names of the templates, each with what it is.
+    Returns names of the templates, each with its description.
     """

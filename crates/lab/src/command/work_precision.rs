@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use pfaff::RunOptions;
 use pfaff::question::{Control, Question};
-use pfaff::words::Verbosity;
 use pfaff::work_precision::{Rival, Subject};
 use pfaff_cli::ask::{Asking, Hears, OutputOptions};
 use pfaff_cli::console::Console;
@@ -53,7 +52,7 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     let asking = Asking {
         output: pfaff::questions::WorkPrecision::OUTPUT.map(|output| (output, &place)),
         is_json: arguments.json,
-        verbosity: Verbosity::Normal,
+        is_verbose: false,
         threads: None,
         hears: Hears::Stops,
     };

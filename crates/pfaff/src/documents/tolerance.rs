@@ -4,6 +4,7 @@ use report::figures::RangeDocument;
 use serde::Serialize;
 
 use super::ByName;
+use crate::words::grouped;
 
 /// The document of `tolerance --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -306,18 +307,11 @@ impl ToleranceDocument {
     /// sentence.
     #[must_use]
     pub fn without_range(&self) -> Vec<String> {
-        let mut by_reason: Vec<(&str, Vec<String>)> = Vec::new();
-        for reaction in &self.reactions {
-            let first = reaction.values.first();
-            let Some(reason) = first.and_then(|value| value.reason) else {
-                continue;
-            };
-            let name = format!("`{}`", reaction.name);
-            match by_reason.iter_mut().find(|(own, _)| *own == reason) {
-                Some((_, names)) => names.push(name),
-                None => by_reason.push((reason, vec![name])),
-            }
-        }
+        let without = self.reactions.iter().filter_map(|reaction| {
+            let reason = reaction.values.first()?.reason?;
+            Some((reason, format!("`{}`", reaction.name)))
+        });
+        let by_reason = grouped(without);
         if self.assembled == 0 {
             return Vec::new();
         }

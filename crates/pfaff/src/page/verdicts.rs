@@ -4,6 +4,7 @@
 
 use super::run_page::RunPage;
 use crate::documents::{MakeUniqueDocument, ReactionDocument, RunReactionDocument};
+use crate::words::grouped;
 use report::page::{add, safe, short};
 
 /// Largest number of lines of a list.
@@ -189,19 +190,14 @@ fn why(out: &mut String, page: &RunPage<'_>) {
 /// Lists deletions that would make reactions unique; reactions with the same deletions share a
 /// sentence.
 fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
-    let mut grouped: Vec<(Vec<String>, Vec<String>)> = Vec::new();
-    for hint in hints {
+    let ways = |hint: &MakeUniqueDocument| {
         let ways = match &hint.reason {
             Some(reason) => vec![format!("unknown: {reason}")],
             None => hint.ways.iter().map(|w| w.text.clone()).collect(),
         };
-        let reaction = format!("`{}`", hint.reaction);
-        match grouped.iter_mut().find(|(_, known)| *known == ways) {
-            Some((reactions, _)) => reactions.push(reaction),
-            None => grouped.push((vec![reaction], ways)),
-        }
-    }
-    let sentence = |(reactions, ways): (Vec<String>, Vec<String>)| {
+        (ways, format!("`{}`", hint.reaction))
+    };
+    let sentence = |(ways, reactions): (Vec<String>, Vec<String>)| {
         let reactions = match reactions.split_last() {
             Some((last, first)) if !first.is_empty() => {
                 format!("each of {} and {last}", first.join(", "))
@@ -221,7 +217,10 @@ fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
             Some((last, first)) => format!("{reactions}: {}; or {last}", first.join("; ")),
         }
     };
-    grouped.into_iter().map(sentence).collect()
+    grouped(hints.iter().map(ways))
+        .into_iter()
+        .map(sentence)
+        .collect()
 }
 
 fn some(out: &mut String, sentences: &[String]) {

@@ -30,17 +30,12 @@ pub(super) fn of_stress(
         .collect();
     if let (Some(told), false, [_, _, ..]) = (told, drives, ids.as_slice()) {
         let names = list(&names(layout, &ids));
-        return match told {
-            LoadDescription::Common(load) => {
-                format!("{names} can load each other with {load}, without external load")
-            }
-            LoadDescription::Each(load) => {
-                format!("{names} can each load the others with {load}, without external load")
-            }
-            LoadDescription::Various(loads) => {
-                format!("{names} can load each other without external load ({loads})")
-            }
+        let (how, load) = match told {
+            LoadDescription::Common(load) => ("load each other with", load),
+            LoadDescription::Each(load) => ("each load the others with", load),
+            LoadDescription::Various(loads) => ("load each other", format!("({loads})")),
         };
+        return format!("{names} can {how} {load}, without external load");
     }
     let cancel = || list(&terms(layout, directions));
     match (directions, bodies.as_slice()) {

@@ -3,7 +3,7 @@
 use crate::documents::AnalysisDocument;
 use crate::documents::MakeUniqueDocument;
 
-use crate::words::{Block, count};
+use crate::words::{Block, count, grouped};
 
 /// Number of sets that are listed for a reaction without a request by an option.
 const WAYS: usize = 1;
@@ -17,15 +17,9 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
     let item = |text: String| Block::after("- ", text);
     if d.answers.make_unique.is_empty() && hints.iter().any(|hint| hint.reason.is_none()) {
         // Reactions with the same way have one line.
-        let mut lines: Vec<(Vec<&str>, String)> = Vec::new();
-        for hint in hints.iter().take(HINTS) {
-            let text = ways(hint, WAYS);
-            match lines.iter_mut().find(|(_, known)| *known == text) {
-                Some((names, _)) => names.push(&hint.reaction),
-                None => lines.push((vec![&hint.reaction], text)),
-            }
-        }
-        if let [(_, text)] = lines.as_slice()
+        let hinted = hints.iter().take(HINTS);
+        let mut lines = grouped(hinted.map(|hint| (ways(hint, WAYS), hint.reaction.as_str())));
+        if let [(text, _)] = lines.as_slice()
             && hints.iter().all(|hint| hint.ways.is_empty())
         {
             let lead = "Ways to make a reaction unique (design decisions): ";
@@ -35,7 +29,7 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
             let heading = "Ways to make a reaction unique (design decisions; `--make-unique NAME` lists all):";
             out.push(Block::Heading(heading.to_owned()));
         }
-        let line = |(names, text): &(Vec<&str>, String)| {
+        let line = |(text, names): &(String, Vec<&str>)| {
             Block::after(format!("- {}: ", names.join(", ")), text)
         };
         out.extend(lines.iter().map(line));

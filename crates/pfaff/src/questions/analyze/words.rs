@@ -12,7 +12,7 @@ use crate::documents::{
 use super::additions::ADDITIONS;
 use super::phrases::{coordinates, each, hanging, spoken};
 use super::{along, counts, data, deletions, numbers, rank};
-use crate::words::{Block, count};
+use crate::words::{Block, count, grouped};
 
 /// Number of reasons that are listed.
 const REASONS: usize = 10;
@@ -265,16 +265,11 @@ fn numbers_of(g: &GroupDocument) -> String {
 /// Lists points about which moments are unique.
 fn centres(d: &AnalysisDocument) -> Vec<Block> {
     let mut out = Vec::new();
-    let mut centres: Vec<(String, Vec<&str>)> = Vec::new();
-    for r in &d.reactions {
-        let Some(centre) = r.moment_unique_about.as_ref().map(|p| coordinates(p)) else {
-            continue;
-        };
-        match centres.iter_mut().find(|(known, _)| *known == centre) {
-            Some((_, names)) => names.push(&r.name),
-            None => centres.push((centre, vec![&r.name])),
-        }
-    }
+    let centres = d.reactions.iter().filter_map(|r| {
+        let centre = coordinates(r.moment_unique_about.as_ref()?);
+        Some((centre, r.name.as_str()))
+    });
+    let centres = grouped(centres);
     for (centre, names) in &centres {
         let (names, verb) = match names[..] {
             [name] => (format!("The moment of `{name}`"), "is"),
