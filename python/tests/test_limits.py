@@ -82,7 +82,7 @@ def test_a_limit_of_memory(call: Callable[[pfaff.Scene, Any], object]) -> None:
         with pytest.raises(pfaff.ComputationError, match="max_memory allows 1 MB") as raised:
             call(scene, limit)
         assert raised.value.code == "P0007"
-    with pytest.raises(pfaff.InputError, match="`4` is no size; write a number with B, kB, MB"):
+    with pytest.raises(pfaff.InputError, match="`4` is not a size; write a number with B, kB, MB"):
         call(scene, "4")
     with pytest.raises(TypeError, match="max_memory is `float`, need a number of bytes, or a text"):
         call(scene, 1.5)

@@ -153,7 +153,7 @@ def test_questions(command: Command) -> None:
     found = scene.plan(method="radau5", t_end=2.0, vary=["body.leaf.mass=1:2:3"])
     expected = command.document("plan", door, *options)
     assert {**found, "memory": 0} == {**expected, "memory": 0}
-    with pytest.raises(pfaff.InputError, match="`euler` is none of"):
+    with pytest.raises(pfaff.InputError, match="`euler` is not one of"):
         scene.plan(method="euler")
 
 
