@@ -116,6 +116,9 @@ fn links_lead_somewhere() {
             }
             let (file, heading) = link.split_once('#').unwrap_or((&link, ""));
             let file = if file.is_empty() { &chapter } else { file };
+            // The book that is published contains its own folder only.
+            let is_inside = !file.starts_with(['.', '/']);
+            assert!(is_inside, "{chapter} links to {link}, outside of the book");
             assert!(book().join(file).exists(), "{chapter} links to {link}");
             let found = heading.is_empty() || anchors(file).contains(heading);
             assert!(

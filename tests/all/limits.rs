@@ -174,8 +174,8 @@ fn every_limit_has_its_unit_its_reason_and_a_test_that_exists() {
             let constant = &limit.name;
             let unit = said(&limit, "Unit: ").unwrap_or_else(|| panic!("{constant}: no unit"));
             assert!(
-                limit.comment.contains("Less") && limit.comment.contains("ore"),
-                "{constant}: what breaks if it is less, and if it is more?"
+                limit.comment.contains("Too small") && limit.comment.contains("oo large"),
+                "{constant}: what breaks if it is too small, and if it is too large?"
             );
             let test = said(&limit, "Test: ").unwrap_or_else(|| panic!("{constant}: no test"));
             let test = test.trim_matches('`');

@@ -1,7 +1,7 @@
 //! Table of limits: every number of this crate that was chosen by its authors. Each entry states
-//! what the number is, its unit, and what breaks if it is wrong (`Less`: if it were smaller,
-//! `More`: if it were larger). It also names the test that fails then: `none, work only` if only
-//! time or memory change, `none` if there is no test yet. `tests/all/limits.rs` reads this table.
+//! what the number is, its unit, and what breaks if it is wrong (if it is too small, or too large).
+//! It also names the test that fails then: `none, work only` if only time or memory change, `none`
+//! if there is no test yet. `tests/all/limits.rs` reads this table.
 //!
 //! A share of pivots is relative to the *reference pivots*, the pivots at the state at which the
 //! independent rows were chosen. "Independent rows" are the constraint rows that are solved
@@ -14,755 +14,721 @@ use crate::options::MotionOptions;
 // Solvers.
 
 /// From this number of independent rows on, the equations are solved through the Schur complement
-/// if more than [`FREE_MOST`] degrees of freedom are left.
-/// Unit: rows. Less: small mechanisms lose independent coordinates and refinement. More: the work
-/// of one evaluation of a chain grows with the cube of its rows. Test:
-/// `it_is_where_its_drive_is_by_every_method`.
+/// if more than [`FREE_MOST`] degrees of freedom are left. Unit: rows. Too small: small mechanisms
+/// lose independent coordinates and refinement. Too large: the work of one evaluation of a chain
+/// grows with the cube of its rows. Test: `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const SCHUR_FROM: usize = 64;
 
 /// Up to this number of degrees of freedom, the null space takes less work than the Schur
-/// complement.
-/// Unit: motions. Less: runs take longer, and mechanisms with few degrees of freedom lose
-/// independent coordinates and refinement. More: runs take longer. Test: none, work only.
+/// complement. Unit: motions. Too small: runs take longer, and mechanisms with few degrees of
+/// freedom lose independent coordinates and refinement. Too large: runs take longer. Test: none,
+/// work only.
 pub(crate) const FREE_MOST: usize = 16;
 
 /// In a mechanism without constraint rows, the null space is stored for implicit methods up to this
-/// number of velocities.
-/// Unit: velocities. Less: implicit methods are not available for bodies that are connected by
-/// bushings alone. More: hundreds of free bodies require large dense matrices. Test:
-/// `free_bodies_take_memory_in_proportion`.
+/// number of velocities. Unit: velocities. Too small: implicit methods are not available for bodies
+/// that are connected by bushings alone. Too large: hundreds of free bodies require large dense
+/// matrices. Test: `free_bodies_take_memory_in_proportion`.
 pub(crate) const FREE_DENSE: usize = 1024;
 
 /// From this number of independent rows on, the redundant rows are compared with sums of
-/// independent rows.
-/// Unit: rows. Less: large coefficients may cancel. More: runs take longer. Test: none, work only.
+/// independent rows. Unit: rows. Too small: large coefficients may cancel. Too large: runs take
+/// longer. Test: none, work only.
 pub(crate) const SUMMED_FROM: usize = 64;
 
 /// Up to this number of independent rows, solutions with graded masses are refined, whatever the
-/// number of degrees of freedom.
-/// Unit: rows. Less: solutions for light bodies of large mechanisms lose digits. More: work grows
-/// with the cube. Test: none.
+/// number of degrees of freedom. Unit: rows. Too small: solutions for light bodies of large
+/// mechanisms lose digits. Too large: work grows with the cube. Test: none.
 pub(crate) const REFINED_MOST: usize = 600;
 
 /// A mechanism with more rows than this and more than [`FREE_MOST`] degrees of freedom is not
-/// solved in its null space.
-/// Unit: rows. Less: mechanisms are rejected that could be solved. More: matrices need more than a
-/// gigabyte. Test: `the_motion_is_the_same_by_every_way_through_it`.
+/// solved in its null space. Unit: rows. Too small: mechanisms are rejected that could be solved.
+/// Too large: matrices need more than a gigabyte. Test:
+/// `the_motion_is_the_same_by_every_way_through_it`.
 pub(crate) const NULL_SPACE_MOST: usize = 5000;
 
-/// Number of vectors of all coordinates, velocities and rows that a run stores.
-/// Unit: vectors. Less: the memory estimate is too small. More: runs are rejected that would fit
-/// into memory. Test: none, work only.
+/// Number of vectors of all coordinates, velocities and rows that a run stores. Unit: vectors. Too
+/// small: the memory estimate is too small. Too large: runs are rejected that would fit into
+/// memory. Test: none, work only.
 pub(crate) const VECTORS: usize = 38;
 
 /// Solutions are refined for mechanisms that are larger than this size or smaller than its inverse.
-/// Unit: m. Less: ordinary machines spend time on refinement. More: digits are lost if weights and
-/// centrifugal terms differ by many powers of ten. Test:
+/// Unit: m. Too small: ordinary machines spend time on refinement. Too large: digits are lost if
+/// weights and centrifugal terms differ by many powers of ten. Test:
 /// `solutions_are_refined_where_digits_would_be_lost`.
 pub(crate) const FAR_FROM_A_METRE: f64 = 1e5;
 
 /// A row whose pivot is below this share counts as dependent at this instant and is left out of the
-/// solution.
-/// Unit: share of pivots. Less: rounding errors dominate accelerations at a singular configuration.
-/// More: rows are left out that still transmit force. Test: `limits_stand_in_their_order`.
+/// solution. Unit: share of pivots. Too small: rounding errors dominate accelerations at a singular
+/// configuration. Too large: rows are left out that still transmit force. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
 
 /// At an accepted step, quaternions with a length in this range are unchanged; others are scaled to
 /// length one. The motion does not depend on the length, but the tolerance of a step is relative to
-/// it.
-/// Unit: length. Less: steps change coordinates unnecessarily. More: the orientation of free bodies
-/// loses digits in runs with loose tolerances. Test: `a_quaternion_that_has_drifted_far_is_scaled`.
+/// it. Unit: length. Too small: steps change coordinates unnecessarily. Too large: the orientation
+/// of free bodies loses digits in runs with loose tolerances. Test:
+/// `a_quaternion_that_has_drifted_far_is_scaled`.
 pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
 
 // Equilibria.
 
 /// A run is at rest if its kinetic energy and its energy error are below this number of roundings
-/// of the potential energy.
-/// Unit: roundings. Less: a start at rest causes a warning. More: energy errors of slow motions are
-/// not reported. Test: `what_is_written_starts_at_rest_and_stays_there`.
+/// of the potential energy. Unit: roundings. Too small: a start at rest causes a warning. Too
+/// large: energy errors of slow motions are not reported. Test:
+/// `what_is_written_starts_at_rest_and_stays_there`.
 pub(crate) const ENERGY_ROUNDINGS: f64 = 64.0;
 
-/// Prescribed rates below this count as zero.
-/// Unit: sizes or rad per second. Less: the rounding error of a cosine at a quarter turn counts as
-/// a motion. More: slow drives count as locked. Test:
-/// `a_drive_that_moves_at_the_start_is_refused_by_name`.
+/// Prescribed rates below this count as zero. Unit: sizes or rad per second. Too small: the
+/// rounding error of a cosine at a quarter turn counts as a motion. Too large: slow drives count as
+/// locked. Test: `a_drive_that_moves_at_the_start_is_refused_by_name`.
 pub(crate) const RESTING_RATE: f64 = 1e-12;
 
 /// Step length of the finite differences of forces; the longest of the steps is four times as long.
-/// Unit: share of the size, or rad. Less: the rounding error is divided by a shorter step. More:
-/// the stiffness of short springs is inaccurate. Test:
+/// Unit: share of the size, or rad. Too small: the rounding error is divided by a shorter step. Too
+/// large: the stiffness of short springs is inaccurate. Test:
 /// `a_short_spring_on_a_long_bar_is_stiff_enough`.
 pub(crate) const STIFFNESS_STEP: f64 = 1.0 / 512.0;
 
-/// Initial limit of the step length, for each body.
-/// Unit: share of the size, or rad. Less: the search takes more steps. More: the search may find an
-/// equilibrium that is not the nearest. Test: none, work only.
+/// Initial limit of the step length, for each body. Unit: share of the size, or rad. Too small: the
+/// search takes more steps. Too large: the search may find an equilibrium that is not the nearest.
+/// Test: none, work only.
 pub(crate) const REST_RADIUS: f64 = 0.1;
 
-/// Upper limit of the step length, for each body.
-/// Unit: share of the size, or rad. Less: the search takes more steps. More: the search may find an
-/// equilibrium that is not the nearest. Test: none, work only.
+/// Upper limit of the step length, for each body. Unit: share of the size, or rad. Too small: the
+/// search takes more steps. Too large: the search may find an equilibrium that is not the nearest.
+/// Test: none, work only.
 pub(crate) const REST_LONGEST: f64 = 0.8;
 
-/// The search ends if its steps become shorter than this.
-/// Unit: share of the size, or rad. Less: failing searches take longer. More: searches end early
-/// that could continue. Test: none, work only.
+/// The search ends if its steps become shorter than this. Unit: share of the size, or rad. Too
+/// small: failing searches take longer. Too large: searches end early that could continue. Test:
+/// none, work only.
 pub(crate) const REST_SHORTEST: f64 = 1e-10;
 
-/// Maximum number of steps of a search.
-/// Unit: steps. Less: distant equilibria are not found. More: searches that do not converge take
-/// longer. Test: `a_motor_that_is_too_strong_finds_no_rest`.
+/// Maximum number of steps of a search. Unit: steps. Too small: distant equilibria are not found.
+/// Too large: searches that do not converge take longer. Test:
+/// `a_motor_that_is_too_strong_finds_no_rest`.
 pub(crate) const REST_STEPS: usize = 500;
 
-/// Number of bisections for the length of a step.
-/// Unit: halvings. Less: steps are shorter than allowed. More: the search takes longer. Test: none,
-/// work only.
+/// Number of bisections for the length of a step. Unit: halvings. Too small: steps are shorter than
+/// allowed. Too large: the search takes longer. Test: none, work only.
 pub(crate) const REST_BISECTIONS: usize = 50;
 
-/// Remaining forces below this number of roundings of the acting forces count as zero.
-/// Unit: roundings. Less: searches continue until they stall. More: the equilibrium position loses
-/// digits. Test: `a_pendulum_on_a_torsion_spring_leans_as_bisection_says`.
+/// Remaining forces below this number of roundings of the acting forces count as zero. Unit:
+/// roundings. Too small: searches continue until they stall. Too large: the equilibrium position
+/// loses digits. Test: `a_pendulum_on_a_torsion_spring_leans_as_bisection_says`.
 pub(crate) const REST_ROUNDINGS: f64 = 16.0;
 
 /// If further steps do not reduce the remaining forces, forces below this number of roundings count
-/// as zero.
-/// Unit: roundings. Less: equilibria at which large forces cancel are not accepted. More: a
-/// configuration without equilibrium is accepted. Test:
+/// as zero. Unit: roundings. Too small: equilibria at which large forces cancel are not accepted.
+/// Too large: a configuration without equilibrium is accepted. Test:
 /// `forces_that_cancel_are_balanced_to_their_rounding`.
 pub(crate) const REST_LEFT: f64 = 4096.0;
 
 /// A search has stalled if the remaining force has not fallen by half in this number of steps.
-/// Unit: steps. Less: slow searches end early. More: stalled searches take longer. Test: none, work
-/// only.
+/// Unit: steps. Too small: slow searches end early. Too large: stalled searches take longer. Test:
+/// none, work only.
 pub(crate) const REST_STALLED: usize = 4;
 
-/// Length of the displacement with which a search leaves an unstable equilibrium.
-/// Unit: share of the size, or rad. Less: the forces at the displaced configuration are rounding
-/// errors. More: a shallow equilibrium nearby is skipped. Test:
-/// `a_push_lets_an_upright_pendulum_fall`.
+/// Length of the displacement with which a search leaves an unstable equilibrium. Unit: share of
+/// the size, or rad. Too small: the forces at the displaced configuration are rounding errors. Too
+/// large: a shallow equilibrium nearby is skipped. Test: `a_push_lets_an_upright_pendulum_fall`.
 pub(crate) const REST_PUSH: f64 = 1e-2;
 
-/// Maximum number of displacements from unstable equilibria.
-/// Unit: pushes. Less: the search stops at an intermediate state of an upright chain. More: the
-/// search takes longer. Test: `a_push_lets_an_upright_pendulum_fall`.
+/// Maximum number of displacements from unstable equilibria. Unit: pushes. Too small: the search
+/// stops at an intermediate state of an upright chain. Too large: the search takes longer. Test:
+/// `a_push_lets_an_upright_pendulum_fall`.
 pub(crate) const REST_PUSHES: usize = 40;
 
 /// A motion counts as unresisted if a unit displacement changes its force by at most this share of
-/// all forces.
-/// Unit: share. Less: rounding counts as stiffness. More: soft springs are ignored. Test:
-/// `what_nothing_holds_is_refused_with_what_pushes_it`.
+/// all forces. Unit: share. Too small: rounding counts as stiffness. Too large: soft springs are
+/// ignored. Test: `what_nothing_holds_is_refused_with_what_pushes_it`.
 pub(crate) const UNRESISTED: f64 = 1e-9;
 
 /// An unresisted motion is rejected if its force is more than this share of the largest force.
-/// Unit: share. Less: remaining forces of slow searches cause an error. More: light bodies fall for
-/// many steps before they are rejected. Test: `what_nothing_holds_is_refused_with_what_pushes_it`.
+/// Unit: share. Too small: remaining forces of slow searches cause an error. Too large: light
+/// bodies fall for many steps before they are rejected. Test:
+/// `what_nothing_holds_is_refused_with_what_pushes_it`.
 pub(crate) const UNRESISTED_FORCE: f64 = 1e-6;
 
 /// The load along a motion is reported as a moment if the motion rotates by at least this angle
-/// while its fastest body moves by the size of the mechanism.
-/// Unit: rad. Less: for a translation with a small rotation, the load is divided by this small
-/// rotation. More: the load that rotates a body about a distant axis is reported as a force. Test:
+/// while its fastest body moves by the size of the mechanism. Unit: rad. Too small: for a
+/// translation with a small rotation, the load is divided by this small rotation. Too large: the
+/// load that rotates a body about a distant axis is reported as a force. Test:
 /// `what_falls_freely_is_named_with_its_weight`.
 pub(crate) const MOSTLY_TURNS: f64 = 0.1;
 
 /// A force on one body counts as constant if its change between two poses is below this share.
-/// Unit: share of the force. Less: the rounding error at distant poses counts as a change. More:
-/// forces that change slowly count as constant. Test: `what_falls_freely_is_named_with_its_weight`.
+/// Unit: share of the force. Too small: the rounding error at distant poses counts as a change. Too
+/// large: forces that change slowly count as constant. Test:
+/// `what_falls_freely_is_named_with_its_weight`.
 pub(crate) const DEAD_LOAD: f64 = 1e-9;
 
 /// An unresisted motion with a force is rejected after this number of successive steps without
-/// resistance.
-/// Unit: steps. Less: a horizontal pendulum is rejected, because its weight has an extremum there.
-/// More: the search takes longer. Test: `a_horizontal_pendulum_falls`.
+/// resistance. Unit: steps. Too small: a horizontal pendulum is rejected, because its weight has an
+/// extremum there. Too large: the search takes longer. Test: `a_horizontal_pendulum_falls`.
 pub(crate) const UNRESISTED_STEPS: usize = 3;
 
-/// A stiffness below this share of the largest stiffness, or of all forces, counts as zero.
-/// Unit: share. Less: the rounding error of differences decides on stability. More: soft springs
-/// count as zero stiffness. Test: `a_soft_spring_beside_a_stiff_one_still_counts`.
+/// A stiffness below this share of the largest stiffness, or of all forces, counts as zero. Unit:
+/// share. Too small: the rounding error of differences decides on stability. Too large: soft
+/// springs count as zero stiffness. Test: `a_soft_spring_beside_a_stiff_one_still_counts`.
 pub(crate) const IDLE: f64 = 1e-10;
 
-/// Forces have no potential if the skew part of their stiffness is above this share.
-/// Unit: share. Less: rounding errors of differences count as a skew part. More: the stability of
+/// Forces have no potential if the skew part of their stiffness is above this share. Unit: share.
+/// Too small: rounding errors of differences count as a skew part. Too large: the stability of
 /// follower forces is decided by a potential that they do not have. Test:
 /// `a_follower_force_is_not_judged`.
 pub(crate) const ASYMMETRIC: f64 = 1e-7;
 
 // Linearised motions.
 
-/// Step length along a curve; the longest of the eight steps is four times as long.
-/// Unit: share of the size, or rad. Less: the rounding error, 1e-16, is divided by a shorter step.
-/// More: the truncation error, which grows with the eighth power of the step, is no longer
-/// negligible. Test: `a_pendulum_has_the_matrices_of_its_textbook`.
+/// Step length along a curve; the longest of the eight steps is four times as long. Unit: share of
+/// the size, or rad. Too small: the rounding error, 1e-16, is divided by a shorter step. Too large:
+/// the truncation error, which grows with the eighth power of the step, is no longer negligible.
+/// Test: `a_pendulum_has_the_matrices_of_its_textbook`.
 pub(crate) const LINEARISE_STEP: f64 = 1.0 / 128.0;
 
 /// Derivatives of two different orders may differ by at most this share of the largest derivative.
-/// Unit: share. Less: steep functions are rejected. More: a corner of a function is accepted as a
-/// slope. Test: `a_force_with_a_corner_is_refused`.
+/// Unit: share. Too small: steep functions are rejected. Too large: a corner of a function is
+/// accepted as a slope. Test: `a_force_with_a_corner_is_refused`.
 pub(crate) const LINEARISE_ACCURACY: f64 = 1e-6;
 
 /// The step of a difference is divided by four up to this number of times, as long as the
-/// difference is not an accurate derivative.
-/// Unit: quarterings. Less: forces that are steep relative to the size of the mechanism are
-/// rejected. More: a rounding error counts as a corner. Test:
-/// `a_short_rod_in_a_large_mechanism_has_derivatives`.
+/// difference is not an accurate derivative. Unit: quarterings. Too small: forces that are steep
+/// relative to the size of the mechanism are rejected. Too large: a rounding error counts as a
+/// corner. Test: `a_short_rod_in_a_large_mechanism_has_derivatives`.
 pub(crate) const LINEARISE_SHORTER: usize = 3;
 
 /// The state is at rest if each body accelerates by no more than this share of its acceleration by
-/// the same forces without joints.
-/// Unit: share. Less: equilibria that are accurate to only a few digits are rejected. More:
-/// matrices are computed for a state that the motion leaves immediately. Test:
-/// `a_pendulum_held_aside_is_not_at_rest`.
+/// the same forces without joints. Unit: share. Too small: equilibria that are accurate to only a
+/// few digits are rejected. Too large: matrices are computed for a state that the motion leaves
+/// immediately. Test: `a_pendulum_held_aside_is_not_at_rest`.
 pub(crate) const STEADY_ACCELERATION: f64 = 1e-6;
 
 /// In a steady state, the rate of change of the acceleration is at most this share of the cube of
-/// the natural rate.
-/// Unit: share. Less: rounding errors of derivatives cause steady states to be rejected. More: a
-/// mass that moves through its equilibrium counts as steady. Test:
+/// the natural rate. Unit: share. Too small: rounding errors of derivatives cause steady states to
+/// be rejected. Too large: a mass that moves through its equilibrium counts as steady. Test:
 /// `a_mass_that_passes_its_place_of_rest_is_not_steady`.
 pub(crate) const STEADY_FRACTION: f64 = 1e-6;
 
 /// A cyclic coordinate (option `follow`) may change the rates by at most this share of the largest
-/// entry of A.
-/// Unit: share. Less: rounding errors of derivatives cause symmetries to be rejected. More:
-/// coordinates are eliminated on which the motion depends. Test:
+/// entry of A. Unit: share. Too small: rounding errors of derivatives cause symmetries to be
+/// rejected. Too large: coordinates are eliminated on which the motion depends. Test:
 /// `what_the_motion_depends_on_cannot_be_followed`.
 pub(crate) const SYMMETRY: f64 = 1e-7;
 
 /// Eigenvalues below this share of the largest one count as zero. The limit is the square root of
-/// the rounding error, because zero eigenvalues of free motions are double.
-/// Unit: share of the largest eigenvalue. Less: free motions seem to grow or decay. More: slow
-/// modes are lost. Test: `the_benchmark_bicycle_has_its_published_eigenvalues`.
+/// the rounding error, because zero eigenvalues of free motions are double. Unit: share of the
+/// largest eigenvalue. Too small: free motions seem to grow or decay. Too large: slow modes are
+/// lost. Test: `the_benchmark_bicycle_has_its_published_eigenvalues`.
 pub(crate) const ZERO_EIGENVALUE: f64 = 1e-7;
 
-/// Rounding error of the entries of A, for each row of A.
-/// Unit: share of the norm of A. Less: zero eigenvalues of large Jordan blocks seem to grow. More:
-/// slow modes are lost in mechanisms that also have stiff parts. Test:
+/// Rounding error of the entries of A, for each row of A. Unit: share of the norm of A. Too small:
+/// zero eigenvalues of large Jordan blocks seem to grow. Too large: slow modes are lost in
+/// mechanisms that also have stiff parts. Test:
 /// `rounding_around_a_multiple_zero_neither_grows_nor_decays`.
 pub(crate) const ZERO_ENTRY: f64 = 16.0 * f64::EPSILON;
 
 /// A mode whose real part is below this share of the largest eigenvalue neither grows nor decays.
-/// Unit: share of the largest eigenvalue. Less: undamped motions are reported as unstable because
-/// of rounding. More: lightly damped motions are not reported as stable. Test:
+/// Unit: share of the largest eigenvalue. Too small: undamped motions are reported as unstable
+/// because of rounding. Too large: lightly damped motions are not reported as stable. Test:
 /// `what_first_order_says_of_stability`.
 pub(crate) const NEITHER: f64 = 1e-9;
 
 /// The first free direction is chosen whose share is at least this fraction of the largest share.
-/// Unit: share. Less: the coordinates may determine the state badly. More: rounding decides which
-/// coordinates are chosen. Test: `a_pendulum_has_the_matrices_of_its_textbook`.
+/// Unit: share. Too small: the coordinates may determine the state badly. Too large: rounding
+/// decides which coordinates are chosen. Test: `a_pendulum_has_the_matrices_of_its_textbook`.
 pub(crate) const CHOSEN_PIVOT: f64 = 0.3;
 
-/// A direction is determined by the chosen directions if less than this share of it is free.
-/// Unit: share. Less: coordinates are accepted that determine nothing. More: useful coordinates
+/// A direction is determined by the chosen directions if less than this share of it is free. Unit:
+/// share. Too small: coordinates are accepted that determine nothing. Too large: useful coordinates
 /// near a dead centre are rejected. Test: `asked_coordinates_have_to_be_independent`.
 pub(crate) const DEPENDENT_COORDINATE: f64 = 1e-6;
 
 // Projection.
 
 /// Maximum number of position corrections per projection. One or two are usual; very loose
-/// tolerances need more.
-/// Unit: corrections. Less: steps with loose tolerances are rejected. More: a diverging projection
-/// takes longer to fail. Test: `it_is_where_its_drive_is_by_every_method`.
+/// tolerances need more. Unit: corrections. Too small: steps with loose tolerances are rejected.
+/// Too large: a diverging projection takes longer to fail. Test:
+/// `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const CORRECTIONS: usize = 20;
 
 /// Maximum number of position corrections by generated code; after them, the run uses the
-/// interpreter.
-/// Unit: corrections. Less: the run stops using generated code at steps with loose tolerances.
-/// More: runs take longer. Test: `limits_stand_in_their_order`.
+/// interpreter. Unit: corrections. Too small: the run stops using generated code at steps with
+/// loose tolerances. Too large: runs take longer. Test: `limits_stand_in_their_order`.
 pub(crate) const CODE_CORRECTIONS: usize = 6;
 
-/// Maximum number of velocity corrections per projection.
-/// Unit: corrections. Less: the rounding error of the first correction remains. More: runs take
-/// longer. Test: `it_is_where_its_drive_is_by_every_method`.
+/// Maximum number of velocity corrections per projection. Unit: corrections. Too small: the
+/// rounding error of the first correction remains. Too large: runs take longer. Test:
+/// `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const VELOCITY_CORRECTIONS: usize = 3;
 
 /// Independent rows count as satisfied if their residual is below this number of roundings of their
-/// terms.
-/// Unit: roundings. Less: each step needs one more correction. More: the constraints drift. Test:
-/// `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
+/// terms. Unit: roundings. Too small: each step needs one more correction. Too large: the
+/// constraints drift. Test: `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
 pub(crate) const ROUNDINGS: f64 = 10.0;
 
 /// Limit of the same kind for pivots that have fallen below [`WEAK`] and for dependent coordinates.
-/// Unit: roundings. Less: the limit cannot be reached. More: the residuals of the independent rows
-/// are amplified in the redundant rows. Test: `limits_stand_in_their_order`.
+/// Unit: roundings. Too small: the limit cannot be reached. Too large: the residuals of the
+/// independent rows are amplified in the redundant rows. Test: `limits_stand_in_their_order`.
 pub(crate) const FEW_ROUNDINGS: f64 = 1.0;
 
-/// Pivots below this share are weak.
-/// Unit: share of pivots. Less: redundant rows are violated near singular configurations. More:
-/// each step needs one more correction. Test: `limits_stand_in_their_order`.
+/// Pivots below this share are weak. Unit: share of pivots. Too small: redundant rows are violated
+/// near singular configurations. Too large: each step needs one more correction. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const WEAK: f64 = 0.5;
 
 /// Size of the terms of an independent rotation that is computed from a quaternion: a sum of four
-/// products, each at most two.
-/// Unit: rad. Less: the completion of states fails because of rounding. More: rotations drift.
-/// Test: `bricards_linkage_by_an_implicit_method`.
+/// products, each at most two. Unit: rad. Too small: the completion of states fails because of
+/// rounding. Too large: rotations drift. Test: `bricards_linkage_by_an_implicit_method`.
 pub(crate) const READ_ROTATION: f64 = 8.0;
 
 /// If a further correction does not help, independent rows count as satisfied below this number of
 /// roundings. The same limit applies to generated code, which cannot compute more accurate
-/// residuals.
-/// Unit: roundings. Less: projections fail because of rounding. More: the constraints drift. Test:
-/// `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
+/// residuals. Unit: roundings. Too small: projections fail because of rounding. Too large: the
+/// constraints drift. Test: `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
 pub(crate) const STALLED_ROUNDINGS: f64 = 50.0;
 
 /// The factors of an earlier configuration are used as long as a correction reduces the residual to
-/// at most this share. A factorisation costs about as much as ten corrections.
-/// Unit: share. Less: more factorisations are computed. More: more corrections are computed. Test:
+/// at most this share. A factorisation costs about as much as ten corrections. Unit: share. Too
+/// small: more factorisations are computed. Too large: more corrections are computed. Test:
 /// `factors_serve_as_long_as_a_correction_gains_a_digit`.
 pub(crate) const CONVERGENCE: f64 = 0.1;
 
 /// The independent rows imply a redundant row if its residual is below this share of its own terms
 /// and of the terms of the independent rows, weighted by their coefficients. For example, the terms
-/// of a row with an arm of 1e30 m do not limit the violation of an angle.
-/// Unit: share of terms. Less: rounding errors of the independent rows, 1e-15, cause good steps to
-/// be rejected. More: rows that start to differ are detected late. Test:
+/// of a row with an arm of 1e30 m do not limit the violation of an angle. Unit: share of terms. Too
+/// small: rounding errors of the independent rows, 1e-15, cause good steps to be rejected. Too
+/// large: rows that start to differ are detected late. Test:
 /// `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
 pub(crate) const DROPPED_MISFIT: f64 = 1e-11;
 
 /// A constraint violation that grows by less than this share counts as unchanged, and its first
-/// time is reported.
-/// Unit: share of the misfit. Less: rounding decides the time of a constant violation. More: the
-/// reported time of a growing violation is too early. Test:
+/// time is reported. Unit: share of the misfit. Too small: rounding decides the time of a constant
+/// violation. Too large: the reported time of a growing violation is too early. Test:
 /// `a_door_on_two_hinges_misses_by_their_distance`.
 pub(crate) const SAME_MISFIT: f64 = 1e-9;
 
 /// Share of the size of the mechanism by which the velocities of redundant rows may differ during
-/// the time of a run, however slow the motion is. This share is some hundred roundings.
-/// Unit: share of size. Less: mechanisms at rest are rejected. More: slow contradictions are not
+/// the time of a run, however slow the motion is. This share is some hundred roundings. Unit: share
+/// of size. Too small: mechanisms at rest are rejected. Too large: slow contradictions are not
 /// detected. Test: `limits_stand_in_their_order`.
 pub(crate) const AT_REST: f64 = 1e-13;
 
 /// The residual of a redundant row of Φ must not exceed this share of its own terms, however large
-/// the distances in the independent rows that imply it.
-/// Unit: share of terms. Less: distant points cause good steps to be rejected. More: another
-/// configuration of the independent rows is accepted. Test: `limits_stand_in_their_order`.
+/// the distances in the independent rows that imply it. Unit: share of terms. Too small: distant
+/// points cause good steps to be rejected. Too large: another configuration of the independent rows
+/// is accepted. Test: `limits_stand_in_their_order`.
 pub(crate) const POSITION_MISFIT: f64 = 1e-5;
 
 /// Smallest share of the reference pivots that increases the allowed residual of redundant rows.
-/// Below this share, rows are left out of the solution.
-/// Unit: share of pivots. Less: redundant rows may be violated by any amount. More: good steps near
-/// a singular configuration are rejected. Test: `limits_stand_in_their_order`.
+/// Below this share, rows are left out of the solution. Unit: share of pivots. Too small: redundant
+/// rows may be violated by any amount. Too large: good steps near a singular configuration are
+/// rejected. Test: `limits_stand_in_their_order`.
 pub(crate) const NEAREST_PIVOT: f64 = 1e-6;
 
 /// The rows of bodies at rest contain rounding errors of the other rows; in generated code, their
-/// terms count as at least this share of the largest term.
-/// Unit: share of terms. Less: the run stops using generated code if bodies are at rest. More: the
-/// constraints of slow bodies drift. Test: none.
+/// terms count as at least this share of the largest term. Unit: share of terms. Too small: the run
+/// stops using generated code if bodies are at rest. Too large: the constraints of slow bodies
+/// drift. Test: none.
 pub(crate) const CODE_AT_REST: f64 = 1e-4;
 
 // Independent coordinates.
 
 /// A partition is renewed if its pivots have fallen below this share of the pivots at its choice.
-/// The pivots should not fall to the limit of lost rows during a step.
-/// Unit: share of pivots. Less: the completion of states fails within a step. More: linear systems
-/// are set up repeatedly. Test: `partitions_are_renewed_as_a_blade_turns`.
+/// The pivots should not fall to the limit of lost rows during a step. Unit: share of pivots. Too
+/// small: the completion of states fails within a step. Too large: linear systems are set up
+/// repeatedly. Test: `partitions_are_renewed_as_a_blade_turns`.
 pub(crate) const PARTITION_WORN: f64 = 0.5;
 
 /// If a dependent coordinate moves by more than this when a state is completed, it may be on
-/// another branch or in another revolution.
-/// Unit: share of the mechanism's size, or rad. Less: long steps are rejected. More: the motion
-/// changes to another branch. Test: `shifted_systems_are_solved`.
+/// another branch or in another revolution. Unit: share of the mechanism's size, or rad. Too small:
+/// long steps are rejected. Too large: the motion changes to another branch. Test:
+/// `shifted_systems_are_solved`.
 pub(crate) const FAR_COMPLETION: f64 = 0.6;
 
 /// In addition to [`FAR_COMPLETION`], dependent coordinates may move by this multiple of the
-/// distance that the mechanism would travel from the last accepted state at its velocities.
-/// Unit: ways. Less: long steps are rejected. More: the motion changes to another branch. Test:
+/// distance that the mechanism would travel from the last accepted state at its velocities. Unit:
+/// ways. Too small: long steps are rejected. Too large: the motion changes to another branch. Test:
 /// none.
 pub(crate) const FAR_EXTRAPOLATED: f64 = 2.0;
 
 /// Allowed distance between the end of a step and the position predicted from the velocities at
-/// both ends.
-/// Unit: share of the largest way on it. Less: steps of curved motions are rejected. More: the
-/// motion changes to another branch. Test: none.
+/// both ends. Unit: share of the largest way on it. Too small: steps of curved motions are
+/// rejected. Too large: the motion changes to another branch. Test: none.
 pub(crate) const FAR_IN_A_STEP: f64 = 0.5;
 
 /// Allowed distance in addition to [`FAR_IN_A_STEP`]; it applies even if the mechanism does not
-/// move.
-/// Unit: share of the mechanism's size, or rad. Less: starts from rest are rejected. More: the
-/// motion changes to another branch. Test: `a_grip_of_1e12_takes_few_steps`.
+/// move. Unit: share of the mechanism's size, or rad. Too small: starts from rest are rejected. Too
+/// large: the motion changes to another branch. Test: `a_grip_of_1e12_takes_few_steps`.
 pub(crate) const FAR_AT_REST: f64 = 1e-2;
 
 // Exchange of independent rows.
 
 /// Other independent rows are chosen if the pivots have fallen below this share. The rounding
 /// errors of the independent rows reach the redundant rows multiplied by the inverse of the pivots.
-/// Unit: share of pivots. Less: redundant rows are violated. More: the rows are chosen again at
-/// every step. Test: `limits_stand_in_their_order`.
+/// Unit: share of pivots. Too small: redundant rows are violated. Too large: the rows are chosen
+/// again at every step. Test: `limits_stand_in_their_order`.
 pub(crate) const PIVOT_LOSS: f64 = 0.1;
 
-/// The rows requested by the user are used again above this share.
-/// Unit: share of pivots. Less: the rows change at every step. More: the requested rows are not
-/// used again. Test: `limits_stand_in_their_order`.
+/// The rows requested by the user are used again above this share. Unit: share of pivots. Too
+/// small: the rows change at every step. Too large: the requested rows are not used again. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const PIVOT_RECOVERY: f64 = 0.2;
 
 /// Rows that the program chose are exchanged if a coefficient in a redundant row is larger than
-/// this.
-/// Unit: 1. Less: the rows are chosen again at every step. More: redundant rows are violated. Test:
-/// `rows_that_multiply_their_rounding_are_exchanged`.
+/// this. Unit: 1. Too small: the rows are chosen again at every step. Too large: redundant rows are
+/// violated. Test: `rows_that_multiply_their_rounding_are_exchanged`.
 pub(crate) const LARGE_COEFFICIENT: f64 = 10.0;
 
-/// Other rows are used if their coefficients are smaller by at least this factor.
-/// Unit: 1. Less: the rows change at every step. More: badly conditioned rows are still used. Test:
+/// Other rows are used if their coefficients are smaller by at least this factor. Unit: 1. Too
+/// small: the rows change at every step. Too large: badly conditioned rows are still used. Test:
 /// `sixty_four_step_sizes_over_the_flat_pose`.
 pub(crate) const WORTH_EXCHANGE: f64 = 3.0;
 
 /// Output rows are checked only if the pivots are below this share. Above it, the independent rows
-/// amplify rounding errors only slightly.
-/// Unit: share of pivots. Less: the constraints are violated in output rows between two steps.
-/// More: runs take longer. Test: `limits_stand_in_their_order`.
+/// amplify rounding errors only slightly. Unit: share of pivots. Too small: the constraints are
+/// violated in output rows between two steps. Too large: runs take longer. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const SOUND: f64 = 0.5;
 
 // Singular configurations.
 
 /// Below this share, positions are corrected at least once. A state whose rows have a rounding
 /// error δ has a position error δ/share and an acceleration error δ/share². One correction makes
-/// angles exact, whatever the rounding error of the coordinates.
-/// Unit: share of pivots. Less: steps through singular configurations far from the origin fail.
-/// More: unnecessary corrections are computed. Test:
-/// `parallelograms_pass_their_flat_poses_at_speed`.
+/// angles exact, whatever the rounding error of the coordinates. Unit: share of pivots. Too small:
+/// steps through singular configurations far from the origin fail. Too large: unnecessary
+/// corrections are computed. Test: `parallelograms_pass_their_flat_poses_at_speed`.
 pub(crate) const SHARPENED: f64 = 0.2;
 
 /// Below this share, rows are ill-conditioned, and the stages of a method must be on the constraint
-/// manifold.
-/// Unit: share of pivots. Less: stages with a constraint violation δ have an error of δ/share.
-/// More: ordinary steps need the additional work of projected stages. Test:
+/// manifold. Unit: share of pivots. Too small: stages with a constraint violation δ have an error
+/// of δ/share. Too large: ordinary steps need the additional work of projected stages. Test:
 /// `limits_stand_in_their_order`.
 pub(crate) const DELICATE: f64 = 0.1;
 
-/// A step is searched for a singular configuration if a stage is below this share.
-/// Unit: share of pivots. Less: singular configurations are not reported, and their branches are
-/// not compared. More: ordinary steps are searched. Test:
+/// A step is searched for a singular configuration if a stage is below this share. Unit: share of
+/// pivots. Too small: singular configurations are not reported, and their branches are not
+/// compared. Too large: ordinary steps are searched. Test:
 /// `rows_that_nobody_wants_are_not_computed`.
 pub(crate) const SUSPECT: f64 = 0.1;
 
-/// Smallest allowed distance between the end of a step and a singular configuration.
-/// Unit: share of pivots. Less: a projection cannot distinguish the branches. More: no step can end
+/// Smallest allowed distance between the end of a step and a singular configuration. Unit: share of
+/// pivots. Too small: a projection cannot distinguish the branches. Too large: no step can end
 /// where the motion is slow. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NEAREST: f64 = 1e-3;
 
-/// The smallest distance to a singular configuration in units of the relative tolerance.
-/// Unit: tolerances. Less: steps with loose tolerances take another branch. More: no step can end
-/// where the motion is slow. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
+/// The smallest distance to a singular configuration in units of the relative tolerance. Unit:
+/// tolerances. Too small: steps with loose tolerances take another branch. Too large: no step can
+/// end where the motion is slow. Test:
+/// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NEAREST_TOLERANCES: f64 = 100.0;
 
-/// Upper limit of the smallest distance to a singular configuration, for loose tolerances.
-/// Unit: share of pivots. Less: steps with loose tolerances take another branch. More: runs with
-/// loose tolerances stop. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
+/// Upper limit of the smallest distance to a singular configuration, for loose tolerances. Unit:
+/// share of pivots. Too small: steps with loose tolerances take another branch. Too large: runs
+/// with loose tolerances stop. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NEAREST_MAX: f64 = 0.1;
 
 /// A step that approaches a singular configuration suddenly is repeated with a shorter length if it
 /// ends closer than this multiple of the smallest distance. The rounding error of accelerations
-/// grows with the inverse third power of the distance.
-/// Unit: nearest approaches. Less: the next step starts at a state at which rounding errors
-/// dominate its stages. More: steps are rejected unnecessarily. Test:
-/// `parallelograms_pass_their_flat_poses_at_speed`.
+/// grows with the inverse third power of the distance. Unit: nearest approaches. Too small: the
+/// next step starts at a state at which rounding errors dominate its stages. Too large: steps are
+/// rejected unnecessarily. Test: `parallelograms_pass_their_flat_poses_at_speed`.
 pub(crate) const NEARBY: f64 = 10.0;
 
-/// An approach is sudden if the pivot has fallen to this share.
-/// Unit: share of the pivot at the last accepted step. Less: the next step starts at a state at
-/// which rounding errors dominate its stages. More: motions that stay near a singular configuration
-/// are slowed down. Test: `parallelograms_pass_their_flat_poses_at_speed`.
+/// An approach is sudden if the pivot has fallen to this share. Unit: share of the pivot at the
+/// last accepted step. Too small: the next step starts at a state at which rounding errors dominate
+/// its stages. Too large: motions that stay near a singular configuration are slowed down. Test:
+/// `parallelograms_pass_their_flat_poses_at_speed`.
 pub(crate) const FALLEN: f64 = 0.1;
 
 /// Singular configurations are predicted for this multiple of the last step. No method increases
-/// its step by a larger factor.
-/// Unit: steps. Less: a step reaches an unpredicted singular configuration. More: unnecessary
-/// searches are made. Test: `forty_four_bars_are_where_one_angle_says`.
+/// its step by a larger factor. Unit: steps. Too small: a step reaches an unpredicted singular
+/// configuration. Too large: unnecessary searches are made. Test:
+/// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const FORESIGHT: f64 = 12.0;
 
 /// Implicit methods are replaced by `dop853` this number of steps before a singular configuration;
-/// explicit methods as soon as it is predicted.
-/// Unit: steps. Less: implicit methods step over it themselves and fail. More: explicit steps are
-/// made under stiff forces. Test: `a_grip_of_1e12_takes_few_steps`.
+/// explicit methods as soon as it is predicted. Unit: steps. Too small: implicit methods step over
+/// it themselves and fail. Too large: explicit steps are made under stiff forces. Test:
+/// `a_grip_of_1e12_takes_few_steps`.
 pub(crate) const IMPLICIT_REACH: f64 = 4.0;
 
 /// Limit for the constraint violation that the rounding error of the coordinates causes. Above this
 /// limit, stages are moved onto the constraints as soon as a singular configuration is predicted.
-/// Unit: share of the size. Less: steps towards the singular configuration lose the order of
-/// accuracy of the method. More: steps through singular configurations far from the origin fail.
-/// Test: `parallelograms_pass_their_flat_poses_at_speed`.
+/// Unit: share of the size. Too small: steps towards the singular configuration lose the order of
+/// accuracy of the method. Too large: steps through singular configurations far from the origin
+/// fail. Test: `parallelograms_pass_their_flat_poses_at_speed`.
 pub(crate) const COARSE: f64 = 1e-13;
 
 /// Smallest weight of a component near zero in the error norm of a step over a singular
-/// configuration. The rounding error does not decrease with the component.
-/// Unit: tolerances times the size of the mechanism. Less: the step size collapses before the
-/// singular configuration if a component is near zero. More: the motion changes to another branch.
-/// Test: `a_passage_far_away_is_as_good_as_its_coordinates_are_known`.
+/// configuration. The rounding error does not decrease with the component. Unit: tolerances times
+/// the size of the mechanism. Too small: the step size collapses before the singular configuration
+/// if a component is near zero. Too large: the motion changes to another branch. Test:
+/// `a_passage_far_away_is_as_good_as_its_coordinates_are_known`.
 pub(crate) const LEAST_SCALE: f64 = 0.1;
 
 /// Relative error that rounding may cause in a step over a singular configuration if the steps are
 /// short. A limit of 1e-10 was not enough at a tolerance of 1e-10 if the run switches to the
-/// interpreter before the singular configuration.
-/// Unit: 1. Less: the step size collapses before the singular configuration. More: the step over it
-/// loses digits. Test: none.
+/// interpreter before the singular configuration. Unit: 1. Too small: the step size collapses
+/// before the singular configuration. Too large: the step over it loses digits. Test: none.
 pub(crate) const PASSED: f64 = 1e-9;
 
-/// Largest relative correction of a step over a singular configuration.
-/// Unit: share of the distance at which it ends: other branches are as far away as that. Less: runs
-/// stop before the singular configuration. More: the motion changes to another branch. Test:
+/// Largest relative correction of a step over a singular configuration. Unit: share of the distance
+/// at which it ends: other branches are as far away as that. Too small: runs stop before the
+/// singular configuration. Too large: the motion changes to another branch. Test:
 /// `a_run_may_end_in_the_flat_pose_or_beside_it`.
 pub(crate) const SMOOTH: f64 = 0.01;
 
 /// Allowed difference between the velocities after a singular configuration and the velocities that
 /// follow from the accelerations on both sides. A step over it is short relative to the curvature
-/// of the motion, and another branch has another direction.
-/// Unit: share of momentum. Less: runs stop after the singular configuration. More: the motion
-/// changes to another branch. Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
+/// of the motion, and another branch has another direction. Unit: share of momentum. Too small:
+/// runs stop after the singular configuration. Too large: the motion changes to another branch.
+/// Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
 pub(crate) const KINK: f64 = 0.25;
 
 /// The step size collapses within this share of the run before the time at which constraints
-/// contradict each other.
-/// Unit: share of the run. Less: the contradiction is not reported as the cause. More: an unrelated
-/// contradiction is reported. Test: `a_contradiction_just_ahead_is_why_a_run_stops`.
+/// contradict each other. Unit: share of the run. Too small: the contradiction is not reported as
+/// the cause. Too large: an unrelated contradiction is reported. Test:
+/// `a_contradiction_just_ahead_is_why_a_run_stops`.
 pub(crate) const JUST_AHEAD: f64 = 1e-9;
 
-/// Reactions are not reported if the pivots are below this share.
-/// Unit: share of pivots. Less: reactions are rounding errors. More: accurate reactions are left
-/// out. Test: `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
+/// Reactions are not reported if the pivots are below this share. Unit: share of pivots. Too small:
+/// reactions are rounding errors. Too large: accurate reactions are left out. Test:
+/// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NO_REACTIONS: f64 = 1e-6;
 
 /// The limit for reactions in units of the relative tolerance: a row with a motion error δ has
-/// reactions with an error of δ/share.
-/// Unit: tolerances. Less: reactions are wrong. More: accurate reactions are left out. Test:
+/// reactions with an error of δ/share. Unit: tolerances. Too small: reactions are wrong. Too large:
+/// accurate reactions are left out. Test:
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NO_REACTIONS_TOLERANCES: f64 = 1e3;
 
-/// Loose tolerances must not remove reactions at pivots above this share.
-/// Unit: share of pivots. Less: reactions are wrong. More: accurate reactions are left out. Test:
+/// Loose tolerances must not remove reactions at pivots above this share. Unit: share of pivots.
+/// Too small: reactions are wrong. Too large: accurate reactions are left out. Test:
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NO_REACTIONS_MAX: f64 = 1e-2;
 
 // Search for singular instants.
 
-/// Number of intervals into which a step is divided for the first search.
-/// Unit: intervals. Less: two singular configurations within a step count as one. More: the search
-/// takes longer. Test: `forty_four_bars_are_where_one_angle_says`.
+/// Number of intervals into which a step is divided for the first search. Unit: intervals. Too
+/// small: two singular configurations within a step count as one. Too large: the search takes
+/// longer. Test: `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const PLACES: usize = 16;
 
 /// Accuracy of the instant at which a pivot is smallest; the pivot is then accurate to the same
-/// share.
-/// Unit: share of the interval. Less: the search takes longer. More: singular configurations are
-/// overlooked. Test: none.
+/// share. Unit: share of the interval. Too small: the search takes longer. Too large: singular
+/// configurations are overlooked. Test: none.
 pub(crate) const SHARP: f64 = 1e-7;
 
 /// A singular configuration is searched for up to this multiple of the distance at which a straight
-/// line reaches it.
-/// Unit: distances. Less: pivots that vanish along a curve are not predicted. More: the search
-/// takes longer. Test: `forty_four_bars_are_where_one_angle_says`.
+/// line reaches it. Unit: distances. Too small: pivots that vanish along a curve are not predicted.
+/// Too large: the search takes longer. Test: `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const BEYOND: f64 = 1.5;
 
 /// A pivot that falls to this share of the present one and rises again counts as vanishing; the
-/// remainder is the error of a parabola.
-/// Unit: share of the present pivot. Less: singular configurations are not predicted. More: steps
-/// avoid regular configurations. Test: `limits_stand_in_their_order`.
+/// remainder is the error of a parabola. Unit: share of the present pivot. Too small: singular
+/// configurations are not predicted. Too large: steps avoid regular configurations. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const VANISHES: f64 = 0.2;
 
 /// A search is made if a pivot falls below this share of the present one at one of [`GLANCES`]
 /// instants. A pivot that vanishes between two of these instants is detected, unless it vanishes
-/// much earlier than expected.
-/// Unit: share of the present pivot. Less: singular configurations are not predicted. More: the
-/// search takes longer. Test: `limits_stand_in_their_order`.
+/// much earlier than expected. Unit: share of the present pivot. Too small: singular configurations
+/// are not predicted. Too large: the search takes longer. Test: `limits_stand_in_their_order`.
 pub(crate) const STAYS: f64 = 0.75;
 
-/// Number of instants at which a pivot is evaluated before a search.
-/// Unit: places. Less: singular configurations are not predicted. More: the search takes longer.
-/// Test: `forty_four_bars_are_where_one_angle_says`.
+/// Number of instants at which a pivot is evaluated before a search. Unit: places. Too small:
+/// singular configurations are not predicted. Too large: the search takes longer. Test:
+/// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const GLANCES: usize = 6;
 
 /// A pivot has a minimum between two instants if it falls to this share of both neighbouring
-/// values. At an end of the searched interval, the pivot falls without rising again.
-/// Unit: share of the pivots at the neighbouring places. Less: singular configurations are not
-/// found. More: one singular configuration is reported twice. Test:
+/// values. At an end of the searched interval, the pivot falls without rising again. Unit: share of
+/// the pivots at the neighbouring places. Too small: singular configurations are not found. Too
+/// large: one singular configuration is reported twice. Test:
 /// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const RISES: f64 = 0.5;
 
 /// Between two instants, a pivot falls by at most this multiple of its largest change between two
-/// neighbouring instants.
-/// Unit: 1. Less: singular configurations are not found. More: the search takes longer. Test:
-/// `a_pivot_that_vanishes_as_a_root_is_searched_for`.
+/// neighbouring instants. Unit: 1. Too small: singular configurations are not found. Too large: the
+/// search takes longer. Test: `a_pivot_that_vanishes_as_a_root_is_searched_for`.
 pub(crate) const STEEPER: f64 = 2.0;
 
 /// Number of intervals of a step from which the motion through a singular configuration is
-/// analysed.
-/// Unit: intervals. Less: the analysis does not find the singular configuration. More: the analysis
-/// takes longer. Test: `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
+/// analysed. Unit: intervals. Too small: the analysis does not find the singular configuration. Too
+/// large: the analysis takes longer. Test: `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const PASSAGE_STATES: usize = 8;
 
 /// Maximum number of rows for which the motion through a singular configuration is analysed. The
-/// work for determinants at many instants grows with the cube of the rows.
-/// Unit: rows. Less: uniqueness is not decided. More: the analysis takes longer. Test:
+/// work for determinants at many instants grows with the cube of the rows. Unit: rows. Too small:
+/// uniqueness is not decided. Too large: the analysis takes longer. Test:
 /// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const JUDGED_MOST: usize = 64;
 
-/// Maximum number of singular configurations that are reported for one step.
-/// Unit: passages. Less: some singular configurations are not reported. More: the search takes
-/// longer. Test: `passages_are_told_at_the_same_time`.
+/// Maximum number of singular configurations that are reported for one step. Unit: passages. Too
+/// small: some singular configurations are not reported. Too large: the search takes longer. Test:
+/// `passages_are_told_at_the_same_time`.
 pub(crate) const MOST_PASSAGES: usize = 8;
 
-/// Smallest distance between two singular configurations of one step.
-/// Unit: share of the step. Less: one singular configuration counts twice. More: two singular
-/// configurations count as one. Test: `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
+/// Smallest distance between two singular configurations of one step. Unit: share of the step. Too
+/// small: one singular configuration counts twice. Too large: two singular configurations count as
+/// one. Test: `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const BESIDE: f64 = 0.02;
 
 // Jumps.
 
 /// Residuals below this share of the terms of their row do not count as jumps. For rates, the terms
-/// are those of the largest row.
-/// Unit: share of terms. Less: a rounding error counts as an impulse. More: small jumps are not
-/// reported. Test: `smooth_steps_are_no_jumps`.
+/// are those of the largest row. Unit: share of terms. Too small: a rounding error counts as an
+/// impulse. Too large: small jumps are not reported. Test: `smooth_steps_are_no_jumps`.
 pub(crate) const NO_JUMP: f64 = 1e-9;
 
 /// A continuous function changes much more between two times that are this number of roundings
-/// apart than between neighbouring times.
-/// Unit: roundings. Less: rounding errors hide the change. More: other changes are included. Test:
-/// `smooth_steps_are_no_jumps`.
+/// apart than between neighbouring times. Unit: roundings. Too small: rounding errors hide the
+/// change. Too large: other changes are included. Test: `smooth_steps_are_no_jumps`.
 pub(crate) const WIDE: f64 = 1e6;
 
 /// A change is a jump if more than this share of the change over the wider interval remains over
-/// the narrow one.
-/// Unit: share. Less: steep functions count as jumps. More: jumps count as steep functions. Test:
-/// `a_jump_of_the_rate_is_an_impulse_with_its_energy`.
+/// the narrow one. Unit: share. Too small: steep functions count as jumps. Too large: jumps count
+/// as steep functions. Test: `a_jump_of_the_rate_is_an_impulse_with_its_energy`.
 pub(crate) const REMAINS: f64 = 0.5;
 
 // Rows of output.
 
-/// Allowed distance between an output row and the cubic through both ends of its step.
-/// Unit: share of the way of the step. Less: good output rows are rejected. More: output rows on
+/// Allowed distance between an output row and the cubic through both ends of its step. Unit: share
+/// of the way of the step. Too small: good output rows are rejected. Too large: output rows on
 /// another branch are accepted. Test: `rows_lie_where_their_step_leads`.
 pub(crate) const ROW_DEVIATION: f64 = 0.25;
 
 /// Allowed distance in addition to [`ROW_DEVIATION`]; it applies even if the mechanism does not
-/// move.
-/// Unit: share of the mechanism's size, or rad. Less: good output rows are rejected. More: output
-/// rows on another branch are accepted. Test: `rows_lie_where_their_step_leads`.
+/// move. Unit: share of the mechanism's size, or rad. Too small: good output rows are rejected. Too
+/// large: output rows on another branch are accepted. Test: `rows_lie_where_their_step_leads`.
 pub(crate) const ROW_DEVIATION_AT_REST: f64 = 1e-3;
 
-/// Velocities along a step may be this multiple of the mean velocity of the step.
-/// Unit: 1. Less: output rows are rejected if drives are at rest at both ends of a step. More:
-/// output rows on another branch are accepted. Test:
+/// Velocities along a step may be this multiple of the mean velocity of the step. Unit: 1. Too
+/// small: output rows are rejected if drives are at rest at both ends of a step. Too large: output
+/// rows on another branch are accepted. Test:
 /// `a_drive_that_rests_at_both_ends_of_a_step_may_be_fast_between`.
 pub(crate) const PEAK: f64 = 3.0;
 
-/// A step that is repeated many times discards its stored stages after this number of trials.
-/// Unit: times. Less: stages are evaluated twice. More: more memory is used. Test: none, work only.
+/// A step that is repeated many times discards its stored stages after this number of trials. Unit:
+/// times. Too small: stages are evaluated twice. Too large: more memory is used. Test: none, work
+/// only.
 pub(crate) const REMEMBERED: usize = 256;
 
-/// Number of output rows by which a component may be ahead of the others.
-/// Unit: rows. Less: threads wait for each other. More: more memory is used. Test: none, work only.
+/// Number of output rows by which a component may be ahead of the others. Unit: rows. Too small:
+/// threads wait for each other. Too large: more memory is used. Test: none, work only.
 pub(crate) const AHEAD: usize = 64;
 
 // Generated code.
 
 /// A run stops using generated code below this health, because the interpreter must detect a
-/// singular configuration in advance. A run does not start with code below this health.
-/// Unit: share of the generator's pivots. Less: generated code reaches singular configurations.
-/// More: a run stops using code that is still accurate. Test: `limits_stand_in_their_order`.
+/// singular configuration in advance. A run does not start with code below this health. Unit: share
+/// of the generator's pivots. Too small: generated code reaches singular configurations. Too large:
+/// a run stops using code that is still accurate. Test: `limits_stand_in_their_order`.
 pub const LEAVE: f64 = 0.1;
 
-/// A run uses generated code again above this health.
-/// Unit: share of the generator's pivots. Less: the run switches frequently. More: the code is not
-/// used again. Test: `limits_stand_in_their_order`.
+/// A run uses generated code again above this health. Unit: share of the generator's pivots. Too
+/// small: the run switches frequently. Too large: the code is not used again. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const RETURN: f64 = 0.3;
 
 /// Number of accepted steps before generated code is used again for the first time. The number
-/// doubles each time the run stops using the code.
-/// Unit: steps. Less: the run switches frequently. More: runs take longer. Test:
-/// `code_that_is_not_sure_is_left_and_comes_back`.
+/// doubles each time the run stops using the code. Unit: steps. Too small: the run switches
+/// frequently. Too large: runs take longer. Test: `code_that_is_not_sure_is_left_and_comes_back`.
 pub(crate) const PATIENCE: u64 = 8;
 
 /// Largest allowed difference between the accelerations of generated code and of the interpreter
-/// when the run uses the code again.
-/// Unit: share of the largest. Less: rounding errors prevent the use of code. More: wrong code is
-/// used again. Test: none.
+/// when the run uses the code again. Unit: share of the largest. Too small: rounding errors prevent
+/// the use of code. Too large: wrong code is used again. Test: none.
 pub(crate) const SAME_ACCELERATIONS: f64 = 1e-9;
 
-/// Allowed difference between values of generated code and of the interpreter.
-/// Unit: share of terms. Less: rounding errors cause code to be rejected. More: code of a similar
+/// Allowed difference between values of generated code and of the interpreter. Unit: share of
+/// terms. Too small: rounding errors cause code to be rejected. Too large: code of a similar
 /// mechanism is accepted. Test: `code_of_another_mechanism_is_refused`.
 pub(crate) const SAME_VALUES: f64 = 1e-9;
 
-/// Number of states near the start at which values are compared.
-/// Unit: states. Less: the code of another mechanism agrees by chance. More: the comparison takes
-/// longer. Test: none.
+/// Number of states near the start at which values are compared. Unit: states. Too small: the code
+/// of another mechanism agrees by chance. Too large: the comparison takes longer. Test: none.
 pub(crate) const CODE_STATES: usize = 6;
 
-/// Distance of these states from the start.
-/// Unit: size of the mechanism, or rad. Less: differences in geometry are not detected. More: the
-/// code is not healthy at these states. Test: none.
+/// Distance of these states from the start. Unit: size of the mechanism, or rad. Too small:
+/// differences in geometry are not detected. Too large: the code is not healthy at these states.
+/// Test: none.
 pub(crate) const DISTANCE: f64 = 0.01;
 
 /// Velocities at these states; they must be large enough that terms in their squares are
-/// significant.
-/// Unit: size of the mechanism, or rad, per second. Less: these terms are not significant. More:
-/// these terms dominate all others. Test: `code_of_another_mechanism_is_refused`.
+/// significant. Unit: size of the mechanism, or rad, per second. Too small: these terms are not
+/// significant. Too large: these terms dominate all others. Test:
+/// `code_of_another_mechanism_is_refused`.
 pub(crate) const SPEED: f64 = 1.0;
 
 // Choices of method and components.
 
 /// A motion is stiff if an explicit method would need more steps than this for stability alone.
-/// Unit: steps. Less: implicit methods are used for motions that explicit methods compute faster.
-/// More: runs take hours. Test: `components_move_as_they_do_alone_and_each_at_its_own_pace`.
+/// Unit: steps. Too small: implicit methods are used for motions that explicit methods compute
+/// faster. Too large: runs take hours. Test:
+/// `components_move_as_they_do_alone_and_each_at_its_own_pace`.
 pub(crate) const STIFF: f64 = 2e4;
 
 /// Explicit steps are stable up to about this multiple of 1/|λ|. The value belongs to
 /// Dormand–Prince 8(5,3) along the negative real axis.
-/// Unit: 1. Less, more: the effects are the same as for [`STIFF`]. Test:
+/// Unit: 1. Too small or too large: the effects are the same as for [`STIFF`]. Test:
 /// `explicit_steps_are_stable_up_to_the_limit_and_not_far_beyond`.
 pub(crate) const STABLE: f64 = 6.0;
 
-/// Number of iterations for the largest |λ|; only the second half is used for the result.
-/// Unit: iterations. Less: the rate of oscillations is wrong. More: the choice takes longer. Test:
-/// `the_fastest_rate_is_found_also_of_oscillations`.
+/// Number of iterations for the largest |λ|; only the second half is used for the result. Unit:
+/// iterations. Too small: the rate of oscillations is wrong. Too large: the choice takes longer.
+/// Test: `the_fastest_rate_is_found_also_of_oscillations`.
 pub(crate) const POWER_ITERATIONS: usize = 64;
 
-/// Maximum number of components that run at the same time, each on its own thread.
-/// Unit: threads. Less: many mechanisms must use the same steps. More: threads cost more time than
-/// they save. Test: `too_many_components_stay_one`.
+/// Maximum number of components that run at the same time, each on its own thread. Unit: threads.
+/// Too small: many mechanisms must use the same steps. Too large: threads cost more time than they
+/// save. Test: `too_many_components_stay_one`.
 pub(crate) const MOST_COMPONENTS: usize = 256;
 
 /// Maximum number of bodies of a component that are named; for more bodies, their number is given.
-/// Unit: bodies. Less, more: names of components are too short or too long. Test:
+/// Unit: bodies. Too small or too large: names of components are too short or too long. Test:
 /// `three_bodies_are_named_and_more_are_counted`.
 pub(crate) const NAMED: usize = 3;
 
 /// Rows with a weight below this share of the largest weight are not listed in a combination that
-/// is reported.
-/// Unit: share. Less: insignificant rows are listed. More: significant rows are not listed. Test:
-/// `a_start_names_the_rows_that_nearly_depend_and_no_others`.
+/// is reported. Unit: share. Too small: insignificant rows are listed. Too large: significant rows
+/// are not listed. Test: `a_start_names_the_rows_that_nearly_depend_and_no_others`.
 pub(crate) const TAKES_PART: f64 = 0.1;
 
 // Default options of a run.
 
 impl MotionOptions {
-    /// Default number of output steps of a run.
-    /// Unit: steps. Less: curves in figures show corners. More: files are large. Test:
-    /// `a_turn_is_as_round_as_a_picture_shows`.
+    /// Default number of output steps of a run. Unit: steps. Too small: curves in figures show
+    /// corners. Too large: files are large. Test: `a_turn_is_as_round_as_a_picture_shows`.
     pub const OUTPUT_STEPS: f64 = 200.0;
 
-    /// Default relative tolerance.
-    /// Unit: 1. Less: runs take longer. More: motions are wrong in digits that users read. Test:
+    /// Default relative tolerance. Unit: 1. Too small: runs take longer. Too large: motions are
+    /// wrong in digits that users read. Test:
     /// `motions_without_stated_tolerances_have_the_digits_that_are_read`.
     pub const RTOL: f64 = 1e-8;
 
-    /// Default absolute tolerance.
-    /// Unit: m, rad, and these per second. Less, more: the effects are the same as for the relative
-    /// tolerance. Test: `motions_without_stated_tolerances_have_the_digits_that_are_read`.
+    /// Default absolute tolerance. Unit: m, rad, and these per second. Too small or too large: the
+    /// effects are the same as for the relative tolerance. Test:
+    /// `motions_without_stated_tolerances_have_the_digits_that_are_read`.
     pub const ATOL: f64 = 1e-10;
 
-    /// Allowed range of the relative tolerance.
-    /// Unit: 1. Less: the rounding error of a step is larger than the tolerance. More: the error of
-    /// a step is not small. Test: `the_ends_of_the_ranges_are_right`.
+    /// Allowed range of the relative tolerance. Unit: 1. Too small: the rounding error of a step is
+    /// larger than the tolerance. Too large: the error of a step is not small. Test:
+    /// `the_ends_of_the_ranges_are_right`.
     pub const RTOL_RANGE: RangeInclusive<f64> = 1e-15..=0.1;
 
     /// Description of [`MotionOptions::RTOL_RANGE`] for error messages.
     pub const RTOL_EXPECTED: &str = "a number from 1e-15 (rounding) to 0.1";
 
     /// Maximum number of output rows. A hundred bodies with six numbers each then take some 100 GB.
-    /// Unit: rows. Less: long runs are rejected. More: disks are filled. Test:
+    /// Unit: rows. Too small: long runs are rejected. Too large: disks are filled. Test:
     /// `runs_that_would_never_end_are_refused_by_name`.
     pub const MOST_ROWS: f64 = 1e7;
 
-    /// Default maximum number of accepted and rejected steps.
-    /// Unit: steps. Less: long runs are rejected. More: runs that do not end are not stopped. Test:
+    /// Default maximum number of accepted and rejected steps. Unit: steps. Too small: long runs are
+    /// rejected. Too large: runs that do not end are not stopped. Test:
     /// `runs_that_would_never_end_are_refused_by_name`.
     pub const MAX_STEPS: u64 = 1_000_000;
 }

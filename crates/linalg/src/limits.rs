@@ -1,218 +1,207 @@
 //! Table of limits: all numbers of this crate that its authors chose. Each comment states the
-//! meaning, the unit, what breaks if the number is wrong (`Less`: if it were smaller, `More`: if it
-//! were larger), and the test that fails then. `none, work only` means that only time or memory
-//! would change; `none` means that there is no test yet. The test file `tests/all/limits.rs` reads
-//! this table.
+//! meaning, the unit, what breaks if the number is wrong (if it is too small, or too large), and
+//! the test that fails then. `none, work only` means that only time or memory would change; `none`
+//! means that there is no test yet. The test file `tests/all/limits.rs` reads this table.
 
 // Singular values and scaling.
 
 /// Maximum number of sweeps of an equilibration. Each sweep halves the remaining exponents, and the
 /// exponents of `f64` span 2098 < 2¹². Further sweeps change nothing, except for patterns of zeros
-/// that prevent a balance.
-/// Unit: sweeps. Less: matrices of extreme entries stay badly scaled. More: the scaling takes
-/// longer. Test: `row_and_column_maxima_are_near_one`.
+/// that prevent a balance. Unit: sweeps. Too small: matrices of extreme entries stay badly scaled.
+/// Too large: the scaling takes longer. Test: `row_and_column_maxima_are_near_one`.
 pub(crate) const EQUILIBRATION_SWEEPS: usize = 12;
 
 /// Maximum number of sweeps of Jacobi rotations over all pairs of columns or rows. Convergence is
-/// quadratic, and four to six sweeps are usual.
-/// Unit: sweeps. Less: singular values are not accurate. More: matrices with an entry that is not a
-/// number take longer. Test: `zeros_on_the_diagonal_cut_the_matrix`.
+/// quadratic, and four to six sweeps are usual. Unit: sweeps. Too small: singular values are not
+/// accurate. Too large: matrices with an entry that is not a number take longer. Test:
+/// `zeros_on_the_diagonal_cut_the_matrix`.
 pub(crate) const JACOBI_SWEEPS: usize = 40;
 
 /// Columns are orthogonal if the cosine of their angle is below this limit of a few roundings.
-/// Unit: 1. Less: rotations by rounding take time. More: singular values lose digits. Test:
-/// `nearly_orthogonal_columns_are_turned_too`.
+/// Unit: 1. Too small: rotations by rounding take time. Too large: singular values lose digits.
+/// Test: `nearly_orthogonal_columns_are_turned_too`.
 pub(crate) const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
 
 /// Squared rows below this limit, relative to a largest entry of one, count as zero. The limit
-/// prevents an underflow of the product of two squared rows.
-/// Unit: 1. Less: products underflow. More: small singular values become zero. Test:
+/// prevents an underflow of the product of two squared rows. Unit: 1. Too small: products
+/// underflow. Too large: small singular values become zero. Test:
 /// `rotations_keep_the_digits_of_rows_whose_squares_are_tiny`.
 pub(crate) const ZERO_SQUARED: f64 = 1e-150;
 
 /// Maximum number of steps of the implicit QR algorithm for each singular value; two or three are
-/// needed.
-/// Unit: steps. Less: Jacobi rotations replace the algorithm, which takes longer. More: matrices
-/// with an entry that is not a number take longer. Test: none, work only.
+/// needed. Unit: steps. Too small: Jacobi rotations replace the algorithm, which takes longer. Too
+/// large: matrices with an entry that is not a number take longer. Test: none, work only.
 pub(crate) const QR_STEPS_EACH: usize = 60;
 
 /// Maximum number of sweeps over rows and columns that balance a matrix before its eigenvalues are
-/// computed; three to five are usual.
-/// Unit: sweeps. Less: units of states cost digits. More: the computation takes longer. Test:
-/// `units_do_not_matter`.
+/// computed; three to five are usual. Unit: sweeps. Too small: units of states cost digits. Too
+/// large: the computation takes longer. Test: `units_do_not_matter`.
 pub(crate) const BALANCINGS: usize = 20;
 
 /// Maximum number of steps of the QR algorithm for one eigenvalue or a pair; two to four are usual.
-/// Unit: steps. Less: matrices are rejected. More: matrices without convergence take longer. Test:
-/// `matrices_of_every_kind_have_small_residuals`.
+/// Unit: steps. Too small: matrices are rejected. Too large: matrices without convergence take
+/// longer. Test: `matrices_of_every_kind_have_small_residuals`.
 pub(crate) const FRANCIS_STEPS: usize = 120;
 
 /// Number of steps without a new eigenvalue after which other than the optimal shifts are used.
-/// Unit: steps. Less: convergence is disturbed. More: permutations take longer. Test:
+/// Unit: steps. Too small: convergence is disturbed. Too large: permutations take longer. Test:
 /// `matrices_of_every_kind_have_small_residuals`.
 pub(crate) const EXCEPTIONAL_EVERY: usize = 10;
 
-/// Entries of an eigenvector above this limit are scaled down during the computation.
-/// Unit: 1. Less: the computation takes longer. More: entries overflow. Test:
+/// Entries of an eigenvector above this limit are scaled down during the computation. Unit: 1. Too
+/// small: the computation takes longer. Too large: entries overflow. Test:
 /// `matrices_of_every_kind_have_small_residuals`.
 pub(crate) const SUBSTITUTED: f64 = 1e100;
 
-/// A row and its column are balanced if this reduces their sum to less than this share.
-/// Unit: share. Less: units of states cost digits. More: sweeps have no effect. Test:
+/// A row and its column are balanced if this reduces their sum to less than this share. Unit:
+/// share. Too small: units of states cost digits. Too large: sweeps have no effect. Test:
 /// `units_do_not_matter`.
 pub(crate) const BALANCED: f64 = 0.95;
 
 #[cfg(feature = "faer")]
 /// Smaller dimension of a matrix above which faer computes singular values. Up to about 200 our own
-/// kernel is faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by
-/// `cargo run --release -p bench --features faer --example timings`). Our own kernel gives the same
-/// bits on every processor; faer does not, because it chooses instructions at run time.
-/// Unit: rows or columns. Less: the last bits differ between processors. More: the computation
-/// takes longer. Test: none, work only.
+/// kernel is faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by `cargo run
+/// --release -p bench --features faer --example timings`). Our own kernel gives the same bits on
+/// every processor; faer does not, because it chooses instructions at run time. Unit: rows or
+/// columns. Too small: the last bits differ between processors. Too large: the computation takes
+/// longer. Test: none, work only.
 pub(crate) const FAER_FROM: usize = 256;
 
-/// An updated norm is recomputed if cancellation has removed half of its digits: √eps.
-/// Unit: share of the norm. Less: the longest column is not found. More: the factorisation takes
+/// An updated norm is recomputed if cancellation has removed half of its digits: √eps. Unit: share
+/// of the norm. Too small: the longest column is not found. Too large: the factorisation takes
 /// longer. Test: `graded_columns_downdate_safely`.
 pub(crate) const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
 
-/// Squares of numbers above this limit do not lose digits in sums.
-/// Unit: 1. Less: norms of small vectors underflow. More: the computation takes longer. Test:
+/// Squares of numbers above this limit do not lose digits in sums. Unit: 1. Too small: norms of
+/// small vectors underflow. Too large: the computation takes longer. Test:
 /// `norm_survives_the_ends_of_the_range`.
 pub(crate) const SQUARE_MIN: f64 = 1e-140;
 
 // Kept rows, solved in their null space.
 
 /// Masses count as graded above this spread, see [`mass_spread`](crate::mass_spread). Below it,
-/// plain solutions keep about ten digits, and normally twelve.
-/// Unit: heaviest by lightest mass. Less: refinement takes time. More: digits are lost. Test:
+/// plain solutions keep about ten digits, and normally twelve. Unit: heaviest by lightest mass. Too
+/// small: refinement takes time. Too large: digits are lost. Test:
 /// `refinement_is_wanted_where_digits_are_lost`.
 pub const GRADED_MASSES: f64 = 1e6;
 
 /// If some masses are zero, the other masses count as graded above this spread. A massless
 /// coordinate has no mass of its own in NᵀMN that would limit the effect of cancellation. Below
-/// this spread, pivots by mass would only be smaller.
-/// Unit: heaviest by lightest mass that is not zero. Less: pivots are smaller. More: digits are
-/// lost. Test: `masses_are_graded_from_their_spread_on`.
+/// this spread, pivots by mass would only be smaller. Unit: heaviest by lightest mass that is not
+/// zero. Too small: pivots are smaller. Too large: digits are lost. Test:
+/// `masses_are_graded_from_their_spread_on`.
 pub(crate) const GRADED_BESIDE_MASSLESS: f64 = 1e3;
 
-/// If elimination reduces a mass to less than this share, it loses as many digits.
-/// Unit: share of the mass. Less: digits are lost. More: refinement takes time. Test:
+/// If elimination reduces a mass to less than this share, it loses as many digits. Unit: share of
+/// the mass. Too small: digits are lost. Too large: refinement takes time. Test:
 /// `refinement_is_wanted_where_digits_are_lost`.
 pub(crate) const CANCELLED: f64 = 1e-3;
 
-/// A pivot below this share of its row is rounding noise at any configuration.
-/// Unit: share of the largest entry of the row. Less: the elimination divides by noise. More: rows
-/// near a singular configuration are lost. Test: `a_pivot_of_a_few_roundings_is_no_pivot`.
+/// A pivot below this share of its row is rounding noise at any configuration. Unit: share of the
+/// largest entry of the row. Too small: the elimination divides by noise. Too large: rows near a
+/// singular configuration are lost. Test: `a_pivot_of_a_few_roundings_is_no_pivot`.
 pub(crate) const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 
 /// For graded masses, the pivot is chosen from the entries above this share of the largest one. The
-/// multipliers of the elimination stay below the inverse of this share.
-/// Unit: share of the largest entry. Less: the elimination amplifies errors. More: heavy
-/// coordinates become pivots. Test: `graded_masses_choose_among_the_large_entries`.
+/// multipliers of the elimination stay below the inverse of this share. Unit: share of the largest
+/// entry. Too small: the elimination amplifies errors. Too large: heavy coordinates become pivots.
+/// Test: `graded_masses_choose_among_the_large_entries`.
 pub(crate) const CANDIDATE: f64 = 0.1;
 
 /// After the elimination of a row, the remaining rows in its coordinates are examined again if
-/// there are at least this many. Few of the other rows need much less work than before.
-/// Unit: rows. Less: other rows would have needed less work. More: the ordering takes longer. Test:
+/// there are at least this many. Few of the other rows need much less work than before. Unit: rows.
+/// Too small: other rows would have needed less work. Too large: the ordering takes longer. Test:
 /// none, work only.
 pub(crate) const REVISED: usize = 4;
 
 /// The order of elimination is planned for entries above this share of the largest one of a row, so
-/// that most of them are still large enough after the mechanism has moved.
-/// Unit: share of the largest entry. Less: the plan soon becomes invalid. More: the factors have
-/// more entries. Test: none, work only.
+/// that most of them are still large enough after the mechanism has moved. Unit: share of the
+/// largest entry. Too small: the plan soon becomes invalid. Too large: the factors have more
+/// entries. Test: none, work only.
 pub(crate) const PIVOT_PLANNED: f64 = 0.5;
 
 /// The pivot of a row is an entry above this share of the largest one, in a coordinate in which few
 /// later rows have entries. The multipliers of the elimination stay below the inverse of this
-/// share.
-/// Unit: share of the largest entry. Less: the elimination amplifies errors. More: the factors have
-/// more entries. Test: `a_row_is_solved_for_what_few_later_rows_have_entries_in`.
+/// share. Unit: share of the largest entry. Too small: the elimination amplifies errors. Too large:
+/// the factors have more entries. Test: `a_row_is_solved_for_what_few_later_rows_have_entries_in`.
 pub(crate) const PIVOT_CHOSEN: f64 = 0.1;
 
 /// A row keeps the pivot coordinate of the previous factorisation as long as its entry is above
 /// this share of the largest one. The multipliers of the elimination stay below the inverse of this
-/// share.
-/// Unit: share of the largest entry. Less: the elimination amplifies errors. More: coordinates and
-/// the positions of all entries are searched repeatedly. Test:
+/// share. Unit: share of the largest entry. Too small: the elimination amplifies errors. Too large:
+/// coordinates and the positions of all entries are searched repeatedly. Test:
 /// `a_row_is_solved_for_the_same_entry_while_that_is_large`.
 pub(crate) const PIVOT_REPEATED: f64 = 0.05;
 
 /// The corresponding share if a smaller entry has no advantage: for dense rows, for given
-/// coordinates, and, in terms of c/√m, for graded masses.
-/// Unit: share of the best entry. Less: digits are lost. More: coordinates and the positions of all
-/// entries are searched repeatedly. Test:
-/// `a_row_is_solved_for_the_same_entry_while_that_is_nearly_the_largest`.
+/// coordinates, and, in terms of c/√m, for graded masses. Unit: share of the best entry. Too small:
+/// digits are lost. Too large: coordinates and the positions of all entries are searched
+/// repeatedly. Test: `a_row_is_solved_for_the_same_entry_while_that_is_nearly_the_largest`.
 pub(crate) const LARGEST_REPEATED: f64 = 0.8;
 
 /// Number of entries of L and of U for which storage is initially reserved. Larger factors allocate
-/// more storage on demand.
-/// Unit: entries. Less: the first factorisations allocate memory. More: more memory is used. Test:
-/// none, work only.
+/// more storage on demand. Unit: entries. Too small: the first factorisations allocate memory. Too
+/// large: more memory is used. Test: none, work only.
 pub(crate) const RESERVED: usize = 1 << 14;
 
-/// Number of vectors of all coordinates that a null-space solver stores.
-/// Unit: vectors. Less: the estimate of memory is too small. More: feasible runs are rejected.
-/// Test: none, work only.
+/// Number of vectors of all coordinates that a null-space solver stores. Unit: vectors. Too small:
+/// the estimate of memory is too small. Too large: feasible runs are rejected. Test: none, work
+/// only.
 pub(crate) const VECTORS: usize = 20;
 
 /// Maximum number of rounds of refinement. More rounds are needed only if the equations are
-/// singular.
-/// Unit: rounds. Less: solutions that converge slowly are rejected. More: the rejection takes
-/// longer. Test: `rounds_that_do_not_converge_are_named`.
+/// singular. Unit: rounds. Too small: solutions that converge slowly are rejected. Too large: the
+/// rejection takes longer. Test: `rounds_that_do_not_converge_are_named`.
 pub(crate) const REFINEMENT_ROUNDS: usize = 8;
 
 /// Expected relative change of the next round of refinement below which the iteration ends. Below
-/// the rounding of an `f64`, a further round has no effect.
-/// Unit: share of each unknown. Less: rounds have no effect. More: the last bit is wrong. Test:
+/// the rounding of an `f64`, a further round has no effect. Unit: share of each unknown. Too small:
+/// rounds have no effect. Too large: the last bit is wrong. Test:
 /// `whole_numbers_come_back_exactly`.
 pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
 
 /// Two successive changes below this share of the largest unknown of their kind are rounding of
-/// double-double numbers: 2⁻⁹⁶.
-/// Unit: share of the largest unknown. Less: unknowns that are zero delay the others. More: small
-/// unknowns are not refined. Test: none.
+/// double-double numbers: 2⁻⁹⁶. Unit: share of the largest unknown. Too small: unknowns that are
+/// zero delay the others. Too large: small unknowns are not refined. Test: none.
 pub(crate) const REFINEMENT_NOISE: f64 = 1.262_177_448_353_619e-29;
 
 // Kept rows, solved through the Schur complement of the masses.
 
 /// A row with a smaller independent share, in the metric of the inverse masses, is rounding noise,
-/// because the Schur complement contains the square of this share.
-/// Unit: share of the row. Less: the elimination divides by noise. More: rows near a singular
-/// configuration are lost. Test: `a_row_of_which_little_is_left_is_lost`.
+/// because the Schur complement contains the square of this share. Unit: share of the row. Too
+/// small: the elimination divides by noise. Too large: rows near a singular configuration are lost.
+/// Test: `a_row_of_which_little_is_left_is_lost`.
 pub(crate) const SCHUR_NOISE: f64 = 1e-7;
 
 /// A row with a larger independent share counts as fully independent. Pivots are compared with this
-/// share, or with their initial share if that is smaller.
-/// Unit: share of the row in the metric of the inverse masses. Less: pivots of rows that decrease
-/// to zero are hidden by pivots that are always small. More: the simulation steps over singular
-/// configurations from a larger distance than needed, with less accuracy. Test:
-/// `what_is_left_of_a_row_is_compared_with_itself`.
+/// share, or with their initial share if that is smaller. Unit: share of the row in the metric of
+/// the inverse masses. Too small: pivots of rows that decrease to zero are hidden by pivots that
+/// are always small. Too large: the simulation steps over singular configurations from a larger
+/// distance than needed, with less accuracy. Test: `what_is_left_of_a_row_is_compared_with_itself`.
 pub(crate) const SCHUR_WHOLE: f64 = 0.4;
 
-/// Rows with a larger residual are corrected.
-/// Unit: share of the terms of the row. Less: rounding is corrected. More: digits are lost. Test:
+/// Rows with a larger residual are corrected. Unit: share of the terms of the row. Too small:
+/// rounding is corrected. Too large: digits are lost. Test:
 /// `random_mechanisms_move_as_with_the_dense_solver`.
 pub(crate) const SCHUR_ENOUGH: f64 = 1e-14;
 
 /// The residual of a row after a correction is rounding if it is at most this share of all summed
-/// terms, including multipliers that balance each other.
-/// Unit: share of all terms of the row. Less: rounding is corrected. More: digits are lost. Test:
+/// terms, including multipliers that balance each other. Unit: share of all terms of the row. Too
+/// small: rounding is corrected. Too large: digits are lost. Test:
 /// `a_correction_leaves_rounding_of_all_terms`.
 pub(crate) const SCHUR_ROUNDING: f64 = f64::EPSILON;
 
-/// If a row has a larger residual after all corrections, the solution is rejected.
-/// Unit: share of the terms of the row. Less: good solutions are rejected. More: inaccurate
-/// solutions are returned. Test: `what_corrections_leave_is_refused_from_a_billionth_on`.
+/// If a row has a larger residual after all corrections, the solution is rejected. Unit: share of
+/// the terms of the row. Too small: good solutions are rejected. Too large: inaccurate solutions
+/// are returned. Test: `what_corrections_leave_is_refused_from_a_billionth_on`.
 pub(crate) const SCHUR_POOR: f64 = 1e-9;
 
-/// Maximum number of corrections.
-/// Unit: corrections. Less: badly conditioned rows are rejected. More: the solution takes longer.
-/// Test: `corrections_go_on_while_they_halve_what_is_left`.
+/// Maximum number of corrections. Unit: corrections. Too small: badly conditioned rows are
+/// rejected. Too large: the solution takes longer. Test:
+/// `corrections_go_on_while_they_halve_what_is_left`.
 pub(crate) const SCHUR_CORRECTIONS: usize = 4;
 
 /// A correction must reduce the residual to less than this share; otherwise the iteration ends.
-/// Unit: share of the miss before. Less: slow corrections are abandoned. More: the solution takes
-/// longer. Test: `corrections_go_on_while_they_halve_what_is_left`.
+/// Unit: share of the miss before. Too small: slow corrections are abandoned. Too large: the
+/// solution takes longer. Test: `corrections_go_on_while_they_halve_what_is_left`.
 pub(crate) const SCHUR_PROGRESS: f64 = 0.5;

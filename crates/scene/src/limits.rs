@@ -15,9 +15,9 @@ pub(crate) const MOST_SIGNS: usize = 1 << 23;
 /// axes meet, and their pitch point is in their plane, if the distance is below this share of two
 /// other distances: those of the bearings and of the pitch point from the apex. A line of action
 /// meets an axis, or is parallel to it, if its moment about the axis is below this share of its
-/// moment about the bearing.
-/// Unit: share. Less: axes written with few digits need a `line`. More: a line of action is not
-/// quite normal to the plane of the axes. Test: `bearings_of_teeth`.
+/// moment about the bearing. Unit: share. Too small: axes written with few digits need a `line`.
+/// Too large: a line of action is not quite normal to the plane of the axes. Test:
+/// `bearings_of_teeth`.
 pub(crate) const MEETING: f64 = 1e-6;
 
 /// A violation of a limit: its position, the message, and the text of the mark.

@@ -1,835 +1,798 @@
 //! Table of limits: all numbers of this crate that its authors chose. Each comment states the
-//! meaning, the unit, what breaks if the number is wrong (`Less`: if it were smaller, `More`: if it
-//! were larger), and the test that fails then. `none, work only` means that only time or memory
-//! would change; `none` means that there is no test yet. The test file `tests/all/limits.rs` reads
-//! this table.
+//! meaning, the unit, what breaks if the number is wrong (if it is too small, or too large), and
+//! the test that fails then. `none, work only` means that only time or memory would change; `none`
+//! means that there is no test yet. The test file `tests/all/limits.rs` reads this table.
 
 // Ranks and certificates.
 
 /// Largest number of rows for which a rank is certified. The work grows with the cube of the rows.
-/// Unit: rows. Less: ranks of large mechanisms are not certified. More: the analysis takes longer.
-/// Test: `a_part_is_asked_under_what_the_rest_does_to_it`.
+/// Unit: rows. Too small: ranks of large mechanisms are not certified. Too large: the analysis
+/// takes longer. Test: `a_part_is_asked_under_what_the_rest_does_to_it`.
 pub(crate) const ROWS_MAX: usize = 600;
 
 /// Largest number of rows for which coefficients are decided within a stated tolerance. The work
 /// grows with the number of rows times the number of dependencies, and with the cube of both
-/// numbers.
-/// Unit: rows. Less: coefficients are decided within rounding only. More: the analysis takes
-/// longer. Test: `a_component_that_is_none_within_the_tolerance_says_so`.
+/// numbers. Unit: rows. Too small: coefficients are decided within rounding only. Too large: the
+/// analysis takes longer. Test: `a_component_that_is_none_within_the_tolerance_says_so`.
 pub(crate) const TOLERANCE_ROWS: usize = 200;
 
 /// A coefficient above this value is nonzero without further tests: its row belongs to the
-/// dependency.
-/// Unit: coefficient of the equilibrated dependencies. Less: coefficients that a change of the data
-/// could make zero count as nonzero. More: the analysis takes longer. Test:
+/// dependency. Unit: coefficient of the equilibrated dependencies. Too small: coefficients that a
+/// change of the data could make zero count as nonzero. Too large: the analysis takes longer. Test:
 /// `data_are_asked_about_small_coefficients_that_are_no_noise`.
 pub(crate) const COEFFICIENT_LARGE: f64 = 1e-3;
 
-/// A coefficient below this share of its noise is zero without further tests.
-/// Unit: share of the noise. Less: the analysis takes longer. More: coefficients that a change of
-/// the data could make large count as zero. Test:
+/// A coefficient below this share of its noise is zero without further tests. Unit: share of the
+/// noise. Too small: the analysis takes longer. Too large: coefficients that a change of the data
+/// could make large count as zero. Test:
 /// `data_are_asked_about_small_coefficients_that_are_no_noise`.
 pub(crate) const SAFELY: f64 = 0.1;
 
-/// Maximum number of coefficients whose change by the rounding of the data is computed.
-/// Unit: coefficients. Less: coefficients near their noise are undecided. More: the analysis takes
-/// longer. Test: none.
+/// Maximum number of coefficients whose change by the rounding of the data is computed. Unit:
+/// coefficients. Too small: coefficients near their noise are undecided. Too large: the analysis
+/// takes longer. Test: none.
 pub(crate) const ASKED: usize = 2_000;
 
-/// Larger sets of rows are decided with sparse matrices.
-/// Unit: rows. Less: small sets are decided without singular values. More: the analysis takes
-/// longer. Test: none.
+/// Larger sets of rows are decided with sparse matrices. Unit: rows. Too small: small sets are
+/// decided without singular values. Too large: the analysis takes longer. Test: none.
 pub(crate) const SPARSE_FROM: usize = 150;
 
-/// Number of random combinations in excess of the rows of the largest joint.
-/// Unit: combinations. Less: too few combinations decide a rank. More: the analysis takes longer.
-/// Test: `random_combinations_show_the_rank_of_the_largest_joint`.
+/// Number of random combinations in excess of the rows of the largest joint. Unit: combinations.
+/// Too small: too few combinations decide a rank. Too large: the analysis takes longer. Test:
+/// `random_combinations_show_the_rank_of_the_largest_joint`.
 pub(crate) const SPARE_COMBINATIONS: usize = 4;
 
 /// A mechanism with at most this number of rows is one part, even if its cycles would divide it.
 /// All of its verdicts then come from one null space. Its rank can also be compared with that at
-/// other configurations, which needs dense matrices of all rows and columns.
-/// Unit: rows. Less: small mechanisms are not compared with other configurations. More: the time
-/// grows with the cube of the rows, and 600 rows take half a minute. Test:
+/// other configurations, which needs dense matrices of all rows and columns. Unit: rows. Too small:
+/// small mechanisms are not compared with other configurations. Too large: the time grows with the
+/// cube of the rows, and 600 rows take half a minute. Test:
 /// `a_motor_that_lags_behind_is_named_with_the_joints_between`.
 pub const ONE_PART: usize = 250;
 
 /// Number of vectors of the left null space from which verdicts along a motion are computed. All
 /// vectors are used if there are at most this many. Otherwise this many random combinations of them
-/// are used.
-/// Unit: vectors. Less: a coefficient comes from so few combinations that they may cancel. More:
-/// each step takes longer for each row. Test: `many_dependencies_are_read_from_few_combinations`.
+/// are used. Unit: vectors. Too small: a coefficient comes from so few combinations that they may
+/// cancel. Too large: each step takes longer for each row. Test:
+/// `many_dependencies_are_read_from_few_combinations`.
 pub const CARRIED_VECTORS: usize = 8;
 
 /// Singular values must exceed the tolerance by this factor. Simulations with the stress matrix
-/// keep their digits from a factor of thirty upwards.
-/// Unit: multiples of the tolerance. Less: the motion loses digits. More: motions near singular
-/// configurations are rejected. Test: none.
+/// keep their digits from a factor of thirty upwards. Unit: multiples of the tolerance. Too small:
+/// the motion loses digits. Too large: motions near singular configurations are rejected. Test:
+/// none.
 pub(crate) const MOTION_CLEARANCE: f64 = 30.0;
 
 /// The data are accurate to several roundings, but the numbers of a motion are accurate to one
-/// rounding.
-/// Unit: roundings of data. Less: the rank of a motion is decided below its rounding. More:
-/// redundant rows near singular configurations are undecided. Test: none.
+/// rounding. Unit: roundings of data. Too small: the rank of a motion is decided below its
+/// rounding. Too large: redundant rows near singular configurations are undecided. Test: none.
 pub(crate) const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
 
 /// The entries of the map from multipliers to a reaction are products of a few numbers near one. A
-/// row below this share of the largest row is rounding.
-/// Unit: share of the largest row. Less: rounding counts as a component of a reaction. More: small
-/// components count as zero. Test: none.
+/// row below this share of the largest row is rounding. Unit: share of the largest row. Too small:
+/// rounding counts as a component of a reaction. Too large: small components count as zero. Test:
+/// none.
 pub(crate) const ROUNDING_OF_MAP: f64 = 1e-14;
 
-/// A first-order estimate is not valid for larger angles (rad).
-/// Unit: rad. Less: estimates with coarse angle tolerances are rejected. More: the first order is
-/// used outside its range of validity. Test: none.
+/// A first-order estimate is not valid for larger angles (rad). Unit: rad. Too small: estimates
+/// with coarse angle tolerances are rejected. Too large: the first order is used outside its range
+/// of validity. Test: none.
 pub(crate) const LARGEST_TURN: f64 = 0.1;
 
 /// A component of a unit vector above this value is reported, even if a stated tolerance could make
-/// it zero. Without this component the direction would be a different one.
-/// Unit: part of a unit vector. Less: rounding is reported. More: small components are reported as
-/// zero. Test: `a_part_of_a_direction_is_told_however_uncertain_coefficients_are`.
+/// it zero. Without this component the direction would be a different one. Unit: part of a unit
+/// vector. Too small: rounding is reported. Too large: small components are reported as zero. Test:
+/// `a_part_of_a_direction_is_told_however_uncertain_coefficients_are`.
 pub(crate) const LARGEST_ROUNDING: f64 = 1e-5;
 
 // The intended mechanism.
 
 /// From this singular value upwards, no rounding can explain a lower rank of a matrix of size one.
 /// Near a singular configuration, a singular value changes with the square root of the data. A
-/// lower rank by rounding would then require a value below a few times √(3·eps).
-/// Unit: singular value of a matrix of size one. Less: rounding decides a rank. More: the expensive
-/// test runs at configurations that are not nearly singular. Test: none.
+/// lower rank by rounding would then require a value below a few times √(3·eps). Unit: singular
+/// value of a matrix of size one. Too small: rounding decides a rank. Too large: the expensive test
+/// runs at configurations that are not nearly singular. Test: none.
 pub(crate) const CLEAR_OF_ROUNDING: f64 = 1e-6;
 
 /// The same limit as a multiple of the accuracy of the entries. The larger of the two limits
-/// applies.
-/// Unit: multiples of the noise. Less: noise decides a rank. More: the expensive test runs at
-/// configurations that are not nearly singular. Test: none.
+/// applies. Unit: multiples of the noise. Too small: noise decides a rank. Too large: the expensive
+/// test runs at configurations that are not nearly singular. Test: none.
 pub(crate) const CLEAR_OF_NOISE: f64 = 1e3;
 
-/// The double-double computation must confirm this share of a singular value from `f64`.
-/// Unit: share of a singular value. Less: rounding of `f64` counts as a singular value. More: ranks
-/// are not confirmed. Test: `a_door_turns_within_its_tolerance`.
+/// The double-double computation must confirm this share of a singular value from `f64`. Unit:
+/// share of a singular value. Too small: rounding of `f64` counts as a singular value. Too large:
+/// ranks are not confirmed. Test: `a_door_turns_within_its_tolerance`.
 pub(crate) const CONFIRMED: f64 = 0.1;
 
 /// A lower rank is reported if data within this share of the size of the mechanism have that rank.
-/// Unit: share of the size. Less: near redundancy is not reported. More: sound mechanisms are
-/// reported as nearly redundant. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
+/// Unit: share of the size. Too small: near redundancy is not reported. Too large: sound mechanisms
+/// are reported as nearly redundant. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const NEAR_TOLD: f64 = 1e-3;
 
 /// The error of first-order equations is the square of the change, as a share of the size, times
 /// this factor. The change that lowers the rank at all configurations is up to ten times the change
-/// for one entry, and second derivatives are about ten if links are short.
-/// Unit: 1. Less: the first order is used outside its range of validity. More: near redundancy is
-/// not proved. Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
+/// for one entry, and second derivatives are about ten if links are short. Unit: 1. Too small: the
+/// first order is used outside its range of validity. Too large: near redundancy is not proved.
+/// Test: `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const CURVED: f64 = 100.0;
 
 /// Maximum constraint violation of a configuration on a continuation path, as a share of the size.
-/// Unit: share of the size. Less: the continuation does not converge. More: the configurations
-/// violate the constraints. Test: `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
+/// Unit: share of the size. Too small: the continuation does not converge. Too large: the
+/// configurations violate the constraints. Test:
+/// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALKED: f64 = 1e-12;
 
 /// If the weakest entry exceeds this share of the size of C, no change of the data below a
 /// thousandth of the size makes it zero. An entry changes by its own size, times the change of the
-/// configuration. That change is below the inverse of the entry.
-/// Unit: share of the size of C. Less: near redundancy is not examined. More: the analysis takes
-/// longer. Test: `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
+/// configuration. That change is below the inverse of the entry. Unit: share of the size of C. Too
+/// small: near redundancy is not examined. Too large: the analysis takes longer. Test:
+/// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const CLEAR_ENTRY: f64 = 0.1;
 
 /// A dependency is one of positions if the weight of its nonholonomic rows is below this share of
-/// the weight of its other rows.
-/// Unit: share of the weights. Less: dependencies of positions are examined at one configuration
-/// only. More: dependencies of velocities are examined at other configurations. Test: none.
+/// the weight of its other rows. Unit: share of the weights. Too small: dependencies of positions
+/// are examined at one configuration only. Too large: dependencies of velocities are examined at
+/// other configurations. Test: none.
 pub(crate) const HOLONOMIC: f64 = 1e-6;
 
 /// Singular vectors for singular values below this share of the largest one are rounding, and need
-/// not be orthogonal to the others.
-/// Unit: share of the largest singular value. Less: vectors of rounding are expected to be
-/// orthogonal. More: small singular vectors are replaced. Test:
+/// not be orthogonal to the others. Unit: share of the largest singular value. Too small: vectors
+/// of rounding are expected to be orthogonal. Too large: small singular vectors are replaced. Test:
 /// `singular_vectors_of_rounding_are_replaced`.
 pub(crate) const RESOLVED: f64 = 1e-13;
 
 /// Number of left and right singular directions whose entries must vanish at one configuration, the
 /// weakest first. Further directions would require exact zeros next to the near zero. Without them
-/// the share can only become smaller.
-/// Unit: pairs. Less: a share is too small. More: the analysis takes longer, and exact zeros are
-/// required. Test: `an_angle_tolerance_counts_alone`.
+/// the share can only become smaller. Unit: pairs. Too small: a share is too small. Too large: the
+/// analysis takes longer, and exact zeros are required. Test: `an_angle_tolerance_counts_alone`.
 pub(crate) const PAIRS: usize = 4;
 
-/// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n).
-/// Unit: eps·√(m·n). Less: rounding of an entry counts as a change of data. More: shares are too
-/// small. Test: `a_misfit_above_the_rounding_of_entries_is_one_of_data`.
+/// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n). Unit:
+/// eps·√(m·n). Too small: rounding of an entry counts as a change of data. Too large: shares are
+/// too small. Test: `a_misfit_above_the_rounding_of_entries_is_one_of_data`.
 pub(crate) const ENTRY_ROUNDINGS: f64 = 16.0;
 
-/// Number of configurations on each side of the start in a continuation.
-/// Unit: poses. Less: redundancy at one configuration counts as permanent. More: the analysis takes
-/// longer. Test: `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
+/// Number of configurations on each side of the start in a continuation. Unit: poses. Too small:
+/// redundancy at one configuration counts as permanent. Too large: the analysis takes longer. Test:
+/// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALK_POSES: usize = 3;
 
 /// Distance from one configuration to the next, as a share of the size or in radians. It is short,
-/// so that the continuation does not cross a singular configuration onto another branch.
-/// Unit: share of the size, or rad. Less: the configurations are nearly equal. More: the
+/// so that the continuation does not cross a singular configuration onto another branch. Unit:
+/// share of the size, or rad. Too small: the configurations are nearly equal. Too large: the
 /// continuation reaches other branches. Test:
 /// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALK_REACH: f64 = 0.05;
 
-/// Number of continuation steps from one configuration to the next.
-/// Unit: steps. Less: the continuation does not converge. More: the analysis takes longer. Test:
+/// Number of continuation steps from one configuration to the next. Unit: steps. Too small: the
+/// continuation does not converge. Too large: the analysis takes longer. Test:
 /// `a_dead_centre_is_a_pose_and_no_redundancy`.
 pub(crate) const WALK_STEPS: usize = 5;
 
-/// Number of steps to the next configuration if [`WALK_STEPS`] larger steps do not converge.
-/// Unit: steps. Less: the continuation does not converge near singular configurations. More: the
-/// analysis takes longer. Test: none.
+/// Number of steps to the next configuration if [`WALK_STEPS`] larger steps do not converge. Unit:
+/// steps. Too small: the continuation does not converge near singular configurations. Too large:
+/// the analysis takes longer. Test: none.
 pub(crate) const WALK_SMALL_STEPS: usize = 40;
 
 /// Largest correction of a step onto the independent rows, as a share of the step. A configuration
-/// with a larger correction may be on another branch.
-/// Unit: share of the step. Less: the continuation ends on curved paths. More: the continuation
-/// changes the branch. Test: `rows_that_are_nearly_redundant_at_a_pose_are_left_out_together`.
+/// with a larger correction may be on another branch. Unit: share of the step. Too small: the
+/// continuation ends on curved paths. Too large: the continuation changes the branch. Test:
+/// `rows_that_are_nearly_redundant_at_a_pose_are_left_out_together`.
 pub(crate) const WALK_CORRECTED: f64 = 0.5;
 
 /// The condition of Newton and Kantorovich for a configuration of a continuation. If it is
 /// satisfied, the mechanism has such a configuration for all data within the stated tolerance.
-/// Unit: 1. Less: redundancy that a tolerance explains is undecided. More: configurations that the
-/// intended mechanism does not have are used, and permanent redundancy counts as full rank. Test:
-/// `bricard_with_few_digits_is_right_or_undecided`.
+/// Unit: 1. Too small: redundancy that a tolerance explains is undecided. Too large: configurations
+/// that the intended mechanism does not have are used, and permanent redundancy counts as full
+/// rank. Test: `bricard_with_few_digits_is_right_or_undecided`.
 pub(crate) const KNOWN_POSE: f64 = 0.5;
 
-/// Share of the other free directions in the direction of a continuation.
-/// Unit: share of a direction. Less: the other freedoms do not move. More: the path mixes all
-/// freedoms. Test: `a_way_is_led_by_one_freedom_and_takes_the_others_along`.
+/// Share of the other free directions in the direction of a continuation. Unit: share of a
+/// direction. Too small: the other freedoms do not move. Too large: the path mixes all freedoms.
+/// Test: `a_way_is_led_by_one_freedom_and_takes_the_others_along`.
 pub(crate) const OTHER_DIRECTIONS: f64 = 0.3;
 
 /// Maximum number of iterations. Each one solves a linear system with as many unknowns as equations
-/// of the problem.
-/// Unit: iterations. Less: bounds of the share are wide. More: the analysis takes longer. Test:
-/// `one_equation_is_shared_by_all`.
+/// of the problem. Unit: iterations. Too small: bounds of the share are wide. Too large: the
+/// analysis takes longer. Test: `one_equation_is_shared_by_all`.
 pub(crate) const CONE_ITERATIONS: usize = 60;
 
 /// The iteration ends if the ratio of the upper bound to the lower bound is below this factor.
-/// Unit: 1. Less: the analysis takes longer. More: bounds of the share are wide. Test:
+/// Unit: 1. Too small: the analysis takes longer. Too large: bounds of the share are wide. Test:
 /// `a_point_has_one_change_in_both_directions`.
 pub(crate) const CONE_CLOSE: f64 = 1.05;
 
 /// Permitted residual of an equation, as a share of its coefficients. Near the square root of eps,
 /// the normal equations cannot distinguish consistent equations from inconsistent ones. The share
-/// is not needed to more digits.
-/// Unit: share of the coefficients. Less: consistent equations count as inconsistent. More:
-/// inconsistent equations count as consistent. Test: `what_no_change_satisfies_is_far_away`.
+/// is not needed to more digits. Unit: share of the coefficients. Too small: consistent equations
+/// count as inconsistent. Too large: inconsistent equations count as consistent. Test:
+/// `what_no_change_satisfies_is_far_away`.
 pub(crate) const CONE_RESOLVED: f64 = 1e-5;
 
 /// Smallest weight, as a share of the largest one. Changes that are not needed thus remain
-/// available.
-/// Unit: share of the largest weight. Less: normal equations lose their digits. More: changes that
-/// are not needed remain in the result. Test: `numbers_that_need_no_change_stay_out_of_the_bounds`.
+/// available. Unit: share of the largest weight. Too small: normal equations lose their digits. Too
+/// large: changes that are not needed remain in the result. Test:
+/// `numbers_that_need_no_change_stay_out_of_the_bounds`.
 pub(crate) const LEAST_WEIGHT: f64 = 1e-9;
 
 /// Largest difference of two results that agree, as a share of the size. Positions cannot be
-/// corrected onto nonholonomic rows later, so errors of steps that are too long would remain.
-/// Unit: share of the size. Less: the steps become too small. More: nonholonomic rows are violated.
-/// Test: `what_edges_lead_stays_on_its_way`.
+/// corrected onto nonholonomic rows later, so errors of steps that are too long would remain. Unit:
+/// share of the size. Too small: the steps become too small. Too large: nonholonomic rows are
+/// violated. Test: `what_edges_lead_stays_on_its_way`.
 pub(crate) const FOLLOWED: f64 = 1e-12;
 
 // Other configurations.
 
-/// Number of other configurations with which the given one is compared.
-/// Unit: configurations. Less: a coincidence makes redundancy look permanent. More: the analysis
-/// takes longer. Test: `cranks_are_compared_with_themselves_elsewhere`.
+/// Number of other configurations with which the given one is compared. Unit: configurations. Too
+/// small: a coincidence makes redundancy look permanent. Too large: the analysis takes longer.
+/// Test: `cranks_are_compared_with_themselves_elsewhere`.
 pub(crate) const POINTS: usize = 4;
 
-/// Maximum number of continuations, including those that reach no new configuration.
-/// Unit: walks. Less: too few configurations are found. More: the analysis takes longer. Test:
+/// Maximum number of continuations, including those that reach no new configuration. Unit: walks.
+/// Too small: too few configurations are found. Too large: the analysis takes longer. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const WALKS: usize = 12;
 
-/// Number of steps from one configuration to the next.
-/// Unit: steps. Less: the configurations are near the given one. More: the analysis takes longer.
-/// Test: `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
+/// Number of steps from one configuration to the next. Unit: steps. Too small: the configurations
+/// are near the given one. Too large: the analysis takes longer. Test:
+/// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_STEPS: usize = 4;
 
-/// Length of a step, as a share of the size of the mechanism or in radians.
-/// Unit: share of the size, or rad. Less: the configurations are near the given one. More: the
+/// Length of a step, as a share of the size of the mechanism or in radians. Unit: share of the
+/// size, or rad. Too small: the configurations are near the given one. Too large: the
 /// configurations cannot be assembled. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_STEP: f64 = 0.2;
 
 /// Number of halved lengths with which a step is tried, because not every displaced mechanism can
-/// be assembled again.
-/// Unit: halvings. Less: the continuation ends at once. More: the analysis takes longer. Test:
+/// be assembled again. Unit: halvings. Too small: the continuation ends at once. Too large: the
+/// analysis takes longer. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const GENERIC_HALVINGS: i32 = 5;
 
 /// A step is rejected if the constraints correct it by more than this share of its length. Such a
-/// step leads to another branch, whose rank can differ from the rank of this branch.
-/// Unit: share of the step. Less: curved branches are not followed. More: other branches are
-/// compared. Test: `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
+/// step leads to another branch, whose rank can differ from the rank of this branch. Unit: share of
+/// the step. Too small: curved branches are not followed. Too large: other branches are compared.
+/// Test: `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
 pub(crate) const GENERIC_STRAYED: f64 = 0.3;
 
 /// Rows that are redundant at one configuration are tested after a step on the other rows. They are
-/// redundant there, too, if their violation is below this share of their terms.
-/// Unit: share of the terms. Less: rounding counts as a violation. More: rows that become
-/// inconsistent count as redundant. Test:
-/// `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
+/// redundant there, too, if their violation is below this share of their terms. Unit: share of the
+/// terms. Too small: rounding counts as a violation. Too large: rows that become inconsistent count
+/// as redundant. Test: `legs_that_stay_parallel_are_not_compared_with_those_that_do_not`.
 pub(crate) const GENERIC_HOLDS: f64 = 1e-12;
 
 /// Minimum distance of the configurations from each other and from the given one, in the unit of
-/// the step.
-/// Unit: share of the size, or rad. Less: the same configuration is examined twice. More: too few
-/// configurations are found. Test:
+/// the step. Unit: share of the size, or rad. Too small: the same configuration is examined twice.
+/// Too large: too few configurations are found. Test:
 /// `a_drive_that_is_redundant_at_the_start_alone_contradicts_nothing_later`.
 pub(crate) const POINTS_APART: f64 = 0.1;
 
 // Limit positions of drives.
 
-/// Step along the curve of configurations towards the limit position of the drives.
-/// Unit: share of the size, or rad. Less: the limit position is not reached. More: corrections lead
-/// to another branch. Test: `a_winch_stops_where_its_bar_is_stretched`.
+/// Step along the curve of configurations towards the limit position of the drives. Unit: share of
+/// the size, or rad. Too small: the limit position is not reached. Too large: corrections lead to
+/// another branch. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_STEP: f64 = 0.02;
 
 /// Maximum number of such steps. A run that stops at a limit position ends at most this many steps
-/// before it.
-/// Unit: steps. Less: the limit position is not reached. More: limit positions that did not stop
-/// the run are reported as its cause. Test: `a_winch_stops_where_its_bar_is_stretched`.
+/// before it. Unit: steps. Too small: the limit position is not reached. Too large: limit positions
+/// that did not stop the run are reported as its cause. Test:
+/// `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_STEPS: usize = 20;
 
 /// Maximum number of corrections of a point of the curve. Each correction doubles the number of
-/// correct digits.
-/// Unit: corrections. Less: points far from their tangent are not reached. More: the analysis takes
-/// longer. Test: `a_winch_stops_where_its_bar_is_stretched`.
+/// correct digits. Unit: corrections. Too small: points far from their tangent are not reached. Too
+/// large: the analysis takes longer. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_CORRECTIONS: usize = 12;
 
-/// The iteration has converged if its correction is shorter than this.
-/// Unit: share of the size, or rad. Less: rounding is corrected without end. More: the limit
-/// position has few digits. Test: `a_winch_stops_where_its_bar_is_stretched`.
+/// The iteration has converged if its correction is shorter than this. Unit: share of the size, or
+/// rad. Too small: rounding is corrected without end. Too large: the limit position has few digits.
+/// Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_ARRIVED: f64 = 1e-11;
 
-/// Number of halvings of the last step.
-/// Unit: halvings. Less: the limit position has few digits. More: the analysis takes longer. Test:
-/// `a_winch_stops_where_its_bar_is_stretched`.
+/// Number of halvings of the last step. Unit: halvings. Too small: the limit position has few
+/// digits. Too large: the analysis takes longer. Test: `a_winch_stops_where_its_bar_is_stretched`.
 pub(crate) const LIMIT_HALVINGS: usize = 40;
 
 /// Components of drives, time and curvatures below this share of the largest one are rounding.
-/// Unit: share. Less: rounding counts as a drive. More: a drive is omitted. Test:
+/// Unit: share. Too small: rounding counts as a drive. Too large: a drive is omitted. Test:
 /// `branches_that_meet_are_no_limit`.
 pub(crate) const LIMIT_ROUNDING: f64 = 1e-6;
 
 /// Maximum number of free velocities at the limit position. The curvature is not examined if there
-/// are more.
-/// Unit: velocities. Less: drives of mechanisms with a free motion are not named. More: curvatures
-/// are not examined. Test: `a_free_arm_reaches_as_far_as_it_is_long`.
+/// are more. Unit: velocities. Too small: drives of mechanisms with a free motion are not named.
+/// Too large: curvatures are not examined. Test: `a_free_arm_reaches_as_far_as_it_is_long`.
 pub(crate) const LIMIT_FORMS: usize = 12;
 
 // Contradicting drives.
 
-/// Number of positions after the start at which drives are compared along a motion.
-/// Unit: positions. Less: later contradictions are not found. More: the analysis takes longer.
+/// Number of positions after the start at which drives are compared along a motion. Unit:
+/// positions. Too small: later contradictions are not found. Too large: the analysis takes longer.
 /// Test: `motors_that_part_later_are_named_with_the_time`.
 pub(crate) const DRIVE_POSITIONS: u32 = 12;
 
 /// Largest change of a drive from one position to the next, in rad or as a share of the size of the
 /// mechanism. A larger step may end on another branch of the joints, where consistent drives
-/// contradict each other.
-/// Unit: rad, or share of the size. Less: the analysis takes longer. More: a step ends on another
-/// branch. Test: `agreeing_motors_are_followed_through_flat_poses`.
+/// contradict each other. Unit: rad, or share of the size. Too small: the analysis takes longer.
+/// Too large: a step ends on another branch. Test:
+/// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const STRIDE: f64 = 0.1;
 
 /// Maximum number of steps along the motion. They suffice for a dozen revolutions; later
-/// contradictions are not found.
-/// Unit: steps. Less: contradictions after few revolutions are not found. More: the analysis takes
-/// longer. Test: `agreeing_motors_are_followed_through_flat_poses`.
+/// contradictions are not found. Unit: steps. Too small: contradictions after few revolutions are
+/// not found. Too large: the analysis takes longer. Test:
+/// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const DRIVE_STEPS: usize = 800;
 
 /// Maximum number of halvings of a step that fails. A position that needs smaller steps is too near
-/// to a singular configuration for the continuation.
-/// Unit: halvings. Less: motions near singular configurations are not followed. More: the analysis
-/// takes longer. Test: `agreeing_motors_are_followed_through_flat_poses`.
+/// to a singular configuration for the continuation. Unit: halvings. Too small: motions near
+/// singular configurations are not followed. Too large: the analysis takes longer. Test:
+/// `agreeing_motors_are_followed_through_flat_poses`.
 pub(crate) const DRIVE_HALVINGS: usize = 6;
 
 /// If drives differ by more than this share of their terms, a run stops with certainty. (Runs
-/// compare to 1e-11, divided by pivots.)
-/// Unit: share of the terms. Less: rounding counts as a contradiction. More: runs stop because of
-/// contradictions that were not reported. Test: `small_differences_are_told_at_their_time`.
+/// compare to 1e-11, divided by pivots.) Unit: share of the terms. Too small: rounding counts as a
+/// contradiction. Too large: runs stop because of contradictions that were not reported. Test:
+/// `small_differences_are_told_at_their_time`.
 pub(crate) const RUNS_NOTICE: f64 = 1e-9;
 
 // Analysis along a motion.
 
 /// Maximum number of iterations of a search. So many halvings reduce any interval to rounding.
-/// Unit: iterations. Less: times are not accurate to rounding. More: the search takes longer if
-/// there is no root. Test: `roots_to_rounding_also_multiple_ones`.
+/// Unit: iterations. Too small: times are not accurate to rounding. Too large: the search takes
+/// longer if there is no root. Test: `roots_to_rounding_also_multiple_ones`.
 pub(crate) const SEARCH_ITERATIONS: usize = 120;
 
-/// Intervals shorter than this share of their times are not divided.
-/// Unit: share of a time. Less: the search takes longer. More: instants lose digits. Test:
+/// Intervals shorter than this share of their times are not divided. Unit: share of a time. Too
+/// small: the search takes longer. Too large: instants lose digits. Test:
 /// `roots_to_rounding_also_multiple_ones`.
 pub(crate) const RESOLUTION: f64 = 2.0 * f64::EPSILON;
 
 /// The search for an edge ends at this share of its interval, because more digits are not needed.
-/// Unit: share of the interval. Less: the search takes longer. More: edges of stretches lose
-/// digits. Test: `edges_from_both_sides`.
+/// Unit: share of the interval. Too small: the search takes longer. Too large: edges of stretches
+/// lose digits. Test: `edges_from_both_sides`.
 pub(crate) const EDGE: f64 = 1e-10;
 
 /// Factor of the estimate for the lowest value of a function around its minimum. If a convex
 /// function is evaluated at golden sections, it lies above `least − 1.62·(largest − least)`. The
-/// larger factor also covers functions that are not convex.
-/// Unit: 1. Less: minima are missed. More: the search takes longer. Test:
-/// `minima_of_corners_and_parabolas`.
+/// larger factor also covers functions that are not convex. Unit: 1. Too small: minima are missed.
+/// Too large: the search takes longer. Test: `minima_of_corners_and_parabolas`.
 pub(crate) const FALL: f64 = 4.0;
 
 /// If a function reaches a limit within an interval, its distance from the limit decreases at least
 /// with this power of the width. A square root decreases with the power 0.5; a jump does not
-/// decrease.
-/// Unit: 1. Less: the search takes longer at jumps. More: steep minima are missed. Test:
-/// `minima_of_corners_and_parabolas`.
+/// decrease. Unit: 1. Too small: the search takes longer at jumps. Too large: steep minima are
+/// missed. Test: `minima_of_corners_and_parabolas`.
 pub(crate) const NARROWING: f64 = 0.25;
 
 /// A sample is not regular if its smallest singular value is below this share of the best sample of
-/// the motion.
-/// Unit: share of the largest singular value. Less: samples near a singular configuration count as
-/// regular. More: some motions have no regular samples. Test:
+/// the motion. Unit: share of the largest singular value. Too small: samples near a singular
+/// configuration count as regular. Too large: some motions have no regular samples. Test:
 /// `a_motion_near_a_singular_pose_has_regular_samples`.
 pub(crate) const REGULAR_SAMPLE: f64 = 0.1;
 
 /// Number of intervals into which the surroundings of a minimum, with one more sample on each side,
-/// are divided again.
-/// Unit: intervals. Less: minima between samples are missed. More: the search takes longer. Test:
-/// `every_flat_pose_and_every_upright_one_of_several_turns`.
+/// are divided again. Unit: intervals. Too small: minima between samples are missed. Too large: the
+/// search takes longer. Test: `every_flat_pose_and_every_upright_one_of_several_turns`.
 pub(crate) const FINER: u8 = 16;
 
 /// A sign change belongs to a singular configuration if σ_r is below this value there. Otherwise
-/// the rows or the frame have rotated.
-/// Unit: singular value of a matrix of size one. Less: singular configurations are missed. More:
-/// rotations of rows count as singular configurations. Test:
-/// `every_flat_pose_and_every_upright_one_of_several_turns`.
+/// the rows or the frame have rotated. Unit: singular value of a matrix of size one. Too small:
+/// singular configurations are missed. Too large: rotations of rows count as singular
+/// configurations. Test: `every_flat_pose_and_every_upright_one_of_several_turns`.
 pub(crate) const SINGULAR_INSTANT: f64 = 1e-6;
 
-/// If the overlap is below this value, a frame has rotated too far for a comparison of signs.
-/// Unit: volume. Less: signs of rotated frames are compared. More: the search takes longer. Test:
-/// `two_passages_between_samples_show_in_a_turned_motion`.
+/// If the overlap is below this value, a frame has rotated too far for a comparison of signs. Unit:
+/// volume. Too small: signs of rotated frames are compared. Too large: the search takes longer.
+/// Test: `two_passages_between_samples_show_in_a_turned_motion`.
 pub(crate) const OVERLAP: f64 = 0.5;
 
-/// If a determinant has decreased to this share, it may have crossed zero twice.
-/// Unit: share of the determinant. Less: pairs of singular configurations are missed. More: the
-/// search takes longer. Test: `two_passages_between_samples_show_in_a_small_determinant`.
+/// If a determinant has decreased to this share, it may have crossed zero twice. Unit: share of the
+/// determinant. Too small: pairs of singular configurations are missed. Too large: the search takes
+/// longer. Test: `two_passages_between_samples_show_in_a_small_determinant`.
 pub(crate) const MAY_PASS: f64 = 0.1;
 
-/// Maximum number of halvings of an interval between samples.
-/// Unit: halvings. Less: singular configurations close to each other are missed. More: the search
-/// takes longer. Test: `passages_are_found_that_are_two_thousandths_apart`.
+/// Maximum number of halvings of an interval between samples. Unit: halvings. Too small: singular
+/// configurations close to each other are missed. Too large: the search takes longer. Test:
+/// `passages_are_found_that_are_two_thousandths_apart`.
 pub(crate) const SAMPLE_HALVINGS: usize = 8;
 
 /// Between two samples, the distance of C from its first value is at most this factor times the
-/// distance between the samples. A motion is nearly straight there.
-/// Unit: 1. Less: singular configurations of curved motions are missed. More: the search takes
-/// longer. Test: `noise_in_the_states_blurs_the_time_by_as_much`.
+/// distance between the samples. A motion is nearly straight there. Unit: 1. Too small: singular
+/// configurations of curved motions are missed. Too large: the search takes longer. Test:
+/// `noise_in_the_states_blurs_the_time_by_as_much`.
 pub(crate) const BENT: f64 = 2.0;
 
 /// The directions of the regular motion are computed at this share of the nearly singular interval
-/// next to the instant.
-/// Unit: share of the nearly singular interval. Less: the directions are those of the singular
-/// configuration. More: the directions are those of a distant configuration. Test:
-/// `a_pendulum_beside_the_cranks`.
+/// next to the instant. Unit: share of the nearly singular interval. Too small: the directions are
+/// those of the singular configuration. Too large: the directions are those of a distant
+/// configuration. Test: `a_pendulum_beside_the_cranks`.
 pub(crate) const BESIDE_PASSAGE: f64 = 1e-2;
 
-/// A minimum must be below this share of the larger one of its neighbours.
-/// Unit: share of the larger neighbour. Less: shallow minima are missed. More: rounding counts as a
-/// minimum. Test: `a_minimum_lies_a_hundredth_below_a_neighbour`.
+/// A minimum must be below this share of the larger one of its neighbours. Unit: share of the
+/// larger neighbour. Too small: shallow minima are missed. Too large: rounding counts as a minimum.
+/// Test: `a_minimum_lies_a_hundredth_below_a_neighbour`.
 pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 
 /// Number of printed digits of a time that a search has found. The accuracy of such a time is that
-/// of the motion, which is little better than the tolerance of the run.
-/// Unit: digits. Less: different times look the same. More: inaccurate digits are printed. Test:
+/// of the motion, which is little better than the tolerance of the run. Unit: digits. Too small:
+/// different times look the same. Too large: inaccurate digits are printed. Test:
 /// `a_motion_that_turns_back_between_two_samples_passes_twice`.
 pub(crate) const SEARCHED_DIGITS: i32 = 7;
 
-/// Number of printed digits of a time that follows from a function of the scene.
-/// Unit: digits. Less: different times look the same. More: digits of rounding are printed. Test:
+/// Number of printed digits of a time that follows from a function of the scene. Unit: digits. Too
+/// small: different times look the same. Too large: digits of rounding are printed. Test:
 /// `a_rest_in_a_singular_pose_is_a_stretch`.
 pub(crate) const GIVEN_DIGITS: i32 = 10;
 
 // Second order.
 
 /// Maximum number of new motions for which the analysis attempts to prove that they are blocked.
-/// The forms need Γ for each pair of motions.
-/// Unit: motions. Less: blocked motions count as free. More: the analysis takes longer. Test:
-/// `a_blocked_freedom_beside_many_others`.
+/// The forms need Γ for each pair of motions. Unit: motions. Too small: blocked motions count as
+/// free. Too large: the analysis takes longer. Test: `a_blocked_freedom_beside_many_others`.
 pub(crate) const FORMS_MAX: usize = 32;
 
-/// Maximum number of new motions among which the analysis searches for branches.
-/// Unit: motions. Less: uniqueness is undecided. More: the time doubles with each motion. Test:
+/// Maximum number of new motions among which the analysis searches for branches. Unit: motions. Too
+/// small: uniqueness is undecided. Too large: the time doubles with each motion. Test:
 /// `what_is_not_decided_is_said`.
 pub const KERNEL_MAX: usize = 4;
 
 /// Permitted residual of the given motion in the equations, as a share of their coefficients. The
-/// directions of the motion may come from neighbouring configurations.
-/// Unit: share of the coefficients. Less: motions next to a singular configuration are rejected.
-/// More: wrong motions are examined. Test: `forms_are_of_a_motion_and_no_rounding`.
+/// directions of the motion may come from neighbouring configurations. Unit: share of the
+/// coefficients. Too small: motions next to a singular configuration are rejected. Too large: wrong
+/// motions are examined. Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const REGULAR: f64 = 1e-6;
 
-/// Error bound of the coefficients of the forms.
-/// Unit: 1. Less: rounding of the forms counts as a proof. More: blocked motions are undecided.
-/// Test: `a_proof_contains_the_motion_by_rounding_only`.
+/// Error bound of the coefficients of the forms. Unit: 1. Too small: rounding of the forms counts
+/// as a proof. Too large: blocked motions are undecided. Test:
+/// `a_proof_contains_the_motion_by_rounding_only`.
 pub(crate) const FORM_NOISE: f64 = 1e-9;
 
-/// G must exceed this multiple of the identity; the combination w has size one.
-/// Unit: multiples of the identity. Less: rounding counts as a proof. More: blocked motions are
-/// undecided. Test: `a_definite_form_blocks_from_its_margin_on`.
+/// G must exceed this multiple of the identity; the combination w has size one. Unit: multiples of
+/// the identity. Too small: rounding counts as a proof. Too large: blocked motions are undecided.
+/// Test: `a_definite_form_blocks_from_its_margin_on`.
 pub(crate) const MARGIN: f64 = 1e-5;
 
-/// Maximum number of corrections of w.
-/// Unit: corrections. Less: blocked motions are undecided. More: the analysis takes longer. Test:
-/// `narrow_proofs_are_found`.
+/// Maximum number of corrections of w. Unit: corrections. Too small: blocked motions are undecided.
+/// Too large: the analysis takes longer. Test: `narrow_proofs_are_found`.
 pub(crate) const BLOCKED_CORRECTIONS: usize = 1000;
 
 /// Largest number of unknowns for which a covering of the sphere is attempted. The number of boxes
-/// grows exponentially with it.
-/// Unit: unknowns. Less: locked mechanisms are undecided. More: the analysis takes longer. Test:
-/// `four_unknowns_are_covered`.
+/// grows exponentially with it. Unit: unknowns. Too small: locked mechanisms are undecided. Too
+/// large: the analysis takes longer. Test: `four_unknowns_are_covered`.
 pub(crate) const COVERED_UNKNOWNS: usize = 4;
 
-/// Maximum number of boxes of a covering.
-/// Unit: boxes. Less: locked mechanisms are undecided. More: the analysis takes longer. Test:
-/// `four_unknowns_are_covered`.
+/// Maximum number of boxes of a covering. Unit: boxes. Too small: locked mechanisms are undecided.
+/// Too large: the analysis takes longer. Test: `four_unknowns_are_covered`.
 pub(crate) const BOXES: usize = 100_000;
 
-/// Maximum number of halvings of a box. Smaller boxes contain only rounding.
-/// Unit: halvings. Less: nearly common zeros are undecided. More: the analysis takes longer. Test:
+/// Maximum number of halvings of a box. Smaller boxes contain only rounding. Unit: halvings. Too
+/// small: nearly common zeros are undecided. Too large: the analysis takes longer. Test:
 /// `nearly_common_zeros_are_told_apart`.
 pub(crate) const BOX_HALVINGS: i32 = 50;
 
 /// A form is a combination of the others if its remainder is below this multiple of the error of
-/// its coefficients.
-/// Unit: errors of a coefficient. Less: combinations of rounding are tried. More: forms that
-/// exclude a zero are omitted. Test: `nearly_dependent_forms_are_used`.
+/// its coefficients. Unit: errors of a coefficient. Too small: combinations of rounding are tried.
+/// Too large: forms that exclude a zero are omitted. Test: `nearly_dependent_forms_are_used`.
 pub(crate) const DEPENDENT_FORMS: f64 = 1e3;
 
 /// The remainder of a form is rounding if it is below this multiple of the error of its
-/// coefficients, for each unknown.
-/// Unit: errors of a coefficient. Less: dependent forms leave zeros undecided. More: a zero of the
-/// other forms counts as a zero of a form that does not have it. Test:
-/// `a_form_above_its_error_is_no_rounding`.
+/// coefficients, for each unknown. Unit: errors of a coefficient. Too small: dependent forms leave
+/// zeros undecided. Too large: a zero of the other forms counts as a zero of a form that does not
+/// have it. Test: `a_form_above_its_error_is_no_rounding`.
 pub(crate) const FORMS_OF_ROUNDING: f64 = 8.0;
 
-/// Number of starts of the search for a transversal zero.
-/// Unit: starts. Less: free motions are undecided. More: the analysis takes longer. Test:
-/// `three_unknowns`.
+/// Number of starts of the search for a transversal zero. Unit: starts. Too small: free motions are
+/// undecided. Too large: the analysis takes longer. Test: `three_unknowns`.
 pub(crate) const TRANSVERSAL_STARTS: usize = 60;
 
-/// A singular value of a projection is one or zero. A computed value above this limit is one.
-/// Unit: 1. Less: rounding counts as a set of bodies. More: a set of bodies is omitted. Test:
+/// A singular value of a projection is one or zero. A computed value above this limit is one. Unit:
+/// 1. Too small: rounding counts as a set of bodies. Too large: a set of bodies is omitted. Test:
 /// `a_blocked_freedom_beside_many_others`.
 pub(crate) const OWN_SHARE: f64 = 0.5;
 
-/// Number of iterations from one start. Convergence to a simple solution is quadratic.
-/// Unit: iterations. Less: branches are not found. More: the analysis takes longer. Test:
+/// Number of iterations from one start. Convergence to a simple solution is quadratic. Unit:
+/// iterations. Too small: branches are not found. Too large: the analysis takes longer. Test:
 /// `a_branch_differs_from_the_motion_by_a_thousandth`.
 pub(crate) const BRANCH_ITERATIONS: usize = 60;
 
-/// Largest residual of a solution of the equations.
-/// Unit: 1. Less: branches are rejected because of rounding. More: vectors that are not solutions
-/// count as branches. Test: `a_branch_meets_its_equations_to_rounding`.
+/// Largest residual of a solution of the equations. Unit: 1. Too small: branches are rejected
+/// because of rounding. Too large: vectors that are not solutions count as branches. Test:
+/// `a_branch_meets_its_equations_to_rounding`.
 pub(crate) const BRANCH_RESIDUAL: f64 = 1e-12;
 
 /// A solution belongs to another branch if its new motions (and, if driven, its rate of time)
-/// exceed this value.
-/// Unit: share of the motion. Less: the given motion counts as another branch. More: branches are
-/// missed. Test: `a_branch_differs_from_the_motion_by_a_thousandth`.
+/// exceed this value. Unit: share of the motion. Too small: the given motion counts as another
+/// branch. Too large: branches are missed. Test:
+/// `a_branch_differs_from_the_motion_by_a_thousandth`.
 pub(crate) const OTHER_BRANCH: f64 = 1e-3;
 
-/// Number of starts for each expected branch.
-/// Unit: starts. Less: branches are missed. More: the analysis takes longer. Test:
-/// `branches_nearer_than_a_thousandth_are_one`.
+/// Number of starts for each expected branch. Unit: starts. Too small: branches are missed. Too
+/// large: the analysis takes longer. Test: `branches_nearer_than_a_thousandth_are_one`.
 pub(crate) const BRANCH_STARTS: usize = 40;
 
-/// Solutions with a smaller distance are the same solution.
-/// Unit: share of the motion. Less: one branch counts twice. More: two branches count as one. Test:
+/// Solutions with a smaller distance are the same solution. Unit: share of the motion. Too small:
+/// one branch counts twice. Too large: two branches count as one. Test:
 /// `branches_nearer_than_a_thousandth_are_one`.
 pub(crate) const SAME_BRANCH: f64 = 1e-6;
 
-/// A coefficient is a sum of terms. Below this share of its terms it is rounding.
-/// Unit: share of the terms. Less: rounding counts as a coefficient. More: small coefficients count
-/// as zero. Test: `forms_are_of_a_motion_and_no_rounding`.
+/// A coefficient is a sum of terms. Below this share of its terms it is rounding. Unit: share of
+/// the terms. Too small: rounding counts as a coefficient. Too large: small coefficients count as
+/// zero. Test: `forms_are_of_a_motion_and_no_rounding`.
 pub(crate) const FORM_ROUNDING: f64 = 1e-10;
 
-/// Bodies with a smaller velocity are at rest.
-/// Unit: m/s, or the rate of rotation that moves a point of the mechanism by as much. Less:
-/// rounding of velocities counts as a motion, and finite reactions are undecided. More: moving
-/// bodies are reported to have no finite reaction. Test: `bodies_that_move_are_undecided`.
+/// Bodies with a smaller velocity are at rest. Unit: m/s, or the rate of rotation that moves a
+/// point of the mechanism by as much. Too small: rounding of velocities counts as a motion, and
+/// finite reactions are undecided. Too large: moving bodies are reported to have no finite
+/// reaction. Test: `bodies_that_move_are_undecided`.
 pub(crate) const AT_REST_SPEED: f64 = 1e-12;
 
-/// Loads do work along a freedom if the sum of their terms exceeds this share of the terms.
-/// Unit: share of the terms. Less: rounding of loads that cancel counts as a load. More: small
+/// Loads do work along a freedom if the sum of their terms exceeds this share of the terms. Unit:
+/// share of the terms. Too small: rounding of loads that cancel counts as a load. Too large: small
 /// loads are ignored. Test: `loads_that_cancel_do_not_push`.
 pub(crate) const PUSHES: f64 = 1e-9;
 
 /// Forces of a load below this share of its largest force are rounding. For example, gravity has no
-/// moment about rods that meet at a centre of mass.
-/// Unit: share of the largest force. Less: rounding counts as a load. More: small loads are
-/// ignored. Test: `rods_that_meet_at_the_centre_of_mass_carry_it`.
+/// moment about rods that meet at a centre of mass. Unit: share of the largest force. Too small:
+/// rounding counts as a load. Too large: small loads are ignored. Test:
+/// `rods_that_meet_at_the_centre_of_mass_carry_it`.
 pub(crate) const ROUNDING_PUSH: f64 = 1e-12;
 
 // Freedoms.
 
-/// Maximum number of reported motions. Further motions are only counted.
-/// Unit: motions. Less: motions are only counted. More: the report is too long to read. Test:
+/// Maximum number of reported motions. Further motions are only counted. Unit: motions. Too small:
+/// motions are only counted. Too large: the report is too long to read. Test:
 /// `of_many_motions_the_first_are_told`.
 pub const MOTIONS_REPORTED: usize = 12;
 
 /// A velocity of length one satisfies a form if the value of the form is below this limit. The
-/// limit covers rounding of a null space and is far below any freedom of practical interest.
-/// Unit: velocity of length one. Less: freedoms are missed because of rounding. More: moving bodies
-/// count as resting. Test: `links_of_a_chain_turn_about_their_own_joints`.
+/// limit covers rounding of a null space and is far below any freedom of practical interest. Unit:
+/// velocity of length one. Too small: freedoms are missed because of rounding. Too large: moving
+/// bodies count as resting. Test: `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const SATISFIED: f64 = 1e-9;
 
 /// A velocity of length one is new if it differs from the chosen ones by more than this. The limit
 /// exceeds [`SATISFIED`], so that the rounding of several conditions does not count as a freedom.
-/// Unit: velocity of length one. Less: rounding counts as a freedom. More: freedoms are missed.
-/// Test: `links_of_a_chain_turn_about_their_own_joints`.
+/// Unit: velocity of length one. Too small: rounding counts as a freedom. Too large: freedoms are
+/// missed. Test: `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NEW_MOTION: f64 = 1e-6;
 
 /// A velocity below this share of the fastest one is zero; rotations are multiplied by the size of
-/// the mechanism. The limit covers rounding of a null space.
-/// Unit: share of the fastest velocity. Less: rounding counts as a motion. More: slow bodies count
-/// as resting. Test: `slides_on_slides_move_along_their_axes`.
+/// the mechanism. The limit covers rounding of a null space. Unit: share of the fastest velocity.
+/// Too small: rounding counts as a motion. Too large: slow bodies count as resting. Test:
+/// `slides_on_slides_move_along_their_axes`.
 pub(crate) const AT_REST: f64 = 1e-10;
 
 /// Limit for (joints + bodies) × freedoms² in the search for motions of few joints. Below it, the
 /// search starts from every joint. Above it, the search starts from as many joints as the limit
-/// permits.
-/// Unit: joints and bodies times freedoms². Less: motions of few joints are missed. More: the
-/// analysis takes longer. Test: `the_motion_of_fewest_joints_comes_first`.
+/// permits. Unit: joints and bodies times freedoms². Too small: motions of few joints are missed.
+/// Too large: the analysis takes longer. Test: `the_motion_of_fewest_joints_comes_first`.
 pub(crate) const TRIALS: usize = 2_000_000;
 
 // Reactions of a choice, and sensitivity.
 
-/// Error of a number, in roundings of the largest multiplier, each scaled by its row.
-/// Unit: roundings of the largest multiplier. Less: rounding is printed. More: correct digits are
-/// not printed. Test: `what_two_roundings_leave_is_zero_and_more_is_not`.
+/// Error of a number, in roundings of the largest multiplier, each scaled by its row. Unit:
+/// roundings of the largest multiplier. Too small: rounding is printed. Too large: correct digits
+/// are not printed. Test: `what_two_roundings_leave_is_zero_and_more_is_not`.
 pub(crate) const VALUE_ROUNDINGS: f64 = 4.0;
 
 /// Redundant accelerations agree if they differ by less than this share of their terms. This is the
-/// rounding of velocities that satisfy the constraints, with a margin.
-/// Unit: share of the terms. Less: rounding counts as a contradiction. More: inconsistent equations
-/// are solved. Test: `three_cranks_with_least_norm`.
+/// rounding of velocities that satisfy the constraints, with a margin. Unit: share of the terms.
+/// Too small: rounding counts as a contradiction. Too large: inconsistent equations are solved.
+/// Test: `three_cranks_with_least_norm`.
 pub(crate) const AGREEMENT: f64 = 1e-9;
 
 /// Number of solutions of the linear system. The first solution contains rounding, and the second
-/// one removes its significant part.
-/// Unit: solves. Less: the rounding of the first solution remains. More: the computation takes
-/// longer. Test: `beam_on_three_springs`.
+/// one removes its significant part. Unit: solves. Too small: the rounding of the first solution
+/// remains. Too large: the computation takes longer. Test: `beam_on_three_springs`.
 pub(crate) const CHOICE_SOLVES: usize = 2;
 
 /// Displacement of a datum for sensitivities. A point moves by this share of the size of the
 /// mechanism (in long chains: of the size of its links), and a direction rotates by as many
-/// radians. A good workshop achieves this accuracy.
-/// Unit: share of the size, or rad. Less: reactions that are sensitive to data are not found. More:
-/// all reactions count as sensitive. Test: `a_beam_by_hand`.
+/// radians. A good workshop achieves this accuracy. Unit: share of the size, or rad. Too small:
+/// reactions that are sensitive to data are not found. Too large: all reactions count as sensitive.
+/// Test: `a_beam_by_hand`.
 pub const MOVED: f64 = 1e-4;
 
 /// If the smallest singular value of the independent rows (of length one) exceeds this limit, the
-/// first order suffices for displacements of [`MOVED`].
-/// Unit: singular value. Less: the printed changes near limit positions are too small. More: the
-/// computation takes longer. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// first order suffices for displacements of [`MOVED`]. Unit: singular value. Too small: the
+/// printed changes near limit positions are too small. Too large: the computation takes longer.
+/// Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const NEAR_LIMIT: f64 = 5e-2;
 
 /// If a number changes by less than this to first order, higher orders do not make it sensitive to
-/// data.
-/// Unit: share of the number or the load. Less: the computation takes longer. More: the printed
-/// changes near limit positions are too small. Test:
+/// data. Unit: share of the number or the load. Too small: the computation takes longer. Too large:
+/// the printed changes near limit positions are too small. Test:
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FIRST_ORDER: f64 = 0.01;
 
 /// Near a limit position, a datum is displaced if it changes a number by at least this share of its
-/// largest change. The first order does not show which of these data changes the number most.
-/// Unit: share. Less: the computation takes longer. More: a datum that is not displaced changes the
-/// number most. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// largest change. The first order does not show which of these data changes the number most. Unit:
+/// share. Too small: the computation takes longer. Too large: a datum that is not displaced changes
+/// the number most. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const ALIKE: f64 = 0.7;
 
 /// One displacement of a datum serves all numbers whose gradients have at least this cosine. Next
 /// to a limit position, a change of direction by 0.03 rad multiplies the change of a number several
-/// times.
-/// Unit: cosine. Less: some numbers change more for a displacement in their own direction. More:
-/// the computation takes longer. Test:
+/// times. Unit: cosine. Too small: some numbers change more for a displacement in their own
+/// direction. Too large: the computation takes longer. Test:
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const SAME_WAY: f64 = 0.999_999;
 
 /// Maximum number of data that are displaced near a limit position: those that change a number
-/// most.
-/// Unit: data. Less: a number depends on a datum that is not displaced. More: the computation takes
-/// longer. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// most. Unit: data. Too small: a number depends on a datum that is not displaced. Too large: the
+/// computation takes longer. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOWED_DATA: usize = 64;
 
 /// Limit for the operations of all displacements: displaced data × corrections × rows × columns².
 /// Each correction of each step factors a matrix, and each datum is displaced in both directions.
-/// Unit: operations. Less: large parts near a limit position are computed to first order only.
-/// More: the computation takes longer. Test: none, work only.
+/// Unit: operations. Too small: large parts near a limit position are computed to first order only.
+/// Too large: the computation takes longer. Test: none, work only.
 pub(crate) const FOLLOWED_WORK: usize = 1_000_000_000;
 
-/// Number of steps in which the bodies follow a displaced datum.
-/// Unit: steps. Less: the bodies leave their branch. More: the computation takes longer. Test:
+/// Number of steps in which the bodies follow a displaced datum. Unit: steps. Too small: the bodies
+/// leave their branch. Too large: the computation takes longer. Test:
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_STEPS: usize = 8;
 
-/// Share of the displacement in the first step, which shows how fast the bodies move.
-/// Unit: share. Less: rounding determines their speed. More: a jump of the speed is not noticed.
-/// Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// Share of the displacement in the first step, which shows how fast the bodies move. Unit: share.
+/// Too small: rounding determines their speed. Too large: a jump of the speed is not noticed. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_FIRST: f64 = 1e-3;
 
 /// A step has left the branch if it moves the bodies by more than this multiple of the previous
-/// step.
-/// Unit: multiples. Less: steps of bodies that approach their limit position count as another
-/// branch. More: other branches are not noticed. Test:
+/// step. Unit: multiples. Too small: steps of bodies that approach their limit position count as
+/// another branch. Too large: other branches are not noticed. Test:
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_JUMP: f64 = 4.0;
 
-/// Maximum number of corrections of a step.
-/// Unit: corrections. Less: configurations near the limit are not reached. More: the computation
-/// takes longer. Test: `near_its_limit_a_reaction_changes_by_more_than_first_order`.
+/// Maximum number of corrections of a step. Unit: corrections. Too small: configurations near the
+/// limit are not reached. Too large: the computation takes longer. Test:
+/// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_CORRECTIONS: usize = 12;
 
-/// The iteration ends if a correction is below this value.
-/// Unit: share of the size. Less: rounding is corrected. More: reactions lose digits. Test:
+/// The iteration ends if a correction is below this value. Unit: share of the size. Too small:
+/// rounding is corrected. Too large: reactions lose digits. Test:
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_END: f64 = 1e-11;
 
 /// A number of a reaction is sensitive to data if it changes by more than this share of itself, or
-/// of the largest load.
-/// Unit: share of the number, or of the largest load. Less: all reactions count as sensitive. More:
-/// no reaction counts as sensitive. Test: `a_beam_by_hand`.
+/// of the largest load. Unit: share of the number, or of the largest load. Too small: all reactions
+/// count as sensitive. Too large: no reaction counts as sensitive. Test: `a_beam_by_hand`.
 pub const FRAGILE: f64 = 0.1;
 
 /// Step of the difference quotients for the directions of rows and the reference points of joints,
 /// which change with the configuration and the data. Rounding and the square of the step are both
-/// far below the changes that a sensitivity shows.
-/// Unit: share of the size, or rad. Less: rounding counts as a change. More: second-order terms
-/// distort the result. Test: `numbers_change_as_those_of_mechanisms_built_with_other_data`.
+/// far below the changes that a sensitivity shows. Unit: share of the size, or rad. Too small:
+/// rounding counts as a change. Too large: second-order terms distort the result. Test:
+/// `numbers_change_as_those_of_mechanisms_built_with_other_data`.
 pub(crate) const SLOPE_STEP: f64 = 1e-5;
 
 /// If a reaction changes by this share of its size or more, the first order does not show how large
-/// the change is. It only shows that no digit of the reaction is correct.
-/// Unit: share of the reaction. Less: estimates of the first order are omitted. More: estimates
-/// outside the range of the first order are printed. Test: `sentences_are_for_people`.
+/// the change is. It only shows that no digit of the reaction is correct. Unit: share of the
+/// reaction. Too small: estimates of the first order are omitted. Too large: estimates outside the
+/// range of the first order are printed. Test: `sentences_are_for_people`.
 pub(crate) const BEYOND: f64 = 1.0;
 
-/// From this factor upwards, "several times" would understate the change.
-/// Unit: 1. Less: numbers are not printed. More: the sentences exaggerate. Test:
-/// `sentences_are_for_people`.
+/// From this factor upwards, "several times" would understate the change. Unit: 1. Too small:
+/// numbers are not printed. Too large: the sentences exaggerate. Test: `sentences_are_for_people`.
 pub(crate) const MANY: f64 = 30.0;
 
 /// A load below this share of m·v²/size is the rounding of a motion without loads. The load
-/// m·v²/size stops the bodies within the size of the mechanism.
-/// Unit: share of what stops the bodies. Less: rounding counts as a load. More: small loads count
-/// as zero. Test: `a_small_load_beside_a_fast_motion_is_a_load`.
+/// m·v²/size stops the bodies within the size of the mechanism. Unit: share of what stops the
+/// bodies. Too small: rounding counts as a load. Too large: small loads count as zero. Test:
+/// `a_small_load_beside_a_fast_motion_is_a_load`.
 pub(crate) const LOAD_ROUNDING: f64 = 1e-9;
 
 /// Points move by a share of the size of the mechanism, but at most by the same share of this
 /// multiple of the reach of the bodies that they join. A chain of a hundred links is manufactured
 /// link by link, so the errors of its holes are not a hundred times larger. The limit has no effect
-/// on mechanisms of a few bodies.
-/// Unit: reaches of the bodies. Less: short chains are analysed link by link. More: long chains
-/// count as sensitive. Test: `sensitivities_are_those_of_mechanisms_built_with_other_numbers`.
+/// on mechanisms of a few bodies. Unit: reaches of the bodies. Too small: short chains are analysed
+/// link by link. Too large: long chains count as sensitive. Test:
+/// `sensitivities_are_those_of_mechanisms_built_with_other_numbers`.
 pub(crate) const PIECE: f64 = 20.0;
 
 /// If the effects of several points differ by less than this factor, the first point is named. An
 /// example are two points that coincide. Reactions that depend on the same constraint violation are
-/// then named in one sentence.
-/// Unit: 1. Less: several sentences name the same constraint violation. More: one sentence combines
-/// different constraint violations. Test: `a_beam_by_hand`.
+/// then named in one sentence. Unit: 1. Too small: several sentences name the same constraint
+/// violation. Too large: one sentence combines different constraint violations. Test:
+/// `a_beam_by_hand`.
 pub(crate) const SAME_EFFECT: f64 = 1.01;
 
 // Memory and text output.
 
 /// Memory of a joint, drive or coupling with its verdict, its components and its name, including
-/// the result.
-/// Unit: bytes. Less: memory is exhausted. More: runs are rejected. Test: none, work only.
+/// the result. Unit: bytes. Too small: memory is exhausted. Too large: runs are rejected. Test:
+/// none, work only.
 pub(crate) const OF_GROUP: usize = 6500;
 
-/// Memory of a row with its verdict.
-/// Unit: bytes. Less: memory is exhausted. More: runs are rejected. Test: none, work only.
+/// Memory of a row with its verdict. Unit: bytes. Too small: memory is exhausted. Too large: runs
+/// are rejected. Test: none, work only.
 pub(crate) const OF_ROW: usize = 700;
 
-/// Memory of an entry of the matrix of rows, in all of its orderings.
-/// Unit: bytes. Less: memory is exhausted. More: runs are rejected. Test: none, work only.
+/// Memory of an entry of the matrix of rows, in all of its orderings. Unit: bytes. Too small:
+/// memory is exhausted. Too large: runs are rejected. Test: none, work only.
 pub(crate) const OF_ENTRY: usize = 350;
 
-/// Memory of a velocity with its body.
-/// Unit: bytes. Less: memory is exhausted. More: runs are rejected. Test: none, work only.
+/// Memory of a velocity with its body. Unit: bytes. Too small: memory is exhausted. Too large: runs
+/// are rejected. Test: none, work only.
 pub(crate) const OF_VELOCITY: usize = 340;
 
 /// Number of dense matrices of all rows and columns that the analysis of a small mechanism stores
-/// at the same time.
-/// Unit: matrices. Less: memory is exhausted. More: runs are rejected. Test: none, work only.
+/// at the same time. Unit: matrices. Too small: memory is exhausted. Too large: runs are rejected.
+/// Test: none, work only.
 pub(crate) const DENSE_MATRICES: usize = 16;
 
 /// Number of dense matrices of all rows and columns that the certification of the rank of several
-/// parts stores at the same time.
-/// Unit: matrices. Less: memory is exhausted. More: runs are rejected. Test: none, work only.
+/// parts stores at the same time. Unit: matrices. Too small: memory is exhausted. Too large: runs
+/// are rejected. Test: none, work only.
 pub(crate) const CERTIFIED_MATRICES: usize = 9;
 
 /// Largest distance of a reported point about which the moment of free wrenches vanishes. Free
-/// wrenches that are couples except for rounding have such a point at infinity.
-/// Unit: sizes of the mechanism. Less: a centre outside the mechanism is not printed. More: points
-/// without practical interest are printed. Test: `a_couple_has_no_centre`.
+/// wrenches that are couples except for rounding have such a point at infinity. Unit: sizes of the
+/// mechanism. Too small: a centre outside the mechanism is not printed. Too large: points without
+/// practical interest are printed. Test: `a_couple_has_no_centre`.
 pub(crate) const FAR_CENTRE: f64 = 100.0;
 
 /// Forces of free wrenches below this share of the largest one are rounding. They are not used to
-/// compute the point about which the moment vanishes.
-/// Unit: share of the largest singular value. Less: points lie at random on a line of action. More:
-/// points do not belong to the wrenches. Test: `points_of_a_line_are_the_nearest`.
+/// compute the point about which the moment vanishes. Unit: share of the largest singular value.
+/// Too small: points lie at random on a line of action. Too large: points do not belong to the
+/// wrenches. Test: `points_of_a_line_are_the_nearest`.
 pub(crate) const FREE_FORCE: f64 = 1e-9;
 
 /// Smallest pivot, as a share of the largest remaining entry, in the computation of readable bases
 /// of directions. The entries are as accurate as the data, and a small pivot multiplies their
-/// errors.
-/// Unit: share of the largest entry. Less: directions of inexact data are wrong. More: unique
-/// components are still printed separately, but other components become pivots. Test:
+/// errors. Unit: share of the largest entry. Too small: directions of inexact data are wrong. Too
+/// large: unique components are still printed separately, but other components become pivots. Test:
 /// `what_the_data_miss_is_not_multiplied`.
 pub(crate) const SHARE_OF_PIVOT: f64 = 0.1;
 
 /// A component of a self-stress below this share of its largest component is zero, in drawings and
-/// in sentences. Such a component is rounding of the dependence.
-/// Unit: share of the largest number. Less: rounding is shown. More: small numbers are not shown.
-/// Test: `far_axes_and_translations_are_told_apart`.
+/// in sentences. Such a component is rounding of the dependence. Unit: share of the largest number.
+/// Too small: rounding is shown. Too large: small numbers are not shown. Test:
+/// `far_axes_and_translations_are_told_apart`.
 pub(crate) const VISIBLE: f64 = 1e-9;
 
 /// Two bodies move together, or a joint is at a point, if they differ by less than this share of
 /// the size of the mechanism. The limit is above the rounding of a null space and below any
-/// distance between joints that a drawing shows.
-/// Unit: share of the size. Less: one point counts as two. More: two points count as one. Test:
+/// distance between joints that a drawing shows. Unit: share of the size. Too small: one point
+/// counts as two. Too large: two points count as one. Test:
 /// `a_four_bar_moves_without_its_motor_only`.
 pub(crate) const SAME_PLACE: f64 = 1e-6;
 
 /// Maximum number of sets of further bodies for which the axes of rotation are printed. The bodies
-/// of a set move together.
-/// Unit: sets of bodies. Less: the text only states that the bodies rotate. More: the sentences are
-/// too long to read. Test: `few_other_bodies_are_told_with_their_axes`.
+/// of a set move together. Unit: sets of bodies. Too small: the text only states that the bodies
+/// rotate. Too large: the sentences are too long to read. Test:
+/// `few_other_bodies_are_told_with_their_axes`.
 pub(crate) const TOLD_MOVEMENTS: usize = 3;
 
-/// Maximum number of sets of joints with different loads whose loads are printed separately.
-/// Unit: sets of joints. Less: loads are not described. More: the sentences are too long to read.
-/// Test: `few_different_loads_are_told_joint_by_joint`.
+/// Maximum number of sets of joints with different loads whose loads are printed separately. Unit:
+/// sets of joints. Too small: loads are not described. Too large: the sentences are too long to
+/// read. Test: `few_different_loads_are_told_joint_by_joint`.
 pub(crate) const TOLD_LOADS: usize = 3;
 
-/// Maximum number of bodies that a sentence names.
-/// Unit: bodies. Less: bodies are only counted. More: the sentences are too long to read. Test:
+/// Maximum number of bodies that a sentence names. Unit: bodies. Too small: bodies are only
+/// counted. Too large: the sentences are too long to read. Test:
 /// `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NAMED_BODIES: usize = 6;
 
-/// Number of names that identify a part in a text.
-/// Unit: names. Less: the names do not identify the part. More: the sentences are too long to read.
-/// Test: `a_part_is_named_by_its_first_three_joints`.
+/// Number of names that identify a part in a text. Unit: names. Too small: the names do not
+/// identify the part. Too large: the sentences are too long to read. Test:
+/// `a_part_is_named_by_its_first_three_joints`.
 pub(crate) const FIRST_NAMED: usize = 3;
 
 /// Number of undetermined load components of a set of joints above which the load of each joint is
-/// not described.
-/// Unit: load components. Less: short lists are omitted. More: joints that share all loads are
-/// described by a sentence of several lines. Test: `many_loads_are_not_described_joint_by_joint`.
+/// not described. Unit: load components. Too small: short lists are omitted. Too large: joints that
+/// share all loads are described by a sentence of several lines. Test:
+/// `many_loads_are_not_described_joint_by_joint`.
 pub(crate) const MANY_LOADS: usize = 5;
 
 /// Maximum number of rows that a label lists completely. For more rows it names only the first few.
-/// Unit: rows. Less: rows are only counted. More: the labels are too long to read. Test:
+/// Unit: rows. Too small: rows are only counted. Too large: the labels are too long to read. Test:
 /// `eliminations_of_the_robot_are_runs_without_these_rows`.
 pub(crate) const NAMED_ROWS: usize = 12;
 
-/// Maximum number of rows that a sentence lists.
-/// Unit: rows. Less: rows are only counted. More: the sentences are too long to read. Test:
-/// `every_answer_is_that_of_its_session`.
+/// Maximum number of rows that a sentence lists. Unit: rows. Too small: rows are only counted. Too
+/// large: the sentences are too long to read. Test: `every_answer_is_that_of_its_session`.
 pub(crate) const TELLABLE: usize = 8;
