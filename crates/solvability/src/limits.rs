@@ -487,9 +487,9 @@ pub(crate) const FORMS_OF_ROUNDING: f64 = 8.0;
 /// undecided. Too large: the analysis takes longer. Test: `three_unknowns`.
 pub(crate) const TRANSVERSAL_STARTS: usize = 60;
 
-/// A singular value of a projection is one or zero. A computed value above this limit is one. Unit:
-/// 1. Too small: rounding counts as a set of bodies. Too large: a set of bodies is omitted. Test:
-/// `a_blocked_freedom_beside_many_others`.
+/// A singular value of a projection is one or zero. A computed value above this limit is one.
+/// Unit: 1. Too small: rounding counts as a set of bodies. Too large: a set of bodies is omitted.
+/// Test: `a_blocked_freedom_beside_many_others`.
 pub(crate) const OWN_SHARE: f64 = 0.5;
 
 /// Number of iterations from one start. Convergence to a simple solution is quadratic. Unit:
