@@ -254,9 +254,7 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
             .count();
         let names = names(layout, &reactions);
         let text = match names.as_slice() {
-            [one] => {
-                format!("the rows of {one} depend on each other: free multipliers: {redundancy}")
-            }
+            [one] => format!("the rows of {one} leave {redundancy} of its multipliers free"),
             several => {
                 let spanning = spanning(solvability, &rows);
                 let size = scene_size(mechanism, q);

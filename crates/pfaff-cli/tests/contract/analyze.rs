@@ -227,7 +227,7 @@ fn many_reasons_are_cut_in_words_but_not_in_the_document() {
         &text,
         &[
             "- and 2 more (`--json` prints all)",
-            "`--make-unique NAME` lists all",
+            "- others: `--make-unique NAME`",
         ],
     );
     let d = document(&with_scene(&["analyze", "-", "--json"], &scene));

@@ -29,17 +29,17 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
             let heading = "Ways to make a reaction unique (design decisions; `--make-unique NAME` lists all):";
             out.push(Block::Heading(heading.to_owned()));
         }
-        let line = |(text, names): &(String, Vec<&str>)| {
-            Block::after(format!("- {}: ", names.join(", ")), text)
-        };
-        out.extend(lines.iter().map(line));
+        for (text, names) in &lines {
+            out.push(Block::after(format!("- {}: ", names.join(", ")), text));
+        }
+        if hints.len() > HINTS {
+            out.push(item("others: `--make-unique NAME`".to_owned()));
+        }
     }
     for wanted in &d.answers.make_unique {
         let allowed = match wanted.allowed {
             "sensible" => "a joint of several rows keeps at least one",
-            "sensible, whole" => {
-                "also whole joints: it is not enough to delete some rows of each joint"
-            }
+            "sensible, whole" => "also whole joints, because single rows do not suffice",
             "whole" => "whole joints and drives",
             _ => "only the rows that --allow names",
         };
