@@ -1,6 +1,7 @@
 //! Chooses the method of a run if the user gives no method.
 
 use linalg::{Matrix, SaddleError};
+use model::words::rough;
 
 use crate::error::MotionFault;
 use crate::limits::{POWER_ITERATIONS, STABLE, STIFF};
@@ -64,7 +65,7 @@ pub(crate) fn method(
         "estimate at the start: for stability an explicit method needs {} steps, {is} than {STIFF:.0e}",
         match steps {
             few if few < 1.0 => "less than 1".to_owned(),
-            many => format!("about {many:.1e}"),
+            many => format!("about {many}", many = rough(many)),
         }
     );
     Ok(decided(method, why))

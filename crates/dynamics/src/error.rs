@@ -5,7 +5,7 @@ mod rows;
 use integrators::IntegrationError;
 use linalg::{SaddleError, SingularPivot};
 use model::codes::Code;
-use model::words::{listed, rounded};
+use model::words::{listed, rough, rounded, short};
 use model::{CalledForce, RowLabel, StartError, UndefinedForce};
 use rank::Doubt;
 use solvability::{AnalysisError, Contradiction, DriveLimit, NoFiniteReaction, StateError};
@@ -18,8 +18,8 @@ pub use rows::DropError;
 pub enum MotionFault {
     /// The independent rows became dependent.
     #[error(
-        "at t = {t} s the kept rows are no longer independent at row {row}: pivot {pivot:.3e} of {scale:.3e}; \
-         the mechanism passes a singular configuration", t = rounded(*time))]
+        "at t = {t} s the kept rows are no longer independent at row {row}: pivot {pivot} of {scale}; \
+         the mechanism passes a singular configuration", t = rounded(*time), pivot = short(*pivot), scale = short(*scale))]
     RankLost {
         /// Time (s).
         time: f64,
@@ -32,8 +32,8 @@ pub enum MotionFault {
     },
     /// The independent coordinates no longer determine the others.
     #[error(
-        "at t = {t} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot:.3e} times the \
-         one at their choice", t = rounded(*time))]
+        "at t = {t} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot} times the \
+         one at their choice", t = rounded(*time), pivot = short(*pivot))]
     IndependentCoordinates {
         /// Time (s).
         time: f64,
@@ -92,8 +92,8 @@ pub enum MotionFault {
     },
     /// Positions could not be moved back onto the constraints.
     #[error(
-        "at t = {t} s row {row} is violated by {residual:.3e} after {iterations} corrections, {}",
-        above(*residual, *tolerance), t = rounded(*time))]
+        "at t = {t} s row {row} is violated by {residual} after {iterations} corrections, {}",
+        above(*residual, *tolerance), t = rounded(*time), residual = short(*residual))]
     OffConstraints {
         /// Time (s).
         time: f64,
@@ -108,8 +108,8 @@ pub enum MotionFault {
     },
     /// The independent rows no longer imply a redundant row.
     #[error(
-        "at t = {t} s the dropped row {row} is violated by {residual:.3e} ({level}), {}: the kept rows implied it at the start, but no longer imply it here; {}",
-        above(*residual, *tolerance), implied(drives), t = rounded(*time))]
+        "at t = {t} s the dropped row {row} is violated by {residual} ({level}), {}: the kept rows implied it at the start, but no longer imply it here; {}",
+        above(*residual, *tolerance), implied(drives), t = rounded(*time), residual = short(*residual))]
     DroppedRow {
         /// Time (s).
         time: f64,
@@ -127,8 +127,7 @@ pub enum MotionFault {
     /// A row that is redundant within the stated tolerance has a larger violation than data within
     /// the tolerance explain.
     #[error(
-        "at t = {time} s row {row} is violated by {residual:.3e} ({level}), but the stated tolerance explains only {bound:.3e}: within the tolerance the mechanism cannot move farther than this position ({way} since the start). Correct the dimensions of its joint, state a larger tolerance for the joint, or end the run earlier"
-    )]
+        "at t = {time} s row {row} is violated by {residual} ({level}), but the stated tolerance explains only {bound}: within the tolerance the mechanism cannot move farther than this position ({way} since the start). Correct the dimensions of its joint, state a larger tolerance for the joint, or end the run earlier", residual = short(*residual), bound = short(*bound))]
     BeyondTolerance {
         /// Time (s).
         time: f64,
@@ -155,9 +154,9 @@ pub enum MotionFault {
     /// A row that counted as redundant because the start is singular is violated at neighbouring
     /// configurations.
     #[error(
-        "at t = {t} s the dropped row {row} is violated by {residual:.3e}: it contradicts the kept rows. It is redundant at the start only, which \
+        "at t = {t} s the dropped row {row} is violated by {residual}: it contradicts the kept rows. It is redundant at the start only, which \
          is a singular configuration (its degree of redundancy is {redundancy}, elsewhere {elsewhere}): begin at another one, or correct the joint \
-         of the row", t = rounded(*time))]
+         of the row", t = rounded(*time), residual = short(*residual))]
     SingularStart {
         /// Degree of redundancy at the start.
         redundancy: usize,
@@ -202,7 +201,7 @@ pub enum MotionFault {
     },
     /// A constraint function jumps.
     #[error(
-        "at t = {t} s row {row} jumps by {jump:.3e}: this needs an infinite force; use a continuous function of time, or a short ramp", t = rounded(*time))]
+        "at t = {t} s row {row} jumps by {jump}: this needs an infinite force; use a continuous function of time, or a short ramp", t = rounded(*time), jump = short(*jump))]
     PositionJump {
         /// Time (s).
         time: f64,
@@ -322,9 +321,8 @@ pub enum MotionError {
     RankUndecided(Doubt),
     /// The independent rows are too ill-conditioned to compute a motion.
     #[error(
-        "at the start the rows {} are dependent to within {sigma:.1e}; a simulation needs {required:.1e}: velocities would be accurate only to {:.1e} of their size. Correct the misalignment, or delete one of the rows",
-        listed(rows), f64::EPSILON / sigma
-    )]
+        "at the start the rows {} are dependent to within {sigma}; a simulation needs {required}: velocities would be accurate only to {} of their size. Correct the misalignment, or delete one of the rows",
+        listed(rows), rough(f64::EPSILON / sigma), sigma = rough(*sigma), required = rough(*required))]
     Inseparable {
         /// The rows.
         rows: Vec<String>,
@@ -405,15 +403,20 @@ fn undecided(doubt: &Doubt) -> String {
                 "Some rows depend on each other nearly but not quite: correct the misalignment of their joints, or delete one of them"
             };
             format!(
-                "singular value {sigma:.3e} lies between the tolerance {tolerance:.3e} and {required:.3e}: rank {lower} or {upper}. {advice}"
+                "singular value {sigma} lies between the tolerance {tolerance} and {required}: rank {lower} or {upper}. {advice}",
+                sigma = short(sigma),
+                tolerance = short(tolerance),
+                required = short(required)
             )
         }
         Doubt::NotPolished {
             sigma_max,
             tolerance,
         } => format!(
-            "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e}: positions are too inaccurate for any rank; place the mechanism \
-             nearer to the origin"
+            "tolerance {tolerance} exceeds the largest singular value {sigma_max}: positions are too inaccurate for any rank; place the mechanism \
+             nearer to the origin",
+            tolerance = short(tolerance),
+            sigma_max = short(sigma_max)
         ),
         other => other.to_string(),
     }
@@ -432,7 +435,7 @@ fn implied(drives: &[String]) -> String {
 /// States the limit with which a residual was compared. A run continues up to the last allowed
 /// state, so both numbers may be equal when printed.
 fn above(residual: f64, tolerance: f64) -> String {
-    let [found, allowed] = [residual, tolerance].map(|x| format!("{x:.3e}"));
+    let [found, allowed] = [residual, tolerance].map(short);
     if found == allowed {
         format!("just above the allowed {allowed}")
     } else {

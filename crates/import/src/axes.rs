@@ -1,6 +1,7 @@
 //! Axes of loops that are nearly parallel or nearly meet, either because of rounded digits or
 //! because of an intended tilt. They are reported, and made parallel or intersecting on request.
 
+use model::words::estimate;
 use std::cmp::Reverse;
 
 use nalgebra::{Isometry3, Point3, Vector3};
@@ -42,8 +43,10 @@ struct Tilt {
 impl Tilt {
     fn words(&self, model: &Model) -> String {
         format!(
-            "the axis of `{}` is tilted by {:.2e} rad against {} of its loop",
-            model.joints[self.joint].name, self.off, self.others
+            "the axis of `{}` is tilted by {} against {} of its loop",
+            model.joints[self.joint].name,
+            estimate(self.off, "rad"),
+            self.others
         )
     }
 }
@@ -195,8 +198,8 @@ pub(crate) fn look(
             }
             let [one, two] = [a, b].map(|axis| &model.joints[axis.joint].name);
             let what = format!(
-                "The axes of `{one}` and `{two}` meet to {:.2e} m, within the digits of the file",
-                off.abs()
+                "The axes of `{one}` and `{two}` meet to {}, within the digits of the file",
+                estimate(off.abs(), "m")
             );
             if axes == Axes::Snapped {
                 findings

@@ -10,6 +10,7 @@ use crate::mechanism::{Joint, Keyframe, Model};
 use crate::options::{Base, Options};
 use crate::pose::{self, Motion};
 use crate::xml::Element;
+use model::words::rough;
 
 /// The state at which the scene starts, and whether it has velocities; `None` if it starts at the
 /// described pose. `angle` is the accuracy of angles in the file.
@@ -203,14 +204,15 @@ fn close(
             );
             if open > OPEN {
                 remark += &format!(
-                    "; where the file describes them, loops are open by {open:.1e} of the size or rad"
+                    "; where the file describes them, loops are open by {open} of the size or rad",
+                    open = rough(open)
                 );
             }
             remark += ".";
             if found.gap > ASSEMBLED {
                 remark += &format!(
-                    " The best pose leaves {:.1e} of the size or rad.",
-                    found.gap
+                    " The best pose leaves {} of the size or rad.",
+                    rough(found.gap)
                 );
             }
             findings.remarks.push(remark);
@@ -223,7 +225,8 @@ fn close(
         Err(AssemblyFailure::Open(name, gap)) => {
             let message = format!(
                 "no pose is found at which all loops are closed: at the best one `{name}` is open by \
-                 {gap:.1e} of the size or rad"
+                 {gap} of the size or rad",
+                gap = rough(gap)
             );
             let mut help =
                 "give a pose near which they close: --pose joint=0.3,other=-0.2".to_owned();
@@ -236,8 +239,7 @@ fn close(
         }
         Err(AssemblyFailure::TooLarge(n)) => {
             findings.remarks.push(format!(
-                "Loops are open by {open:.1e} of the size or rad, and {n} coordinates are more than are tried."
-            ));
+                "Loops are open by {open} of the size or rad, and {n} coordinates are more than are tried.", open = rough(open)));
         }
     }
 }

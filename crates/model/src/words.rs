@@ -29,7 +29,7 @@ pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
     }
 }
 
-/// Returns a number with six significant digits.
+/// Returns a number with six significant digits, as a scene accepts it.
 ///
 /// ```
 /// assert_eq!(pfaff_model::words::rounded(0.500_000_000_001), "0.5");
@@ -38,40 +38,143 @@ pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
 /// ```
 #[must_use]
 pub fn rounded(x: f64) -> String {
-    let short: f64 = format!("{x:.5e}").parse().unwrap_or(x);
+    ascii(x, 6)
+}
+
+/// Returns a number with four significant digits and a true minus sign, for readers.
+///
+/// ```
+/// assert_eq!(pfaff_model::words::short(-9.810_01), "−9.81");
+/// assert_eq!(pfaff_model::words::short(5.4e-12), "5.4e-12");
+/// ```
+#[must_use]
+pub fn short(x: f64) -> String {
+    digits(x, 4)
+}
+
+/// Returns a number with two significant digits, for errors and bounds of errors.
+///
+/// ```
+/// assert_eq!([0.0, 1.234e-13, 0.42].map(pfaff_model::words::rough), ["0", "1.2e-13", "0.42"]);
+/// ```
+#[must_use]
+pub fn rough(x: f64) -> String {
+    digits(x, 2)
+}
+
+/// Returns a number with this number of significant digits and a true minus sign.
+#[must_use]
+pub fn digits(x: f64, digits: usize) -> String {
+    ascii(x, digits).replacen('-', if x < 0.0 { "−" } else { "-" }, 1)
+}
+
+fn ascii(x: f64, digits: usize) -> String {
+    // The sum removes the sign of a zero.
+    let short = to_digits(x, digits) + 0.0;
     match short.abs() {
         size if size != 0.0 && !(1e-4..1e7).contains(&size) => format!("{short:e}"),
         _ => short.to_string(),
     }
 }
 
-/// Units of lengths (m), each with the smallest length that is printed in it. Hundredths of a
-/// millimetre are common, but hundredths of a metre are not. The bounds are slightly smaller
-/// because of rounding.
-const UNITS: [(f64, f64, &str); 4] = [
-    (1.0, 0.099, "m"),
-    (1e-3, 0.99e-5, "mm"),
-    (1e-6, 0.99e-7, "µm"),
-    (1e-9, 0.99e-10, "nm"),
-];
+/// Rounds to this number of significant digits.
+fn to_digits(x: f64, digits: usize) -> f64 {
+    let text = format!("{x:.*e}", digits.saturating_sub(1));
+    text.parse().unwrap_or(x)
+}
 
-/// Formats a length (m) with two digits, in the common unit for its size.
+/// Numbers of units of this size or more have no prefix.
+const MOST: f64 = 1e10;
+
+/// A prefix of units, such as `k` in kN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prefix {
+    /// The symbol.
+    pub symbol: &'static str,
+    /// Its value.
+    pub factor: f64,
+}
+
+impl Prefix {
+    /// No prefix.
+    pub const NONE: Self = Self {
+        symbol: "",
+        factor: 1.0,
+    };
+
+    /// Prefixes, each with the smallest number of units that is printed with it. Hundredths of a
+    /// millimetre are common, but hundredths of a metre are not. The bounds are slightly smaller
+    /// because of rounding.
+    const ALL: [(f64, Self); 6] = [
+        (0.9995e6, Self::new("M", 1e6)),
+        (0.9995e3, Self::new("k", 1e3)),
+        (0.099, Self::NONE),
+        (0.99e-5, Self::new("m", 1e-3)),
+        (0.99e-7, Self::new("µ", 1e-6)),
+        (0.99e-10, Self::new("n", 1e-9)),
+    ];
+
+    /// Symbols of units that may have a prefix.
+    const PREFIXED: [&str; 8] = ["N", "J", "W", "m", "rad", "s", "Hz", "Pa"];
+
+    const fn new(symbol: &'static str, factor: f64) -> Self {
+        Self { symbol, factor }
+    }
+
+    /// Returns the prefix for numbers of this size in a unit.
+    ///
+    /// ```
+    /// use pfaff_model::words::Prefix;
+    /// assert_eq!(Prefix::of(3400.8, "N·m").symbol, "k");
+    /// assert_eq!(Prefix::of(3400.8, "kg"), Prefix::NONE);
+    /// ```
+    #[must_use]
+    pub fn of(size: f64, unit: &str) -> Self {
+        let end = unit.find(['·', '/']).unwrap_or(unit.len());
+        if !Self::PREFIXED.contains(&&unit[..end]) {
+            return Self::NONE;
+        }
+        let found = Self::ALL.iter().find(|(from, _)| size >= *from);
+        match found {
+            Some((_, prefix)) if size < MOST => *prefix,
+            _ => Self::NONE,
+        }
+    }
+}
+
+/// Formats a number with four significant digits and its unit, with the prefix for its size.
 ///
 /// ```
-/// assert_eq!(pfaff_model::words::length(3.58e-4), "0.36 mm");
+/// use pfaff_model::words::quantity;
+/// assert_eq!(quantity(-3400.8, "N"), "−3.401 kN");
+/// assert_eq!(quantity(0.0, "N·m"), "0 N·m");
 /// ```
 #[must_use]
-pub fn length(metres: f64) -> String {
-    let two_digits = |x: f64| format!("{x:.1e}").parse().unwrap_or(x);
-    let metres: f64 = two_digits(metres);
-    let said = UNITS.into_iter().find(|(_, from, _)| metres >= *from);
-    let (one, _, unit) = said.unwrap_or(UNITS[0]);
-    let number: f64 = two_digits(metres / one);
-    if (0.01..1e4).contains(&number) {
-        format!("{number} {unit}")
-    } else {
-        format!("{metres:.1e} m")
-    }
+pub fn quantity(x: f64, unit: &str) -> String {
+    let prefix = Prefix::of(to_digits(x, 4).abs(), unit);
+    format!("{} {}{unit}", short(x / prefix.factor), prefix.symbol)
+}
+
+/// Formats the range between two numbers, with one prefix.
+///
+/// ```
+/// assert_eq!(pfaff_model::words::range(20.0, 1200.0, "N"), "0.02 … 1.2 kN");
+/// ```
+#[must_use]
+pub fn range(least: f64, greatest: f64, unit: &str) -> String {
+    let prefix = Prefix::of(least.abs().max(greatest.abs()), unit);
+    let [least, greatest] = [least, greatest].map(|x| short(x / prefix.factor));
+    format!("{least} … {greatest} {}{unit}", prefix.symbol)
+}
+
+/// Formats a quantity with two significant digits.
+///
+/// ```
+/// assert_eq!(pfaff_model::words::estimate(3.58e-4, "m"), "0.36 mm");
+/// ```
+#[must_use]
+pub fn estimate(x: f64, unit: &str) -> String {
+    quantity(to_digits(x, 2), unit)
 }
 
 #[cfg(test)]
@@ -93,10 +196,30 @@ mod tests {
             (2.0, "2 m"),
             (1.3e-6, "1.3 µm"),
             (4e-10, "0.4 nm"),
-            (3e-12, "3.0e-12 m"),
-            (1e9, "1.0e9 m"),
+            (3e-12, "3e-12 m"),
+            (1e12, "1e12 m"),
         ] {
-            assert_eq!(length(metres), said);
+            assert_eq!(estimate(metres, "m"), said);
         }
+    }
+
+    #[test]
+    fn a_prefix_keeps_one_to_three_digits_before_the_point() {
+        for (x, unit, said) in [
+            (999.4, "N", "999.4 N"),
+            (999.96, "N", "1 kN"),
+            (-12_345.0, "N·m", "−12.35 kN·m"),
+            (2.5e6, "N/m", "2.5 MN/m"),
+            (0.033, "N·m", "33 mN·m"),
+            (1234.0, "kg", "1234 kg"),
+            (1234.0, "m²", "1234 m²"),
+            (1234.0, "", "1234 "),
+            (f64::NAN, "N", "NaN N"),
+            (f64::INFINITY, "N", "inf N"),
+        ] {
+            assert_eq!(quantity(x, unit), said);
+        }
+        assert_eq!(digits(-1.5e-9, 2), "−1.5e-9");
+        assert_eq!(digits(-0.0, 2), "0");
     }
 }

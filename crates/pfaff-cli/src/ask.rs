@@ -59,6 +59,9 @@ struct CommonOptions {
     /// Print more details
     #[arg(long, conflicts_with = "json")]
     verbose: bool,
+    /// Print numbers of tables in SI units without prefixes
+    #[arg(long, conflicts_with = "json")]
+    si: bool,
 }
 
 /// Name of the argument with the scenes.
@@ -159,6 +162,7 @@ impl AskCommand {
             output: output.zip(self.place.as_ref()),
             is_json: self.of.json,
             is_verbose: self.of.verbose,
+            is_si: self.of.si,
             threads: self.of.resources.threads,
             hears,
         }
@@ -193,6 +197,8 @@ pub struct Asking<'a> {
     pub is_json: bool,
     /// Whether details are printed, too.
     pub is_verbose: bool,
+    /// Whether numbers of tables are printed in SI units without prefixes.
+    pub is_si: bool,
     /// Number of threads.
     pub threads: Option<NonZeroUsize>,
     /// Whether requests to stop apply to this answer.
@@ -250,7 +256,7 @@ impl Asking<'_> {
         let text = if self.is_json {
             answer.json()?
         } else {
-            words::text(&answer.words(), self.is_verbose) + &written
+            answer.text(self.is_verbose, self.is_si) + &written
         };
         Ok((text, answer.ending()))
     }

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use pfaff::documents::{NewDocument, TemplateDocument, TemplatesDocument};
 use pfaff::template::Template;
+use pfaff::words::{self, Block, Printed};
 
 use crate::args::New;
 use crate::console::Console;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, Outcome, columns, replaces, write_file};
+use crate::output::{Failure, Outcome, replaces, write_file};
 
 pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
@@ -59,10 +60,10 @@ fn list(json: bool, console: &Console<'_>) -> Outcome {
             templates: all.map(document).collect(),
         });
     }
-    let mut rows = vec![["template", "is"].map(str::to_owned).to_vec()];
-    rows.extend(all.map(|t| vec![t.name().to_owned(), t.summary()]));
-    console.print(&format!(
-        "{}\n`pfaff new TEMPLATE` writes one\n",
-        columns(&rows)
-    ))
+    let lines = all.map(|t| [t.name().to_owned(), t.summary()]);
+    let blocks = [
+        Block::table(["template", "is"], lines),
+        Block::sentence("`pfaff new TEMPLATE` writes one"),
+    ];
+    console.print(&words::text(&blocks, false, Printed::Si))
 }

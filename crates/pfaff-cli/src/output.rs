@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::interrupt::Interrupt;
 
 pub use pfaff::refusal::{Refusal, visible};
-pub use pfaff::words::{columns, count, wrapped};
+pub use pfaff::words::{count, wrapped};
 
 /// The form of an answer.
 #[derive(Clone, Copy)]

@@ -46,7 +46,7 @@ pub use sensitivity::SensitivityDocument;
 pub use tolerance::{
     DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
     MovedDocument, QuantityRangeDocument, RankCountDocument, ReactionRangeDocument,
-    RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts, distance,
+    RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
 };
 pub use verdicts::{
     PeakDocument, RunGroupDocument, RunNumberDocument, RunReactionDocument, RunVerdicts,

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
-use crate::words::{Block, count};
+use crate::words::{self, Block, Printed, SceneUnits, count};
 
 /// A question; its fields are the options. The comments of the fields are also the help of the
 /// command.
@@ -94,6 +94,11 @@ impl<'s> Subject<'s> for Vec<&'s Start<'s>> {
 pub trait Answer: Serialize + Send + 'static {
     /// Returns the answer as text.
     fn words(&self) -> Vec<Block>;
+
+    /// Returns the units of the scene for the text.
+    fn units(&self) -> SceneUnits {
+        SceneUnits::default()
+    }
 
     /// Returns whether the answer is complete.
     fn ending(&self) -> Ending {
@@ -303,8 +308,8 @@ impl<Q: Question> AnyQuestion for Q {
 
 /// An answer of any type.
 pub trait AnyAnswer: Send {
-    /// See [`Answer::words`].
-    fn words(&self) -> Vec<Block>;
+    /// Returns the answer as text, with details and in SI units if they are requested.
+    fn text(&self, is_verbose: bool, is_si: bool) -> String;
 
     /// See [`Answer::ending`].
     fn ending(&self) -> Ending;
@@ -326,8 +331,13 @@ pub trait AnyAnswer: Send {
 }
 
 impl<A: Answer> AnyAnswer for A {
-    fn words(&self) -> Vec<Block> {
-        Answer::words(self)
+    fn text(&self, is_verbose: bool, is_si: bool) -> String {
+        let printed = if is_si {
+            Printed::Si
+        } else {
+            Printed::Scene(self.units())
+        };
+        words::text(&self.words(), is_verbose, printed)
     }
 
     fn ending(&self) -> Ending {

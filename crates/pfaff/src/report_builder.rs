@@ -12,12 +12,13 @@ use dynamics::{MotionOptions, Plan, PreparedMechanism, Sample};
 use model::{Mechanism, System};
 use rank::Limits;
 use report::{Frame, Recording};
-use scene::{Scene, Units, WithUnit};
+use scene::Scene;
 use solvability::{DeletableRows, Sensitivities, Stretches, Verdict};
 
 use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
 use crate::rows::{RowFault, RowSink};
+use crate::words::SceneUnits;
 
 /// Number of non-unique reactions for which the page lists deletions that would make them unique,
 /// and number of sets tried for each.
@@ -257,15 +258,7 @@ pub fn written_scene(scene: &Scene) -> WrittenScene<'_> {
     WrittenScene {
         text: scene.text(),
         inactive: scene.inactive.iter().map(ToString::to_string).collect(),
-        units: [
-            (scene.units.length, Units::SI.length),
-            (scene.units.angle, Units::SI.angle),
-        ]
-        .map(|(unit, si)| {
-            let text = format!("1 {unit}");
-            let of = WithUnit::read(&text).filter(|_| unit != si)?;
-            Some((unit, of.in_si(1.0)))
-        }),
+        units: SceneUnits::of(scene),
     }
 }
 

@@ -1,9 +1,14 @@
 //! Answers as sentences and tables, and their layout as text.
 
+mod table;
+
+pub(crate) use table::Scale;
+pub use table::{Cell, Printed, SceneUnits};
+
 use std::iter;
 
 /// A part of an answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Block {
     /// A title of the next blocks, without a full stop, after an empty line.
     Heading(String),
@@ -20,7 +25,7 @@ pub enum Block {
     /// An empty line before a new subject.
     Gap,
     /// Lines of cells; the first line contains the names of the columns.
-    Table(Vec<Vec<String>>),
+    Table(Vec<Vec<Cell>>),
     /// A block that is printed only if details are requested.
     Detail(Box<Block>),
 }
@@ -51,10 +56,10 @@ impl Block {
     #[must_use]
     pub fn table<const N: usize>(
         columns: [&str; N],
-        lines: impl IntoIterator<Item = [String; N]>,
+        lines: impl IntoIterator<Item = [impl Into<Cell>; N]>,
     ) -> Self {
-        let lines = lines.into_iter().map(Vec::from);
-        let head = columns.map(str::to_owned).to_vec();
+        let lines = lines.into_iter().map(|line| line.map(Into::into).to_vec());
+        let head = columns.map(Cell::from).to_vec();
         Self::Table(iter::once(head).chain(lines).collect())
     }
 }
@@ -62,7 +67,7 @@ impl Block {
 /// Converts the blocks to text. Sentences follow each other; there is an empty line before headings
 /// and around tables that have no heading.
 #[must_use]
-pub fn text(blocks: &[Block], is_verbose: bool) -> String {
+pub fn text(blocks: &[Block], is_verbose: bool, printed: Printed) -> String {
     let mut out = String::new();
     let mut before: Option<&Block> = None;
     for block in blocks {
@@ -85,9 +90,11 @@ pub fn text(blocks: &[Block], is_verbose: bool) -> String {
             Block::Legend(words, text) => out.push_str(&wrapped(&format!("{words}: "), text)),
             Block::Heading(words) => out.push_str(&wrapped("", words)),
             Block::Sentence { lead, text } => out.push_str(&wrapped(lead, text)),
-            Block::Table(lines) => out.push_str(&columns(lines)),
+            Block::Table(lines) => out.push_str(&table::columns(lines, printed)),
             // A detail within a detail.
-            Block::Detail(inner) => out.push_str(&text(std::slice::from_ref(inner), is_verbose)),
+            Block::Detail(inner) => {
+                out.push_str(&text(std::slice::from_ref(inner), is_verbose, printed))
+            }
         }
         before = Some(block);
     }
@@ -105,6 +112,16 @@ pub fn count(n: usize, one: &str, many: &str) -> String {
 pub fn marked(names: &[impl AsRef<str>]) -> String {
     let names: Vec<String> = names.iter().map(|n| format!("`{}`", n.as_ref())).collect();
     names.join(", ")
+}
+
+/// Returns the SI unit of a component of a reaction: names of moments begin with T.
+#[must_use]
+pub fn load_unit(component: &str) -> &'static str {
+    if component.starts_with('T') {
+        "N·m"
+    } else {
+        "N"
+    }
 }
 
 /// Width of printed texts (characters).
@@ -148,30 +165,6 @@ pub fn grouped<K: PartialEq, V>(pairs: impl IntoIterator<Item = (K, V)>) -> Vec<
     groups
 }
 
-/// Aligns lines of cells in columns; the first line is the header.
-#[must_use]
-pub fn columns(rows: &[Vec<String>]) -> String {
-    let n = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |k: usize| {
-        rows.iter()
-            .filter_map(|r| r.get(k))
-            .map(|c| c.chars().count())
-            .max()
-    };
-    let widths: Vec<usize> = (0..n).map(|k| width(k).unwrap_or(0)).collect();
-    let mut out = String::new();
-    for row in rows {
-        let cells: Vec<String> = row
-            .iter()
-            .zip(&widths)
-            .map(|(cell, &w)| format!("{cell:<w$}"))
-            .collect();
-        out.push_str(cells.join("  ").trim_end());
-        out.push('\n');
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -192,16 +185,16 @@ mod tests {
             Block::sentence("end"),
         ];
         let expected = "one\n- two\n\na  bc\n1  2\na: letter\nthree\n\nnext:\na  bc\n1  2\n\na  bc\n1  2\n\nend\n";
-        assert_eq!(text(&blocks, false), expected);
+        assert_eq!(text(&blocks, false, Printed::Si), expected);
         let detail = [Block::sentence("one"), Block::detail("- ", "two")];
-        assert_eq!(text(&detail, false), "one\n");
-        assert_eq!(text(&detail, true), "one\n- two\n");
+        assert_eq!(text(&detail, false, Printed::Si), "one\n");
+        assert_eq!(text(&detail, true, Printed::Si), "one\n- two\n");
     }
 
     #[test]
     fn lines_of_a_sentence_begin_below_its_first_word() {
         let long = "word ".repeat(40);
-        let lines = text(&[Block::after("note: ", long)], false);
+        let lines = text(&[Block::after("note: ", long)], false, Printed::Si);
         let widths: Vec<usize> = lines.lines().map(|line| line.chars().count()).collect();
         assert_eq!(widths.len(), 3);
         assert!(widths.iter().all(|width| *width <= 100), "{widths:?}");

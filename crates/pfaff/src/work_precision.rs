@@ -21,6 +21,7 @@ mod standard;
 
 use dynamics::{Method, MotionOptions, PreparedMechanism};
 use model::start::scene_size;
+use model::words::rough;
 use report::{CurveName, ReferenceDocument, WorkPrecisionRow, WorkPrecisionScene};
 
 use crate::error::StudyError;
@@ -398,11 +399,15 @@ impl Pair {
     fn words(&self, known: Option<&Standard>) -> String {
         let [a, b] = self.methods;
         let apart = self.mean.motion_limit();
-        let mut words = format!("{a} and {b} at {:.0e} agree to {apart:.1e}", self.tolerance);
+        let mut words = format!(
+            "{a} and {b} at {:.0e} agree to {apart}",
+            self.tolerance,
+            apart = rough(apart)
+        );
         if let Some(errors) = known.and_then(|known| known.errors(&self.first)) {
             words.push_str(&format!(
-                ", and with the reference to {:.1e}",
-                errors.motion()
+                ", and with the reference to {}",
+                rough(errors.motion())
             ));
         }
         words.push('.');

@@ -1,5 +1,6 @@
 //! `[simulate]`: options of a run.
 
+use model::words::short;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -160,8 +161,9 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field) {
         return;
     }
     let message = format!(
-        "{}: output_step is {output_step:?} s: up to t = {t_end} s this would write {rows:.3e} rows, more than {most:e}",
-        step.subject
+        "{}: output_step is {output_step:?} s: up to t = {t_end} s this would write {rows} rows, more than {most:e}",
+        step.subject,
+        rows = short(rows)
     );
     let source = step.findings.source;
     let label = "too small for this run";

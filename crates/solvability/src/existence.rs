@@ -12,6 +12,7 @@ mod drives;
 mod joints_first;
 mod limit;
 
+use model::words::quantity;
 use std::collections::BTreeSet;
 
 use model::start::scene_size;
@@ -97,22 +98,25 @@ impl Contradiction {
             };
             let drives = self.demands.iter().map(|d| format!("`{}`", d.drive));
             return format!(
-                "{word} {} {verb} with which {} cannot hold any longer: these then ask for different {level}, which differ by {size:.3e} {unit} ({asked})",
+                "{word} {} {verb} with which {} cannot hold any longer: these then ask for different {level}, which differ by {size} ({asked})",
                 words::list(&drives.collect::<Vec<_>>()),
-                of_rows(&rows)
+                of_rows(&rows),
+                size = quantity(*size, unit)
             );
         }
         match self.demands.as_slice() {
             [] => format!(
-                "rows {} depend on each other but ask for different {level}: they differ by {size:.3e} {unit}",
-                rows.join(", ")
+                "rows {} depend on each other but ask for different {level}: they differ by {size}",
+                rows.join(", "),
+                size = quantity(*size, unit)
             ),
             [only] => format!(
-                "drive `{}` asks {} {}, which differs from what {} allow by {size:.3e} {unit}",
+                "drive `{}` asks {} {}, which differs from what {} allow by {size}",
                 only.drive,
                 only.of_what(),
                 only.asked(*level),
-                of_rows(&rows)
+                of_rows(&rows),
+                size = quantity(*size, unit)
             ),
             [first, others @ ..] => {
                 let drives = self.demands.iter().map(|d| format!("`{}`", d.drive));
@@ -126,9 +130,10 @@ impl Contradiction {
                     rows => format!(", and {} tie them to each other", of_rows(rows)),
                 };
                 format!(
-                    "drives {} contradict each other: they ask for different {level}, which differ by {size:.3e} {unit} ({}{through})",
+                    "drives {} contradict each other: they ask for different {level}, which differ by {size} ({}{through})",
                     words::list(&drives.collect::<Vec<_>>()),
-                    words::list(&all)
+                    words::list(&all),
+                    size = quantity(*size, unit)
                 )
             }
         }

@@ -20,7 +20,7 @@ use crate::groups::{LinearForm, ReactionForms};
 use crate::loads::{self, LoadDescription};
 use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Verdict;
-use crate::words::{self, list, names};
+use crate::words::{list, names};
 
 /// Explanation of the redundancy of a configuration.
 #[derive(Clone, Debug)]
@@ -336,7 +336,7 @@ fn determined_sums(
         forms.place(reactions[0]),
     ) {
         let place = &place[..space.forces().len()];
-        let numbers: Vec<String> = place.iter().map(|x| words::short(*x)).collect();
+        let numbers: Vec<String> = place.iter().map(|x| model::words::short(*x)).collect();
         last.push_str(&format!(" about ({})", numbers.join(", ")));
     }
     names
@@ -403,7 +403,7 @@ fn reaction(
             .zip(&components)
             .filter(|(x, _)| x.abs() > VISIBLE);
         let terms: Vec<String> = terms
-            .map(|(x, &c)| match words::short(*x).as_str() {
+            .map(|(x, &c)| match model::words::short(*x).as_str() {
                 "1" => layout.space.components()[c].to_owned(),
                 x => format!("{x}·{}", layout.space.components()[c]),
             })

@@ -419,12 +419,12 @@ pub(crate) const MINIMUM_LOWER: f64 = 0.99;
 /// of the motion, which is little better than the tolerance of the run. Unit: digits. Too small:
 /// different times look the same. Too large: inaccurate digits are printed. Test:
 /// `a_motion_that_turns_back_between_two_samples_passes_twice`.
-pub(crate) const SEARCHED_DIGITS: i32 = 7;
+pub(crate) const SEARCHED_DIGITS: usize = 7;
 
 /// Number of printed digits of a time that follows from a function of the scene. Unit: digits. Too
 /// small: different times look the same. Too large: digits of rounding are printed. Test:
 /// `a_rest_in_a_singular_pose_is_a_stretch`.
-pub(crate) const GIVEN_DIGITS: i32 = 10;
+pub(crate) const GIVEN_DIGITS: usize = 10;
 
 // Second order.
 

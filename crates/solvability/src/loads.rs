@@ -13,7 +13,8 @@ use model::space::{cross, difference, dot, norm};
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use crate::limits::{SAME_PLACE, TOLD_LOADS, VISIBLE};
-use crate::words::{list, names, short, vector};
+use crate::words::{list, names, vector};
+use model::words::short;
 
 /// Description of the loads on some joints.
 pub(crate) enum LoadDescription {

@@ -14,7 +14,7 @@ use crate::verdict::Verdict;
 pub use label::Label;
 pub use no_finite::NoFiniteReaction;
 pub(crate) use sensitivity::change_in_words;
-pub use sensitivity::{Datum, Sensitivity, length};
+pub use sensitivity::{Datum, Sensitivity};
 
 /// A number of a reaction (a component, a sum, a multiplier) with its verdict and with how strongly
 /// it depends on the data. A number that is not unique is stored with the choice on which it

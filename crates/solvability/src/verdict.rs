@@ -1,5 +1,6 @@
 //! Verdicts and the numbers that justify them.
 
+use model::words::short;
 use rank::CoefficientReading;
 
 /// Whether a reaction is determined by the model.
@@ -98,7 +99,10 @@ impl Judgement {
                 required,
             } => Verdict::Undecided {
                 reason: format!(
-                    "margin {margin:.3e}: rounding and uncertainty reach up to {tolerance:.3e}, certainly not zero is {required:.3e}"
+                    "margin {margin}: rounding and uncertainty reach up to {tolerance}, certainly not zero is {required}",
+                    margin = short(margin),
+                    tolerance = short(tolerance),
+                    required = short(required)
                 ),
             },
         };

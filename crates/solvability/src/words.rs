@@ -1,6 +1,7 @@
 //! Text formatting of lists, numbers and vectors.
 
 use crate::limits::VISIBLE;
+use model::words::short;
 use model::{ConstraintId, Layout, Mechanism, System};
 
 /// Formats a list as "`a`, `b` and `c`" without the quotes.
@@ -48,23 +49,4 @@ pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
         "within the tolerance it is undecided which rows of {} depend on each other; these dependencies are not listed",
         list(&names(layout, &ids))
     )
-}
-
-/// Formats a number with four significant digits and a true minus sign.
-pub(crate) fn short(x: f64) -> String {
-    let size = x.abs();
-    let text = match size {
-        0.0 => "0".to_owned(),
-        1e-3..1e4 => {
-            let digits = (3.0 - size.log10().floor()).max(0.0) as usize;
-            let text = format!("{x:.digits$}");
-            if text.contains('.') {
-                text.trim_end_matches('0').trim_end_matches('.').to_owned()
-            } else {
-                text
-            }
-        }
-        _ => format!("{x:.3e}"),
-    };
-    text.replace('-', "−")
 }

@@ -46,12 +46,14 @@ class Questions:
         eliminations: int | None = None,
         frames: bool = False,
         about: str | None = None,
+        matrices: bool = False,
         along: float | str | None = None,
         choose: Iterable[str] = (),
         tolerance: float | None = None,
         angle_tolerance: float | None = None,
         threads: int | None = None,
         max_memory: int | str | None = None,
+        out: str | os.PathLike[str] | None = None,
     ) -> Analysis:
         """Compute rank, redundancy and a verdict for every reaction.
 
@@ -67,6 +69,7 @@ class Questions:
           motion
         - ``frames``: Also analyse components in the frames of body, edge and joint
         - ``about``: Also analyse moments about a point X,Y or X,Y,Z (m) or a marker
+        - ``matrices``: Print Φq, Ψ and Γ with names of rows and columns; ``out`` writes them as CSV
         - ``along``: Analyse along the motion to T_END (s): the generic verdict and the intervals
           where it differs
         - ``choose``: Compute reactions for a choice: minimum-norm, minimum-norm:length=L (L: arm
@@ -82,10 +85,11 @@ class Questions:
             "eliminations": arguments.maybe(arguments.count, "eliminations", eliminations),
             "frames": arguments.flag("frames", frames),
             "about": arguments.maybe(arguments.text, "about", about),
+            "matrices": arguments.flag("matrices", matrices),
             "along": arguments.maybe(arguments.finite_or_word, "along", along),
             "choose": arguments.texts("choose", choose),
         }
-        common = Common(tolerance, angle_tolerance, threads, max_memory)
+        common = Common(tolerance, angle_tolerance, threads, max_memory, out)
         answer = self._asked("analyze", options, common)
         return Analysis(answer)
 

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use linalg::GRADED_MASSES;
-use model::words::listed;
+use model::words::{estimate, listed, rough};
 use model::{Mechanism, RecordedEquations, SpaceKind, System};
 
 use super::inputs::{CodeInput, CodeInputs};
@@ -161,16 +161,14 @@ pub enum NoCode {
     Misfits,
     /// Masses differ so much that solutions have to be refined, which generated code does not do.
     #[error(
-        "masses and inertias differ by a factor of {spread:.1e}; above {GRADED_MASSES:.0e} solutions are refined, which generated code does not do"
-    )]
+        "masses and inertias differ by a factor of {spread}; above {GRADED_MASSES:.0e} solutions are refined, which generated code does not do", spread = rough(*spread))]
     Refinement {
         /// The largest mass divided by the smallest.
         spread: f64,
     },
     /// The size of the mechanism is so far from a metre that solutions have to be refined.
     #[error(
-        "solutions of a mechanism of {size:.1e} m are refined, which generated code does not do"
-    )]
+        "solutions of a mechanism of {size} are refined, which generated code does not do", size = estimate(*size, "m"))]
     Size {
         /// Size of the mechanism (m).
         size: f64,

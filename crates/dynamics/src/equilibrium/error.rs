@@ -1,7 +1,7 @@
 //! Reasons why no equilibrium was found.
 
 use model::codes::Code;
-use model::words::{listed, rounded};
+use model::words::{estimate, listed, rough, rounded};
 use model::{CalledForce, StartError};
 
 /// An unbalanced force along a free motion.
@@ -40,9 +40,8 @@ pub enum EquilibriumError {
     Pushed(Vec<UnbalancedForce>),
     /// The search did not converge.
     #[error(
-        "no equilibrium was found in {steps} steps: {}, {left:.1e} of the largest force; describe a start nearer to the equilibrium",
-        push(pushed)
-    )]
+        "no equilibrium was found in {steps} steps: {}, {left} of the largest force; describe a start nearer to the equilibrium",
+        push(pushed), left = rough(*left))]
     NotFound {
         /// Number of steps.
         steps: usize,
@@ -65,8 +64,7 @@ pub enum EquilibriumError {
     /// No start can be assembled at the equilibrium, although the search reached it on the
     /// constraint manifold.
     #[error(
-        "no equilibrium was found: the search ends at a singular configuration, where the constraints determine the positions of the bodies only to {left:.1e} m; describe a start nearer to the equilibrium, or correct the dimensions"
-    )]
+        "no equilibrium was found: the search ends at a singular configuration, where the constraints determine the positions of the bodies only to {left}; describe a start nearer to the equilibrium, or correct the dimensions", left = estimate(*left, "m"))]
     Singular {
         /// Remaining constraint violation (m).
         left: f64,

@@ -3,6 +3,7 @@
 
 use model::RowLabel;
 use model::codes::Code;
+use model::words::short;
 use rank::KeptRowsError;
 
 /// Reason why requested rows cannot be treated as redundant.
@@ -37,8 +38,7 @@ pub enum DropError {
     /// The remaining rows depend on each other.
     #[error(
         "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
-         {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop one row of each"
-    )]
+         {smallest_singular_value}, need {required}). `pfaff analyze` lists the dependent sets; drop one row of each", smallest_singular_value = short(*smallest_singular_value), required = short(*required))]
     Dependent {
         /// Smallest singular value of the remaining rows, with rows and columns scaled.
         smallest_singular_value: f64,

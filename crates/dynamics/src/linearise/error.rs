@@ -1,7 +1,7 @@
 //! Reasons why a motion cannot be linearised.
 
 use model::codes::Code;
-use model::words::rounded;
+use model::words::{quantity, rounded, short};
 
 use crate::error::MotionFault;
 
@@ -11,10 +11,9 @@ use crate::error::MotionFault;
 pub enum LineariseError {
     /// The state is neither an equilibrium nor steady.
     #[error(
-        "at t = {t} s the motion is not steady: body `{body}` {what} {left:.3e} {unit}; {advice}",
+        "at t = {t} s the motion is not steady: body `{body}` {what} {left}; {advice}",
         t = rounded(*time), what = what(unit),
-        advice = advice(*moves, falls.as_deref())
-    )]
+        advice = advice(*moves, falls.as_deref()), left = quantity(*left, unit))]
     NotSteady {
         /// Time (s).
         time: f64,
@@ -57,8 +56,7 @@ pub enum LineariseError {
     },
     /// The motion depends on a cyclic coordinate.
     #[error(
-        "the motion depends on `{name}` (the rate of `{state}` changes by {change:.3e}), so it is not cyclic; remove it from `--follow`"
-    )]
+        "the motion depends on `{name}` (the rate of `{state}` changes by {change}), so it is not cyclic; remove it from `--follow`", change = short(*change))]
     NotASymmetry {
         /// Name of the cyclic coordinate.
         name: String,

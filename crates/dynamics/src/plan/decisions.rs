@@ -2,6 +2,7 @@
 //! options. The code that carries out the decision uses the same test.
 
 use linalg::GRADED_MASSES;
+use model::words::{estimate, rough};
 use model::{System, Work};
 
 use super::decided::{Decision, Line};
@@ -143,7 +144,10 @@ fn refinement(prepared: &PreparedMechanism) -> Result<Decision<bool>, MotionErro
         return decided(false, why.to_owned());
     }
     let spread = prepared.mass_spread();
-    let factor = format!("masses and inertias differ by a factor of {spread:.1e}");
+    let factor = format!(
+        "masses and inertias differ by a factor of {spread}",
+        spread = rough(spread)
+    );
     if spread >= GRADED_MASSES {
         let why = format!("{factor}; above {GRADED_MASSES:.0e} unrefined solutions lose digits");
         return decided(true, why);
@@ -151,7 +155,13 @@ fn refinement(prepared: &PreparedMechanism) -> Result<Decision<bool>, MotionErro
     let size = prepared.assembly.size;
     if prepared.is_far() {
         let why = "far from 1 m: weights and centrifugal terms differ by many powers of ten";
-        return decided(true, format!("the mechanism measures {size:.1e} m, {why}"));
+        return decided(
+            true,
+            format!(
+                "the mechanism measures {size}, {why}",
+                size = estimate(size, "m")
+            ),
+        );
     }
     let mut equations = KeptRowMotion::new(prepared)?.equations;
     equations.factor_at(0.0, &prepared.q)?;

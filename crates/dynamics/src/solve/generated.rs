@@ -4,6 +4,7 @@ use super::{Accelerations, State};
 use crate::code::SceneCode;
 use crate::guards::GUARDED;
 use crate::limits::LEAVE;
+use model::words::short;
 
 /// Code that was generated for a mechanism, or its evaluator.
 pub(crate) struct GeneratedCode<'m>(pub(crate) &'m dyn SceneCode);
@@ -30,10 +31,20 @@ impl std::fmt::Display for Doubt {
             ),
             Self::NotFinite => write!(f, "a result of it is not finite"),
             Self::OffConstraints { row, by } => {
-                write!(f, "its corrections leave row {} off by {by:.3e}", row + 1)
+                write!(
+                    f,
+                    "its corrections leave row {} off by {by}",
+                    row + 1,
+                    by = short(by)
+                )
             }
             Self::DroppedRow { row, by } => {
-                write!(f, "the dropped row {} misses by {by:.3e}", row + 1)
+                write!(
+                    f,
+                    "the dropped row {} misses by {by}",
+                    row + 1,
+                    by = short(by)
+                )
             }
         }
     }

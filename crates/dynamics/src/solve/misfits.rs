@@ -7,6 +7,7 @@
 //! velocities `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: it includes the residual
 //! of rows that share a violation, and the pose, which moves with the data.
 
+use model::words::quantity;
 use model::{Bodies, DataBlock, Level, RowLabel, System};
 
 use super::evaluation::Evaluation;
@@ -212,8 +213,9 @@ impl Misfits {
         };
         let name = &at.mechanism.bodies()[body].name;
         format!(
-            "`{name}` turned by {:.1}° and moved by {by:.3e} m",
-            turned.to_degrees()
+            "`{name}` turned by {:.1}° and moved by {by}",
+            turned.to_degrees(),
+            by = quantity(by, "m")
         )
     }
 }

@@ -1,5 +1,6 @@
 //! Gaps of loops at a pose, and their derivatives with respect to the joint coordinates.
 
+use model::words::quantity;
 use nalgebra::{DMatrix, DVector, Isometry3, Point3, UnitQuaternion, Vector3};
 
 use super::State;
@@ -56,10 +57,10 @@ impl Gap {
         let (far, turned) = (norm(&self.miss.shares), norm(&self.miss.angles));
         let mut words = Vec::new();
         if far > OPEN {
-            words.push(format!("{:.3e} m", far * self.size));
+            words.push(quantity(far * self.size, "m"));
         }
         if turned > OPEN {
-            words.push(format!("{turned:.3e} rad"));
+            words.push(quantity(turned, "rad"));
         }
         words.join(" and ")
     }

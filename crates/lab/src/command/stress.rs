@@ -14,10 +14,11 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{OutputDirectory, OutputFile, TableError, write_json};
 
+use pfaff::words::{self, Block, Printed};
 use pfaff_cli::console::Console;
 use pfaff_cli::input::unknown;
 use pfaff_cli::interrupt::Interrupt;
-use pfaff_cli::output::{Failure, Outcome, columns, count, wrapped};
+use pfaff_cli::output::{Failure, Outcome, count, wrapped};
 use pfaff_cli::provenance::provenance;
 
 #[derive(Args)]
@@ -94,8 +95,12 @@ fn families(arguments: &Stress) -> Result<Vec<Family>, Failure> {
 }
 
 fn list(families: &[Family]) -> String {
-    let line = |f: &Family| vec![f.name.to_owned(), f.about.to_owned()];
-    columns(&families.iter().map(line).collect::<Vec<_>>())
+    let lines = families.iter().map(|f| [f.name, f.about]);
+    words::text(
+        &[Block::table(["family", "about"], lines)],
+        false,
+        Printed::Si,
+    )
 }
 
 /// Runs all cases; if a stop is requested, returns the results so far.

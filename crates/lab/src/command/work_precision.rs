@@ -53,6 +53,7 @@ pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
         output: pfaff::questions::WorkPrecision::OUTPUT.map(|output| (output, &place)),
         is_json: arguments.json,
         is_verbose: false,
+        is_si: false,
         threads: None,
         hears: Hears::Stops,
     };

@@ -1,6 +1,7 @@
 //! Description of impossible given velocities.
 
 use crate::system::RowLabel;
+use crate::words::rough;
 
 /// Given velocities that contradict the constraints, or prescribed motions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -123,7 +124,7 @@ impl VelocityConflict {
         let off = if self.is_kept {
             String::new()
         } else {
-            format!(", more than {:.1e} off", self.limit)
+            format!(", more than {} off", rough(self.limit))
         };
         // The value has the format of the scene.
         let given_as = match (format!("{given}"), format!("{given:?}")) {
@@ -218,11 +219,7 @@ fn short(x: f64, beside: f64) -> String {
     } else {
         x
     };
-    let rounded = format!("{x:.4e}");
-    match x.abs() {
-        size if size != 0.0 && !(1e-4..1e6).contains(&size) => rounded,
-        _ => rounded.parse::<f64>().map_or(rounded, |x| x.to_string()),
-    }
+    crate::words::digits(x, 5)
 }
 
 /// Returns the first names, and the number of the others.

@@ -1,5 +1,6 @@
 //! Reasons why no consistent start was found.
 
+use crate::words::{quantity, short};
 use std::fmt;
 
 use crate::codes::Code;
@@ -28,10 +29,9 @@ pub enum StartError {
     },
     /// The closest consistent configuration is far from the described one.
     #[error(
-        "the start must be corrected by {correction:.3e} {unit} ({coordinate} of body `{body}`), more than the allowed {limit:.3e}: \
+        "the start must be corrected by {correction} ({coordinate} of body `{body}`), more than the allowed {limit}: \
          as described, these miss: {}; correct the scene, or set `allow_correction = true` in `[start]`",
-        few(misfits)
-    )]
+        few(misfits), correction = quantity(*correction, unit), limit = short(*limit))]
     LargeCorrection {
         /// The body that moves most.
         body: String,
@@ -95,8 +95,7 @@ pub enum StartError {
     },
     /// The rows permit no velocities, for any given velocities.
     #[error(
-        "no velocities satisfy the constraints: row {worst} is violated by {residual:.3e}; dependent or nearly dependent rows require different velocities: correct or delete one of them"
-    )]
+        "no velocities satisfy the constraints: row {worst} is violated by {residual}; dependent or nearly dependent rows require different velocities: correct or delete one of them", residual = short(*residual))]
     NoVelocity {
         /// The row with the largest residual.
         worst: RowLabel,
@@ -166,20 +165,10 @@ impl fmt::Display for Misfit {
         write!(f, "`{}` by ", self.joint)?;
         let (distance, angle) = (self.distance, self.angle.to_degrees());
         match (distance != 0.0, angle != 0.0) {
-            (true, true) => write!(f, "{} m and {}°", short(distance), short(angle)),
+            (true, true) => write!(f, "{} and {}°", quantity(distance, "m"), short(angle)),
             (false, true) => write!(f, "{}°", short(angle)),
-            _ => write!(f, "{} m", short(distance)),
+            _ => f.write_str(&quantity(distance, "m")),
         }
-    }
-}
-
-/// Returns a number with four digits.
-fn short(x: f64) -> String {
-    if (1e-3..1e4).contains(&x) {
-        let digits = (3.0 - x.log10().floor()).max(0.0);
-        format!("{x:.*}", digits as usize)
-    } else {
-        format!("{x:.3e}")
     }
 }
 

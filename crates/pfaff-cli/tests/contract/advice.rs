@@ -197,7 +197,7 @@ fn a_singular_configuration_says_what_it_was_compared_with() {
 #[test]
 fn what_only_whole_joints_make_unique_is_said() {
     let text = words("carriage", &[]);
-    contains(&text, &["- rear: delete `front`"]);
+    contains(&text, &["rear: delete `front`; front: delete `rear`"]);
     let whole = words("carriage", &["--make-unique", "rear", "--allow", "whole"]);
     contains(&whole, &["delete `front`"]);
 }
@@ -432,6 +432,6 @@ fn what_others_call_it_is_suggested() {
         assert!(said.contains(expected), "{words:?}: {said}");
     }
     // If there is no such option, no option is suggested.
-    let said = stderr(&pfaff(&["analyze", "scene.toml", "-o", "run"]));
+    let said = stderr(&pfaff(&["check", "scene.toml", "-o", "run"]));
     assert!(!said.contains("--out"), "{said}");
 }

@@ -314,7 +314,7 @@ fn one_body_is_no_bodies() {
     let expected = "pendulum: 1 body, 1 joint or drive, 2 rows (2 holonomic, 0 nonholonomic)\n";
     assert!(text.starts_with(expected), "{text}");
     let text = stdout(&with_scene(&["analyze", "-"], PENDULUM));
-    assert!(text.contains("\n1 body, 3 coordinates, 2 rows: "), "{text}");
+    assert!(text.contains("\n1 body, 3 coordinates, 2 rows ("), "{text}");
     let text = stdout(&pfaff(&["check", ROBOT]));
     assert!(
         text.contains(": 7 bodies, 14 joints and drives, 22 rows "),

@@ -40,8 +40,9 @@ fn a_rod_rests_in_words_documents_and_files() {
         "rod: equilibrium found in ",
         "(functions of time at t = 0 s): forces balance",
         "stable: every displacement causes a restoring force",
-        "rod   0.0497",
-        "Fx = 0, Fy = -20         unique",
+        "\nrod   0.0497",
+        "reaction  Fx (N)  Fy (N)",
+        " −20     unique",
     ] {
         assert!(text.contains(words), "{words}: {text}");
     }

@@ -111,7 +111,7 @@ fn words_have_both_where_they_differ() {
     contains(
         &driven,
         &[
-            "redundancy 0, mobility 0 with its drive, 1 without proved",
+            "redundancy 0, mobility 0 with its drive, 1 without rank proved",
             "free without its drive: `crank` turns about `pin`",
         ],
     );
@@ -119,7 +119,7 @@ fn words_have_both_where_they_differ() {
     contains(
         &free,
         &[
-            "redundancy 0, mobility 1 proved",
+            "redundancy 0, mobility 1 rank proved",
             "free: `crank` turns about `pin`",
         ],
     );

@@ -65,7 +65,7 @@ fn what_nobody_states_is_not_told() {
     assert!(!words.contains("accurate to"), "{words}");
     let words = stdout(&with_scene(&["analyze", "-"], DOOR));
     assert!(
-        words.contains("  data accurate to 1 mm (angles 5.0e-4 rad)\n"),
+        words.contains("  data accurate to 1 mm (angles 0.5 mrad)\n"),
         "{words}"
     );
 }
@@ -250,10 +250,10 @@ fn what_is_unique_within_the_tolerance_says_so() {
     let text = stdout(&output);
     let line = text
         .lines()
-        .find(|line| line.starts_with("S1 "))
+        .find(|line| line.starts_with("S1, "))
         .expect("a line");
     assert!(
-        line.contains("unique within the tolerance  4.6e-6"),
+        line.contains("unique within the tolerance  2.7e-6 … 4.6e-6"),
         "{line}"
     );
 }
@@ -317,7 +317,7 @@ fn an_angle_tolerance_changes_verdicts_without_a_length() {
         .collect::<Vec<_>>()
         .join(" ");
     assert!(
-        text.contains("one row is redundant from an angle tolerance of 9.9e-5 rad on (`--angle-tolerance 3.0e-4` decides for it)"),
+        text.contains("one row is redundant from an angle tolerance of 0.099 mrad on (`--angle-tolerance 0.0003` decides for it)"),
         "{text}"
     );
 }

@@ -36,9 +36,9 @@ fn a_pin_that_is_off_has_a_range_in_a_sentence() {
         "uniform within ± 1 µm",
         "as described: rank 12 of 12 rows, redundancy 0, mobility 0",
         "the rank without tolerance is the same in all samples",
-        "unique, FRAGILE |F| (N)",
+        "unique, FRAGILE |F| ",
         "within ± 1 µm `pivot-2` carries ",
-        "(88210 N as described)",
+        "(88.21 kN as described)",
         "largest displacement: body bar, up to ",
     ] {
         assert!(text.contains(words), "{words}: {text}");

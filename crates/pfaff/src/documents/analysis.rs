@@ -10,6 +10,7 @@ mod evidence;
 mod notes;
 mod reaction;
 
+use model::words::rough;
 use std::collections::BTreeSet;
 
 use model::{ConstraintId, Layout, Mechanism, SpaceKind};
@@ -33,6 +34,7 @@ pub(crate) use reaction::components;
 pub use reaction::{FreeDirectionDocument, GroupDocument, ReactionDocument, RowDocument};
 
 use super::{FreedomsDocument, from_one};
+use crate::questions::analyze::matrices;
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -157,6 +159,9 @@ pub struct AnswersDocument {
     /// motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continuation: Option<ContinuationDocument>,
+    /// The matrices of the constraints.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub matrices: Option<matrices::MatricesDocument>,
 }
 
 /// Sets of joints on common cycles that were analysed separately.
@@ -391,7 +396,10 @@ impl DependencyDocument {
             within_tolerance: margin.is_some(),
             margin,
             text: match margin {
-                Some(margin) => format!("{text}; within the tolerance (margin {margin:.1e})"),
+                Some(margin) => format!(
+                    "{text}; within the tolerance (margin {margin})",
+                    margin = rough(margin)
+                ),
                 None => text.to_owned(),
             },
         }

@@ -1,6 +1,7 @@
 //! Constraint violations of rows that are redundant only within a stated tolerance, and the
 //! difference between the motions for two choices of independent rows.
 
+use model::words::{quantity, rounded};
 use std::fmt;
 
 use dynamics::{Misfit, MotionError};
@@ -79,7 +80,10 @@ impl fmt::Display for MisfitDocument {
         } = self;
         write!(
             f,
-            "`{joint}` would have to give {largest:.3e} {unit} at t = {time:.4} s (row {row}, {component}; the tolerance explains {bound:.3e})"
+            "`{joint}` would have to give {} at t = {} s (row {row}, {component}; the tolerance explains {})",
+            quantity(*largest, unit),
+            rounded(*time),
+            quantity(*bound, unit)
         )
     }
 }
@@ -145,13 +149,16 @@ impl fmt::Display for SpreadDocument {
         match &self.error {
             None => write!(
                 f,
-                "with rows {rows} deleted instead, the motion differs by up to {:.3e} m and {:.3e} rad (t = {:.4} s)",
-                self.position, self.angle, self.time
+                "with rows {rows} deleted instead, the motion differs by up to {} and {} (t = {} s)",
+                quantity(self.position, "m"),
+                quantity(self.angle, "rad"),
+                rounded(self.time)
             ),
             Some(error) => write!(
                 f,
-                "with rows {rows} deleted instead, the run stops: {error}; up to there the motion differs by {:.3e} m and {:.3e} rad",
-                self.position, self.angle
+                "with rows {rows} deleted instead, the run stops: {error}; up to there the motion differs by {} and {}",
+                quantity(self.position, "m"),
+                quantity(self.angle, "rad")
             ),
         }
     }

@@ -1,5 +1,6 @@
 //! Ranges of reactions, ranks and positions for data that vary within their tolerances.
 
+use model::words::estimate;
 use report::figures::RangeDocument;
 use serde::Serialize;
 
@@ -254,7 +255,7 @@ impl ToleranceDocument {
     pub fn sentences(&self) -> Vec<String> {
         let drawn = &self.drawn;
         let angles = match (drawn.lengths, drawn.angles) {
-            (Some(_), Some([_, greatest])) => format!(" or {greatest:.1e} rad"),
+            (Some(_), Some([_, greatest])) => format!(" or {}", estimate(greatest, "rad")),
             _ => String::new(),
         };
         let samples = counted(drawn.samples, "sample", "samples");
@@ -391,10 +392,7 @@ impl ToleranceDocument {
         if worst.greatest <= (FITS * least).max(CLOSED) {
             return Some("the redundant rows are satisfied in all samples".to_owned());
         }
-        let told = |x: f64| match worst.unit {
-            "m" => distance(x),
-            unit => format!("{x:.1e} {unit}"),
-        };
+        let told = |x: f64| estimate(x, worst.unit);
         let others = match self.misfits.len() {
             1 => String::new(),
             n => format!(", the largest of {n}"),
@@ -409,26 +407,6 @@ impl ToleranceDocument {
             told(worst.mean)
         ))
     }
-}
-
-/// Formats a distance with at most three significant digits, in a customary unit.
-///
-/// ```
-/// use pfaff::documents::distance;
-/// assert_eq!([0.0, 1e-4, 2.346e-3, 1e-7, 2.0].map(distance), ["0 mm", "0.1 mm", "2.35 mm", "0.1 µm", "2 m"]);
-/// ```
-#[must_use]
-pub fn distance(metres: f64) -> String {
-    let (unit, name) = match metres.abs() {
-        0.0 => (1e-3, "mm"),
-        x if x >= 1.0 => (1.0, "m"),
-        x if x >= 1e-5 => (1e-3, "mm"),
-        _ => (1e-6, "µm"),
-    };
-    let short: f64 = format!("{:.2e}", metres / unit)
-        .parse()
-        .unwrap_or(metres / unit);
-    format!("{} {name}", model::words::rounded(short))
 }
 
 fn counted(n: u64, one: &str, many: &str) -> String {

@@ -202,7 +202,10 @@ impl<'a> Data<'a> {
             curves: Curves::of(page),
             units: ["m", "rad", "m/s", "rad/s"]
                 .into_iter()
-                .filter_map(|si| Some((si, page.scene.unit(si)?)))
+                .filter_map(|si| {
+                    let (unit, value) = page.scene.units.unit(si)?;
+                    Some((si, (unit, value.recip())))
+                })
                 .collect(),
             events: page.run().map_or(&[], |run| &run.events),
         }

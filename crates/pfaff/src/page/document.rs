@@ -347,7 +347,9 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
          <p class=\"grey\">The curves are drawn when this section is opened. They are printed only if it is open.</p>\n<div id=\"all-curves\"></div>\n</details>\n</section>\n\
          <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n",
     );
-    let units: Vec<&str> = page.scene.units.iter().flatten().map(|u| u.0).collect();
+    let units = page.scene.units;
+    let units = units.length.into_iter().chain(units.angle);
+    let units: Vec<&str> = units.map(|unit| unit.0).collect();
     if !units.is_empty() {
         add(
             out,

@@ -2,11 +2,13 @@
 //! table. A number that the model does not determine has no peak of its own: it is shown with the
 //! choice on which it depends, or it is left out.
 
+use model::words::short;
 use model::{ConstraintId, Mechanism, Reaction, System};
 
 use super::run_page::RunPage;
 use super::{data, verdicts};
 use crate::documents::RunReactionDocument;
+use crate::words::{Printed, Scale, load_unit};
 use report::Frame;
 use report::page::{add, safe};
 
@@ -62,48 +64,73 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     if !has_reactions || run.reactions.0.len() != layout.groups.len() {
         return;
     }
-    out.push_str(
-        "<h3>Peak reactions</h3>\n<div class=\"wide\"><table class=\"peaks\">\n<thead><tr><th>Joint or drive</th>\
-         <th>Largest force (N)</th><th>at (s)</th><th>Largest moment (N·m)</th><th>at (s)</th>\
-         <th>Component</th><th>at (s)</th><th>Valid for</th></tr></thead>\n<tbody>\n",
-    );
     let noise = data::noise(frames);
     let told = layout.constraint_ids().take(LINES);
-    for id in told {
+    let lines = told.map(|id| {
         let (name, document) = &run.reactions.0[id.0];
-        let is_unique = document.verdict() == "unique";
-        let named = layout.groups[id.0].spec.component;
-        if is_unique {
+        if document.verdict() == "unique" {
             let peaks = Peaks::of(frames, id, noise);
-            let component = (named, peaks.named);
-            let forces = [peaks.force, peaks.moment];
-            line(
-                out,
+            let named = peaks
+                .named
+                .map(|peak| (layout.groups[id.0].spec.component, peak));
+            return PeakLine {
                 name,
-                forces,
-                &[component],
-                "every choice (unique reaction)",
-            );
-            continue;
+                force: peaks.force,
+                moment: peaks.moment,
+                components: named.into_iter().collect(),
+                holds: "every choice (unique reaction)".to_owned(),
+            };
         }
         // Determined components, each on its own intervals.
-        let determined = document.components.0.iter();
-        let determined: Vec<(Option<&str>, Option<Peak>)> = determined
-            .filter_map(|(name, number)| {
-                let peak = number.peak.as_ref()?;
-                let value = peak.value.determined()?;
-                let value = if value.abs() <= noise { 0.0 } else { value };
-                let peak = Peak {
-                    value,
-                    t: peak.time,
-                };
-                Some((Some(name.as_str()), Some(peak)))
-            })
-            .collect();
-        line(out, name, [None, None], &determined, &holds(document));
+        let determined = document.components.0.iter().filter_map(|(name, number)| {
+            let peak = number.peak.as_ref()?;
+            let value = peak.value.determined()?;
+            let value = if value.abs() <= noise { 0.0 } else { value };
+            let t = peak.time;
+            Some((Some(name.as_str()), Peak { value, t }))
+        });
+        PeakLine {
+            name,
+            force: None,
+            moment: None,
+            components: determined.collect(),
+            holds: holds(document),
+        }
+    });
+    let lines: Vec<PeakLine<'_>> = lines.collect();
+    let numbers = lines.iter().flat_map(PeakLine::numbers);
+    let scale = Scale::new(numbers, Printed::Scene(page.scene.units));
+    let [force, moment] = [FORCE, MOMENT].map(|unit| scale.unit(unit).0);
+    add(
+        out,
+        format_args!(
+            "<h3>Peak reactions</h3>\n<div class=\"wide\"><table class=\"peaks\">\n<thead><tr><th>Joint or drive</th>\
+             <th>Largest force ({force})</th><th>at (s)</th><th>Largest moment ({moment})</th><th>at (s)</th>\
+             <th>Component</th><th>at (s)</th><th>Valid for</th></tr></thead>\n<tbody>\n",
+        ),
+    );
+    for line in &lines {
+        line.write(out, &scale);
     }
     out.push_str("</tbody>\n</table></div>\n");
     notes(out, page.mechanism, page.recording.stride);
+}
+
+/// Unit of forces.
+const FORCE: &str = "N";
+
+/// Unit of moments.
+const MOMENT: &str = "N·m";
+
+/// A line of the table.
+struct PeakLine<'a> {
+    name: &'a str,
+    force: Option<Peak>,
+    moment: Option<Peak>,
+    /// Components with their names.
+    components: Vec<(Option<&'a str>, Peak)>,
+    /// When the numbers hold.
+    holds: String,
 }
 
 /// States when the numbers hold, for a reaction that is not unique over the run.
@@ -115,7 +142,7 @@ fn holds(document: &RunReactionDocument) -> String {
         } else if !number.of_run.determined.is_empty() {
             let intervals = number.of_run.determined.iter();
             let intervals =
-                intervals.map(|[from, to]| format!("{} … {} s", digits(*from), digits(*to)));
+                intervals.map(|[from, to]| format!("{} … {} s", short(*from), short(*to)));
             let intervals: Vec<String> = intervals.collect();
             parts.push(format!("{name} is determined on {}", intervals.join(", ")));
         }
@@ -129,45 +156,56 @@ fn holds(document: &RunReactionDocument) -> String {
     }
 }
 
-fn line(
-    out: &mut String,
-    name: &str,
-    [force, moment]: [Option<Peak>; 2],
-    components: &[(Option<&str>, Option<Peak>)],
-    holds: &str,
-) {
-    let value = |label: &str, peak: Option<Peak>| {
-        let cell = |label: &str, told: Option<String>| match told {
-            Some(told) => format!("<td class=\"number\" data-label=\"{label}\">{told}</td>"),
-            None => format!("<td class=\"number none\" data-label=\"{label}\">–</td>"),
+impl PeakLine<'_> {
+    /// Returns all numbers with their units.
+    fn numbers(&self) -> impl Iterator<Item = (f64, &'static str)> {
+        let totals = [(self.force, FORCE), (self.moment, MOMENT)];
+        let totals = totals.map(|(peak, unit)| peak.map(|peak| (peak.value, unit)));
+        let components = self.components.iter();
+        let components = components.map(|(name, peak)| (peak.value, unit(*name)));
+        totals.into_iter().flatten().chain(components)
+    }
+
+    fn write(&self, out: &mut String, scale: &Scale) {
+        let cell = |label: &str, told: &[String]| {
+            let (class, told) = match told {
+                [] => ("number none", "–".to_owned()),
+                told => ("number", told.join("<br>")),
+            };
+            format!("<td class=\"{class}\" data-label=\"{label}\">{told}</td>")
         };
-        let told = peak.map(|p| digits(p.value));
-        cell(label, told) + &cell("at (s)", peak.map(|p| digits(p.t)))
-    };
-    let known = components.iter().filter_map(|(named, peak)| {
-        let prefix = named.map(|n| format!("{} = ", safe(n))).unwrap_or_default();
-        let peak = peak.as_ref()?;
-        Some((format!("{prefix}{}", digits(peak.value)), digits(peak.t)))
-    });
-    let (values, times): (Vec<String>, Vec<String>) = known.unzip();
-    let several = |label: &str, told: &[String]| {
-        let (class, told) = match told {
-            [] => ("number none", "–".to_owned()),
-            told => ("number", told.join("<br>")),
+        let total = |label: &str, peak: Option<Peak>, unit: &str| {
+            let value = peak.map(|p| scale.number(p.value, unit));
+            let label = format!("{label} ({})", scale.unit(unit).0);
+            cell(&label, value.as_slice()) + &cell("at (s)", peak.map(|p| short(p.t)).as_slice())
         };
-        format!("<td class=\"{class}\" data-label=\"{label}\">{told}</td>")
-    };
-    add(
-        out,
-        format_args!(
-            "<tr><td><b>{}</b></td>{}{}{}<td class=\"why\" data-label=\"Valid for\">{}</td></tr>\n",
-            safe(name),
-            value("Largest force (N)", force),
-            value("Largest moment (N·m)", moment),
-            several("Component", &values) + &several("at (s)", &times),
-            verdicts::marked(holds)
-        ),
-    );
+        let components = self.components.iter().map(|(name, peak)| {
+            let prefix = name.map(|n| format!("{} = ", safe(n))).unwrap_or_default();
+            let unit = unit(*name);
+            let number = scale.number(peak.value, unit);
+            (
+                format!("{prefix}{number} {}", scale.unit(unit).0),
+                short(peak.t),
+            )
+        });
+        let (values, times): (Vec<String>, Vec<String>) = components.unzip();
+        add(
+            out,
+            format_args!(
+                "<tr><td><b>{}</b></td>{}{}{}<td class=\"why\" data-label=\"Valid for\">{}</td></tr>\n",
+                safe(self.name),
+                total("Largest force", self.force, FORCE),
+                total("Largest moment", self.moment, MOMENT),
+                cell("Component", &values) + &cell("at (s)", &times),
+                verdicts::marked(&self.holds)
+            ),
+        );
+    }
+}
+
+/// Returns the unit of a component; a joint without a name for it has a force.
+fn unit(component: Option<&str>) -> &'static str {
+    component.map_or(FORCE, load_unit)
 }
 
 fn notes(out: &mut String, mechanism: &Mechanism, stride: usize) {
@@ -192,24 +230,6 @@ fn notes(out: &mut String, mechanism: &Mechanism, stride: usize) {
              moments act on the first body. Moments are about the reference point of the joint.</p>\n"
         ),
     );
-}
-
-/// Formats a number with four digits.
-fn digits(x: f64) -> String {
-    if x == 0.0 {
-        return "0".to_owned();
-    }
-    let size = x.abs();
-    if !(1e-3..1e5).contains(&size) {
-        return format!("{x:.3e}");
-    }
-    let decimals = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
 }
 
 #[cfg(test)]
@@ -244,11 +264,5 @@ mod tests {
             Peaks::of(&frames[..1], ConstraintId(0), 2.0).named,
             at(0.0, 0.0)
         );
-    }
-
-    #[test]
-    fn numbers_have_four_digits() {
-        let told = [0.0, 3.0, 12.34567, -0.0123456, 1234.5, 2.5e-7].map(digits);
-        assert_eq!(told, ["0", "3", "12.35", "-0.01235", "1234", "2.500e-7"]);
     }
 }

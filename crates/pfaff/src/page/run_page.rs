@@ -5,6 +5,7 @@ use solvability::Stretches;
 
 use super::comparison::Comparison;
 use crate::documents::{AnalysisDocument, FreedomsDocument, MakeUniqueDocument, RunDocument};
+use crate::words::SceneUnits;
 use report::Provenance;
 use report::Recording;
 
@@ -56,23 +57,8 @@ pub struct WrittenScene<'a> {
     pub text: Option<&'a str>,
     /// Joints, drives, forces and groups that are in the scene, but not active.
     pub inactive: Vec<String>,
-    /// Units of lengths and angles of the scene with their values in metres and radians, if they
-    /// are not SI units.
-    pub units: [Option<(&'static str, f64)>; 2],
-}
-
-impl WrittenScene<'_> {
-    /// Returns the scene unit for the SI unit of a curve, with the number of scene units in one SI
-    /// unit.
-    pub(super) fn unit(&self, si: &str) -> Option<(String, f64)> {
-        let (base, rest) = si.split_at(si.find('/').unwrap_or(si.len()));
-        let (name, value) = match base {
-            "m" => self.units[0]?,
-            "rad" => self.units[1]?,
-            _ => return None,
-        };
-        Some((format!("{name}{rest}"), value.recip()))
-    }
+    /// Units of the scene.
+    pub units: SceneUnits,
 }
 
 impl RunPage<'_> {

@@ -9,6 +9,7 @@ mod data;
 mod deletions;
 mod document;
 pub mod frames;
+pub mod matrices;
 mod numbers;
 mod options;
 mod phrases;
@@ -23,16 +24,28 @@ pub use options::{Along, Analyze, Permission};
 use crate::along_motion::{self, VerdictsAlongMotion};
 use crate::documents::{AnalysisDocument, MakeUniqueDocument};
 use crate::error::StudyError;
-use crate::question::{Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Progress, Question};
-use crate::refusal::Refusal;
+use crate::question::{
+    Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Place, Progress, Question,
+    Writing,
+};
+use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::start::{JudgedStart, Start};
 use crate::study::Study;
 use crate::words::Block;
+use report::Family;
+
+/// File name of the document.
+const DOCUMENT: &str = "analysis.json";
 
 impl Question for Analyze {
     const NAME: &'static str = "analyze";
     const SCHEMA: &'static str = include_str!("analyze/answer.schema.json");
+    const OUTPUT: Option<Output> = Some(Output {
+        family: Family(&["phi_q.csv", "psi.csv", "c.csv", "gamma.csv", DOCUMENT]),
+        contents: "the JSON document and the matrices",
+        writing: Writing::AtEnd,
+    });
     type Subject<'s> = &'s Start<'s>;
     type Answer = AnalyzeAnswer;
 
@@ -170,6 +183,16 @@ pub struct AnalyzeAnswer {
 impl Answer for AnalyzeAnswer {
     fn words(&self) -> Vec<Block> {
         words::of(&self.document, &self.hints)
+    }
+
+    fn files(&self, place: &mut dyn Place) -> Result<(), Refusal> {
+        for addition in additions::ADDITIONS {
+            for (name, text) in addition.files(&self.document)? {
+                place.put(name, &text)?;
+            }
+        }
+        place.put(DOCUMENT, json(self)?.as_bytes())?;
+        Ok(())
     }
 
     fn ending(&self) -> Ending {

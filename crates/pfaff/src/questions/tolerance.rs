@@ -16,7 +16,7 @@ use crate::tolerance::{
     SAMPLES, ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Variation,
     VariedText,
 };
-use crate::words::Block;
+use crate::words::{Block, SceneUnits};
 
 /// Run a Monte-Carlo analysis of the tolerances
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -81,6 +81,7 @@ impl Question for Tolerance {
             e => Refusal::stopped(e.to_string()).coded(e.code()),
         };
         let assembled = of.assembled(control)?;
+        let units = SceneUnits::of(&assembled.scene);
         let vary = (!self.vary.is_empty()).then(|| {
             let text = (of.name.as_str(), of.text.as_str());
             VariedText::new(text, of.registry, of.tolerance, self.vary.clone())
@@ -117,6 +118,7 @@ impl Question for Tolerance {
         Ok(ToleranceAnswer {
             document,
             wanted: self.runs,
+            units,
             files,
         })
     }
@@ -133,6 +135,9 @@ pub struct ToleranceAnswer {
     /// Number of requested samples.
     #[serde(skip)]
     wanted: usize,
+    /// Units of the scene.
+    #[serde(skip)]
+    units: SceneUnits,
     #[serde(skip)]
     files: Vec<(&'static str, Vec<u8>)>,
 }
@@ -140,6 +145,10 @@ pub struct ToleranceAnswer {
 impl Answer for ToleranceAnswer {
     fn words(&self) -> Vec<Block> {
         words::of(&self.document)
+    }
+
+    fn units(&self) -> SceneUnits {
+        self.units
     }
 
     fn ending(&self) -> Ending {

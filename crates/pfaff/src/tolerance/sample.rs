@@ -12,6 +12,7 @@
 
 use linalg::{KeptRowSaddle, Matrix};
 use model::start::requirement;
+use model::words::{rough, short};
 use model::{Level, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
 use solvability::{Configuration, Equations, RowTerms};
@@ -168,8 +169,8 @@ impl Nominal {
         Err(SampleFailure::new(
             "the nearest pose is far from the described one",
             format!(
-                "{coordinate} of `{body}` differs by {:.1e}",
-                moved[farthest]
+                "{coordinate} of `{body}` differs by {}",
+                short(moved[farthest])
             ),
         ))
     }
@@ -232,9 +233,9 @@ impl Nominal {
             .max_by(|a, b| s.phi[*a].abs().total_cmp(&s.phi[*b].abs()));
         let detail = worst.map_or(String::new(), |i| {
             format!(
-                "row {} still misses by {:.1e}",
+                "row {} still misses by {}",
                 mechanism.layout().labels[i],
-                s.phi[i].abs()
+                rough(s.phi[i].abs())
             )
         });
         Err(SampleFailure::new(NO_POSE, detail))

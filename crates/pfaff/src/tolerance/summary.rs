@@ -5,9 +5,9 @@ use std::cmp::Reverse;
 use crate::documents::{
     DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
     MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument, ReactionRangeDocument,
-    RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts, distance,
+    RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
 };
-use model::words::rounded;
+use model::words::{estimate, quantity, range as range_in, short};
 use model::{DataUnit, System};
 use report::ByName;
 
@@ -88,10 +88,8 @@ impl Nominal {
                 }
             })
         };
-        let lengths = told(self.tolerances(DataUnit::Length), &distance);
-        let angles = told(self.tolerances(DataUnit::Angle), &|x| {
-            format!("{x:.1e} rad")
-        });
+        let lengths = told(self.tolerances(DataUnit::Length), &|x| quantity(x, "m"));
+        let angles = told(self.tolerances(DataUnit::Angle), &|x| estimate(x, "rad"));
         lengths
             .or(angles)
             .unwrap_or_else(|| "the given ranges".to_owned())
@@ -484,11 +482,10 @@ impl RangeContext<'_> {
             return format!("`{name}` ({}): {reason}, so no range", value.name);
         };
         let unit = value.unit;
-        let (least, greatest) = (digits(range.least), digits(range.greatest));
-        let span = if least == greatest {
-            format!("{least} {unit}")
+        let span = if short(range.least) == short(range.greatest) {
+            quantity(range.least, unit)
         } else {
-            format!("{least} … {greatest} {unit}")
+            range_in(range.least, range.greatest, unit)
         };
         if value.unique {
             let verb = match unit {
@@ -496,25 +493,20 @@ impl RangeContext<'_> {
                 _ => "takes a torque of",
             };
             let told = range.described.map_or(String::new(), |x| {
-                format!(" ({} {unit} as described)", digits(x))
+                format!(" ({} as described)", quantity(x, unit))
             });
             return format!("within {within} `{name}` {verb} {span}{told}");
         }
-        let [low, _, high] = range.percentiles.map(digits);
+        let [low, _, high] = range.percentiles;
+        let low_to_high = range_in(low, high, unit);
         let share = match range.samples {
             n if n == samples => String::new(),
             n => format!(" in {n} of {samples} samples"),
         };
         format!(
             "`{name}` is {}; rigid and without play, data within {within} alone would decide it{share}: {span}, nine tenths \
-             between {low} and {high} {unit}",
+             within {low_to_high}",
             self.verdict.replace('_', " ")
         )
     }
-}
-
-/// Formats a number with four significant digits.
-fn digits(x: f64) -> String {
-    let short: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    rounded(short + 0.0)
 }

@@ -1,6 +1,7 @@
 //! `orientation`: a rotation from the axes of a body to the axes of the ground, written in one of
 //! four ways.
 
+use model::words::short;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 use crate::dimension::Dimension;
@@ -162,7 +163,12 @@ fn warn_of_rough(field: &Field, off: f64, what: &str) {
         field.findings.warning(
             const { Code::new(199) },
             field.span(),
-            format!("{}: `{}`: {what} {off:.2e}", field.subject, field.key),
+            format!(
+                "{}: `{}`: {what} {off}",
+                field.subject,
+                field.key,
+                off = short(off)
+            ),
             "not quite a rotation",
             "the nearest rotation is taken: write more digits",
         );

@@ -2,6 +2,7 @@
 
 use model::StartError;
 use model::codes::Code;
+use model::words::short;
 use rank::Doubt;
 
 use crate::error::AnalysisError;
@@ -152,8 +153,7 @@ pub enum AlongError {
     },
     /// The rank is undecided at every sample time.
     #[error(
-        "the rank is undecided at all sample times; at t = {time} s the singular values around the gap are {sigma_r:.3e} and {sigma_next:.3e}, the tolerance is {tolerance:.3e}"
-    )]
+        "the rank is undecided at all sample times; at t = {time} s the singular values around the gap are {sigma_r} and {sigma_next}, the tolerance is {tolerance}", sigma_r = short(*sigma_r), sigma_next = short(*sigma_next), tolerance = short(*tolerance))]
     Undecided {
         /// The last sample time (s).
         time: f64,

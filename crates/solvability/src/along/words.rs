@@ -2,6 +2,7 @@
 
 use super::data::{Difference, Passage, PassageKind, Stretch};
 use crate::limits::{GIVEN_DIGITS, SEARCHED_DIGITS};
+use model::words::{digits, short};
 
 /// Describes the event at an instant of a motion. `usual` is the redundancy almost everywhere.
 pub(super) fn passage(p: &Passage, usual: usize) -> String {
@@ -16,8 +17,9 @@ pub(super) fn passage(p: &Passage, usual: usize) -> String {
             "{time} the configuration is singular: the redundancy rises from {usual} to {redundancy} for an instant{interval}; {continuation}"
         ),
         PassageKind::NearlySingular { sigma } => format!(
-            "{time} the configuration is nearly singular: smallest singular value {sigma:.3e}{interval}; the rank stays, \
-             reactions may become large"
+            "{time} the configuration is nearly singular: smallest singular value {sigma}{interval}; the rank stays, \
+             reactions may become large",
+            sigma = short(*sigma)
         ),
         PassageKind::Undecided { doubt } => format!(
             "{time} the configuration is so nearly singular that the rank is not decided{interval}: {doubt}"
@@ -65,24 +67,5 @@ fn name(d: &Difference, all: &[Difference]) -> String {
     match d.component.filter(|_| !is_covered) {
         None => format!("`{}`", d.reaction),
         Some(component) => format!("{component} of `{}`", d.reaction),
-    }
-}
-
-/// Formats a number with this many significant digits, without trailing zeros.
-fn digits(x: f64, digits: i32) -> String {
-    let before = if x == 0.0 {
-        0
-    } else {
-        x.abs().log10().floor() as i32
-    };
-    let decimals = (digits - 1 - before).clamp(0, 12) as usize;
-    let text = format!("{x:.decimals$}");
-    if text.contains('.') {
-        match text.trim_end_matches('0').trim_end_matches('.') {
-            "-0" => "0".to_owned(),
-            short => short.to_owned(),
-        }
-    } else {
-        text
     }
 }

@@ -2,6 +2,7 @@
 
 use linalg::SaddleError;
 use model::codes::Code;
+use model::words::short;
 use model::{CalledForce, RowLabel};
 use rank::{Doubt, KeptRowsError};
 
@@ -25,10 +26,9 @@ pub enum ChoiceError {
     Called(#[from] CalledForce),
     /// Redundant rows require different accelerations, so no reactions exist.
     #[error(
-        "row {} requires an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
+        "row {} requires an acceleration that differs by {by} from what the kept rows give (rounding: {allowed}): \
          there are no reactions that satisfy both",
-        row + 1
-    )]
+        row + 1, by = short(*by), allowed = short(*allowed))]
     Contradiction {
         /// The dropped row, from 0.
         row: usize,
@@ -38,13 +38,13 @@ pub enum ChoiceError {
         allowed: f64,
     },
     /// A weight or compliance is negative or not a number.
-    #[error("a weight is {value:.3e}, need a finite number ≥ 0")]
+    #[error("a weight is {value}, need a finite number ≥ 0", value = short(*value))]
     Weight {
         /// The weight.
         value: f64,
     },
     /// A weight of a norm is not positive.
-    #[error("the norm has the weight {value:.3e}, need a finite number > 0")]
+    #[error("the norm has the weight {value}, need a finite number > 0", value = short(*value))]
     NormWeight {
         /// The weight.
         value: f64,

@@ -1,9 +1,9 @@
 //! The motions that drives prescribe.
 
+use model::words::quantity;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use super::ConstraintLevel;
-use crate::words::short;
 
 /// The motion that a drive prescribes at one time.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +59,6 @@ impl Demand {
             ConstraintLevel::Velocity => ("change at", self.prescribed[1]),
             ConstraintLevel::Acceleration => ("accelerate at", self.prescribed[2]),
         };
-        format!("to {verb} {} {}", short(value), level.unit(self.angular))
+        format!("to {verb} {}", quantity(value, level.unit(self.angular)))
     }
 }

@@ -9,7 +9,7 @@
 
 use linalg::{Matrix, PivotedQr, least_squares_step, symmetric_eigen};
 use model::start::scene_size;
-use model::words::rounded;
+use model::words::quantity;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use crate::limits::{
@@ -119,8 +119,7 @@ impl LimitedDrive {
         if self.angular {
             return Some(format!("{:.1}°", value.to_degrees()));
         }
-        let short: f64 = format!("{value:.3e}").parse().unwrap_or(value);
-        Some(format!("{} m", rounded(short)))
+        Some(quantity(value, "m"))
     }
 }
 

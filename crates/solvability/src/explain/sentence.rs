@@ -8,7 +8,8 @@ use crate::limits::TELLABLE;
 use crate::loads::LoadDescription;
 use crate::matrices::Solvability;
 use crate::verdict::Verdict;
-use crate::words::{list, names, short};
+use crate::words::{list, names};
+use model::words::short;
 
 /// Describes a self-stress in terms of joints and bodies if its geometry allows it, otherwise in
 /// terms of rows. In space, `told` contains the loads on the joints. The numbers are the components
@@ -55,7 +56,7 @@ pub(super) fn of_stress(
                 (false, _) => format!("{i} and {j} both hold {} along the same line", against(a)),
             };
             format!(
-                "{action}; the model does not determine how they share the load: {} cancel{}",
+                "{action}: {} cancel{}",
                 cancel(),
                 sum(mechanism, s, solvability, [x, y]).unwrap_or_default()
             )
@@ -66,21 +67,11 @@ pub(super) fn of_stress(
             circuit.rows.len(),
             Loads::of(mechanism, circuit).act()
         ),
-        ([_, _, ..], _) => {
-            let rows: Vec<String> = circuit
-                .rows
-                .iter()
-                .map(|&i| layout.labels[i].to_string())
-                .collect();
-            format!(
-                "{} can {} without external load: any {} of the rows {} imply the remaining one ({} cancel)",
-                list(&names(layout, &ids)),
-                Loads::of(mechanism, circuit).act(),
-                rows.len() - 1,
-                rows.join(", "),
-                cancel()
-            )
-        }
+        ([_, _, ..], _) => format!(
+            "{} cancel: these joints can {} without external load",
+            cancel(),
+            Loads::of(mechanism, circuit).act()
+        ),
         _ => describe(mechanism, circuit),
     }
 }
@@ -193,10 +184,8 @@ fn sum(
     // The combination has the syntax of the option `--combine`.
     let combination = format!("`{i}.{c} {sign} {factor}{j}.{d}`");
     match solvability.combination(&l).map(|judged| judged.verdict) {
-        Ok(Verdict::Unique) => Some(format!(", {combination} is determined")),
-        Ok(Verdict::NotUnique) => Some(format!(
-            ", and {combination} depends on other reactions that are not determined"
-        )),
+        Ok(Verdict::Unique) => Some(format!("; only {combination} is determined")),
+        Ok(Verdict::NotUnique) => Some(format!("; {combination} is not determined, either")),
         _ => None,
     }
 }

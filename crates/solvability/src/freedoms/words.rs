@@ -7,7 +7,8 @@ use model::{BodyRef, ConstraintId, Mechanism, System};
 
 use super::component::{Component, Velocities};
 use super::movement::{Line, Movement, Twist};
-use crate::words::{components, list, short};
+use crate::words::{components, list};
+use model::words::short;
 
 /// Describes a motion of a component and returns its velocities with the sign that the text
 /// implies: positive rotation, or translation along the first axis.

@@ -1,5 +1,7 @@
 //! Errors of requests to a matrix.
 
+use model::words::short;
+
 /// Reason why a request is rejected.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -41,8 +43,7 @@ pub enum QueryError {
     Rank(rank::Doubt),
     /// The number of unique directions is undecided.
     #[error(
-        "unique directions: a margin of {margin:.3e} lies between {tolerance:.3e} (rounding) and {required:.3e} (certainly not zero)"
-    )]
+        "unique directions: a margin of {margin} lies between {tolerance} (rounding) and {required} (certainly not zero)", margin = short(*margin), tolerance = short(*tolerance), required = short(*required))]
     Directions {
         /// The margin that is undecided.
         margin: f64,

@@ -1,5 +1,6 @@
 //! Reasons why second order does not decide.
 
+use model::words::{rough, short};
 use rank::{Doubt, RankError};
 
 /// Reason why second order does not decide.
@@ -26,8 +27,7 @@ pub enum SecondOrderDoubt {
     NoTerms,
     /// The given motion does not solve the equations.
     #[error(
-        "the given motion itself misses the second-order equations by {residual:.3e} (relative), more than {tolerance:.1e}"
-    )]
+        "the given motion itself misses the second-order equations by {residual} (relative), more than {tolerance}", residual = short(*residual), tolerance = rough(*tolerance))]
     Irregular {
         /// Largest value of an equation, relative to its largest coefficient.
         residual: f64,

@@ -1,6 +1,7 @@
 //! Sensitivity of a number of a reaction to the data, and its text.
 
 use crate::limits::{BEYOND, FRAGILE, MANY};
+use model::words::{estimate, rough};
 use model::{ConstraintId, DataUnit, Layout};
 
 /// Change of a number of a reaction with one point.
@@ -71,8 +72,8 @@ impl Datum {
             (false, DataUnit::Angle) => "turns",
         };
         let moved = match self.unit {
-            DataUnit::Length => length(self.moved),
-            DataUnit::Angle => format!("{:.1e} rad", self.moved),
+            DataUnit::Length => estimate(self.moved, "m"),
+            DataUnit::Angle => estimate(self.moved, "rad"),
         };
         format!("{} {verb} by {moved}", self.subject(layout))
     }
@@ -101,7 +102,7 @@ pub(crate) fn change_in_words(change: f64, reactions: usize) -> String {
         _ => ("change", "up to ", "their"),
     };
     if change < BEYOND {
-        return format!("{verb} by {up_to}about {:.2} %", Digits(100.0 * change));
+        return format!("{verb} by {up_to}about {} %", rough(100.0 * change));
     }
     let times = if change < MANY {
         "several times"
@@ -109,31 +110,4 @@ pub(crate) fn change_in_words(change: f64, reactions: usize) -> String {
         "many times"
     };
     format!("would change by {up_to}{times} {whose} size")
-}
-
-/// A number, formatted with as many significant digits as the precision of the format states.
-struct Digits(f64);
-
-impl std::fmt::Display for Digits {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let digits = f.precision().unwrap_or(2) as i32;
-        let places = match self.0.abs() {
-            x if x > 0.0 && x.is_finite() => digits - 1 - x.log10().floor() as i32,
-            _ => 0,
-        };
-        let unit = 10f64.powi(places);
-        let rounded = (self.0 * unit).round() / unit;
-        write!(f, "{rounded:.*}", places.clamp(0, 12) as usize)
-    }
-}
-
-/// Formats a small length.
-#[must_use]
-pub fn length(metres: f64) -> String {
-    match metres.abs() {
-        x if x >= 1.0 => format!("{:.2} m", Digits(metres)),
-        x if x >= 1e-5 => format!("{:.2} mm", Digits(1e3 * metres)),
-        x if x >= 1e-9 => format!("{:.2} µm", Digits(1e6 * metres)),
-        _ => format!("{metres:.1e} m"),
-    }
 }

@@ -2,7 +2,7 @@
 //! rank.
 
 use model::Tolerance;
-use model::words::length;
+use model::words::{estimate, rounded};
 use rank::{BEYOND_DOUBT, Certificate, Grounds};
 use serde::Serialize;
 use solvability::Analysis;
@@ -56,14 +56,15 @@ impl DataDocument {
         let enough = clearly_above(from);
         let known = match self.tolerance {
             None => "as written".to_owned(),
-            Some(tolerance) => format!("accurate to {}", length(tolerance)),
+            Some(tolerance) => format!("accurate to {}", estimate(tolerance, "m")),
         };
         Some(format!(
             "mobility {mobility} for data {known}, but {} if lengths are accurate only to {}: one row is then redundant, \
              and the motion that it locks becomes free. If the mechanism must move, write more digits or state \
-             `tolerance = {enough:.1e}` (m) in [scene]; `pfaff analyze` names the joints",
+             `tolerance = {}` (m) in [scene]; `pfaff analyze` names the joints",
             mobility + 1,
-            length(from)
+            estimate(from, "m"),
+            rounded(enough)
         ))
     }
 
@@ -75,24 +76,31 @@ impl DataDocument {
             if self.is_within {
                 String::new()
             } else {
-                format!(" (`--{name} {:.1e}` decides for it)", clearly_above(from))
+                format!(
+                    " (`--{name} {}` decides for it)",
+                    rounded(clearly_above(from))
+                )
             }
         };
         if let Some(from) = self.lower_rank_from {
             let option = option("tolerance", from);
             return Some(format!(
                 "one row is redundant from a tolerance of {} on{option}",
-                length(from)
+                estimate(from, "m")
             ));
         }
         if let Some(from) = self.lower_rank_from_angle {
             let option = option("angle-tolerance", from);
             return Some(format!(
-                "one row is redundant from an angle tolerance of {from:.1e} rad on{option}"
+                "one row is redundant from an angle tolerance of {} on{option}",
+                estimate(from, "rad")
             ));
         }
         let here = self.lower_rank_here?;
-        Some(format!("this pose is {here:.1e} m from a singular one"))
+        Some(format!(
+            "this pose is {} from a singular one",
+            estimate(here, "m")
+        ))
     }
 
     /// Builds the document of an analysis.

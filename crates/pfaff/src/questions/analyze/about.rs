@@ -72,7 +72,8 @@ impl Addition for Moments {
         };
         let about = coordinates(&first.about);
         let lines = wanted.iter();
-        let lines = lines.map(|(r, moment)| vec![r.name.clone(), each(&moment.components)]);
+        let lines =
+            lines.map(|(r, moment)| vec![r.name.clone().into(), each(&moment.components).into()]);
         vec![
             Block::Heading(format!("Moments about {about} m:")),
             Block::Table(lines.collect()),

@@ -1,5 +1,6 @@
 //! Optional parts of an analysis.
 
+use report::TableError;
 use solvability::ComponentVerdict;
 
 use super::options::Analyze;
@@ -26,6 +27,11 @@ pub(super) trait Addition: Sync {
 
     /// Returns the same results as text.
     fn words(&self, d: &AnalysisDocument) -> Vec<Block>;
+
+    /// Returns files with the same results.
+    fn files(&self, _d: &AnalysisDocument) -> Result<Vec<(&'static str, Vec<u8>)>, TableError> {
+        Ok(Vec::new())
+    }
 }
 
 /// Iterates over the indices of unique components.

@@ -1,7 +1,7 @@
 //! Sentences on the tolerances of the data and their consequences.
 
 use crate::documents::AnalysisDocument;
-use model::words::length;
+use model::words::estimate;
 
 use crate::words::Block;
 
@@ -22,12 +22,14 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
 fn stated(tolerance: Option<f64>, angle: Option<f64>) -> Option<String> {
     match (tolerance, angle) {
         (Some(tolerance), Some(angle)) => Some(format!(
-            "data accurate to {} (angles {angle:.1e} rad)",
-            length(tolerance)
+            "data accurate to {} (angles {angle})",
+            estimate(tolerance, "m"),
+            angle = estimate(angle, "rad")
         )),
-        (Some(tolerance), None) => Some(format!("data accurate to {}", length(tolerance))),
+        (Some(tolerance), None) => Some(format!("data accurate to {}", estimate(tolerance, "m"))),
         (None, Some(angle)) => Some(format!(
-            "angles accurate to {angle:.1e} rad, lengths to rounding"
+            "angles accurate to {angle}, lengths to rounding",
+            angle = estimate(angle, "rad")
         )),
         (None, None) => None,
     }
@@ -42,7 +44,7 @@ mod tests {
         let said = stated(Some(1e-4), Some(4.2e-5));
         assert_eq!(
             said.as_deref(),
-            Some("data accurate to 0.1 mm (angles 4.2e-5 rad)")
+            Some("data accurate to 0.1 mm (angles 0.042 mrad)")
         );
         let said = stated(None, Some(1e-5));
         assert_eq!(

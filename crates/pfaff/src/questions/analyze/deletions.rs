@@ -16,24 +16,25 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
     let mut out = Vec::new();
     let item = |text: String| Block::after("- ", text);
     if d.answers.make_unique.is_empty() && hints.iter().any(|hint| hint.reason.is_none()) {
-        // Reactions with the same way have one line.
+        // Reactions with the same way are listed together.
         let hinted = hints.iter().take(HINTS);
-        let mut lines = grouped(hinted.map(|hint| (ways(hint, WAYS), hint.reaction.as_str())));
+        let lines = grouped(hinted.map(|hint| (ways(hint, WAYS), hint.reaction.as_str())));
+        let lead = "Ways to make a reaction unique (design decisions";
         if let [(text, _)] = lines.as_slice()
             && hints.iter().all(|hint| hint.ways.is_empty())
         {
-            let lead = "Ways to make a reaction unique (design decisions): ";
-            out.extend([Block::Gap, Block::after(lead, text)]);
-            lines.clear();
+            out.extend([Block::Gap, Block::sentence(format!("{lead}): {text}"))]);
         } else {
-            let heading = "Ways to make a reaction unique (design decisions; `--make-unique NAME` lists all):";
-            out.push(Block::Heading(heading.to_owned()));
-        }
-        for (text, names) in &lines {
-            out.push(Block::after(format!("- {}: ", names.join(", ")), text));
-        }
-        if hints.len() > HINTS {
-            out.push(item("others: `--make-unique NAME`".to_owned()));
+            let ways = lines.iter();
+            let mut ways: Vec<String> = ways
+                .map(|(text, names)| format!("{}: {text}", names.join(", ")))
+                .collect();
+            if hints.len() > HINTS {
+                ways.push("others: `--make-unique NAME`".to_owned());
+            }
+            let ways = ways.join("; ");
+            let text = format!("{lead}; `--make-unique NAME` lists all): {ways}");
+            out.extend([Block::Gap, Block::sentence(text)]);
         }
     }
     for wanted in &d.answers.make_unique {
@@ -111,7 +112,7 @@ fn ways(found: &MakeUniqueDocument, most: usize) -> String {
         ([], false) => "no way was found among the sets that were tried".to_owned(),
         (texts, _) if more == 0 => texts.join("; or "),
         (texts, _) => format!(
-            "{}; or {more} other {}",
+            "{} ({more} other {})",
             texts.join("; or "),
             if more == 1 { "way" } else { "ways" }
         ),

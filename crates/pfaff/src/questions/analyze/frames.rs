@@ -3,6 +3,7 @@
 mod answer;
 
 use model::System;
+use model::words::digits;
 use solvability::ReactionNumber;
 
 pub use answer::FrameDocument;
@@ -53,7 +54,7 @@ impl Addition for OtherFrames {
         let open = d.reactions.iter().filter(|r| r.wrench.verdict != "unique");
         let lines = open.flat_map(|r| {
             r.frames.iter().map(|f| {
-                let axis = f.axes[0].iter().map(|x| format!("{x:.3}"));
+                let axis = f.axes[0].iter().map(|x| digits(*x, 3));
                 let axis = axis.collect::<Vec<_>>().join(", ");
                 [
                     r.name.clone(),

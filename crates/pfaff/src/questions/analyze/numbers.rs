@@ -2,7 +2,7 @@
 
 use crate::documents::{DistributionDocument, ValueDocument, ValuesDocument};
 
-use crate::words::Block;
+use crate::words::{Block, Cell, load_unit};
 
 /// Components that do not depend on a choice are listed once; components that depend on it have one
 /// column for each choice.
@@ -11,9 +11,9 @@ pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
         return Vec::new();
     }
     let mut header = ["reaction", "component", "determined"]
-        .map(str::to_owned)
+        .map(Cell::from)
         .to_vec();
-    header.extend((1..=choices.len()).map(|k| format!("choice {k}")));
+    header.extend((1..=choices.len()).map(|k| Cell::from(format!("choice {k}"))));
     let mut table = vec![header];
     let all_of = |d: &'_ DistributionDocument| -> Vec<ValuesDocument> {
         d.reactions.iter().chain(&d.groups).cloned().collect()
@@ -22,33 +22,23 @@ pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
     for (i, reaction) in columns_of[0].iter().enumerate() {
         for (j, component) in reaction.components.iter().enumerate() {
             let name = component.name.unwrap_or_default();
-            let mut cells = vec![reaction.name.clone(), name.to_owned()];
-            let number = |v: &ValueDocument| format!("{:>12}", number(v.value.in_solution()));
-            let is_fact = component.value.of_choice().is_none();
-            if is_fact {
+            let number = |v: &ValueDocument| Cell::quantity(v.value.in_solution(), load_unit(name));
+            let mut cells = vec![reaction.name.as_str().into(), name.into()];
+            if component.value.of_choice().is_none() {
                 cells.push(number(component));
             } else {
-                cells.push(String::new());
+                cells.push("".into());
                 let all = columns_of.iter();
                 cells.extend(all.map(|column| number(&column[i].components[j])));
             }
             table.push(cells);
         }
     }
-    let heading = "Reactions on the first body (N, N·m):".to_owned();
+    let heading = "Reactions on the first body:".to_owned();
     let mut out = vec![Block::Heading(heading), Block::Table(table)];
     let label = |(k, choice): (usize, &DistributionDocument)| {
         Block::Legend(format!("choice {}", k + 1), choice.label.clone())
     };
     out.extend(choices.iter().enumerate().map(label));
     out
-}
-
-/// Formats a number with six digits; zero is `0`, and a missing number is `none`.
-pub(super) fn number(value: Option<f64>) -> String {
-    match value {
-        None => "none".to_owned(),
-        Some(0.0) => "0".to_owned(),
-        Some(value) => format!("{value:.5e}"),
-    }
 }

@@ -56,6 +56,9 @@ pub struct Analyze {
         arg(long, value_name = "POINT", allow_hyphen_values = true)
     )]
     pub about: Option<String>,
+    /// Print Φq, Ψ and Γ with names of rows and columns; --out writes them as CSV
+    #[cfg_attr(feature = "command", arg(long))]
+    pub matrices: bool,
     /// Analyse along the motion to T_END (s): the generic verdict and the intervals where it
     /// differs
     #[cfg_attr(feature = "command", arg(long, value_name = "T_END", num_args = 0..=1, default_missing_value = STATED, allow_negative_numbers = true))]

@@ -1,6 +1,9 @@
 //! Phrases that several parts of the text use.
 
 use crate::documents::{ComponentDocument, SensitivityDocument, VerdictDocument};
+use model::words::{rough, short};
+
+use crate::words::grouped;
 
 /// Converts a word of the document to prose, such as `not unique` for `not_unique`.
 pub(super) fn spoken(word: &str) -> String {
@@ -15,28 +18,30 @@ pub(super) fn hanging(data: &SensitivityDocument) -> &'static str {
 /// Returns the addition to a verdict that is valid only within the tolerance, with its margin.
 fn within(v: &VerdictDocument) -> String {
     if v.within_tolerance {
-        format!(" within the tolerance ({:.1e})", v.margin)
+        format!(" within the tolerance ({})", rough(v.margin))
     } else {
         String::new()
     }
 }
 
-/// Lists components with their verdicts.
+/// Lists components by their verdicts, such as `Fy not unique; Fx, T unique`.
 pub(super) fn each(components: &[ComponentDocument]) -> String {
-    let words = components.iter();
-    let words: Vec<String> = words
-        .map(|c| {
-            let spoken = spoken(c.verdict.verdict);
-            let (within, fragile) = (within(&c.verdict), hanging(&c.data));
-            format!("{} {spoken}{within}{fragile}", c.name)
-        })
-        .collect();
-    words.join(", ")
+    let verdicts = components.iter().map(|c| {
+        let spoken = spoken(c.verdict.verdict);
+        let (within, fragile) = (within(&c.verdict), hanging(&c.data));
+        (format!("{spoken}{within}{fragile}"), c.name)
+    });
+    let mut verdicts = grouped(verdicts);
+    // Unique components are what remains.
+    verdicts.sort_by_key(|(verdict, _)| verdict.starts_with("unique"));
+    let words = verdicts.iter();
+    let words = words.map(|(verdict, names)| format!("{} {verdict}", names.join(", ")));
+    words.collect::<Vec<_>>().join("; ")
 }
 
-/// Formats a point with four decimals.
+/// Formats a point.
 pub(super) fn coordinates(point: &[f64]) -> String {
-    let rounded = |x: &f64| ((1e4 * x).round() / 1e4 + 0.0).to_string();
+    let rounded = |x: &f64| short((1e4 * x).round() / 1e4);
     let numbers: Vec<String> = point.iter().map(rounded).collect();
     format!("({})", numbers.join(", "))
 }

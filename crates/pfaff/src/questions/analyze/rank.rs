@@ -2,9 +2,10 @@
 
 use crate::documents::AnalysisDocument;
 use crate::documents::{PartsDocument, ReactionDocument};
+use model::words::rough;
 use solvability::ONE_PART;
 
-use crate::words::{Block, count};
+use crate::words::{Block, count, grouped};
 
 /// The text names a row of a near dependence if its weight exceeds this fraction of the largest
 /// weight.
@@ -20,8 +21,9 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     });
     nearly(d).into_iter().for_each(&mut say);
     elsewhere(d).into_iter().for_each(&mut say);
-    let motions = d.ranks.freedoms.sentences().into_iter();
-    blocks.extend(motions.map(|(lead, text)| Block::after(format!("  {lead}: "), text)));
+    for (lead, motions) in grouped(d.ranks.freedoms.sentences()) {
+        blocks.push(Block::after(format!("  {lead}: "), motions.join("; also ")));
+    }
     let continuation = d.answers.continuation.iter();
     blocks.extend(continuation.map(|c| Block::after("  ", &c.text)));
     blocks
@@ -37,8 +39,8 @@ fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
         Some(reason) => format!("UNDECIDED in one part: {reason}"),
         None if e.certified => "the rank of each part is proved".to_owned(),
         None => format!(
-            "decided by a clear gap in double precision, not all proved: smallest σ_r = {:.1e}",
-            e.sigma_r
+            "decided by a clear gap in double precision, not all proved: smallest σ_r = {}",
+            rough(e.sigma_r)
         ),
     };
     lead + &said
@@ -47,12 +49,7 @@ fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
 /// Describes the ranks with the drives, and without them if these differ.
 fn ranks(d: &AnalysisDocument) -> Vec<Block> {
     let ranks = &d.ranks;
-    let mut out = vec![Block::sentence(format!(
-        "rank {}, redundancy {}, {}",
-        ranks.rank,
-        ranks.redundancy,
-        ranks.freedoms.summary(ranks.mobility),
-    ))];
+    let mut out = Vec::new();
     let (holonomic, nonholonomic) = (ranks.rank_holonomic, ranks.rank_nonholonomic);
     out.push(Block::detail(
         "  ",
@@ -78,50 +75,37 @@ fn proof(d: &AnalysisDocument) -> String {
     }
     if !e.certified {
         return format!(
-            "decided by a clear gap in double precision, not proved: σ_{r} = {:.1e}, σ_{} = {:.1e}, tolerance {:.1e}",
-            e.sigma_r,
+            "decided by a clear gap in double precision, not proved: σ_{r} = {}, σ_{} = {}, tolerance {}",
+            rough(e.sigma_r),
             r + 1,
-            e.sigma_next,
-            e.tolerance
+            rough(e.sigma_next),
+            rough(e.tolerance)
         );
     }
-    let others = match d.ranks.redundancy {
-        1 => "the remaining row is".to_owned(),
-        p => format!("the {p} remaining rows are"),
-    };
+    let r = r + 1;
     let next = e.sigma_next_extended.unwrap_or(f64::NAN);
+    let (sigma, rounding) = (rough(next), rough(e.tolerance));
     match e.grounds {
         Some("full_rank") if d.ranks.redundancy == 0 => match d.configuration.rows {
-            1 => "proved: the only row is independent".to_owned(),
-            rows => format!("proved: all {rows} rows are independent"),
+            1 => "rank proved: the only row is independent".to_owned(),
+            rows => format!("rank proved: all {rows} rows are independent"),
         },
-        Some("full_rank") => {
-            format!("proved: the rank equals the number of columns; {others} exactly redundant")
+        Some("full_rank") => "rank proved: it equals the number of columns".to_owned(),
+        Some("within_tolerance") => "rank decided only within the stated tolerance".to_owned(),
+        Some("exact") => "rank proved in exact arithmetic".to_owned(),
+        Some("vanishes") => {
+            format!("rank proved: σ_{r} is zero in double-double precision (below 1e-26)")
         }
-        Some("within_tolerance") => {
-            format!("rank {r}: {others} redundant only within the stated tolerance")
-        }
-        Some("exact") => format!("proved in exact arithmetic: {others} exactly redundant"),
-        Some("vanishes") => format!(
-            "rank {r} proved: σ_{} is zero in double-double precision (below 1e-26); {others} exactly redundant",
-            r + 1
-        ),
         _ if next > e.tolerance => format!(
-            "rank {r}: a change of the data by less than a third of their rounding makes σ_{} = {next:.1e} zero; {others} redundant to \
-             within the rounding of the data",
-            r + 1
+            "rank to within rounding: a change of the data by less than a third of their rounding makes σ_{r} = {sigma} zero"
         ),
         // The crate `rank` uses the same bound for entries that vanish.
         _ if next <= 1e-26 => format!(
-            "rank {r} proved: with lever arms below rounding set to zero, σ_{} is zero in double-double precision (below 1e-26); {others} \
-             redundant to within the rounding of the data",
-            r + 1
+            "rank proved to within rounding: with lever arms below rounding set to zero, σ_{r} is zero in double-double precision \
+             (below 1e-26)"
         ),
         _ => format!(
-            "rank {r} proved: σ_{} = {next:.1e} (double-double) is below the rounding error of the data, {:.1e}; {others} \
-             redundant to within rounding",
-            r + 1,
-            e.tolerance
+            "rank proved to within rounding: σ_{r} = {sigma} (double-double), rounding of the data {rounding}"
         ),
     }
 }

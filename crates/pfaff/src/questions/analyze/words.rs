@@ -1,6 +1,7 @@
 //! The document of an analysis as text and tables, with the most important facts for a designer
 //! first.
 
+use model::words::{digits, quantity, rough};
 use std::collections::BTreeSet;
 
 use crate::documents::AnalysisDocument;
@@ -12,7 +13,7 @@ use crate::documents::{
 use super::additions::ADDITIONS;
 use super::phrases::{coordinates, each, hanging, spoken};
 use super::{along, counts, data, deletions, numbers, rank};
-use crate::words::{Block, count, grouped};
+use crate::words::{Block, Cell, count, grouped, load_unit, marked};
 
 /// Number of reasons that are listed.
 const REASONS: usize = 10;
@@ -33,18 +34,16 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
         d.configuration.scene, d.configuration.time
     ))];
     out.extend(if has_lines {
-        verdicts(d)
+        vec![table(d)]
     } else {
         counts::verdicts(d)
     });
     out.push(Block::Gap);
+    out.extend(fragile(d));
+    out.extend(elsewhere(d));
     out.push(size(d));
     out.extend(rank::of(d));
     out.extend(data::of(d));
-    if has_lines {
-        out.push(table(d));
-    }
-    out.extend(fragile(d));
     out.extend(groups(d));
     out.extend(ADDITIONS.iter().flat_map(|addition| addition.words(d)));
     out.extend(centres(d));
@@ -73,9 +72,9 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
     out
 }
 
-/// The size of the analysed mechanism.
+/// The size of the analysed mechanism, and its ranks.
 fn size(d: &AnalysisDocument) -> Block {
-    let c = &d.configuration;
+    let (c, ranks) = (&d.configuration, &d.ranks);
     let velocities = match c.velocities {
         // In the plane both numbers are three for each body.
         n if n == c.coordinates => String::new(),
@@ -86,37 +85,32 @@ fn size(d: &AnalysisDocument) -> Block {
     let rows = count(c.rows, "row", "rows");
     let (holonomic, nonholonomic) = (c.holonomic_rows, c.nonholonomic_rows);
     Block::sentence(format!(
-        "{bodies}, {coordinates}{velocities}, {rows}: {holonomic} holonomic, {nonholonomic} nonholonomic"
+        "{bodies}, {coordinates}{velocities}, {rows} ({holonomic} holonomic, {nonholonomic} nonholonomic): rank {}, redundancy {}, {}",
+        ranks.rank,
+        ranks.redundancy,
+        ranks.freedoms.summary(ranks.mobility),
     ))
 }
 
-/// The names of the reactions by their verdicts.
-fn verdicts(d: &AnalysisDocument) -> Vec<Block> {
-    let mut out = Vec::new();
-    let mut say = |lead: &str, text: String| {
-        if !text.is_empty() {
-            out.push(Block::after(format!("{:<12}", format!("{lead}:")), text));
-        }
-    };
-    let words = ["unique", "not_unique", "undecided"];
-    for word in words {
-        let reactions = d.reactions.iter().filter(|r| r.wrench.verdict == word);
-        let names: Vec<&str> = reactions.map(|r| r.name.as_str()).collect();
-        say(&spoken(word), names.join(", "));
-    }
-    say("FRAGILE", d.fragile_names().join(", "));
-    let differing: Vec<_> = d.reactions.iter().flat_map(|r| r.differing()).collect();
-    let elsewhere = words.iter().filter_map(|word| {
-        let names = differing.iter().filter(|(_, generic)| generic == word);
-        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
-        (!names.is_empty()).then(|| format!("{}: {}", spoken(word), names.join(", ")))
-    });
-    say("elsewhere", elsewhere.collect::<Vec<_>>().join("; "));
-    out
+/// Lists components with other verdicts at other configurations.
+fn elsewhere(d: &AnalysisDocument) -> impl Iterator<Item = Block> {
+    let differing = d.reactions.iter().flat_map(|r| r.differing());
+    let verdicts = grouped(differing.map(|(name, generic)| (generic, name)));
+    verdicts.into_iter().map(|(generic, names)| {
+        let lead = format!("{} elsewhere: ", spoken(generic));
+        Block::after(lead, names.join(", "))
+    })
 }
 
-/// A line for each reaction.
+/// Reactions of the same type with the same verdicts have one line.
 fn table(d: &AnalysisDocument) -> Block {
+    let alike = grouped(d.reactions.iter().map(|r| {
+        let components = match r.wrench.verdict {
+            "unique" => fragile_components(r),
+            _ => each(&r.components) + &oblique(r),
+        };
+        ([r.kind.to_owned(), r.said(), components], r)
+    }));
     let header = [
         "reaction",
         "type",
@@ -125,29 +119,39 @@ fn table(d: &AnalysisDocument) -> Block {
         "margin",
         "components",
     ];
-    Block::table(header, d.reactions.iter().map(line))
+    let lines = alike.into_iter().map(|([kind, verdict, components], all)| {
+        let names = all.iter().map(|r| r.name.clone()).collect();
+        let rows = all.iter().flat_map(|r| ranges(&r.rows)).collect();
+        let margins = all.iter().map(|r| &r.wrench);
+        let least = margins.clone().min_by(|a, b| a.margin.total_cmp(&b.margin));
+        let greatest = margins.max_by(|a, b| a.margin.total_cmp(&b.margin));
+        let [least, greatest] = [least, greatest].map(|v| v.map_or(String::new(), margin));
+        let margin = if least == greatest {
+            least
+        } else {
+            format!("{least} … {greatest}")
+        };
+        [
+            Cell::List(names),
+            kind.into(),
+            Cell::List(rows),
+            verdict.into(),
+            margin.into(),
+            components.into(),
+        ]
+    });
+    Block::table(header, lines)
 }
 
-fn line(r: &ReactionDocument) -> [String; 6] {
-    let adjacent = r.rows.chunk_by(|row, next| row + 1 == *next);
+/// Formats ascending numbers of rows as ranges.
+fn ranges(rows: &[usize]) -> Vec<String> {
+    let adjacent = rows.chunk_by(|row, next| row + 1 == *next);
     let ranges = adjacent.map(|rows| match rows {
         [first, .., last] => format!("{first}–{last}"),
         [row] => row.to_string(),
         [] => String::new(),
     });
-    let rows = ranges.collect::<Vec<_>>().join(", ");
-    let components = match r.wrench.verdict {
-        "unique" => fragile_components(r),
-        _ => each(&r.components) + &oblique(r),
-    };
-    [
-        r.name.clone(),
-        r.kind.to_owned(),
-        rows,
-        r.said(),
-        margin(&r.wrench),
-        components,
-    ]
+    ranges.collect()
 }
 
 /// Lists the ill-determined components of a unique reaction whose other components are well
@@ -185,7 +189,7 @@ fn margin(v: &VerdictDocument) -> String {
             let decimals = if v.margin < 1.0 { 2 } else { 1 };
             format!("{:.decimals$}", v.margin)
         }
-        _ => format!("{:.1e}", v.margin),
+        _ => rough(v.margin),
     }
 }
 
@@ -197,11 +201,13 @@ fn oblique(r: &ReactionDocument) -> String {
     let directions = r.unique_directions.iter().flatten().enumerate();
     let words = directions.filter(|(_, d)| is_oblique(d)).map(|(k, d)| {
         let terms = d.iter().zip(&names).filter(|(x, _)| **x != 0.0);
-        let terms: Vec<String> = terms.map(|(x, name)| format!("{x:.3}·{name}")).collect();
+        let terms: Vec<String> = terms
+            .map(|(x, name)| format!("{}·{name}", digits(*x, 3)))
+            .collect();
         let fragile = r.direction_sensitivities.get(k).map_or("", hanging);
         format!(
             "; {} unique{fragile}",
-            terms.join(" + ").replace("+ -", "− ")
+            terms.join(" + ").replace("+ −", "− ")
         )
     });
     words.collect()
@@ -230,6 +236,14 @@ fn groups(d: &AnalysisDocument) -> Vec<Block> {
     out
 }
 
+/// Formats the number of a value, or states that there is none.
+fn number(value: &ValueDocument, unit: &str) -> String {
+    let number = value.value.in_solution();
+    number.map_or("none".to_owned(), |x| {
+        quantity(x, unit).trim_end().to_owned()
+    })
+}
+
 /// Lists the components of a group: a unique component with its number if it is known, and every
 /// other component with its verdict.
 fn numbers_of(g: &GroupDocument) -> String {
@@ -241,11 +255,11 @@ fn numbers_of(g: &GroupDocument) -> String {
         all.find(|v| v.name == Some(name)).filter(given)
     };
     if let Some(sum) = value("sum") {
-        return format!(": {}", numbers::number(sum.value.in_solution()));
+        return format!(": {}", number(sum, ""));
     }
     let components = g.components.iter().map(|c| match value(c.name) {
         Some(known) => {
-            let (value, fragile) = (numbers::number(known.value.in_solution()), hanging(&c.data));
+            let (value, fragile) = (number(known, load_unit(c.name)), hanging(&c.data));
             format!("{} = {value}{fragile}", c.name)
         }
         None => format!("{} {}", c.name, spoken(c.verdict.verdict)),
@@ -263,23 +277,16 @@ fn numbers_of(g: &GroupDocument) -> String {
 }
 
 /// Lists points about which moments are unique.
-fn centres(d: &AnalysisDocument) -> Vec<Block> {
-    let mut out = Vec::new();
+fn centres(d: &AnalysisDocument) -> Option<Block> {
     let centres = d.reactions.iter().filter_map(|r| {
         let centre = coordinates(r.moment_unique_about.as_ref()?);
         Some((centre, r.name.as_str()))
     });
-    let centres = grouped(centres);
-    for (centre, names) in &centres {
-        let (names, verb) = match names[..] {
-            [name] => (format!("The moment of `{name}`"), "is"),
-            _ => (format!("The moments of `{}`", names.join("`, `")), "are"),
-        };
-        let text =
-            format!("{names} {verb} unique about {centre}, but not about the reference point.");
-        out.extend([Block::Gap, Block::sentence(text)]);
-    }
-    out
+    let centres = grouped(centres).into_iter();
+    let centres = centres.map(|(centre, names)| format!("{} about {centre}", marked(&names)));
+    let centres: Vec<String> = centres.collect();
+    let lead = "moments that are unique, but not about the reference point: ";
+    (!centres.is_empty()).then(|| Block::sentence(format!("{lead}{}", centres.join("; "))))
 }
 
 fn why(d: &AnalysisDocument) -> Vec<Block> {

@@ -1,6 +1,7 @@
 //! Properties of an assembled scene.
 
 use crate::documents::FreedomsDocument;
+use model::words::rough;
 use model::{Mechanism, System};
 use scene::{Diagnostic, Scene};
 use serde::Serialize;
@@ -104,12 +105,12 @@ impl Answer for CheckAnswer {
         ))];
         blocks.extend(self.freedoms.iter().map(Block::sentence));
         let velocity = match self.start_velocity_correction {
-            Some(correction) => format!(", velocity {correction:.1e}"),
+            Some(correction) => format!(", velocity {correction}", correction = rough(correction)),
             None => String::new(),
         };
         blocks.push(Block::sentence(format!(
-            "assembled; initial corrections: position {:.1e}{velocity}",
-            self.start_correction
+            "assembled; initial corrections: position {}{velocity}",
+            rough(self.start_correction)
         )));
         if !self.inactive.is_empty() {
             blocks.push(Block::after("not active: ", self.inactive.join(", ")));

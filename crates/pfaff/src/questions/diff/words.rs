@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use crate::documents::DependencyDocument;
 
 use super::answer::{DiffAnswer, DiffMotion, DiffReaction};
-use crate::words::Block;
+use crate::words::{Block, Cell};
 
 /// Number of bodies whose motion is listed; the document contains all bodies.
 const LISTED: usize = 12;
@@ -109,14 +109,14 @@ fn moved(motion: &DiffMotion) -> Vec<Block> {
     bodies.sort_by(|a, b| b.distance.total_cmp(&a.distance));
     let lines = bodies.iter().take(LISTED).map(|body| {
         [
-            body.body.clone(),
-            format!("{:.1e}", body.distance),
-            format!("{:.3}", body.t_distance),
-            format!("{:.1e}", body.angle),
-            format!("{:.3}", body.t_angle),
+            Cell::from(&body.body),
+            Cell::quantity(body.distance, "m"),
+            format!("{:.3}", body.t_distance).into(),
+            Cell::quantity(body.angle, "rad"),
+            format!("{:.3}", body.t_angle).into(),
         ]
     });
-    let columns = ["body", "place (m)", "at t (s)", "angle (rad)", "at t (s)"];
+    let columns = ["body", "place", "at t (s)", "angle", "at t (s)"];
     let heading = format!(
         "motion to t = {} s, largest difference of each body:",
         motion.t_end

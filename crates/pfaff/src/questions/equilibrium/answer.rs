@@ -9,6 +9,7 @@ use serde::Serialize;
 use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 
 use crate::study::Study;
+use crate::words::SceneUnits;
 
 /// An equilibrium of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,6 +56,9 @@ pub struct EquilibriumAnswer {
     /// Text of the scene file.
     #[serde(skip)]
     pub text_at_rest: String,
+    /// Units of the scene.
+    #[serde(skip)]
+    pub units: SceneUnits,
 }
 
 /// A body at the equilibrium.
@@ -145,6 +149,7 @@ impl EquilibriumAnswer {
             no_reactions_because,
             file: None,
             text_at_rest: String::new(),
+            units: SceneUnits::of(&study.scene),
         }
     }
 }

@@ -1,12 +1,11 @@
 //! Text on the equilibrium.
 
-use model::words::rounded;
+use std::iter;
+
+use model::words::rough;
 
 use super::answer::EquilibriumAnswer;
-use crate::words::{Block, count, marked};
-
-/// Numbers below this fraction of the largest number of their kind are shown as zero.
-const VISIBLE: f64 = 1e-12;
+use crate::words::{Block, Cell, count, load_unit, marked};
 
 pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
     let mut blocks = vec![Block::sentence(found(d)), Block::sentence(stability(d))];
@@ -47,7 +46,10 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
 fn found(d: &EquilibriumAnswer) -> String {
     let balance = match d.residual {
         0.0 => "forces balance".to_owned(),
-        left => format!("forces balance to {left:.1e} of the largest force"),
+        left => format!(
+            "forces balance to {left} of the largest force",
+            left = rough(left)
+        ),
     };
     let steps = count(d.steps, "step", "steps");
     let found = match (d.steps, d.pushes) {
@@ -78,50 +80,60 @@ fn stability(d: &EquilibriumAnswer) -> String {
     }
 }
 
+/// A line of a table: its first cells, named numbers, and its last cells.
+type Line<'a> = (Vec<Cell>, Vec<(&'a str, Cell)>, Vec<Cell>);
+
+/// Builds a table with one column for each name of a number, between other columns.
+fn table(before: &[&str], after: &[&str], lines: &[Line<'_>]) -> Block {
+    let mut names: Vec<&str> = Vec::new();
+    for (name, _) in lines.iter().flat_map(|(_, named, _)| named) {
+        if !names.contains(name) {
+            names.push(name);
+        }
+    }
+    let head = before.iter().chain(&names).chain(after);
+    let head = head.map(|name| Cell::from(*name)).collect();
+    let cells = |(first, named, last): &Line<'_>| {
+        let cell = |name: &&str| {
+            let found = named.iter().find(|(own, _)| own == name);
+            found.map_or(Cell::from(""), |(_, cell)| cell.clone())
+        };
+        let named: Vec<Cell> = names.iter().map(cell).collect();
+        [first.clone(), named, last.clone()].concat()
+    };
+    Block::Table(iter::once(head).chain(lines.iter().map(cells)).collect())
+}
+
 fn bodies(d: &EquilibriumAnswer) -> Block {
-    let places = d.bodies.0.iter().flat_map(|(_, body)| body.at.0.iter());
-    let largest = places.fold(0.0, |a: f64, (_, x)| a.max(x.abs()));
+    let unit = |name: &str| match name {
+        "angle" => "rad",
+        name if name.starts_with('q') => "",
+        _ => "m",
+    };
     let lines = d.bodies.0.iter().map(|(name, body)| {
+        let moved = [("m", body.moved), ("rad", body.turned)];
+        let moved = moved.map(|(unit, x)| Cell::quantity(x, unit));
         let at = body.at.0.iter();
-        let at = at.map(|(name, x)| format!("{name} = {}", short(*x, largest)));
-        [
-            name.clone(),
-            short(body.moved, largest),
-            short(body.turned, 1.0),
-            at.collect::<Vec<_>>().join(", "),
-        ]
+        let at = at.map(|(name, x)| (name.as_str(), Cell::quantity(*x, unit(name))));
+        let first = iter::once(name.into()).chain(moved);
+        (first.collect(), at.collect(), Vec::new())
     });
-    Block::table(
-        ["body", "displacement (m)", "rotation (rad)", "position"],
-        lines,
-    )
+    let before = ["body", "displacement", "rotation"];
+    table(&before, &[], &lines.collect::<Vec<_>>())
 }
 
 fn reactions(d: &EquilibriumAnswer) -> Block {
-    let values = d.reactions.0.iter().flat_map(|(_, r)| r.values.0.iter());
-    let values = values.filter_map(|(_, x)| x.determined());
-    let largest = values.fold(0.0, |a: f64, x| a.max(x.abs()));
     let lines = d.reactions.0.iter().map(|(name, reaction)| {
         let values = reaction.values.0.iter();
         // Components that are not determined have no number.
-        let values = values.map(|(name, x)| match x.determined() {
-            None => format!("{name} = –"),
-            Some(x) => format!("{name} = {}", short(x, largest)),
+        let values = values.map(|(name, x)| {
+            (
+                name.as_str(),
+                Cell::quantity(x.determined(), load_unit(name)),
+            )
         });
-        [
-            name.clone(),
-            values.collect::<Vec<_>>().join(", "),
-            reaction.verdict.verdict.replace('_', " "),
-        ]
+        let verdict = reaction.verdict.verdict.replace('_', " ");
+        (vec![name.into()], values.collect(), vec![verdict.into()])
     });
-    Block::table(["reaction", "value on the first body", "verdict"], lines)
-}
-
-/// Formats a number with six digits; a rounding error relative to the largest number of its kind is
-/// shown as zero.
-fn short(x: f64, largest: f64) -> String {
-    match x.abs() {
-        size if size <= VISIBLE * largest => "0".to_owned(),
-        _ => rounded(x),
-    }
+    table(&["reaction"], &["verdict"], &lines.collect::<Vec<_>>())
 }

@@ -2,7 +2,7 @@
 
 use crate::documents::RunDocument;
 use crate::documents::{ChoiceDocument, MisfitDocument, RunReactionDocument, choice_file};
-use model::words::{listed, rounded};
+use model::words::{listed, rough, rounded};
 
 use super::SimulateAnswer;
 use crate::words::{Block, count};
@@ -34,20 +34,23 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
         1e3 * d.wall_seconds
     ));
     say(format!(
-        "|Φ| ≤ {:.1e}, |C·v − b| ≤ {:.1e}, energy balance {:.1e}",
-        d.max_position_residual, d.max_velocity_residual, d.energy_balance
+        "|Φ| ≤ {}, |C·v − b| ≤ {}, energy balance {}",
+        rough(d.max_position_residual),
+        rough(d.max_velocity_residual),
+        rough(d.energy_balance)
     ));
     if d.energy_balance.is_nan() || d.energy_balance > TRUSTED_BALANCE {
         say(format!(
-            "warning: the error of the energy balance is {:.1e} of the largest kinetic energy: do not trust this run; use \
+            "warning: the error of the energy balance is {} of the largest kinetic energy: do not trust this run; use \
              tighter tolerances",
-            d.energy_balance
+            rough(d.energy_balance)
         ));
     }
     if d.start_correction > 0.0 || d.start_velocity_correction > 0.0 {
         say(format!(
-            "initial corrections: position {:.1e}, velocity {:.1e}",
-            d.start_correction, d.start_velocity_correction
+            "initial corrections: position {}, velocity {}",
+            rough(d.start_correction),
+            rough(d.start_velocity_correction)
         ));
     }
     if d.partial {

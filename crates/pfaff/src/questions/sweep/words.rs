@@ -1,5 +1,6 @@
 //! Text on the runs of a sweep.
 
+use model::words::rough;
 use report::SweepDocument;
 use report::sweep::Runs;
 
@@ -58,8 +59,9 @@ pub(super) fn of(answer: &SweepAnswer) -> Vec<Block> {
         && balance > TRUSTED_BALANCE
     {
         let text = format!(
-            "the energy balance of run {run} is off by {balance:.1e} of its largest kinetic energy: do not trust it, \
-             nor others above {TRUSTED_BALANCE:.0e} in the column `energy_balance`"
+            "the energy balance of run {run} is off by {balance} of its largest kinetic energy: do not trust it, \
+             nor others above {TRUSTED_BALANCE:.0e} in the column `energy_balance`",
+            balance = rough(balance)
         );
         blocks.push(Block::after("warning: ", text));
     }

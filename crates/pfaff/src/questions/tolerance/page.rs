@@ -7,7 +7,7 @@ use crate::documents::{
 use report::page::{add, close, list, open, safe};
 use report::{Provenance, figures};
 
-use super::words::digits;
+use model::words::short;
 
 /// Largest number of reactions and markers that are drawn; the tables contain all.
 const DRAWN: usize = 24;
@@ -130,7 +130,7 @@ fn numbers(page: &mut String, range: Option<&RangeDocument>, reason: Option<&str
         return;
     };
     let [low, middle, high] = range.percentiles;
-    let described = range.described.map_or("–".to_owned(), digits);
+    let described = range.described.map_or("–".to_owned(), short);
     add(page, format_args!("<td>{described}</td>"));
     let cells = [
         range.least,
@@ -142,7 +142,7 @@ fn numbers(page: &mut String, range: Option<&RangeDocument>, reason: Option<&str
         range.deviation,
     ];
     for x in cells {
-        add(page, format_args!("<td>{}</td>", digits(x)));
+        add(page, format_args!("<td>{}</td>", short(x)));
     }
     add(page, format_args!("<td>{}</td>", range.samples));
 }
@@ -192,9 +192,9 @@ fn places(page: &mut String, d: &ToleranceDocument, clouds: &[(String, Vec<[f64;
             format_args!(
                 "<tr><td class=\"name\">{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                 safe(name),
-                digits(1e3 * moved.mean),
-                digits(1e3 * moved.greatest),
-                digits(1e3 * moved.turned)
+                short(1e3 * moved.mean),
+                short(1e3 * moved.greatest),
+                short(1e3 * moved.turned)
             ),
         );
     }
@@ -218,7 +218,7 @@ fn marker_rows(page: &mut String, name: &str, marker: &MarkerRangeDocument) {
             ),
         );
         let distances = match k {
-            0 => [marker.mean, marker.farthest].map(|x| digits(1e3 * x)),
+            0 => [marker.mean, marker.farthest].map(|x| short(1e3 * x)),
             _ => [String::new(), String::new()],
         };
         let [mean, farthest] = distances;

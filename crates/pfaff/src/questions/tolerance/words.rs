@@ -1,9 +1,9 @@
 //! Text on the ranges of verdicts, reactions and positions.
 
-use crate::documents::{ReactionRangeDocument, ToleranceDocument, distance};
-use model::words::rounded;
+use crate::documents::{ReactionRangeDocument, ToleranceDocument};
+use model::words::{estimate, quantity};
 
-use crate::words::Block;
+use crate::words::{Block, Cell};
 
 /// Number of reactions that also have a sentence.
 const IN_WORDS: usize = 3;
@@ -24,7 +24,8 @@ pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
             "as described",
             "least",
             "greatest",
-            "90 % between",
+            "90 % from",
+            "to",
         ];
         let lines = ranged.iter().take(LISTED).filter_map(|r| row(r));
         blocks.push(Block::table(columns, lines));
@@ -48,7 +49,7 @@ fn more(listed: usize) -> Option<Block> {
     )))
 }
 
-fn row(reaction: &ReactionRangeDocument) -> Option<[String; 7]> {
+fn row(reaction: &ReactionRangeDocument) -> Option<[Cell; 8]> {
     let value = reaction.values.first()?;
     let range = value.range.as_ref()?;
     let verdict = match (reaction.fragile, value.unique) {
@@ -56,19 +57,21 @@ fn row(reaction: &ReactionRangeDocument) -> Option<[String; 7]> {
         (false, true) => "unique".to_owned(),
         (false, false) => reaction.verdict.replace('_', " "),
     };
-    let [low, _, high] = range.percentiles.map(digits);
     let what = match value.reading {
-        "exact" => format!("{} ({}), rigid", value.name, value.unit),
-        _ => format!("{} ({})", value.name, value.unit),
+        "exact" => format!("{}, rigid", value.name),
+        _ => value.name.to_owned(),
     };
+    let number = |x: Option<f64>| Cell::quantity(x, value.unit);
+    let [low, _, high] = range.percentiles;
     Some([
-        reaction.name.clone(),
-        verdict,
-        what,
-        range.described.map_or("–".to_owned(), digits),
-        digits(range.least),
-        digits(range.greatest),
-        format!("{low} … {high}"),
+        reaction.name.clone().into(),
+        verdict.into(),
+        what.into(),
+        number(range.described),
+        number(Some(range.least)),
+        number(Some(range.greatest)),
+        number(Some(low)),
+        number(Some(high)),
     ])
 }
 
@@ -76,40 +79,37 @@ fn row(reaction: &ReactionRangeDocument) -> Option<[String; 7]> {
 fn places(d: &ToleranceDocument) -> Vec<Block> {
     let mut blocks = Vec::new();
     for (name, marker) in d.markers.0.iter().take(LISTED) {
-        let (farthest, mean) = (distance(marker.farthest), distance(marker.mean));
+        let (farthest, mean) = (quantity(marker.farthest, "m"), quantity(marker.mean, "m"));
         blocks.push(Block::sentence(match marker.farthest {
             0.0 => format!("marker {name}: no displacement"),
             _ => format!("marker {name}: displaced by up to {farthest}, {mean} on average"),
         }));
     }
     blocks.extend(more(d.markers.0.len()));
-    for (name, measure) in d.measures.0.iter().take(LISTED) {
-        let (range, unit) = (&measure.range, measure.unit);
-        let [least, greatest] = [range.least, range.greatest].map(digits);
-        let described = range.described.map_or(String::new(), |x| {
-            format!(" ({} {unit} as described)", digits(x))
-        });
-        blocks.push(Block::sentence(format!(
-            "measure {name}: {least} … {greatest} {unit}{described}"
-        )));
+    let measures = d.measures.0.iter().take(LISTED).map(|(name, measure)| {
+        let number = |x: Option<f64>| Cell::quantity(x, measure.unit);
+        let range = &measure.range;
+        let [least, greatest] = [range.least, range.greatest].map(Some);
+        let numbers = [range.described, least, greatest].map(number);
+        let [described, least, greatest] = numbers;
+        [name.into(), described, least, greatest]
+    });
+    let measures: Vec<[Cell; 4]> = measures.collect();
+    if !measures.is_empty() {
+        let columns = ["measure", "as described", "least", "greatest"];
+        blocks.push(Block::table(columns, measures));
+        blocks.extend(more(d.measures.0.len()));
     }
-    blocks.extend(more(d.measures.0.len()));
     let bodies = d.bodies.0.iter();
     let farthest = bodies.max_by(|a, b| a.1.greatest.total_cmp(&b.1.greatest));
     if let Some((name, moved)) = farthest
         && moved.greatest > 0.0
     {
         blocks.push(Block::sentence(format!(
-            "largest displacement: body {name}, up to {}, rotated by up to {:.1e} rad",
-            distance(moved.greatest),
-            moved.turned
+            "largest displacement: body {name}, up to {}, rotated by up to {}",
+            quantity(moved.greatest, "m"),
+            estimate(moved.turned, "rad")
         )));
     }
     blocks
-}
-
-/// Formats a number with four significant digits.
-pub(super) fn digits(x: f64) -> String {
-    let short: f64 = format!("{x:.3e}").parse().unwrap_or(x);
-    rounded(short + 0.0)
 }
