@@ -206,8 +206,7 @@ fn the_robot_is_explained() {
     let e = explain(&c.mechanism, &c.s, &c.q, &c.solvability).expect("C is finite");
     assert_eq!(
         e.stresses[0].text,
-        "`W3` and `W4` both prevent `platform` from slipping sideways along the same line; the model does not determine how they \
-         share the load: `W3.N` = 1 N and `W4.N` = −1 N cancel, and `W3.N + W4.N` depends on other reactions that are not determined"
+        "`W3` and `W4` both prevent `platform` from slipping sideways along the same line: `W3.N` = 1 N and `W4.N` = −1 N cancel; `W3.N + W4.N` is not determined, either"
     );
     // A picture needs opposite unit forces on one line.
     let [a, b] = &e.stresses[0].directions[..] else {

@@ -276,6 +276,13 @@ impl SpaceKind {
             .position(|component| *component == name)
     }
 
+    /// Returns the SI unit of the component of this name in the axes of the ground.
+    #[must_use]
+    pub fn load_unit(self, name: &str) -> Option<&'static str> {
+        let is_torque = self.torques().contains(&self.component(name)?);
+        Some(if is_torque { "N·m" } else { "N" })
+    }
+
     /// Returns the axis of the ground, 0 for x to 2 for z, along or about which a component of a
     /// force or a torque acts.
     #[must_use]

@@ -170,6 +170,17 @@ impl Layout {
         columns.iter().all(|j| self.space.is_rotation(*j))
     }
 
+    /// Returns the SI unit of a component of a reaction: of a force, a torque, or the named
+    /// component, which is a torque if all rows are angular.
+    #[must_use]
+    pub fn load_unit(&self, id: ConstraintId, component: &str) -> &'static str {
+        let own = &self.groups[id.0].rows;
+        self.space.load_unit(component).unwrap_or_else(|| {
+            let is_torque = own.iter().all(|row| self.is_angular(row));
+            if is_torque { "N·m" } else { "N" }
+        })
+    }
+
     /// Returns the scaling that makes C dimensionless for a mechanism of this size: columns of
     /// rotations divided by the size, rounded to a power of two. Ranks, dependencies and verdicts
     /// of the scaled C are those of C; margins do not depend on units.

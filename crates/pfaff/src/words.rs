@@ -114,13 +114,14 @@ pub fn marked(names: &[impl AsRef<str>]) -> String {
     names.join(", ")
 }
 
-/// Returns the SI unit of a component of a reaction: names of moments begin with T.
+/// Returns the SI unit of a component of a reaction by its first letter; an empty text for other
+/// names, such as that of a sum.
 #[must_use]
 pub fn load_unit(component: &str) -> &'static str {
-    if component.starts_with('T') {
-        "N·m"
-    } else {
-        "N"
+    match component.chars().next() {
+        Some('T') => "N·m",
+        Some('F' | 'N') => "N",
+        _ => "",
     }
 }
 

@@ -32,7 +32,7 @@ pub enum DeletionError {
     /// Whether some rows may be deleted together depends on a number that is neither certainly zero
     /// nor certainly nonzero.
     #[error(
-        "whether rows can be deleted together depends on a coefficient {value:.3e}, and coefficients are accurate only to {noise:.3e}: use more accurate data or a smaller tolerance"
+        "whether rows can be deleted together depends on a coefficient {value:.1e}, and coefficients are accurate only to {noise:.1e}: use more accurate data or a smaller tolerance"
     )]
     Unclear {
         /// The number.

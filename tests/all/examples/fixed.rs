@@ -55,7 +55,7 @@ fn truss() {
     let bd = -load * mixed / own;
     says("truss", -bd, 2);
     says("truss", root * load + bd, 2);
-    says("truss", (-bd / root) / 100.0, 5);
+    says("truss", -bd / root, 2);
 }
 
 /// The power balance is F·ds = weight·dh with half of each leg, and h² + s² = L².

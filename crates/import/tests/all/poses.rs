@@ -120,7 +120,7 @@ fn axes_are_snapped_before_loops_are_closed() {
         ..Options::default()
     };
     let done = import(&text, &options(Axes::Snapped));
-    let words = "The axis of `D` is tilted by 7.96e-4 rad against `A`, `B` of its loop; it is made";
+    let words = "The axis of `D` is tilted by 0.8 mrad against `A`, `B` of its loop; it is made";
     assert!(
         done.remarks.iter().any(|r| r.starts_with(words)),
         "{:?}",
@@ -151,7 +151,7 @@ fn a_keyframe_that_opens_a_loop_is_told() {
     };
     assert!(!at("shut").iter().any(|r| r.contains("open")));
     let words = format!(
-        "`open` (line 5) leaves loops open, `pin` by {:.3e} m",
+        "`open` (line 5) leaves loops open, `pin` by {:.4} m",
         2.0 * 0.1_f64.sin()
     );
     let remarks = at("open");

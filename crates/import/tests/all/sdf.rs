@@ -130,14 +130,13 @@ fn digits_give_the_tolerance() {
 fn tilted_axes_are_told() {
     let told = |done: &ImportedScene, name: &str, off: &str, end: &str| {
         let found = done.remarks.iter().any(|r| {
-            r.starts_with(&format!("The axis of `{name}` is tilted by {off} rad"))
-                && r.ends_with(end)
+            r.starts_with(&format!("The axis of `{name}` is tilted by {off}")) && r.ends_with(end)
         });
         assert!(found, "{name} {off} {end}: {:#?}", done.remarks);
     };
     let tilted = with_axes("sdf/tilted.sdf", Axes::Snapped);
     // A tilt of 0.1 rad is intended and is not changed.
-    told(&tilted, "C", "1.00e-1", "`A`, `B`, `D` of its loop.");
+    told(&tilted, "C", "0.1 rad", "`A`, `B`, `D` of its loop.");
     assert_eq!(
         tilted
             .remarks
@@ -147,11 +146,11 @@ fn tilted_axes_are_told() {
         1
     );
     let rounded = with_axes("sdf/rounded.sdf", Axes::Told);
-    told(&rounded, "B", "3.67e-6", "(--snap makes it parallel).");
-    told(&rounded, "C", "7.96e-4", "(--snap makes it parallel).");
-    told(&rounded, "D", "7.96e-4", "(--snap makes it parallel).");
+    told(&rounded, "B", "3.7 µrad", "(--snap makes it parallel).");
+    told(&rounded, "C", "0.8 mrad", "(--snap makes it parallel).");
+    told(&rounded, "D", "0.8 mrad", "(--snap makes it parallel).");
     let snapped = with_axes("sdf/rounded.sdf", Axes::Snapped);
-    told(&snapped, "D", "7.96e-4", "it is made parallel.");
+    told(&snapped, "D", "0.8 mrad", "it is made parallel.");
     assert_eq!(
         value(&snapped.scene, "joint", "D", "axis").as_deref(),
         Some("[0.0, 0.0, 1.0]")

@@ -109,7 +109,7 @@ fn edges_that_differ_by_a_rounding_are_judged_and_named() {
         assert_eq!(output.status.code(), Some(0), "{output:?}");
         contains(
             &stdout(&output),
-            &["rank 1", "to within rounding", "left, right"],
+            &["rank at least 1 proved", "rounding", "left, right"],
         );
         let output = with_scene(&["check", "-"], &scene);
         assert_eq!(output.status.code(), Some(0), "{output:?}");

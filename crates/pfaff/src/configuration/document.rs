@@ -74,14 +74,16 @@ impl ConfigurationAnalysis<'_> {
         let judged = groups.iter().map(|(_, verdict)| verdict);
         let pairs: Vec<_> = asked.iter().zip(judged).collect();
         let found = self.sensitivities_of_groups(&pairs, &sensitivities)?;
-        for (group, found) in document.groups.iter_mut().zip(&found) {
-            group.add_sensitivities(found, self.mechanism.layout());
+        let layout = self.mechanism.layout();
+        let described = document.groups.iter_mut().zip(&asked);
+        for ((group, asked), found) in described.zip(&found) {
+            group.unit = asked.unit(layout);
+            group.add_sensitivities(found, layout);
         }
         document.warnings.extend(sensitivities.left_out);
         document.warnings.extend(self.scene.cautions());
         document.add_notes(self.mechanism.layout());
         document.warnings.extend(only_here(&document, self));
-        let layout = self.mechanism.layout();
         let has_drives = layout.groups.iter().any(|group| group.is_drive());
         let freedoms = &mut document.ranks.freedoms;
         // If other configurations were reached, the mechanism can move, unless the search left

@@ -432,11 +432,11 @@ fn summary_has_the_keys_of_the_contract() {
         "misfits": [], "spread": null, "events": [],
         "reactions": {
             "upper": { "verdict": "unique", "sensitivity": 0.25, "fragile": true,
-                "hangs_on": "`upper` is unique but changes by about 25 % if the point of `lower` on its first body moves by 0.20 mm",
+                "hangs_on": "`upper` is unique but changes by about 25 % if the point of `lower` on its first body moves by 0.2 mm",
                 "at_start": { "verdict": "unique", "margin": 0.0, "within_tolerance": false },
                 "components": {
                     "Fx": { "verdict": "unique", "sensitivity": 0.25, "fragile": true,
-                        "hangs_on": "`upper.Fx` is unique but changes by about 25 % if the point of `lower` on its first body moves by 0.20 mm" },
+                        "hangs_on": "`upper.Fx` is unique but changes by about 25 % if the point of `lower` on its first body moves by 0.2 mm" },
                     "Fy": { "verdict": "unique", "sensitivity": null, "fragile": false,
                         "peak": { "value": -3.5, "verdict": "unique", "fragile": false, "sensitivity": null, "time": 0.25, "over": [[0.0, 2.0]] } } } },
             "lower \"2\"": { "verdict": "not_unique", "sensitivity": null, "fragile": false,

@@ -186,7 +186,9 @@ impl<'a> Data<'a> {
             components: {
                 let space = page.mechanism.space();
                 let names = space.components().iter();
-                names.map(|name| (*name, unit(space, name))).collect()
+                names
+                    .map(|name| (*name, space.load_unit(name).unwrap_or_default()))
+                    .collect()
             },
             joints: cast
                 .joints()
@@ -254,7 +256,7 @@ fn components(page: &RunPage<'_>, id: ConstraintId) -> Vec<Component> {
         return wrench
             .map(|(name, track)| Component {
                 name,
-                unit: unit(group.space, name),
+                unit: group.space.load_unit(name).unwrap_or_default(),
                 verdict: track.of_run().word(),
                 determined: if track.of_run().is_unique() {
                     Vec::new()
@@ -270,7 +272,7 @@ fn components(page: &RunPage<'_>, id: ConstraintId) -> Vec<Component> {
         .filter(|c| group.space.component(c.name).is_some())
         .map(|c| Component {
             name: c.name,
-            unit: unit(group.space, c.name),
+            unit: group.space.load_unit(c.name).unwrap_or_default(),
             verdict: c.verdict.verdict,
             determined: Vec::new(),
         })
@@ -389,17 +391,6 @@ pub(super) fn noise(frames: &[Frame]) -> f64 {
 fn largest_force(frames: &[Frame]) -> f64 {
     let all = frames.iter().flat_map(|f| &f.reactions);
     largest(all.flat_map(|r| r.force).filter(|x| x.is_finite()))
-}
-
-fn unit(space: SpaceKind, component: &str) -> &'static str {
-    if space
-        .component(component)
-        .is_some_and(|k| space.torques().contains(&k))
-    {
-        "N·m"
-    } else {
-        "N"
-    }
 }
 
 /// Returns the number of values in a row, weighted so that a recording stays small: the stored

@@ -8,7 +8,7 @@ use model::{ConstraintId, Mechanism, Reaction, System};
 use super::run_page::RunPage;
 use super::{data, verdicts};
 use crate::documents::RunReactionDocument;
-use crate::words::{Printed, Scale, load_unit};
+use crate::words::{Printed, Scale};
 use report::Frame;
 use report::page::{add, safe};
 
@@ -70,9 +70,9 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
         let (name, document) = &run.reactions.0[id.0];
         if document.verdict() == "unique" {
             let peaks = Peaks::of(frames, id, noise);
-            let named = peaks
-                .named
-                .map(|peak| (layout.groups[id.0].spec.component, peak));
+            let component = layout.groups[id.0].spec.component;
+            let unit = layout.load_unit(id, component.unwrap_or_default());
+            let named = peaks.named.map(|peak| (component, unit, peak));
             return PeakLine {
                 name,
                 force: peaks.force,
@@ -87,7 +87,8 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
             let value = peak.value.determined()?;
             let value = if value.abs() <= noise { 0.0 } else { value };
             let t = peak.time;
-            Some((Some(name.as_str()), Peak { value, t }))
+            let unit = layout.load_unit(id, name);
+            Some((Some(name.as_str()), unit, Peak { value, t }))
         });
         PeakLine {
             name,
@@ -127,8 +128,8 @@ struct PeakLine<'a> {
     name: &'a str,
     force: Option<Peak>,
     moment: Option<Peak>,
-    /// Components with their names.
-    components: Vec<(Option<&'a str>, Peak)>,
+    /// Components with their names and units.
+    components: Vec<(Option<&'a str>, &'static str, Peak)>,
     /// When the numbers hold.
     holds: String,
 }
@@ -162,7 +163,7 @@ impl PeakLine<'_> {
         let totals = [(self.force, FORCE), (self.moment, MOMENT)];
         let totals = totals.map(|(peak, unit)| peak.map(|peak| (peak.value, unit)));
         let components = self.components.iter();
-        let components = components.map(|(name, peak)| (peak.value, unit(*name)));
+        let components = components.map(|(_, unit, peak)| (peak.value, *unit));
         totals.into_iter().flatten().chain(components)
     }
 
@@ -179,9 +180,8 @@ impl PeakLine<'_> {
             let label = format!("{label} ({})", scale.unit(unit).0);
             cell(&label, value.as_slice()) + &cell("at (s)", peak.map(|p| short(p.t)).as_slice())
         };
-        let components = self.components.iter().map(|(name, peak)| {
+        let components = self.components.iter().map(|(name, unit, peak)| {
             let prefix = name.map(|n| format!("{} = ", safe(n))).unwrap_or_default();
-            let unit = unit(*name);
             let number = scale.number(peak.value, unit);
             (
                 format!("{prefix}{number} {}", scale.unit(unit).0),
@@ -201,11 +201,6 @@ impl PeakLine<'_> {
             ),
         );
     }
-}
-
-/// Returns the unit of a component; a joint without a name for it has a force.
-fn unit(component: Option<&str>) -> &'static str {
-    component.map_or(FORCE, load_unit)
 }
 
 fn notes(out: &mut String, mechanism: &Mechanism, stride: usize) {

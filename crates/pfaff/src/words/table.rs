@@ -267,7 +267,7 @@ mod tests {
                 "name  force (kN)  load",
                 "a     −3.401      0.02 kN",
                 "bc     0.0125     1.25 MN·m",
-                "d     –           0 kN",
+                "d       –         0 kN",
             ]
         );
         let si = text(&lines, Printed::Si);

@@ -480,7 +480,7 @@ fn runs_starts_and_groups() {
         (
             "t_end = 2.0",
             "t_end = 2.0\noutput_step = «1e-7»",
-            "`[simulate]`: output_step is 1e-7 s: up to t = 2 s this would write 2.000e7 rows, more than 1e7",
+            "`[simulate]`: output_step is 1e-7 s: up to t = 2 s this would write 2e7 rows, more than 1e7",
             "too small for this run",
         ),
         (

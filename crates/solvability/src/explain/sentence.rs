@@ -3,7 +3,7 @@
 use model::{BodyRef, ConstraintId, Layout, Mechanism, Reaction, Scratch, System};
 use rank::Circuit;
 
-use super::{FreeDirection, is_turned};
+use super::FreeDirection;
 use crate::limits::TELLABLE;
 use crate::loads::LoadDescription;
 use crate::matrices::Solvability;
@@ -126,16 +126,9 @@ fn told_components(layout: &Layout, load: &FreeDirection) -> Vec<(&'static str, 
 
 /// Returns the loads on joints as text, for example "`a.Fx` = 1 N" without the quotes.
 fn terms(layout: &Layout, loads: &[FreeDirection]) -> Vec<String> {
-    let space = layout.space;
     let of = |load: &FreeDirection| -> Vec<String> {
         let name = &layout.groups[load.joint.0].name;
-        let unit = |component: &str| {
-            let is_torque = match space.component(component) {
-                Some(k) => !space.forces().contains(&k),
-                None => is_turned(layout, load.joint),
-            };
-            if is_torque { "N·m" } else { "N" }
-        };
+        let unit = |component: &str| layout.load_unit(load.joint, component);
         let told = told_components(layout, load).into_iter();
         told.map(|(c, value)| format!("`{name}.{c}` = {} {}", short(value), unit(c)))
             .collect()

@@ -240,7 +240,8 @@ fn loads_that_cancel_are_told_as_reactions_are() {
         );
         d.joint("roller", &pair[1..], roller([0.0; 2]));
     });
-    let words = "`slot.Fy` = 1 N and `roller.Fy` = 1 N cancel, `slot.Fy - roller.Fy` is determined";
+    let words =
+        "`slot.Fy` = 1 N and `roller.Fy` = 1 N cancel; only `slot.Fy - roller.Fy` is determined";
     assert!(found.ends_with(words), "{found}");
 
     // A force at an arm of 1 m has a moment, which the clamp carries.

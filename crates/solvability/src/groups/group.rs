@@ -1,6 +1,6 @@
 //! Groups of reactions that the user defines.
 
-use model::{ConstraintId, SpaceKind};
+use model::{ConstraintId, Layout, SpaceKind};
 
 use super::error::RequestError;
 
@@ -47,6 +47,19 @@ impl Group {
             Self::Combination(_) => &["sum"],
             Self::WrenchSum(_) | Self::Resultant(_) => space.components(),
         }
+    }
+
+    /// Returns the SI unit of the sum, if all of its terms have the same unit.
+    #[must_use]
+    pub fn unit(&self, layout: &Layout) -> Option<&'static str> {
+        let Self::Combination(terms) = self else {
+            return None;
+        };
+        let mut units = terms
+            .iter()
+            .map(|term| layout.load_unit(term.reaction, &term.component));
+        let first = units.next()?;
+        units.all(|unit| unit == first).then_some(first)
     }
 
     /// Returns the part of the group that belongs to some of the joints and drives, with the ids of

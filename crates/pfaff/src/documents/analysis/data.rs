@@ -210,7 +210,7 @@ mod tests {
             ),
             "{said}"
         );
-        assert!(said.contains("`tolerance = 1.6e-4`"), "{said}");
+        assert!(said.contains("`tolerance = 0.00016`"), "{said}");
         // The text does not recommend a tolerance that has already freed the row.
         let freed = Certificate {
             grounds: Grounds::WithinTolerance,

@@ -138,6 +138,9 @@ pub struct GroupDocument {
     /// The point (m, global components) about which the torque of a sum of wrenches is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub about: Option<Vec<f64>>,
+    /// Unit of the sum of components; absent if its terms have different units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<&'static str>,
     /// Numbers of the combination with their verdicts (N, N·m): the `sum` of components, or the
     /// force and torque; numbers that are not determined have no value.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -343,6 +346,7 @@ impl GroupDocument {
             data: SensitivityDocument::default(),
             components: verdict.components.iter().map(Into::into).collect(),
             about: verdict.about.map(|point| components(verdict.space, point)),
+            unit: None,
             values: Vec::new(),
         }
     }

@@ -49,7 +49,7 @@ mod tests {
         let said = stated(None, Some(1e-5));
         assert_eq!(
             said.as_deref(),
-            Some("angles accurate to 1.0e-5 rad, lengths to rounding")
+            Some("angles accurate to 0.01 mrad, lengths to rounding")
         );
         assert_eq!(stated(None, None), None);
     }

@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn columns_fit_on_a_page() {
         let names: Vec<String> = (0..12).map(|k| format!("platform-{k}.angle")).collect();
-        assert_eq!(chunks(&names), [0..4, 4..8, 8..12]);
+        assert_eq!(chunks(&names), [0..5, 5..10, 10..12]);
         assert_eq!(chunks(&["x".repeat(200)]), [0..1]);
         assert!(chunks(&[]).is_empty());
     }

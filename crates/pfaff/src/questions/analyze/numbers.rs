@@ -1,12 +1,13 @@
 //! Values of reactions for the requested choices.
 
-use crate::documents::{DistributionDocument, ValueDocument, ValuesDocument};
+use crate::documents::{AnalysisDocument, DistributionDocument, ValueDocument, ValuesDocument};
 
 use crate::words::{Block, Cell, load_unit};
 
 /// Components that do not depend on a choice are listed once; components that depend on it have one
 /// column for each choice.
-pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
+pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
+    let choices = &d.answers.choices;
     if choices.is_empty() {
         return Vec::new();
     }
@@ -22,7 +23,12 @@ pub(super) fn of(choices: &[DistributionDocument]) -> Vec<Block> {
     for (i, reaction) in columns_of[0].iter().enumerate() {
         for (j, component) in reaction.components.iter().enumerate() {
             let name = component.name.unwrap_or_default();
-            let number = |v: &ValueDocument| Cell::quantity(v.value.in_solution(), load_unit(name));
+            let sum = d
+                .groups
+                .iter()
+                .find(|g| name == "sum" && g.name == reaction.name);
+            let unit = sum.map_or(load_unit(name), |sum| sum.unit.unwrap_or_default());
+            let number = |v: &ValueDocument| Cell::quantity(v.value.in_solution(), unit);
             let mut cells = vec![reaction.name.as_str().into(), name.into()];
             if component.value.of_choice().is_none() {
                 cells.push(number(component));

@@ -22,7 +22,18 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
     nearly(d).into_iter().for_each(&mut say);
     elsewhere(d).into_iter().for_each(&mut say);
     for (lead, motions) in grouped(d.ranks.freedoms.sentences()) {
-        blocks.push(Block::after(format!("  {lead}: "), motions.join("; also ")));
+        // Motions of several bodies contain semicolons.
+        let is_short = motions.iter().all(|motion| !motion.contains(';'));
+        let lines = if is_short {
+            vec![motions.join("; also ")]
+        } else {
+            motions
+        };
+        blocks.extend(
+            lines
+                .into_iter()
+                .map(|text| Block::after(format!("  {lead}: "), text)),
+        );
     }
     let continuation = d.answers.continuation.iter();
     blocks.extend(continuation.map(|c| Block::after("  ", &c.text)));
@@ -37,7 +48,7 @@ fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
     let e = &d.evidence;
     let said = match &e.reason {
         Some(reason) => format!("UNDECIDED in one part: {reason}"),
-        None if e.certified => "the rank of each part is proved".to_owned(),
+        None if e.certified => "the rank of each part is certified".to_owned(),
         None => format!(
             "decided by a clear gap in double precision, not all proved: smallest σ_r = {}",
             rough(e.sigma_r)
@@ -82,6 +93,7 @@ fn proof(d: &AnalysisDocument) -> String {
             rough(e.tolerance)
         );
     }
+    let at_least = format!("rank at least {r} proved");
     let r = r + 1;
     let next = e.sigma_next_extended.unwrap_or(f64::NAN);
     let (sigma, rounding) = (rough(next), rough(e.tolerance));
@@ -94,18 +106,17 @@ fn proof(d: &AnalysisDocument) -> String {
         Some("within_tolerance") => "rank decided only within the stated tolerance".to_owned(),
         Some("exact") => "rank proved in exact arithmetic".to_owned(),
         Some("vanishes") => {
-            format!("rank proved: σ_{r} is zero in double-double precision (below 1e-26)")
+            format!("{at_least}; σ_{r} is zero in double-double precision (below 1e-26)")
         }
         _ if next > e.tolerance => format!(
-            "rank to within rounding: a change of the data by less than a third of their rounding makes σ_{r} = {sigma} zero"
+            "{at_least}; a change of the data by less than a third of their rounding makes σ_{r} = {sigma} zero"
         ),
         // The crate `rank` uses the same bound for entries that vanish.
         _ if next <= 1e-26 => format!(
-            "rank proved to within rounding: with lever arms below rounding set to zero, σ_{r} is zero in double-double precision \
-             (below 1e-26)"
+            "{at_least}; with lever arms below rounding set to zero, σ_{r} is zero in double-double precision (below 1e-26)"
         ),
         _ => format!(
-            "rank proved to within rounding: σ_{r} = {sigma} (double-double), rounding of the data {rounding}"
+            "{at_least}; σ_{r} = {sigma} (double-double) is below the rounding of the data, {rounding}"
         ),
     }
 }

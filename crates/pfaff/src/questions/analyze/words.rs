@@ -39,7 +39,11 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
         counts::verdicts(d)
     });
     out.push(Block::Gap);
-    out.extend(fragile(d));
+    let fragile = fragile(d);
+    if !fragile.is_empty() {
+        out.extend(fragile);
+        out.push(Block::Gap);
+    }
     out.extend(elsewhere(d));
     out.push(size(d));
     out.extend(rank::of(d));
@@ -49,7 +53,7 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
     out.extend(centres(d));
     out.extend(why(d));
     out.extend(deletions::of(d, hints));
-    out.extend(numbers::of(&d.answers.choices));
+    out.extend(numbers::of(d));
     out.extend(d.answers.along.iter().flat_map(along::of));
     let is_new = |warning: &&String| {
         let reason = d.evidence.reason.as_ref();
@@ -121,7 +125,7 @@ fn table(d: &AnalysisDocument) -> Block {
     ];
     let lines = alike.into_iter().map(|([kind, verdict, components], all)| {
         let names = all.iter().map(|r| r.name.clone()).collect();
-        let rows = all.iter().flat_map(|r| ranges(&r.rows)).collect();
+        let rows = all.iter().map(|r| ranges(&r.rows)).collect();
         let margins = all.iter().map(|r| &r.wrench);
         let least = margins.clone().min_by(|a, b| a.margin.total_cmp(&b.margin));
         let greatest = margins.max_by(|a, b| a.margin.total_cmp(&b.margin));
@@ -143,15 +147,15 @@ fn table(d: &AnalysisDocument) -> Block {
     Block::table(header, lines)
 }
 
-/// Formats ascending numbers of rows as ranges.
-fn ranges(rows: &[usize]) -> Vec<String> {
+/// Formats ascending numbers of rows as ranges, such as `59 and 65–66`.
+fn ranges(rows: &[usize]) -> String {
     let adjacent = rows.chunk_by(|row, next| row + 1 == *next);
     let ranges = adjacent.map(|rows| match rows {
         [first, .., last] => format!("{first}–{last}"),
         [row] => row.to_string(),
         [] => String::new(),
     });
-    ranges.collect()
+    ranges.collect::<Vec<_>>().join(" and ")
 }
 
 /// Lists the ill-determined components of a unique reaction whose other components are well
@@ -255,7 +259,7 @@ fn numbers_of(g: &GroupDocument) -> String {
         all.find(|v| v.name == Some(name)).filter(given)
     };
     if let Some(sum) = value("sum") {
-        return format!(": {}", number(sum, ""));
+        return format!(": {}", number(sum, g.unit.unwrap_or_default()));
     }
     let components = g.components.iter().map(|c| match value(c.name) {
         Some(known) => {

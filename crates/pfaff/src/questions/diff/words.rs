@@ -111,12 +111,12 @@ fn moved(motion: &DiffMotion) -> Vec<Block> {
         [
             Cell::from(&body.body),
             Cell::quantity(body.distance, "m"),
-            format!("{:.3}", body.t_distance).into(),
+            Cell::quantity(body.t_distance, "s"),
             Cell::quantity(body.angle, "rad"),
-            format!("{:.3}", body.t_angle).into(),
+            Cell::quantity(body.t_angle, "s"),
         ]
     });
-    let columns = ["body", "place", "at t (s)", "angle", "at t (s)"];
+    let columns = ["body", "place", "at t", "angle", "at t"];
     let heading = format!(
         "motion to t = {} s, largest difference of each body:",
         motion.t_end

@@ -94,7 +94,7 @@ fn motors_of_two_speeds_are_named_at_the_start() {
     let [one] = found.as_slice() else {
         panic!("{found:?}");
     };
-    let text = "at t = 0 s drives `left` and `right` contradict each other: they ask for different velocities, which differ by 3.000e-1 m/s (`left` asks the displacement of `rail-left` to change \
+    let text = "at t = 0 s drives `left` and `right` contradict each other: they ask for different velocities, which differ by 0.3 m/s (`left` asks the displacement of `rail-left` to change \
                 at 0.3 m/s and `right` asks the displacement of `rail-right` to change at 0.6 m/s, and row 2 (`rail-left`, angle) ties them to each \
                 other). Redundant drives must follow the same motion; delete or correct one of them";
     assert_eq!(one.to_string(), text);
@@ -280,7 +280,7 @@ fn locked_door(motion: Function) -> Description {
 fn a_drive_that_asks_for_what_joints_forbid_is_named_with_them() {
     let found = at_start(&locked_door(rate(2.0)));
     let text = "at t = 0 s drive `motor` asks the angle of `hinge` to change at 2 rad/s, which differs from what rows 2 (`hinge`, y) and 4 (`third`, y) \
-                allow by 2.000e0 rad/s. The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a \
+                allow by 2 rad/s. The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a \
                 singular configuration. Begin at another configuration, or prescribe another motion";
     assert_eq!(
         found.iter().map(ToString::to_string).collect::<Vec<_>>(),

@@ -333,7 +333,7 @@ fn small_large_and_far_linkages_are_told_alike() {
     for (size, centre, far) in [
         (1e-3, "(0.001848, 0.004928, 0)", [0.0; 3]),
         (1e3, "(1848, 4928, 0)", [0.0; 3]),
-        (1.0, "(1.000e6, 4.928, 0)", [1e6, 0.0, 0.0]),
+        (1.0, "(1000000, 4.928, 0)", [1e6, 0.0, 0.0]),
     ] {
         let s = scaled_four_bar(size, Pose::new(far, [1.0, 0.0, 0.0, 0.0]));
         tells(&s, &[&FOUR_BAR.replace("(1.848, 4.928, 0)", centre)]);
