@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
-use crate::words::{self, Block, Printed, SceneUnits, count};
+use crate::words::{self, Block, SceneUnits, UnitSystem, count};
 
 /// A question; its fields are the options. The comments of the fields are also the help of the
 /// command.
@@ -332,12 +332,12 @@ pub trait AnyAnswer: Send {
 
 impl<A: Answer> AnyAnswer for A {
     fn text(&self, is_verbose: bool, is_si: bool) -> String {
-        let printed = if is_si {
-            Printed::Si
+        let units = if is_si {
+            UnitSystem::Si
         } else {
-            Printed::Scene(self.units())
+            UnitSystem::Scene(self.units())
         };
-        words::text(&self.words(), is_verbose, printed)
+        words::text(&self.words(), is_verbose, units)
     }
 
     fn ending(&self) -> Ending {

@@ -3,7 +3,7 @@
 mod table;
 
 pub(crate) use table::Scale;
-pub use table::{Cell, Printed, SceneUnits};
+pub use table::{Cell, SceneUnits, UnitSystem};
 
 use std::iter;
 
@@ -67,7 +67,7 @@ impl Block {
 /// Converts the blocks to text. Sentences follow each other; there is an empty line before headings
 /// and around tables that have no heading.
 #[must_use]
-pub fn text(blocks: &[Block], is_verbose: bool, printed: Printed) -> String {
+pub fn text(blocks: &[Block], is_verbose: bool, units: UnitSystem) -> String {
     let mut out = String::new();
     let mut before: Option<&Block> = None;
     for block in blocks {
@@ -90,10 +90,10 @@ pub fn text(blocks: &[Block], is_verbose: bool, printed: Printed) -> String {
             Block::Legend(words, text) => out.push_str(&wrapped(&format!("{words}: "), text)),
             Block::Heading(words) => out.push_str(&wrapped("", words)),
             Block::Sentence { lead, text } => out.push_str(&wrapped(lead, text)),
-            Block::Table(lines) => out.push_str(&table::columns(lines, printed)),
+            Block::Table(lines) => out.push_str(&table::columns(lines, units)),
             // A detail within a detail.
             Block::Detail(inner) => {
-                out.push_str(&text(std::slice::from_ref(inner), is_verbose, printed))
+                out.push_str(&text(std::slice::from_ref(inner), is_verbose, units));
             }
         }
         before = Some(block);
@@ -186,16 +186,16 @@ mod tests {
             Block::sentence("end"),
         ];
         let expected = "one\n- two\n\na  bc\n1  2\na: letter\nthree\n\nnext:\na  bc\n1  2\n\na  bc\n1  2\n\nend\n";
-        assert_eq!(text(&blocks, false, Printed::Si), expected);
+        assert_eq!(text(&blocks, false, UnitSystem::Si), expected);
         let detail = [Block::sentence("one"), Block::detail("- ", "two")];
-        assert_eq!(text(&detail, false, Printed::Si), "one\n");
-        assert_eq!(text(&detail, true, Printed::Si), "one\n- two\n");
+        assert_eq!(text(&detail, false, UnitSystem::Si), "one\n");
+        assert_eq!(text(&detail, true, UnitSystem::Si), "one\n- two\n");
     }
 
     #[test]
     fn lines_of_a_sentence_begin_below_its_first_word() {
         let long = "word ".repeat(40);
-        let lines = text(&[Block::after("note: ", long)], false, Printed::Si);
+        let lines = text(&[Block::after("note: ", long)], false, UnitSystem::Si);
         let widths: Vec<usize> = lines.lines().map(|line| line.chars().count()).collect();
         assert_eq!(widths.len(), 3);
         assert!(widths.iter().all(|width| *width <= 100), "{widths:?}");

@@ -1,4 +1,4 @@
-//! Printed kernels: inputs first, then shared parts with their names, then outputs.
+//! UnitSystem kernels: inputs first, then shared parts with their names, then outputs.
 
 use quote::quote;
 use symbolic::Scalar;

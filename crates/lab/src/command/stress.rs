@@ -14,7 +14,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{OutputDirectory, OutputFile, TableError, write_json};
 
-use pfaff::words::{self, Block, Printed};
+use pfaff::words::{self, Block, UnitSystem};
 use pfaff_cli::console::Console;
 use pfaff_cli::input::unknown;
 use pfaff_cli::interrupt::Interrupt;
@@ -99,7 +99,7 @@ fn list(families: &[Family]) -> String {
     words::text(
         &[Block::table(["family", "about"], lines)],
         false,
-        Printed::Si,
+        UnitSystem::Si,
     )
 }
 

@@ -8,7 +8,7 @@ use model::{ConstraintId, Mechanism, Reaction, System};
 use super::run_page::RunPage;
 use super::{data, verdicts};
 use crate::documents::RunReactionDocument;
-use crate::words::{Printed, Scale};
+use crate::words::{Scale, UnitSystem};
 use report::Frame;
 use report::page::{add, safe};
 
@@ -100,7 +100,7 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     });
     let lines: Vec<PeakLine<'_>> = lines.collect();
     let numbers = lines.iter().flat_map(PeakLine::numbers);
-    let scale = Scale::new(numbers, Printed::Scene(page.scene.units));
+    let scale = Scale::new(numbers, UnitSystem::Scene(page.scene.units));
     let [force, moment] = [FORCE, MOMENT].map(|unit| scale.unit(unit).0);
     add(
         out,

@@ -75,14 +75,14 @@ impl SceneUnits {
 
 /// Units of printed quantities.
 #[derive(Clone, Copy, Debug)]
-pub enum Printed {
+pub enum UnitSystem {
     /// Units of the scene, otherwise SI units with prefixes.
     Scene(SceneUnits),
     /// SI units without prefixes.
     Si,
 }
 
-impl Printed {
+impl UnitSystem {
     /// Returns the unit for numbers up to this size in an SI unit, and its value in the SI unit.
     #[must_use]
     pub fn unit(&self, largest: f64, si: &str) -> (String, f64) {
@@ -99,14 +99,14 @@ impl Printed {
 /// Aligns lines of cells in columns; the first line is the header. All quantities of a table in the
 /// same SI unit have the same prefix. If all quantities of a column have the same unit, the header
 /// contains it.
-pub(super) fn columns(lines: &[Vec<Cell>], printed: Printed) -> String {
+pub(super) fn columns(lines: &[Vec<Cell>], units: UnitSystem) -> String {
     let n = lines.iter().map(Vec::len).max().unwrap_or(0);
     let lines: Vec<Vec<Cell>> = lines.iter().flat_map(|line| unfolded(line)).collect();
     let quantities = lines.iter().flatten().filter_map(|cell| match cell {
         Cell::Quantity(Some(value), unit) => Some((*value, *unit)),
         _ => None,
     });
-    let scale = Scale::new(quantities, printed);
+    let scale = Scale::new(quantities, units);
     let columns = (0..n).map(|k| scale.column(&lines, k));
     let columns: Vec<Vec<String>> = columns.collect();
     let width = |cells: &Vec<String>| cells.iter().map(|cell| cell.chars().count()).max();
@@ -151,7 +151,7 @@ fn folded(words: &[String]) -> Vec<Cell> {
 
 /// Prefixes of units for a set of quantities.
 pub(crate) struct Scale {
-    printed: Printed,
+    units: UnitSystem,
     /// SI units, each with the size of its largest number.
     largest: Vec<(&'static str, f64)>,
 }
@@ -160,7 +160,7 @@ impl Scale {
     /// Chooses the prefixes for these numbers in SI units.
     pub(crate) fn new(
         numbers: impl IntoIterator<Item = (f64, &'static str)>,
-        printed: Printed,
+        units: UnitSystem,
     ) -> Self {
         let mut largest: Vec<(&str, f64)> = Vec::new();
         for (value, unit) in numbers {
@@ -170,7 +170,7 @@ impl Scale {
                 None => largest.push((unit, size)),
             }
         }
-        Self { printed, largest }
+        Self { units, largest }
     }
 
     fn largest(&self, unit: &str) -> f64 {
@@ -211,7 +211,7 @@ impl Scale {
 
     /// Returns the printed unit for an SI unit, and its value in the SI unit.
     pub(crate) fn unit(&self, si: &str) -> (String, f64) {
-        self.printed.unit(self.largest(si), si)
+        self.units.unit(self.largest(si), si)
     }
 
     /// Formats a number in the printed unit, without the unit.
@@ -247,8 +247,8 @@ mod tests {
         Cell::quantity(value, "N")
     }
 
-    fn text(lines: &[Vec<Cell>], printed: Printed) -> Vec<String> {
-        let text = columns(lines, printed);
+    fn text(lines: &[Vec<Cell>], units: UnitSystem) -> Vec<String> {
+        let text = columns(lines, units);
         text.lines().map(str::to_owned).collect()
     }
 
@@ -260,7 +260,7 @@ mod tests {
             vec!["bc".into(), force(12.5), Cell::quantity(1.25e6, "N·m")],
             vec!["d".into(), Cell::quantity(None, "N"), force(1e-12)],
         ];
-        let scene = text(&lines, Printed::Scene(SceneUnits::default()));
+        let scene = text(&lines, UnitSystem::Scene(SceneUnits::default()));
         assert_eq!(
             scene,
             [
@@ -270,7 +270,7 @@ mod tests {
                 "d       –         0 kN",
             ]
         );
-        let si = text(&lines, Printed::Si);
+        let si = text(&lines, UnitSystem::Si);
         assert_eq!(si[1], "a     −3401           20 N");
     }
 
@@ -288,7 +288,7 @@ mod tests {
                 Cell::quantity(2e-3, "rad"),
             ],
         ];
-        let all = text(&lines, Printed::Scene(units));
+        let all = text(&lines, UnitSystem::Scene(units));
         assert_eq!(all[0], "place (mm)  speed (mm/s)  angle (mrad)");
         assert_eq!(all[1], "1500        20            2");
     }

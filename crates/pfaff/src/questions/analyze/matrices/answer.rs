@@ -5,6 +5,12 @@ use serde::Serialize;
 
 use crate::configuration::ConfigurationAnalysis;
 
+/// Kind of the rows of Φq.
+pub(super) const PHI_Q: &str = "holonomic";
+
+/// Kind of the rows of Ψ.
+pub(super) const PSI: &str = "nonholonomic";
+
 /// The constraint matrix C = (Φq; Ψ) and Γ of C·v̇ = Γ.
 ///
 /// In space, the columns of Φq belong to velocities and angular velocities in place of the
@@ -67,11 +73,7 @@ impl MatricesDocument {
             number: label.number,
             joint: label.joint.clone(),
             name: label.row,
-            kind: if i < layout.m {
-                "holonomic"
-            } else {
-                "nonholonomic"
-            },
+            kind: if i < layout.m { PHI_Q } else { PSI },
         });
         let c = (0..layout.rows()).map(|i| {
             let mut row = vec![0.0; layout.n_v];
@@ -86,12 +88,11 @@ impl MatricesDocument {
         }
     }
 
-    /// Returns the rows of Φq and of Ψ with their names.
-    pub(super) fn by_level(&self) -> (Vec<(String, &[f64])>, Vec<(String, &[f64])>) {
+    /// Returns the named rows of one kind.
+    pub(super) fn rows_of(&self, kind: &str) -> Vec<(String, &[f64])> {
         let rows = self.rows.iter().zip(&self.c);
-        let named = rows.map(|(row, entries)| (row, (row.label(), entries.as_slice())));
-        let (phi_q, psi): (Vec<_>, Vec<_>) = named.partition(|(row, _)| row.kind == "holonomic");
-        let entries = |rows: Vec<(_, _)>| rows.into_iter().map(|(_, row)| row).collect();
-        (entries(phi_q), entries(psi))
+        let own = rows.filter(|(row, _)| row.kind == kind);
+        own.map(|(row, entries)| (row.label(), entries.as_slice()))
+            .collect()
     }
 }
