@@ -1,5 +1,5 @@
-//! Helpers of several tests: numbers, and the mechanisms of `lab`. Test data are in this package;
-//! the tests are in `all/`.
+//! Helpers of several tests: pseudo-random numbers, and the mechanisms of `lab`. Test data are in
+//! this package; the tests are in `all/`.
 
 pub use lab::mechanisms::{cranks, revolute, robot, rod, sketch};
 pub use suite::numbers;

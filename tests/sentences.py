@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Draw sentences from the prose of the repository, for readers who have seen nothing else.
+"""Draw sentences from the prose of the repository, for readers who know nothing else of it.
 
-    python3 tests/sentences.py 200 > sentences.txt
+python3 tests/sentences.py 200 > sentences.txt
 
-The sources are Markdown pages, doc comments of Rust and docstrings of Python, help texts and texts of
-errors. The seed is the hash of the commit, so that the same commit gives the same sentences.
+The sources are Markdown pages, doc comments of Rust, docstrings of Python, help texts and error
+messages. The seed is the hash of the commit, so that the same commit gives the same sentences.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ OMITTED = ("THIRD-PARTY.md", "/generated", "docs/api/", "tables.md", "table.md",
 
 
 def git(*arguments: str) -> str:
-    """Return what git prints."""
+    """Return the output of git."""
     done = subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, check=True, encoding="utf-8")
     return done.stdout
 
@@ -73,7 +73,7 @@ def sentences() -> list[str]:
 
 
 def main() -> None:
-    """Print as many sentences as asked for, numbered."""
+    """Print the requested number of sentences, numbered."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
     draw = random.Random(git("rev-parse", "HEAD").strip())
     for number, sentence in enumerate(draw.sample(sentences(), count), 1):

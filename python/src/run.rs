@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::fault::exception;
 
-/// Kind of a column, its owner and its number.
+/// Kind, owner and quantity of a column.
 pub(crate) type Column = (String, String, String);
 
 /// Rows that are recorded during the run.
@@ -120,7 +120,7 @@ impl Run {
     }
 }
 
-/// Returns an array of n rows that takes ownership of the numbers.
+/// Returns an array of n rows that takes ownership of the values.
 pub(crate) fn by_rows(py: Python<'_>, mut numbers: Vec<f64>, n: usize) -> Py<PyArray2<f64>> {
     let columns = numbers.len().checked_div(n).unwrap_or(0);
     numbers.truncate(n * columns);

@@ -1,4 +1,4 @@
-"""Scenes of the repository, and the command if it is there."""
+"""Scenes of the repository, and the command `pfaff`, if it is available."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ joint = [
 simulate = { t_end = 2.0 }
 """
 
-# What begins in the background of a shell ignores interrupts, and so would its children: the tests
-# that interrupt would wait for ever.
+# A program that is started in the background of a shell ignores interrupts, and so do its children.
+# The tests that interrupt would then never end.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def with_keywords(text: str) -> str:
-    """A text of the command with keywords in place of its options."""
+    """Returns a text of the command with keywords in place of its options."""
     text = re.sub(r"`--([a-z][a-z-]*) ", lambda m: f"`{m[1].replace('-', '_')}=", text)
     return re.sub(r"--([a-z][a-z-]*)", lambda m: m[1].replace("-", "_"), text)
 
@@ -59,21 +59,21 @@ class Command:
         self.path = path
 
     def run(self, *arguments: str | Path, stdin: str = "") -> subprocess.CompletedProcess[str]:
-        """Its output for these arguments."""
+        """Returns the output for these arguments."""
         words = [str(self.path), *map(str, arguments)]
         return subprocess.run(
             words, input=stdin, capture_output=True, encoding="utf-8", check=False, timeout=600
         )
 
     def document(self, *arguments: str | Path, stdin: str = "") -> dict[str, Any]:
-        """Its answer with `--json`."""
+        """Returns the answer with `--json`."""
         document: dict[str, Any] = json.loads(self.run(*arguments, "--json", stdin=stdin).stdout)
         return document
 
 
 @pytest.fixture(scope="session")
 def command() -> Command:
-    """The command; without one the tests that compare with it are skipped."""
+    """Returns the command; without it, tests that compare with the command are skipped."""
     path = _binary()
     if path is None:
         pytest.skip("the command has not been built: cargo build -p pfaff-cli")

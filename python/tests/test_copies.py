@@ -1,4 +1,4 @@
-"""Results in pickles, for pools of processes, and copies."""
+"""Tests copies of results, and pickles of results for pools of processes."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ WAYS: dict[str, Callable[[Any], Any]] = {
 
 
 def sleigh() -> pfaff.Analysis:
-    """A fresh analysis, of which nothing was asked."""
+    """Returns a new analysis, from which no result has been requested."""
     return pfaff.Scene.from_string(SLEIGH).analyze()
 
 
 def questions(of: pfaff.Analysis) -> list[Any]:
-    """What an analysis answers by words, by its document, and by further computation."""
+    """Returns results of an analysis: texts, the document, and results of further computation."""
     left = of.verdicts["left"]
     return [
         repr(of),
@@ -66,7 +66,7 @@ def test_a_verdict_answers_the_same_again(way: Callable[[Any], Any]) -> None:
 
 
 def test_a_pickle_has_what_was_computed() -> None:
-    """Reading it analyses nothing: not what is refused by now, nor what has taken long."""
+    """Reading a pickle computes nothing: its analysis would now be rejected or would take long."""
     analysis = sleigh()
     document = analysis.document
     dumped = pickle.dumps(analysis)
@@ -89,7 +89,7 @@ def test_an_analysis_at_another_time_keeps_it() -> None:
 
 
 def _same(one: Any, other: Any) -> None:
-    """All attributes agree, arrays bit by bit."""
+    """Checks that all attributes agree; arrays agree bit by bit."""
     assert type(one) is type(other)
     own, others = vars(one), vars(other)
     assert own.keys() == others.keys()

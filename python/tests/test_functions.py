@@ -1,4 +1,4 @@
-"""Functions of Python as laws of drives and as forces on bodies: closed forms, and what is refused."""
+"""Python functions as laws of drives and as forces on bodies: closed forms and rejected input."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_a_controlled_slider_is_a_linear_oscillator(method: str | None) -> None:
 
 
 def test_a_controlled_pendulum_is_held() -> None:
-    """Gravity is taken away by the motor, and a PD controller brings it to 0.5 rad, critically damped."""
+    """The motor cancels gravity; a critically damped PD controller ends at 0.5 rad."""
     inertia, arm, mass, g, aim = 0.1 + 1.0, 1.0, 1.0, 9.81, 0.5
     gain = 44.0
     damping = 2.0 * math.sqrt(gain * inertia)
@@ -91,7 +91,7 @@ def test_a_function_moves_as_the_same_text() -> None:
     np.testing.assert_allclose(called.reactions, written.reactions, rtol=0, atol=1e-13)
     again = oscillator().simulate(method="dop853", drives={"motor": spring})
     np.testing.assert_array_equal(again.trajectory, called.trajectory)
-    # The scene is as it was.
+    # The scene has not changed.
     still = oscillator().simulate()
     np.testing.assert_allclose(still.body("mass").velocity[:, 0], SPEED)
 
@@ -112,7 +112,7 @@ def test_a_function_of_time_and_numbers_of_numpy() -> None:
 
 
 def test_the_measure_is_that_of_the_drive() -> None:
-    """The angle of the bodies, not the change since the start."""
+    """The function receives the angle of the bodies, not the change since the start."""
     scene = (
         pfaff.Scene("wheel")
         .body("wheel", mass=1.0, inertia=0.4, angle=0.7, angular_velocity=2.0)
@@ -130,7 +130,7 @@ def test_the_measure_is_that_of_the_drive() -> None:
 
 
 def test_a_body_is_pushed_in_the_plane() -> None:
-    """Wind on a puck, and a torque against its turning."""
+    """Wind acts on a puck, and a torque acts against its rotation."""
     drag, wind, mass, inertia, spin = 0.5, 3.0, 2.0, 0.1, 4.0
     scene = pfaff.Scene("puck").body("puck", mass=mass, inertia=inertia, angular_velocity=spin)
     seen: list[pfaff.BodyState] = []
@@ -155,7 +155,7 @@ def test_a_body_is_pushed_in_the_plane() -> None:
 
 
 def test_a_body_is_pushed_in_space() -> None:
-    """A constant force, and a torque along the axis of a block that is turned by 90° about x."""
+    """A force and a torque along one axis act on a block that is rotated by 90° about x."""
     half = math.sqrt(0.5)
     scene = pfaff.Scene("block", space="spatial").body(
         "block", mass=2.0, inertia=[0.5, 0.8, 0.6], orientation={"quaternion": [half, half, 0.0, 0.0]}
@@ -163,7 +163,7 @@ def test_a_body_is_pushed_in_space() -> None:
 
     def push(t: float, body: pfaff.BodyState) -> np.ndarray:
         assert body.position.shape == body.velocity.shape == body.angular_velocity.shape == (3,)
-        # The y axis of the block points upwards.
+        # The y-axis of the block points upwards.
         np.testing.assert_allclose(body.rotation[:, 1], [0.0, 0.0, 1.0], atol=1e-9)
         assert math.isnan(body.angle)
         return np.array([1.0, 0.0, -3.0, 0.0, 0.0, 0.4])
@@ -227,7 +227,7 @@ def test_what_is_no_number_stops_the_run_by_name(returned: Any, words: str) -> N
     at = re.search(r"at t = ([0-9.]+) s", text)
     assert at is not None and 0.5 <= float(at[1]) < 1.0, text
     assert "measure = " in text and "rate = " in text
-    # The rows before it are there.
+    # The rows before this time exist.
     assert error.run is not None and error.run.partial
     assert 0.0 < error.run.t[-1] <= 0.5
     np.testing.assert_allclose(error.run.body("wheel").angular_velocity, 2.5 * error.run.t, atol=1e-9)
@@ -305,18 +305,18 @@ def test_functions_are_not_called_after_the_run() -> None:
     _ = (run.body("wheel").position, run.reaction("shaft").force, run.document, repr(run))
     gc.collect()
     assert calls == made
-    # The run keeps its functions, for its page; nothing else does.
+    # Only the run refers to its functions, because its page needs them.
     known = weakref.ref(motor)
     del run, motor
     gc.collect()
     assert known() is None
-    # A callback ends the run in order.
+    # A callback ends the run without an error.
     part = wheel().simulate(drives={"motor": lambda t, x, v: 1.0}, on_row=lambda t: t >= 0.5)
     assert part.partial and part.t[-1] == 0.5
 
 
 def test_several_functions_have_one_clock() -> None:
-    """Two wheels that nothing connects are moved as one: their functions are called by one thread."""
+    """Two wheels without connection are moved together: one thread calls their functions."""
     scene = pfaff.Scene("two")
     for k in range(2):
         scene = scene.body(f"wheel{k}", mass=1.0, inertia=0.4, position=[float(k), 0.0])
@@ -358,7 +358,7 @@ def test_ctrl_c_is_heard(seconds: float) -> None:
 
 
 def test_other_threads_go_on() -> None:
-    """While a run with a function goes, another one and a counter go on."""
+    """During a run with a function, another run and a counter make progress."""
     found: list[np.ndarray] = []
 
     def go() -> None:

@@ -1,4 +1,4 @@
-"""Memory that does not suffice, Ctrl-C during any work, and processes that were forked."""
+"""Tests insufficient memory, Ctrl-C during any computation, and forked processes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LINUX = pytest.mark.skipif(sys.platform != "linux", reason="reads what Linux sta
 
 
 def chain(bodies: int) -> str:
-    """A chain of bodies in the plane as a text."""
+    """Returns a chain of bodies in the plane as a text."""
     lines = ["scene = { name = 'chain', space = 'plane', gravity = [0.0, -9.81] }"]
     for k in range(bodies):
         at = f"position = [{k + 0.5}, 0.0]"
@@ -57,7 +57,7 @@ MEMORY = """
     ids=["matrices", "rows", "reading"],
 )
 def test_what_does_not_fit_is_refused_before_it_is_taken(text: str, call: str, words: str) -> None:
-    """In a process with an address space of 1 GB: an allocation that fails would abort it."""
+    """The process has an address space of 1 GB: an allocation that fails would abort it."""
     code = textwrap.dedent(MEMORY).format(call=call)
     child = [sys.executable, "-W", "error", "-c", code, "1024"]
     done = subprocess.run(child, input=text, capture_output=True, text=True, check=False, timeout=120)
@@ -90,7 +90,7 @@ def test_a_limit_of_memory(call: Callable[[pfaff.Scene, Any], object]) -> None:
 
 
 def test_a_limit_of_memory_is_that_of_the_command(command: Command, tmp_path: Path) -> None:
-    """Also where the scene is known already."""
+    """The same holds if the scene has already been assembled."""
     path = tmp_path / "chain.toml"
     path.write_text(chain(300), encoding="utf-8")
     scene = pfaff.Scene.from_file(path)
@@ -134,7 +134,7 @@ LONG = """
 @POSIX
 @pytest.mark.parametrize("kind", ["check", "analyze", "document", "matrices", "import", "simulate_of"])
 def test_ctrl_c_is_heard_by_work_that_does_not_ask(kind: str) -> None:
-    """Each call takes some seconds without Ctrl-C, in the quick profile."""
+    """Without Ctrl-C, each call would take some seconds in the quick profile."""
     text = chain(30_000)
     if kind == "import":
         body = "<body name='b{0}' pos='0 0 {0}'><joint type='hinge' axis='0 1 0'/><geom size='0.1' mass='1'/></body>"
@@ -146,13 +146,13 @@ def test_ctrl_c_is_heard_by_work_that_does_not_ask(kind: str) -> None:
     begun = time.monotonic()
     done = subprocess.run(child, input=text, capture_output=True, text=True, check=False, timeout=120)
     assert done.stdout, done.stderr
-    # Work that asks has 0.5 s to end by itself; a busy machine needs some more.
+    # A computation that checks for Ctrl-C has 0.5 s to end; a busy machine needs more time.
     assert float(done.stdout) < 2.0
     assert time.monotonic() - begun < 60.0
 
 
 def _answers(text: str) -> tuple[int, int, int, int]:
-    """What a scene answers, by work on several threads."""
+    """Returns results of a scene that are computed on several threads."""
     scene = pfaff.Scene.from_string(text)
     analysis = scene.analyze()
     pendulum = pfaff.Scene.from_string(PENDULUM)
@@ -167,12 +167,12 @@ def _answers(text: str) -> tuple[int, int, int, int]:
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
 def test_a_forked_process_computes() -> None:
-    """Its parent has started threads, which a forked process does not have."""
+    """The parent has started threads, which do not exist in a forked process."""
     text = chain(600)
     expected = _answers(text)
     with get_context("fork").Pool(2) as pool:
         asked = pool.map_async(_answers, [text] * 3)
         assert asked.get(timeout=60.0) == [expected] * 3
-        # A worker that is asked again, after the parent has computed again.
+        # A worker computes again, after the parent has computed again.
         assert _answers(text) == expected
         assert pool.apply_async(_answers, [text]).get(timeout=60.0) == expected

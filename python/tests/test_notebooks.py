@@ -1,4 +1,4 @@
-"""Notebooks: well formed, as they are shown, and every cell runs."""
+"""Notebooks are well formed and complete, and every cell runs."""
 
 from __future__ import annotations
 
@@ -44,9 +44,9 @@ def test_the_form_of_a_notebook(path: Path) -> None:
     outputs = [output for cell in code for output in cell["outputs"]]
     pictures = [output["data"]["image/png"] for output in outputs if "image/png" in output.get("data", {})]
     assert pictures and max(map(len, pictures)) < 60_000
-    # Numbers in sentences are asserted.
+    # Numbers in sentences must be asserted.
     assert sum("assert " in "".join(cell["source"]) for cell in code) >= 5
-    # Nothing of the machine that has run it, and nothing that only one shell knows.
+    # A notebook must not contain properties of one machine, or commands of one shell.
     assert not re.search(r"0x[0-9a-f]{6}|/home/|/root/|/tmp/|^ *\"[%!]", text, re.MULTILINE)
 
 

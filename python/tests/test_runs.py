@@ -1,4 +1,4 @@
-"""Runs: closed forms, arrays, what is not unique, callbacks, Ctrl-C."""
+"""Runs: closed forms, arrays, reactions that are not unique, callbacks, Ctrl-C."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_a_pendulum_hangs_on_its_pivot() -> None:
     acceleration = -mass * g * np.cos(angle) / (mass + inertia)
     radial, across = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
     pull = mass * (across * acceleration - radial * rate2) + np.array([[0.0], [mass * g]])
-    # On the first body, the ground.
+    # The reaction acts on the first body, the ground.
     np.testing.assert_allclose(run.reaction("pivot").force, -pull.T, atol=1e-6)
     np.testing.assert_allclose(run.reaction("pivot").torque, 0.0, atol=1e-12)
 
@@ -69,7 +69,7 @@ def test_what_is_not_unique_is_not_a_number() -> None:
     scene = pfaff.Scene.from_string(SLEIGH)
     run = scene.simulate()
     for name in ("left", "right"):
-        # Along the blade there is no force under any load; but the blade turns.
+        # Along the blade there is no force under any load, but the direction of the blade changes.
         assert scene.analyze().verdicts[name].components["Fx"].unique
         assert np.isnan(run.reaction(name).force).all()
         assert np.isnan(run.reaction(name)["N"]).all()
@@ -78,7 +78,7 @@ def test_what_is_not_unique_is_not_a_number() -> None:
     dropped = scene.simulate(choose=[1])
     for run in (kept, dropped):
         assert np.isfinite(run.reactions).all()
-    # Sideways acceleration of a body that runs straight ahead and turns: v·omega.
+    # The sideways acceleration of a body that moves straight ahead and rotates is v·omega.
     sides = [run.reaction("left")["N"] + run.reaction("right")["N"] for run in (kept, dropped)]
     for side in sides:
         np.testing.assert_allclose(np.abs(side), 3.0 * 1.0 * 0.5, rtol=1e-6)
@@ -102,7 +102,7 @@ def test_choices_of_a_run(tmp_path: Path) -> None:
     left, right = (
         [choice.reaction(name)["N"] for choice in run.choices] for name in ("left", "right")
     )
-    # Springs in parallel share v·omega·m by their stiffness.
+    # Parallel springs share v·omega·m in proportion to their stiffness.
     for k, share in enumerate([1 / 2, 3 / 4, 0.0, 1 / 2]):
         np.testing.assert_allclose(np.abs(left[k]), share * 1.5, rtol=1e-6)
         np.testing.assert_allclose(np.abs(left[k] + right[k]), 1.5, rtol=1e-6)
@@ -112,7 +112,7 @@ def test_choices_of_a_run(tmp_path: Path) -> None:
     for name in ("Fx", "Fy"):
         own = run.choices[1].reaction("left")[name][-1]
         assert abs(own - at_end["left"][name]) < 1e-7
-    # A single choice is that of the arrays of the run.
+    # A single choice also determines the arrays of the run.
     alone = scene.simulate(choose=soft)
     np.testing.assert_array_equal(alone.reactions, run.choices[1].reactions)
     written = scene.simulate_into(tmp_path, choose=asked[:2])
@@ -126,7 +126,7 @@ def test_choices_of_a_run(tmp_path: Path) -> None:
 
 
 def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
-    """The cart of the book: at the start across is y; as it turns, x and y both have a share."""
+    """The cart of the book: y is across it at the start; later the force has x and y components."""
     cart = (
         pfaff.Scene("cart", space="plane")
         .body("cart", mass=10.0, inertia=1.0, velocity=[1.0, 0.0], angular_velocity=1.0)
@@ -157,10 +157,10 @@ def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
     for document in (run.document, along):
         special = {(s["time"], s["name"], s["component"], s["verdict"]) for s in document["special"]}
         assert {(0.0, "left", "Fx", "unique"), (0.0, "right", "Fx", "unique")} <= special
-    # Across is x after a quarter turn: the force along y is zero there.
+    # After a quarter turn, x is across the cart, so the force along y is zero.
     quarter = [s for s in along["special"] if (s["name"], s["component"]) == ("left", "Fy")]
     np.testing.assert_allclose([s["time"] for s in quarter], [math.pi / 2.0], atol=1e-6)
-    # The sum is m·v·omega, to the left of the cart, on its first body.
+    # The sum is m·v·omega, to the left of the cart; it acts on the first body.
     both, angle = run.group("both"), run.body("cart").angle
     across = np.column_stack((-np.sin(angle), np.cos(angle)))
     force = np.column_stack((both["Fx"], both["Fy"]))
@@ -171,14 +171,14 @@ def test_verdicts_of_a_run_are_those_of_its_stretch() -> None:
     assert run.reaction_columns[-4:] == ["both.Fx", "both.Fy", "both.T", "side"]
     assert not run.document["groups"]["side"]["fragile"]
     assert run.document["groups"]["side"]["sensitivity"] < 0.1
-    # One verdict for several joints has no number.
+    # A verdict on several joints has no value.
     assert run.document["groups"]["wheels"]["verdict"] == "not_unique"
     with pytest.raises(pfaff.InputError, match="there is no group with numbers `wheels`"):
         run.group("wheels")
 
 
 def upright_cranks() -> pfaff.Scene:
-    """Three equal cranks carry a coupler; one pivot is written as two guides. Upright at the start."""
+    """Three upright equal cranks carry a coupler; one pivot is written as two guides."""
     scene = pfaff.Scene("three cranks", space="plane", gravity=[0.0, -10.0])
     names = ("one", "two", "three")
     for x, name in enumerate(names):
@@ -213,7 +213,7 @@ def test_what_is_unique_at_the_start_only_has_no_number() -> None:
     assert run.document["reactions"]["guide-x"]["at_start"]["verdict"] == "unique"
     special = [s for s in run.document["special"] if s["name"] == "guide-x"]
     assert [(s["time"], s["verdict"]) for s in special if s["component"] == "Fx"] == [(0.0, "unique")]
-    # Two choices differ, on one motion: the number was the choice's.
+    # The motion is the same for two choices, but the value differs: it depends on the choice.
     runs = [scene.simulate(0.4, choose=rows) for rows in scene.analyze().eliminations()["sets"]]
     ends = [run.reaction("guide-x")["Fx"][-1] for run in runs]
     assert len(runs) > 1 and np.ptp(ends) > 10.0
@@ -241,7 +241,7 @@ def test_an_impulse_has_verdicts() -> None:
     np.testing.assert_allclose(pin["Fy"]["value"], 3.0 * math.cos(2.0))
     assert motor["drive"]["verdict"] == "unique"
     np.testing.assert_allclose(motor["drive"]["value"], 3.0 * (0.3 + 2.0 * 0.5**2))
-    # Two pins at one place share it in any way.
+    # Two coincident pins share the impulse in an undetermined way.
     run = wheel.joint("other", "revolute", **both).simulate(2.0)
     [impulses] = [event.impulses for event in run.events if event.kind == "impulse"]
     for name in ("pin", "other"):
@@ -345,7 +345,7 @@ def test_ctrl_c_ends_other_long_work(call: Callable[[pfaff.Scene], object]) -> N
     with pytest.raises(KeyboardInterrupt):
         call(robot)
     assert time.monotonic() - begun < 5.0
-    # Nothing goes on computing: the processors rest soon.
+    # No computation continues: the processors are soon idle.
     time.sleep(1.0)
     used = time.process_time()
     time.sleep(0.5)
@@ -353,7 +353,7 @@ def test_ctrl_c_ends_other_long_work(call: Callable[[pfaff.Scene], object]) -> N
 
 
 def test_samples_of_a_beam() -> None:
-    """A beam on a hinge and a roller: the roller carries m·g·a/l, with a and l within tolerances."""
+    """A beam on a hinge and a roller: the roller carries m·g·a/l; a and l have tolerances."""
     beam = (
         pfaff.Scene("beam", gravity=[0.0, -10.0], tolerance=1e-3)
         .body("beam", mass=2.0, inertia=1.0, position=[1.0, 0.0])
@@ -364,7 +364,7 @@ def test_samples_of_a_beam() -> None:
     samples = beam.tolerance(200, seed=3)
     assert len(samples) == 200 and "200" in repr(samples)
     load = samples["roller.Fy"]
-    # On the ground, so downwards; the hinge may be 2 mm nearer, and so may the slot.
+    # The force on the ground acts downwards. The hinge may be 2 mm nearer, and so may the slot.
     assert np.isfinite(load).all() and 0.0 < np.ptp(load) < 10.0 * 4.0 * 2e-3
     np.testing.assert_allclose(load, -10.0, atol=4e-2)
     np.testing.assert_allclose(load + samples["hinge.Fy"], -20.0, rtol=1e-9)
@@ -404,7 +404,7 @@ def test_error_against_run_time() -> None:
 
 
 def test_other_threads_go_on() -> None:
-    """Two runs and a counter at once: the interpreter is free while a run goes."""
+    """During two runs and a counter, the interpreter is not blocked."""
     scene = pfaff.Scene.from_string(PENDULUM)
     found: list[np.ndarray] = []
     ends = threading.Event()
@@ -460,7 +460,7 @@ def test_pages(tmp_path: Path) -> None:
     assert page.lower().startswith("<!doctype html>") and "sleigh" in page
     assert "t = 1" in page or "1 s" in page
     assert "interrupted" not in page
-    # To the same end as the run: ended by a callback, or stopped by itself.
+    # The repeated run ends at the same time as the run, which a callback or an error has ended.
     scene.simulate(1.0, on_row=lambda t: t >= 0.5).report(tmp_path / "part.html")
     part = (tmp_path / "part.html").read_text(encoding="utf-8")
     assert "interrupted" in part and len(part) < len(page)
@@ -491,7 +491,8 @@ def test_names_that_do_not_exist() -> None:
 def test_matrices_of_a_pendulum() -> None:
     scene = pfaff.Scene.from_string(PENDULUM)
     matrices = scene.matrices()
-    # The pivot is at (−1, 0) of the body: its velocity is (vx, vy − ω), whatever the sign of the rows.
+    # The pivot is at (−1, 0) of the body: its velocity is (vx, vy − ω), whatever the sign of the
+    # rows.
     rows = matrices.C * np.sign(matrices.C[:, :2].sum(axis=1))[:, None]
     np.testing.assert_allclose(rows, [[1.0, 0.0, 0.0], [0.0, 1.0, -1.0]], atol=1e-15)
     np.testing.assert_array_equal(matrices.M, np.diag([1.0, 1.0, 0.1]))
@@ -500,7 +501,7 @@ def test_matrices_of_a_pendulum() -> None:
     np.testing.assert_allclose(matrices.Phi, 0.0, atol=1e-15)
     np.testing.assert_array_equal(matrices.Gamma, 0.0)
     turning = scene.matrices(q=[1.0, 0.0, 0.0], v=[0.0, 2.0, 2.0])
-    # Towards the pivot with ω²·l.
+    # The force points towards the pivot, with ω²·l.
     assert abs(turning.Gamma).max() == pytest.approx(4.0)
     saddle = np.block([[turning.M, turning.C.T], [turning.C, np.zeros((2, 2))]])
     a = np.linalg.solve(saddle, np.concatenate((turning.Q, turning.Gamma)))[:3]
@@ -518,7 +519,7 @@ def test_small_motions_of_a_pendulum() -> None:
 
 
 def test_a_run_in_a_child_process() -> None:
-    """Started after a run here: threads of the parent are not in the child."""
+    """The process starts after a run in the parent, whose threads do not exist in the child."""
     pfaff.Scene.from_string(PENDULUM).simulate()
     code = "import pickle, sys, pfaff; scene = pickle.loads(sys.stdin.buffer.read()); print(len(scene.simulate()))"
     text = pickle.dumps(pfaff.Scene.from_string(PENDULUM))

@@ -1,4 +1,4 @@
-"""Verdicts, motions, messages: the same documents as those of the command."""
+"""Verdicts, motions and messages: the documents equal those of the command."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from conftest import EXAMPLES, PENDULUM, ROOT, Command, with_keywords
 
 import pfaff
 
-# What a run of another program cannot have in common.
+# Properties that differ between the runs of two programs.
 OWN = {"wall_seconds", "files", "rows", "version"}
 
 
@@ -80,7 +80,7 @@ def test_a_later_time_and_a_tolerance(command: Command) -> None:
 def _table(path: Path) -> tuple[list[str], np.ndarray[Any, Any]]:
     with path.open(encoding="utf-8", newline="") as file:
         header, *rows = csv.reader(file)
-    # What is not determined is an empty cell.
+    # The cell of a component that is not determined is empty.
     return header, np.array([[float(x or "nan") for x in row] for row in rows])
 
 
@@ -89,7 +89,7 @@ def test_motions(path: Path, command: Command, tmp_path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     if "simulate" not in text:
         pytest.skip("the scene has no run")
-    # Files for people take longer than the run.
+    # Writing the files for readers takes longer than the run.
     done = command.run("simulate", path, "--out", tmp_path / "run", "--json")
     assert done.returncode == 0, done.stderr
     scene = pfaff.Scene.from_file(path)
@@ -108,7 +108,7 @@ def test_motions(path: Path, command: Command, tmp_path: Path) -> None:
         own = table[:, [columns.index(column) for column in known]]
         np.testing.assert_array_equal(run.t, expected[:, 0])
         np.testing.assert_array_equal(own, expected[:, 1:])
-    # Where a number is determined, it is the same by every choice.
+    # A determined component has the same value for every choice.
     determined = np.isfinite(run.reactions)
     np.testing.assert_array_equal(run.reactions[determined], chosen.reactions[determined])
     has_choice = (tmp_path / "run" / "choice.csv").exists()
@@ -245,21 +245,21 @@ def test_documents_have_the_keys_of_their_schemas(path: Path, tmp_path: Path) ->
         try:
             document = ask()
         except pfaff.Error:
-            # Not every scene rests, moves, or has such a number.
+            # Some scenes have no equilibrium, no motion, or no such value.
             continue
         _has_keys_of(name, document)
 
 
 def _has_keys_of(name: str, document: dict[str, Any]) -> None:
     SCHEMAS[name].validate(document)
-    # A schema that permits anything else would say nothing.
+    # A schema that permits any other key would be useless.
     assert set(document) <= set(SCHEMAS[name].schema["properties"])
 
 
 def test_documents_of_many_runs_have_the_keys_of_their_schemas() -> None:
     scene = pfaff.Scene.from_string(PENDULUM)
     _has_keys_of("work_precision", scene.work_precision(quick=True).document)
-    # The second mass is refused.
+    # The second mass is rejected.
     _has_keys_of("sweep", scene.sweep("body.bob.mass=1,-1").document)
 
 
@@ -339,7 +339,7 @@ def test_work_precision(command: Command, tmp_path: Path) -> None:
     assert found.document.keys() == expected.keys() and own.keys() == other.keys()
     for key in ("name", "title", "reference", "automatic"):
         assert own[key] == other[key], key
-    # Run times differ, and with them what is told of them.
+    # Run times differ, and so do the sentences about them.
     measured = ("seconds", "repetitions")
     for rows in (own["rows"], other["rows"]):
         for row in rows:

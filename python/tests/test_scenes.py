@@ -1,4 +1,4 @@
-"""Scenes: the builder, other numbers, errors; hostile input has named exceptions."""
+"""Scenes: the builder, changed values, errors; invalid input raises exceptions of named classes."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_a_door_on_two_hinges() -> None:
     upper = analysis.verdicts["upper"]
     assert not upper.unique and upper.verdict == "not_unique"
     assert list(analysis.verdicts) == ["upper", "lower"]
-    # The hinges share the load along the line through both; across it each is determined.
+    # The hinges share the load along the line through both; across it, each load is determined.
     assert upper.components["Fx"].unique and not upper.components["Fy"].unique
     assert upper.directions is not None
     np.testing.assert_allclose(np.abs(upper.directions), [[1.0, 0.0]], atol=1e-12)
@@ -67,7 +67,7 @@ AGAIN = (
 
 
 def test_couplings_have_their_own_force() -> None:
-    """An arm at rest below its pivot, and a seat of 3 kg that does not turn, 0.25 m off its hinge."""
+    """An arm at rest below its pivot; a seat of 3 kg at 0.25 m from its hinge does not rotate."""
     swing = pfaff.Scene.from_string(SWING % "").analyze()
     verdict = swing.verdicts["level"]
     assert verdict.unique and not verdict.fragile
@@ -86,7 +86,7 @@ def test_couplings_have_their_own_force() -> None:
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_directions_are_rows(path: Path) -> None:
-    """As many columns as the joint has components, in space six; also if there is no row."""
+    """There are as many columns as components (six in space), even if there is no row."""
     analysis = pfaff.Scene.from_file(path).analyze()
     is_spatial = analysis.document["velocities"] == 6 * analysis.document["bodies"]
     for verdict in analysis.verdicts.values():
@@ -96,7 +96,7 @@ def test_directions_are_rows(path: Path) -> None:
             continue
         columns = 6 if is_spatial else len(components)
         assert directions.shape == (len(verdict.document["unique_directions"]), columns)
-        # Independent; one for each row where the whole reaction is unique.
+        # The rows are independent; there is one for each row of a joint with a unique reaction.
         assert len(directions) == 0 or np.linalg.matrix_rank(directions) == len(directions)
         assert len(directions) <= len(verdict.rows)
         if verdict.unique:
@@ -175,7 +175,7 @@ def test_texts_are_written_as_they_are() -> None:
     try:
         assert scene.bodies == [odd]
     except pfaff.SceneError as e:
-        # Some characters are refused by the reader, not by a broken text.
+        # The reader rejects some characters; the text remains valid otherwise.
         assert e.code is not None and "TOML" not in str(e)
     tidy = 'a "b" \\ \u00e4'
     assert pfaff.Scene("s").body(tidy, mass=1, inertia=1).bodies == [tidy]
@@ -325,7 +325,7 @@ WRONG_TYPES: list[tuple[Any, str]] = [
 
 @pytest.mark.parametrize(("call", "words"), WRONG_TYPES, ids=[words for _, words in WRONG_TYPES])
 def test_wrong_types(call: Any, words: str) -> None:
-    """The argument, what is given, what is needed."""
+    """The exception names the argument, the given type and the required type."""
     with pytest.raises(TypeError, match=words) as raised:
         call(pfaff.Scene.from_string(PENDULUM))
     error = raised.value
@@ -350,7 +350,7 @@ def test_no_panic_leaves_the_package(capfd: pytest.CaptureFixture[str]) -> None:
 
 
 def test_two_analyses_at_once() -> None:
-    """Each thread with scenes of its own and with one that all share."""
+    """Each thread uses separate scenes and one scene that all threads share."""
     texts = [PENDULUM, SLEIGH]
     shared = [pfaff.Scene.from_string(text) for text in texts]
     expected = [scene.analyze().document for scene in shared]
@@ -372,7 +372,7 @@ def test_two_analyses_at_once() -> None:
 
 
 def test_a_mechanism_that_cannot_move() -> None:
-    """Two pivots 1e-9 m apart can be judged, but not moved."""
+    """Two pivots 1e-9 m apart can be analysed, but not moved."""
     bar = (
         pfaff.Scene("bar")
         .body("bar", mass=1.0, inertia=1.0, position=[1.0, 0.0])
@@ -436,13 +436,13 @@ def test_the_example_of_the_package() -> None:
 
 BOOK = ROOT / "docs" / "book"
 WITH_BLOCKS = [page for page in sorted(BOOK.glob("*.md")) if "```python\n" in page.read_text(encoding="utf-8")]
-# What the first page writes may be read by the others.
+# The other pages may read the files that the first page writes.
 PAGES = {page.stem: [BOOK / "python.md", page] for page in [*WITH_BLOCKS, ROOT / "README.md"]}
 
 
 @pytest.mark.parametrize("pages", PAGES.values(), ids=PAGES.keys())
 def test_pages_of_the_book(pages: list[Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The blocks of a page run one after the other."""
+    """The code blocks of a page run one after the other."""
     monkeypatch.chdir(tmp_path)
     for page in pages:
         text = page.read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Sweeps: the table of the command, whoever makes the runs and whatever is killed on the way."""
+"""Sweeps: the table equals that of the command, for any engine and after any lost process."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ from pfaff.cluster import SweepResult
 SCENE = pfaff.Scene.from_string(PENDULUM.replace("t_end = 1.0", "t_end = 0.2"), "pendulum.toml")
 VARY = {"body.bob.mass": "1:3:20", "scene.gravity[1]": [-9.81, -1.62]}
 
-# Long enough that something can be killed before its end.
+# The sweep takes long enough that a process can be ended during it.
 LONG = pfaff.Scene.from_string(PENDULUM.replace("t_end = 1.0", "t_end = 2.0"), "pendulum.toml")
 MANY = {"body.bob.mass": "1:3:3000"}
 
 
 def _same(one: SweepResult, other: SweepResult) -> None:
-    """All bits agree, except for the time that runs took."""
+    """Checks that all bits agree, except for the run times."""
     assert list(one.table) == list(other.table)
     for name, column in one.table.items():
         if name != "seconds":
@@ -40,13 +40,13 @@ def _same(one: SweepResult, other: SweepResult) -> None:
 
 @pytest.fixture(scope="module")
 def whole() -> SweepResult:
-    """The sweep, made by this process."""
+    """Returns the sweep, performed in this process."""
     return SCENE.sweep(VARY)
 
 
 @pytest.fixture(scope="module")
 def many() -> SweepResult:
-    """The long sweep, made by this process."""
+    """Returns the long sweep, performed in this process."""
     return LONG.sweep(MANY)
 
 
@@ -72,7 +72,7 @@ def test_the_table_is_that_of_the_command(
             assert column.tolist() == texts
         else:
             np.testing.assert_array_equal(column, np.array(texts, dtype=float))
-    # The command finds nothing to do in a directory of Python, and the other way round.
+    # The command finds no unfinished run in a directory of Python, and vice versa.
     own = SCENE.sweep(VARY, tmp_path / "own")
     assert own.made == 40 and own.directory == str(tmp_path / "own")
     before = {file.name: file.read_bytes() for file in (tmp_path / "own" / "shards").iterdir()}
@@ -144,7 +144,7 @@ def test_progress_ends_a_sweep_and_it_is_resumed(many: SweepResult, tmp_path: Pa
 
 
 def _script(body: str, *arguments: str | Path) -> subprocess.Popen[str]:
-    """A Python of its own in a group of its own."""
+    """Starts a separate Python process in a separate process group."""
     words = [sys.executable, "-W", "error", "-c", textwrap.dedent(body), *map(str, arguments)]
     return subprocess.Popen(
         words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
@@ -152,7 +152,7 @@ def _script(body: str, *arguments: str | Path) -> subprocess.Popen[str]:
 
 
 def _rows(folder: Path) -> int:
-    """Number of finished runs in journals and shards."""
+    """Returns the number of finished runs in journals and shards."""
     runs: set[bytes] = set()
     for path in [*folder.glob("shards/*.journal"), *folder.glob("shards/*.rows")]:
         try:
@@ -190,7 +190,7 @@ def test_ctrl_c_is_heard(tmp_path: Path) -> None:
 
 
 def _killed_during_a_run(scene: Path, out: Path) -> None:
-    """Begins the sweep in a process, which is ended while it makes a run, as a full memory would."""
+    """Starts the sweep in a process that is killed during a run, as if memory were exhausted."""
     before = set(out.glob("shards/*.journal"))
     body = """
         import sys, pfaff
@@ -217,14 +217,14 @@ def test_a_crashed_run_is_made_again_when_that_is_asked_for(tmp_path: Path) -> N
     scene = pfaff.Scene.from_string(PENDULUM, "scene.toml")
     scene.write(path)
     vary = {"simulate.t_end": [0.1, 10000.0, 0.2]}
-    # Once among others, and twice alone.
+    # The run ends its process once among other runs, and twice alone.
     for _ in range(3):
         _killed_during_a_run(path, out)
     crashed = scene.sweep(vary, out)
     assert crashed.table["status"].tolist() == ["done", "crashed", "done"]
     (failure,) = crashed.failures
     assert failure["run"] == 2 and "the process ended twice" in failure["error"]
-    # It stays one, until it is asked for again; then no other run is made.
+    # The run remains crashed until it is requested again; then no other run is performed.
     assert scene.sweep(vary, out).made == 0
     again = scene.sweep(vary, out, retry_crashed=True)
     assert (again.made, again.document["done"], again.document["crashed"]) == (1, 3, 0)
@@ -251,9 +251,9 @@ def test_executors(kind: str, whole: SweepResult, tmp_path: Path) -> None:
 def test_the_number_of_shards_is_chosen(tmp_path: Path) -> None:
     with ThreadPoolExecutor(3) as executor:
         pfaff.cluster.sweep(SCENE, VARY, executor, out=tmp_path)
-        # Cheap runs: a shard for each worker.
+        # If runs are short, there is one shard for each worker.
         assert len(list(tmp_path.glob("shards/*.rows"))) == 3
-        # That of the directory is kept.
+        # The number of shards of an existing directory is kept.
         (tmp_path / "shards" / "01-13.rows").unlink()
         result = pfaff.cluster.sweep(SCENE, VARY, executor, out=tmp_path)
     assert result.made == 13
@@ -261,11 +261,11 @@ def test_the_number_of_shards_is_chosen(tmp_path: Path) -> None:
 
 
 class KilledWorker(Exception):
-    """What Dask raises when a task has lost its workers."""
+    """The exception that Dask raises if a task has lost its workers."""
 
 
 class Lossy(ThreadPoolExecutor):
-    """Loses the worker that tries runs."""
+    """An executor that loses the worker of the trial runs."""
 
     def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
         if fn is pfaff.cluster._tried:
@@ -282,7 +282,7 @@ def test_a_worker_that_is_lost_while_it_tries_runs_ends_nothing(
         result = pfaff.cluster.sweep(SCENE, VARY, executor, out=tmp_path)
     assert result.made == 40
     _same(result, whole)
-    # As if all runs took as long as one shard: four for each worker.
+    # All runs together are assumed to take the time of one shard: four shards for each worker.
     assert len(list(tmp_path.glob("shards/*.rows"))) == 12
 
 
@@ -315,7 +315,7 @@ def test_ray(whole: SweepResult, tmp_path: Path) -> None:
     _same(SCENE.sweep(VARY, tmp_path / "out"), whole)
 
 
-# A cluster of this machine with a client, which tells the processes of its workers.
+# A cluster of this machine with a client that returns the process ids of its workers.
 DASK = """
     import sys
     import pfaff
@@ -370,7 +370,7 @@ def test_dask_loses_a_worker(many: SweepResult, tmp_path: Path) -> None:
     text, _ = child.communicate(timeout=300)
     made, finished, crashed = (int(word) for word in text.split())
     assert (finished, crashed) == (3000, 0)
-    # What the lost worker had finished of its shards was not made again.
+    # Runs of its shards that the lost worker had finished were not repeated.
     assert 3000 - 300 <= made <= 3000
     result = LONG.sweep(MANY, out)
     assert (result.made, result.document["repeated"]) == (0, 0)
@@ -382,7 +382,7 @@ def test_a_worker_of_dask_retires_and_others_go_on(many: SweepResult, tmp_path: 
     child, _ = _dask(tmp_path, out, "retire")
     text, _ = child.communicate(timeout=300)
     made, finished, crashed = (int(word) for word in text.split())
-    # The shard that it left in order is continued, and none of its runs is suspected.
+    # The shard that it ended properly is continued, and none of its runs counts as the cause.
     assert (finished, crashed) == (3000, 0)
     assert 3000 - 150 <= made <= 3000
     result = LONG.sweep(MANY, out)
@@ -394,7 +394,7 @@ def test_dask_loses_its_client_and_is_resumed(many: SweepResult, tmp_path: Path)
     out = tmp_path / "out"
     child, _ = _dask(tmp_path, out)
     _until_rows(out, 1000)
-    # All of it: client, scheduler, workers.
+    # All processes end: client, scheduler, workers.
     os.killpg(child.pid, signal.SIGKILL)
     child.communicate()
     time.sleep(0.5)
@@ -403,7 +403,7 @@ def test_dask_loses_its_client_and_is_resumed(many: SweepResult, tmp_path: Path)
     child, _ = _dask(tmp_path, out)
     text, _ = child.communicate(timeout=300)
     made, finished, crashed = (int(word) for word in text.split())
-    # No finished run was made again: neither those of shards nor those of journals.
+    # No finished run was repeated, neither from shards nor from journals.
     assert (finished, crashed) == (3000, 0)
     assert made == 3000 - before
     result = LONG.sweep(MANY, out)
@@ -428,7 +428,7 @@ def test_two_hundred_shards_are_resumed_after_one_hundred(tmp_path: Path) -> Non
     before = {path: path.read_bytes() for path in tmp_path.glob("shards/*.rows")}
     with ThreadPoolExecutor(1) as executor:
         rest = pfaff.cluster.sweep(SCENE, vary, executor, out=tmp_path)
-    # Two runs in each shard; the times of all finished ones are still there.
+    # Each shard has two runs; the times of all finished runs are unchanged.
     assert rest.made == 2 * (200 - first)
     assert len(list(tmp_path.glob("shards/*.rows"))) == 200
     assert all(path.read_bytes() == content for path, content in before.items())

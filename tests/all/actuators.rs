@@ -46,7 +46,7 @@ fn options(t_end: f64) -> MotionOptions {
     }
 }
 
-/// Compares two numbers, relative to the size of such numbers.
+/// Compares two values; `size` is the usual size of such values.
 fn close(found: f64, expected: f64, size: f64, what: &str) {
     let off = (found - expected).abs() / size;
     assert!(off < 1e-8, "{what}: {found}, expected {expected}");
@@ -84,8 +84,8 @@ fn a_boom_follows_its_cylinder_and_the_cylinder_carries_it() {
         let alpha = (l_t * l_t + l * l_tt - a * b * cos * omega * omega) / ab_sin;
         close(row.q[2], theta - std::f64::consts::FRAC_PI_2, 1.0, "angle");
         close(row.v[2], omega, 1.0, "angular velocity");
-        // The push times its lever l_t/omega = ab·sin θ/l balances weight and inertia; tension is
-        // positive.
+        // The pushing force times its lever arm l_t/omega = ab·sin θ/l balances weight and inertia;
+        // tension is positive.
         let push = (inertia * alpha + mass * 9.81 * arm * cos) * l / ab_sin;
         let drive = row.reactions[1].component.expect("a drive has one");
         close(drive, -push, 1e3, "force of the cylinder");
@@ -156,8 +156,8 @@ fn a_motor_runs_up_exponentially() {
     }
 }
 
-/// A law of a length with the numbers of a spring-damper equals that spring-damper, also in
-/// millimetres.
+/// A force law of a length, with the parameters of a spring-damper, gives the force of the
+/// spring-damper, also in millimetres.
 #[test]
 fn a_law_of_a_length_is_a_spring_damper() {
     let head = r#"

@@ -1,6 +1,7 @@
 //! Consistency of redundant rows. Guides that are parallel on paper are parallel to the rounding of
-//! their data: their constraint violation is not a contradiction, for any position, orientation and
-//! speed. A difference above the accuracy of the data is a contradiction, however small it is.
+//! their data: the resulting violation of constraints is not a contradiction, for any position,
+//! orientation and speed. A difference above the accuracy of the data is a contradiction, however
+//! small it is.
 //!
 //! The reference values follow from Newton's second law for one body on one straight guide.
 
@@ -138,8 +139,8 @@ fn guides_that_are_parallel_to_rounding_do_not_contradict_each_other() {
 }
 
 /// A rod across a plane: the rod and the plane both constrain the body along the normal, so two
-/// reactions act for one freedom. On the body, `F_rod − F_table = −m·g_y`. The acceleration of each
-/// row is accurate only to the rounding of the 9.81 m/s² along the plane.
+/// reactions act in one direction. On the body, `F_rod − F_table = −m·g_y`. The acceleration of
+/// each row is accurate only to the rounding of the 9.81 m/s² along the plane.
 #[test]
 fn a_rod_across_a_plane_has_reactions() {
     let text = r#"
@@ -232,8 +233,8 @@ fn what_differs_by_more_than_rounding_is_a_contradiction() {
     }
 }
 
-/// The same test in equations alone: a row along x is inclined by one rounding error, while y
-/// accelerates.
+/// The same test for equations without a mechanism: a row along x is inclined by one rounding
+/// error, while y accelerates.
 #[test]
 fn a_leaning_row_agrees_to_the_rounding_of_what_it_leans_to() {
     let rows = |lean: f64| {

@@ -1,6 +1,6 @@
-//! Verdicts along a motion: by stretches of time, and the instants with different verdicts.
-//! Parallel cranks have a closed form: every crank has the angle θ(t), the coupler translates; θ =
-//! 0 is the singular configuration.
+//! Tests verdicts along a motion: on intervals of time, and at the instants with different
+//! verdicts. The motion of parallel cranks has a closed form: every crank has the angle θ(t), and
+//! the coupler translates. At θ = 0 the configuration is singular.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
@@ -81,7 +81,7 @@ fn one_drop(along: &MotionAnalysis) -> (f64, usize, Continuation, String) {
     (passage.time, redundancy, continuation, passage.text.clone())
 }
 
-/// Small pseudo-random numbers, of size one.
+/// Pseudo-random values in [−1, 1).
 fn noise(t: f64, k: usize) -> f64 {
     let mut x = t.to_bits() ^ (k as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
     for _ in 0..3 {
@@ -193,8 +193,8 @@ fn a_flat_pose_that_is_only_touched_is_found() {
     }
 }
 
-/// The motion turns back before the singular configuration: it is nearly singular, and at 1e-9 rad
-/// so nearly that the rank is undecided.
+/// The motion turns back just before the singular configuration. The configuration there is nearly
+/// singular; at 1e-9 rad from the singular one, the rank is undecided.
 #[test]
 fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
     let nearest = |offset: f64| {
@@ -298,7 +298,7 @@ fn a_motion_that_turns_back_between_two_samples_passes_twice() {
     assert!(text.starts_with("at t = 0.4123457 s "), "{text}");
 }
 
-/// Freedoms that are independent of the cranks do not change how the cranks continue.
+/// Degrees of freedom that are independent of the cranks do not change how the cranks continue.
 #[test]
 fn a_pendulum_beside_the_cranks() {
     for (pivots, drive) in [
@@ -322,7 +322,7 @@ fn a_pendulum_beside_the_cranks() {
         let (turn, initial) = (drive.unwrap_or(2.0), -FRAC_PI_2);
         let motion = |t: f64| {
             let mut state = parallel(pivots, t - 0.5, 1.0);
-            // The vector points from the hinge to the centre of mass at the described angle −π/2 +
+            // The vector points from the hinge to the centre of mass at the prescribed angle −π/2 +
             // 2t.
             let (sin, cos) = (initial + turn * t).sin_cos();
             state
@@ -486,8 +486,8 @@ fn along_the_motion_of_an_example_the_verdicts_are_those_of_its_run() {
 }
 
 /// The verdicts along a motion equal the verdicts that a run computes from its factors: the same
-/// verdict for each component on each stretch, with the special verdicts at the start. Later rows
-/// of a run are less accurate: near a special instant they may count as special.
+/// verdict for each component on each interval between events, with the special verdicts at the
+/// start. Later rows of a run are less accurate: near a special instant they may count as special.
 fn assert_agree(along: &MotionAnalysis, run: &Stretches, layout: &Layout) {
     assert_eq!(along.verdicts.reactions.len(), run.reactions.len());
     for (found, expected) in along.verdicts.reactions.iter().zip(&run.reactions) {

@@ -1,6 +1,7 @@
 //! The benchmark bicycle as a scene, in any state: J. P. Meijaard, J. M. Papadopoulos, A. Ruina, A.
 //! L. Schwab, Linearized dynamics equations for the balance and steer of a bicycle, Proc. R. Soc. A
-//! 463 (2007) 1955–1982, table 1. The z-axis points down there, and up here; x points forwards.
+//! 463 (2007) 1955–1982, table 1. In this source z points down, in the scene z points up; x points
+//! forwards in both.
 
 use std::f64::consts::PI;
 use std::fmt::Write;

@@ -1,5 +1,5 @@
-//! Verdicts of a run whose degree of redundancy exceeds the number of vectors from which they are
-//! read.
+//! Verdicts of a run whose degree of redundancy exceeds the number of vectors from which the
+//! verdicts are computed.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -50,9 +50,9 @@ fn cranks(count: usize) -> String {
     text
 }
 
-/// Forces along the cranks whose sum and moment on the beam vanish load no other joint. All pins of
-/// cranks are not unique in both components while the cranks are inclined, and the pin of the
-/// pendulum is unique.
+/// Forces along the cranks whose sum and moment on the beam vanish load no other joint. While the
+/// cranks are inclined, neither component of the reaction of their pins is unique; the reaction of
+/// the pin of the pendulum is unique.
 #[test]
 fn many_dependencies_are_read_from_few_combinations() {
     let count = 2 * CARRIED_VECTORS;
@@ -87,9 +87,9 @@ fn many_dependencies_are_read_from_few_combinations() {
     }
 }
 
-/// A sweep reads verdicts only at the ends of each stretch, and obtains the verdicts of a run that
-/// reads them at all steps and rows. The scenes turn, pass singular configurations, or have drives
-/// with breaks.
+/// A sweep computes verdicts only at the ends of each interval between events. They equal the
+/// verdicts of a run that computes them at all steps and rows. The scenes turn, pass singular
+/// configurations, or have drives with breaks.
 #[test]
 fn verdicts_on_stretches_do_not_depend_on_instants() {
     let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");

@@ -1,5 +1,5 @@
 //! Choices of the reactions that a model does not determine, compared with closed forms, published
-//! numbers, and runs with other independent rows.
+//! values, and runs with other independent rows.
 
 use std::ops::ControlFlow;
 
@@ -67,7 +67,7 @@ fn started(d: &Description, rows: &RowChoice) -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), rows).expect("starts")
 }
 
-/// Returns the number, and whether it depends on the choice.
+/// Returns the value, and whether it depends on the choice.
 fn number(value: &Value) -> (f64, bool) {
     let chosen = value.of_choice().map(|(x, by)| {
         assert!(!by.to_string().is_empty());
@@ -243,8 +243,8 @@ fn beam_on_three_springs() {
     ));
 }
 
-/// The numbers are those of `reference/redundant_three_cranks.json` (computed there in closed
-/// form), with 13 digits.
+/// The reference values are those of `reference/redundant_three_cranks.json` (computed there in
+/// closed form), with 13 digits.
 #[test]
 fn three_cranks_with_least_norm() {
     let case: Json = serde_json::from_str(THREE_CRANKS).expect("the case is JSON");
@@ -447,8 +447,8 @@ fn inadmissible_eliminations_are_refused_by_name() {
     assert!(refused(&[21, 99]).contains("does not exist"));
 }
 
-/// Two drives prescribe one velocity: an equal velocity is shared, and with different accelerations
-/// there are no reactions.
+/// Two drives prescribe one velocity: if the velocities are equal, the drives share the load; if
+/// the accelerations differ, there are no reactions.
 #[test]
 fn contradicting_drives_have_no_reactions() {
     let drive = |name: &str, rate: [f64; 2]| {
@@ -488,10 +488,10 @@ fn contradicting_drives_have_no_reactions() {
     assert!(matches!(error, ChoiceError::Contradiction { by, .. } if (by - 0.1).abs() < 1e-12));
 }
 
-/// Numbers of a mechanism, and the wrenches in the definition of the least norm.
+/// Values of reactions of a mechanism, and the wrenches in the definition of the least norm.
 struct Numbers<'a> {
     configuration: &'a Configuration<'a>,
-    /// Each number with its unit for a force of 1 N, and whether it is unique.
+    /// Each value with its unit for a force of 1 N, and whether it is unique.
     forms: Vec<(LinearForm, f64, bool)>,
     /// The components of each joint, and whether they are torques.
     wrenches: Vec<(ConstraintId, bool, LinearForm)>,
@@ -549,7 +549,7 @@ impl<'a> Numbers<'a> {
     }
 }
 
-/// A least norm adds newtons to newton metres, so it depends on their units. Exactly the numbers
+/// A least norm adds newtons to newton metres, so it depends on their units. Exactly the values
 /// that are not unique change with the units of all joints or of one joint. Without a load every
 /// least norm is zero. Therefore the test also starts from multipliers without any symmetry, which
 /// belong to some load.
@@ -587,7 +587,7 @@ fn facts_do_not_depend_on_units() {
         }
         let mut counts = [0, 0];
         for (change, (form, _, is_unique)) in changes.iter().zip(&numbers.forms) {
-            // The limit is the rounding of the largest number.
+            // The limit is the rounding of the largest value.
             assert_eq!(*change < 1e-9, *is_unique, "{name}: {change:e} {form:?}");
             counts[usize::from(!is_unique)] += 1;
         }

@@ -89,7 +89,7 @@ fn choices(study: &Study) -> Vec<Choice> {
     ]
 }
 
-/// Runs a scene and compares the choices at each row; returns how many numbers were compared.
+/// Runs a scene and compares the choices at each row; returns how many values were compared.
 fn compared(study: &Study, choices: &[Choice], t_end: f64) -> usize {
     let mechanism = &study.prepared.mechanism;
     let start = study.analyse(0.0, None).expect("decided");
@@ -145,7 +145,7 @@ fn compare(
         let balance = c.transpose_times(lambda);
         let missed = largest(balance.iter().zip(&load).map(|(a, b)| a - b));
         assert!(missed < 1e-9 * size, "{missed} of {size} at {t} s");
-        // The numbers equal those of a rank decision at this configuration.
+        // The values equal those of a rank decision at this configuration.
         let here = questions.distribute(&solution, choice);
         let here = here.unwrap_or_else(|e| panic!("{e} at {t} s"));
         for (row, value) in here.multipliers.iter().enumerate() {
@@ -157,7 +157,7 @@ fn compare(
         for &row in choice.eliminated() {
             assert_eq!(lambda[row], 0.0, "row {row}");
         }
-        // Determined numbers are the same; at least one other number differs from the run.
+        // Unique values are the same; at least one other value differs from the run.
         let mut differs = 0.0_f64;
         let pairs = own.as_chosen().iter().zip(chosen.reactions.as_chosen());
         for ((own, other), verdict) in pairs.zip(&analysis.reactions) {

@@ -1,5 +1,5 @@
 //! Compares equilibria with closed forms, with bisection, and with minima of potentials that the
-//! test computes without any stiffness; also tests the scenes that start there.
+//! test computes without any stiffness, and tests the scenes that start at these equilibria.
 
 use std::f64::consts::PI;
 
@@ -141,8 +141,9 @@ fn a_horizontal_pendulum_falls() {
     assert!((pin.get("Fy").unwrap() + 2.0 * G).abs() < 1e-13);
 }
 
-/// A pendulum that is upright to a thousandth falls. An exactly upright pendulum is in unstable
-/// equilibrium until it is perturbed. In a chain of two links, both links fall.
+/// A pendulum whose direction differs from upright by about a thousandth falls. An exactly upright
+/// pendulum is in unstable equilibrium until it is perturbed. In a chain of two links, both links
+/// fall.
 #[test]
 fn a_push_lets_an_upright_pendulum_fall() {
     let (found, _) = rest(&pendulum(1e-3, 1.0, ""));
@@ -173,8 +174,8 @@ joint = [{{ name = \"A\", type = \"revolute\", bodies = [\"ground\", \"a\"], at 
     );
 }
 
-/// Three links of one length between two supports at the same height: the described arch is a
-/// maximum of the potential, and its reflection is the minimum.
+/// Three links of one length between two supports at the same height: the arch given in the scene
+/// is a maximum of the potential, and its reflection is the minimum.
 #[test]
 fn a_chain_of_three_links_hangs_between_two_supports() {
     // Links of length 1 lead from (0, 0) to (2, 0), with a horizontal middle link: cos a + 1 + cos
@@ -783,8 +784,8 @@ force = [{ name = \"both\", type = \"bushing\", bodies = [\"ground\", \"bead\"],
     );
 }
 
-/// A force that rotates with its rod has no potential: with a torsion spring, φ = F·l/k, for any
-/// result on stability.
+/// A force that rotates with its rod has no potential: with a torsion spring, φ = F·l/k. Its
+/// stability is not decided.
 #[test]
 fn a_follower_force_is_not_judged() {
     let text = "
@@ -830,8 +831,8 @@ joint = [{{ name = \"A\", type = \"revolute\", bodies = [\"ground\", \"a\"], at 
     }
 }
 
-/// The written scene keeps joints at their points on the bodies, the zeros of gears and springs,
-/// and comments.
+/// In the written scene, joints are at the same points of the bodies, gears and springs have the
+/// same zero positions, and comments are preserved.
 #[test]
 fn what_is_written_starts_at_rest_and_stays_there() {
     let text = "
@@ -913,7 +914,8 @@ damping = \"0.1 N*m*s\"
     assert_eq!(layout.rows(), 5);
 }
 
-/// In space a fixed joint and a spring keep their described values.
+/// In space, a fixed joint and a spring also refer to the configuration given in the original
+/// scene.
 #[test]
 fn a_start_elsewhere_in_space_keeps_places_and_zeros() {
     let text = format!(
@@ -929,8 +931,8 @@ joint = [
 force = [{{ name = \"spring\", type = \"spring-damper\", bodies = [\"ground\", \"arm\"], at = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], stiffness = 300.0, damping = 1.0 }}]\n"
     );
     let (found, read) = rest(&text);
-    // Centres of mass are at x = 0.5 and 1, and the spring is unstressed at its described length
-    // √2. The balance is k·(l − √2)/l = (2·0.5 + 1)·g with l² = 2 + 2·sin φ.
+    // Centres of mass are at x = 0.5 and 1, and the spring is unstressed at the length √2 given in
+    // the scene. The balance is k·(l − √2)/l = (2·0.5 + 1)·g with l² = 2 + 2·sin φ.
     let l = 2f64.sqrt() / (1.0 - 2.0 * G / 300.0);
     let exact = (0.5 * l * l - 1.0).asin();
     let phi = (-found.q[2]).atan2(found.q[0]);
@@ -960,7 +962,7 @@ fn starts_elsewhere_are_checked() {
             &RunOptions::default(),
         )
     };
-    // Omitted values are those of the description; a small violation is corrected, a large one is
+    // Omitted values are taken from the description; a small violation is corrected, a large one is
     // not.
     let quarter = "{ position = [0.0, 1.0], angle = 1.5707963267948966 }";
     let q = bar(quarter).unwrap_or_else(|e| panic!("{e}")).prepared.q;

@@ -21,8 +21,8 @@ use pfaff::{RunOptions, Study};
 /// Tolerance of the runs.
 const TIGHT: f64 = 1e-12;
 
-/// Largest difference of a run with [`TIGHT`] from a closed form, relative to the largest number
-/// involved; it is the error of the run and not of rounding.
+/// Largest difference of a run with [`TIGHT`] from a closed form, relative to the largest value
+/// involved. It is the error of the run, not a rounding error.
 const CLOSE: f64 = 1e-9;
 
 fn root() -> &'static Path {
@@ -170,7 +170,7 @@ impl Run {
     }
 }
 
-/// Compares with a closed form; `scale` is the largest number involved.
+/// Compares with a closed form; `scale` is the largest value involved.
 #[track_caller]
 fn close(found: f64, expected: f64, scale: f64) {
     assert!(

@@ -1,4 +1,4 @@
-//! Tests whether finite reactions exist if the second-order conditions exclude a freedom. The
+//! Tests whether finite reactions exist if the second-order conditions exclude a free motion. The
 //! references are static solutions by hand.
 
 use model::Registry;
@@ -13,8 +13,8 @@ fn read(text: &str) -> Study {
     found.unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Two bars of 1 kg are between two pins 2·c apart, and their middle is lower by `sag`; `more` is
-/// added.
+/// Two bars of 1 kg are between two pins 2·c apart, and their middle is lower by `sag`; `more` is a
+/// text that is appended to the scene.
 fn truss(sag: f64, more: &str) -> Study {
     let c = 1.0;
     let angle = (sag / c).atan();
@@ -160,7 +160,7 @@ fn a_run_of_an_impossible_motion_is_refused() {
 }
 
 /// A truss is on a rolling cart: whether the loads push along its sag follows from terms of higher
-/// order, so there is no number.
+/// order, so the reactions have no value.
 #[test]
 fn bodies_that_move_are_undecided() {
     let study = read(
@@ -193,7 +193,7 @@ joint = [
 }
 
 /// A bar between two rails has a locked left end: by a fixed joint, or by a drive at rest. A moving
-/// drive moves the bar with it, and the other freedom remains blocked.
+/// drive moves the bar with it, and the other degree of freedom remains blocked.
 #[test]
 fn a_locked_drive_is_a_row_like_others() {
     let bar = |lock: &str, drive: &str, velocity: &str| {

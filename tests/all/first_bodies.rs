@@ -8,7 +8,7 @@ use joints::{Gear, RackAndPinion};
 use model::{BuildError, Mechanism, Reaction, System};
 use pfaff::prelude::*;
 
-/// The numbers below have sizes of 1 to 30 and result from one factorisation of a few rows.
+/// The values below have sizes of 1 to 30 and result from one factorisation of a few rows.
 const ROUNDING: f64 = 1e-11;
 
 /// States of the motion are accurate to the tolerance of the run. The accelerations at these states
@@ -248,11 +248,11 @@ fn racks_at_rest_by_hand() {
     }
 }
 
-/// A pinion (2 kg, 0.25 kg·m², r = 0.5 m) rolls along a rack of the ground. A slot constrains its
-/// centre to y = 2; a force of 7 N and a torque of 0.5 N·m act on it. The equations are 2·a = 7 −
-/// R, 0.25·α = 0.5 − 0.5·R, α = −2·a, so a = 2 and R = 3. On the rack the force is 3 N along y =
-/// 1.5, and the torque about (1,
-/// 2) is 1.5 N·m, also after the pinion has left that point.
+/// A pinion (2 kg, 0.25 kg·m², r = 0.5 m) rolls along a rack of the ground. A slot keeps its centre
+/// at y = 2; a force of 7 N and a torque of 0.5 N·m act on it. The equations are 2·a = 7 − R,
+/// 0.25·α = 0.5 − 0.5·R, α = −2·a, so a = 2 and R = 3. On the rack the force is 3 N along the line
+/// y = 1.5, and its torque about the point (1, 2) is 1.5 N·m, also after the pinion has left that
+/// point.
 #[test]
 fn the_place_of_a_rack_stays_in_the_rack() {
     let scene = r#"
@@ -426,7 +426,7 @@ pfaff::joint! { plane MiddleDistance(i, j, k) {
     place: point(i, s_i);
 } }
 
-/// Forces are also summed over the slots that the ground occupies.
+/// If the ground is the body of several slots, the forces of all these slots are summed.
 #[test]
 fn a_joint_of_three_bodies_is_what_its_first_body_misses() {
     let (_, [a, b, _]) = free_bodies();
@@ -470,7 +470,8 @@ pfaff::joint! { plane NamedDistance(i, j, k) {
     place: origin(i);
 } }
 
-/// A named component belongs to one slot; if the first body occupies two, it would be ambiguous.
+/// A named component belongs to one slot. If the first body were in two slots, the component would
+/// be ambiguous.
 #[test]
 fn a_named_component_needs_a_first_body_of_one_slot() {
     let build = |bodies: fn([BodyRef; 3]) -> [BodyRef; 3]| {

@@ -150,13 +150,13 @@ fn moved(centres: &Centres) -> MotionDocument {
     study.motion(&options).expect("it moves")
 }
 
-/// Limit for the rounding of numbers of size ten, amplified along three seconds of the motion.
+/// Limit for the rounding of values of size ten, amplified along three seconds of the motion.
 const SAME: f64 = 1e-10;
 
 #[track_caller]
 fn assert_same(found: f64, expected: f64, what: &str) {
     let apart = (found - expected).abs();
-    // A component that is not determined has no number in either scene.
+    // A component that is not determined has no value in either scene.
     let is_none = found.is_nan() && expected.is_nan();
     assert!(
         is_none || apart <= SAME * expected.abs().max(1.0),

@@ -206,7 +206,7 @@ fn files_are_the_same() {
     assert!(text == code, "tables differ");
 }
 
-/// Rows of the library have the numbers and names of the tables of the command.
+/// Rows of the library have the values and names of the tables of the command.
 #[test]
 fn rows_are_those_of_the_tables() {
     let study = from_code();
@@ -233,7 +233,7 @@ fn rows_are_those_of_the_tables() {
     assert!((cart["vx"] - 0.5 * 0.1_f64.cos()).abs() < 1e-9, "{cart:?}");
 }
 
-/// Without a text errors have no positions, but they have names and numbers.
+/// Without a text, errors have no positions, but they contain names and values.
 #[test]
 fn errors_have_names() {
     let build = |change: &dyn Fn(&mut Description)| {

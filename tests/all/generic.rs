@@ -1,4 +1,5 @@
-//! Permanent or singular redundancy: the comparison with other configurations, and its results.
+//! Tests whether redundancy is permanent, or exists only at a singular configuration, by a
+//! comparison with other configurations.
 
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive, Velocity, plane::Direction};
 use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Registry};
@@ -32,7 +33,7 @@ fn driven(mut d: Description) -> Description {
 }
 
 /// The mechanism has n cranks: n − 2 redundant rows, and one more in the singular configuration,
-/// with a drive (no freedom remains) or without.
+/// with a drive (no degree of freedom remains) or without.
 #[test]
 fn cranks_are_compared_with_themselves_elsewhere() {
     for (pivots, usual) in [

@@ -1,5 +1,5 @@
-//! Verdicts on all kinds of components: frames, sums of wrenches, groups, resultants; with drives,
-//! affine and rheonomic rows.
+//! Tests verdicts on components in all frames, and on sums of wrenches, groups and resultants, with
+//! drives, affine and rheonomic rows.
 
 use joints::plane::{Direction, Line};
 use joints::{
@@ -21,7 +21,7 @@ use solvability::{
 use tests::largest;
 use tests::robot::{robot, steering};
 
-/// Margins of unique numbers are rounding errors.
+/// Margins of unique components are rounding errors.
 const ROUNDING: f64 = 1e-14;
 
 fn body(name: &str, x: f64, y: f64, angle: f64) -> Body {

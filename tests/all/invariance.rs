@@ -1,5 +1,5 @@
-//! Verdicts do not depend on the description of a mechanism: order, scaling and recombination of
-//! rows, order of bodies, units, position, frame, masses, loads, speed.
+//! Verdicts do not depend on the description of a mechanism: on order, scaling and recombination of
+//! rows, order of bodies, units, position, frame, masses, loads and speed.
 
 use linalg::Matrix;
 use model::{BodyRef, Description, Mechanism, System};

@@ -1,6 +1,6 @@
-//! Mechanisms with hundreds of rows: analysed by parts, and simulated on sparse independent rows.
-//! References are the known results of the generators, the equation for one angle of chains of
-//! four-bars, and the dense solver with all rows.
+//! Tests mechanisms with hundreds of rows, which are analysed by parts and simulated on sparse
+//! independent rows. References are the known results of the generators, the equation for one angle
+//! of chains of four-bars, and the dense solver with all rows.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;

@@ -1,6 +1,7 @@
-//! Each crate has one table of its chosen numbers, with their units, the effect of wrong values,
-//! and the test that fails then. `none, work only` means that no test can fail, because only time
-//! or memory change; `none` means that the test is not written yet.
+//! Each crate has one table of the values that its authors chose. For each value it states the
+//! unit, the effect of a wrong value, and the test that then fails. `none, work only` means that no
+//! test can fail, because only time or memory change; `none` means that the test is not written
+//! yet.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -19,7 +20,7 @@ const TABLES: [(&str, &str); 6] = [
     ),
 ];
 
-/// Numbers that are not chosen and are defined where they are used: facts of the plane and of
+/// Constants that are not chosen and are defined where they are used: facts of the plane and of
 /// `f64`, coefficients of algorithms, special indices.
 const FACTS: [(&str, &[&str]); 14] = [
     ("dynamics/src/linearise/coordinate.rs", &["BODY"]),

@@ -7,6 +7,7 @@ mod along_motion;
 mod bad_matrices;
 mod bicycle;
 mod book;
+mod bounds;
 mod carried;
 mod cases;
 mod choices;

@@ -12,7 +12,7 @@ use tests::cranks;
 
 use crate::plain::Plain;
 
-/// Limit of some thousand rounding errors of numbers of size one: σ₁₂ is about ε/10, and the noise
+/// Limit of some thousand rounding errors of values of size one: σ₁₂ is about ε/10, and the noise
 /// of 12 × 12 entries about 10⁻¹⁴. Above this limit no misalignment may count as rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -24,7 +24,7 @@ fn misaligned(error: f64) -> Mechanism {
     Mechanism::build(&cranks::misaligned(error)).expect("the cranks build")
 }
 
-/// Returns C of the mechanism at its described configuration.
+/// Returns C of the mechanism at the configuration given in its description.
 fn constraint_matrix(mechanism: &Mechanism) -> Matrix {
     let (q, _) = mechanism.described_state();
     let mut s = mechanism.scratch();

@@ -1,5 +1,5 @@
-//! Verdicts by cycles equal those of the whole mechanism: random mechanisms with constructed
-//! redundancy, and ranks by exact arithmetic.
+//! Verdicts by cycles equal the verdicts for the whole mechanism. The mechanisms are random, with
+//! constructed redundancy, and ranks are computed by exact arithmetic.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -124,7 +124,8 @@ fn questions_are_answered_by_parts_as_by_the_whole() {
                 sums += 1;
             }
         }
-        // Any multipliers represent all that differ from them by a vector of the null space.
+        // All multipliers that differ by a vector of the null space are equivalent, so any of them
+        // may be used.
         let multipliers: Vec<f64> = (0..mechanism.layout().rows())
             .map(|_| numbers.unit())
             .collect();

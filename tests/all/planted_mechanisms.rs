@@ -1,6 +1,6 @@
 //! Mechanisms with constructed redundancy at configurations on a grid, analysed by `solvability`
 //! and by exact arithmetic. The bodies have arbitrary angles, so the parameters in their frames are
-//! rounded: the correct result is that for the drawn mechanism.
+//! rounded. The correct result is the result for the mechanism before this rounding.
 //!
 //! `PFAFF_CASES=20000 cargo test -p tests planted_mechanisms -- --nocapture` makes a longer run.
 

@@ -465,8 +465,8 @@ fn written_rows_are_as_accurate_as_steps() {
     );
 }
 
-/// A table has a row at a time, and the same time is analysed: both are bitwise the same state, and
-/// so have the same numbers.
+/// A table has a row at a time, and the same time is analysed: both are bitwise the same state, so
+/// the values of the reactions are the same.
 #[test]
 fn a_row_of_a_table_is_the_state_that_is_analysed_there() {
     let text = include_str!("../../crates/suite/scenes/robot-trolley.toml");

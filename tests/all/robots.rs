@@ -1,7 +1,7 @@
-//! Imported robots: links with frames at their joints, bodies without mass between the axes of a
-//! hip, rotors at the joints that they drive. If the robot is not at the origin and aligned, zero
-//! distances become rounding errors. Such a lever arm counts as zero: each robot moves, and has one
-//! rank, at all positions and orientations.
+//! Imported robots have links with frames at their joints, massless bodies between the axes of a
+//! hip, and rotors at the joints that they drive. If the robot is not at the origin and aligned,
+//! zero distances become rounding errors. Such a lever arm must count as zero, so that each robot
+//! moves and has the same rank at all positions and orientations.
 //!
 //! The rank is known in advance: a chain of joints without loops is never redundant, so the rank is
 //! the number of rows. A closed loop of parallel axes has three rows that are redundant.
@@ -227,7 +227,7 @@ impl Robot {
     }
 }
 
-/// Returns robot number k in a world: its own numbers do not depend on the world.
+/// Returns robot k in a world: its random properties do not depend on the world.
 fn robot(k: u64, world: World) -> Robot {
     let mut n = Numbers::new(7 + k);
     let mut robot = Robot::new(world);

@@ -247,7 +247,7 @@ fn what_cannot_go_on_at_second_order_is_locked() {
     assert!(locked(&chain(&[x(0.0), x(1.0), x(2.5), x(3.0)])));
     // With a rod that points back, the chain can open.
     assert!(!locked(&chain(&[x(0.0), x(1.0), x(0.4), x(0.9)])));
-    // One chain has no freedom, and one has a finite motion.
+    // One chain has no degree of freedom, and one has a finite motion.
     assert!(!locked(&chain(&[x(0.0), [1.0, 1.0], x(2.0)])));
     assert!(!locked(&chain(&[x(0.0), [0.0, 1.0], [1.0, 1.0], x(1.0)])));
     assert!(!locked(&cranks(&[0.0, PITCH], LENGTH, 0.0)));

@@ -1,6 +1,6 @@
-//! A second space: planar bodies with coordinates (x, y, cos φ, sin φ), with n_q = 4 and n_v = 3.
-//! They start, are analysed and move like bodies with an angle. Code that confuses velocities with
-//! coordinates fails here.
+//! A second description of planar bodies, by the coordinates (x, y, cos φ, sin φ), with n_q = 4 and
+//! n_v = 3. Starts, verdicts and motions must equal those of bodies with an angle. Code that
+//! confuses velocities with coordinates fails here.
 
 use std::ops::ControlFlow;
 

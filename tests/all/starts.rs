@@ -1,7 +1,7 @@
-//! Starts with velocities: given velocities are kept, the others follow with the least kinetic
-//! energy, and drives determine theirs. Impossible velocities are named, with advice that works.
-//! The correct result is computed from singular values of the dense rows, which the program does
-//! not use here.
+//! Starts with velocities: given velocities are kept, drives determine the velocities that they
+//! prescribe, and the others are those of least kinetic energy. An error names impossible
+//! velocities, with advice that works. The correct result is computed from singular values of the
+//! dense rows, which the program does not use here.
 
 mod scenes;
 

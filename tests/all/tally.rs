@@ -60,7 +60,7 @@ impl Tally {
         }
     }
 
-    /// Compares a number.
+    /// Compares a count.
     pub(crate) fn number(&mut self, found: usize, expected: usize, what: impl FnOnce() -> String) {
         self.verdict(found == expected, || {
             format!("{} is {found}, not {expected}", what())

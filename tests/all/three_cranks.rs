@@ -1,5 +1,5 @@
-//! Three parallel cranks under one coupler have one redundant constraint. The numbers come from
-//! `reference/redundant_three_cranks.json`.
+//! Three parallel cranks under one coupler have one redundant constraint. The reference values come
+//! from `reference/redundant_three_cranks.json`.
 
 use dynamics::{KeptRowMotion, RowChoice, prepare};
 use model::{BodyRef, Description, Mechanism, StartOptions, System};

@@ -1,6 +1,6 @@
-//! The cost of the monitors of a run: the run of the robot with monitors, and compiled without them
-//! (`--cfg pfaff_unguarded`). Both programs run alternately, and the smallest time of each is used.
-//! In addition, callgrind counts the instructions of one run.
+//! Measures the cost of the monitors of a run. The robot is simulated with monitors, and by a
+//! program compiled without them (`--cfg pfaff_unguarded`). Both programs run alternately, and the
+//! smallest time of each is used. In addition, callgrind counts the instructions of one run.
 
 use std::fmt::Write;
 use std::process::Command;

@@ -29,8 +29,8 @@ use self::table::Table;
 use self::types::Type;
 use crate::tree::root;
 
-// The limits were set to the measured values, and they may only decrease. Only a change that adds
-// an ability may increase a size limit, in a separate commit.
+// The limits were set to the measured values, and they may only decrease. Only a change that adds a
+// feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
 const TOTAL_MOST: usize = 142_200;

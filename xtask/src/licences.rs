@@ -2,8 +2,8 @@
 //! package link, with their licences and licence texts, for all features. The data come from
 //! `cargo tree`, which resolves features as a build does, and from the sources of the crates.
 //!
-//! cargo-about and cargo-deny have more functions, but they must be installed first. This module
-//! needs only the tools that build the workspace, and `--check` needs no network.
+//! The programs cargo-about and cargo-deny have more functions, but they must be installed first.
+//! This module needs only the tools that build the workspace, and `--check` needs no network.
 
 mod spdx;
 mod texts;

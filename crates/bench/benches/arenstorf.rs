@@ -1,9 +1,8 @@
 //! Computes one period of the Arenstorf orbit by the explicit methods:
 //! `cargo bench -p bench --bench arenstorf`.
 //!
-//! Before the times, it prints the evaluations, the errors and the nanoseconds per evaluation
-//! (everything included) with the names of the arguments; errors are asserted. Other libraries are
-//! not compared here.
+//! Before the times, it prints for each argument the number of evaluations, the error, and the
+//! total time per evaluation (ns). The errors are asserted. Other libraries are not compared here.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -45,8 +44,8 @@ fn period<O: Ode>(method: &impl Method<O>, ode: &mut O, tolerance: f64) -> Outco
     .expect("the orbit is smooth")
 }
 
-/// `error` is asserted at the tightest tolerance. The counter counts evaluations, so items per
-/// second are evaluations per second.
+/// The benchmark asserts `error` at the tightest tolerance. The counter counts evaluations, so the
+/// items per second in the output are evaluations per second.
 macro_rules! bench {
     ($name:ident, $method:expr, $error:expr) => {
         #[divan::bench(args = TOLERANCES)]

@@ -1,4 +1,5 @@
-//! Benchmarks the cost of an explanation of the robot in addition to its rank decision:
+//! Benchmarks the time to explain the verdicts on the robot, in addition to the time of its rank
+//! decision:
 
 use std::hint::black_box;
 
@@ -39,7 +40,7 @@ fn explanation(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| explain(&m, &s, black_box(&q), &solvability));
 }
 
-/// Finds the four ways to make W3 unique.
+/// Finds the four ways to make the reaction of W3 unique.
 #[divan::bench]
 fn making_w3_unique(bencher: Bencher<'_, '_>) {
     let (m, _, _, solvability) = judged();

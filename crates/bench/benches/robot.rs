@@ -85,14 +85,16 @@ fn rank_decision(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::decide(black_box(&c), rank::Accuracy::Rounding));
 }
 
-/// Performs the whole analysis: ranks, fourteen verdicts, directions, dependencies.
+/// Performs the whole analysis: ranks, verdicts on fourteen reactions, undetermined directions,
+/// dependencies.
 #[divan::bench]
 fn analysis(bencher: Bencher<'_, '_>) {
     let p = prepared();
     bencher.bench_local(|| solvability::analyse(&p.mechanism, 0.0, black_box(&p.q)));
 }
 
-/// Computes one acceleration on independent rows: the right-hand side of the integration.
+/// Computes one acceleration with the independent rows, which is the right-hand side of the
+/// integration.
 #[divan::bench]
 fn right_hand_side(bencher: Bencher<'_, '_>) {
     let p = prepared();
@@ -101,8 +103,8 @@ fn right_hand_side(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| motion.acceleration(black_box(1.5), &p.q, &p.v, black_box(&mut a)));
 }
 
-/// For comparison: solves the saddle matrix of the same size by dense LU of nalgebra, without
-/// assembly.
+/// Solves the saddle-point equations of the same size by dense LU of nalgebra, for comparison; the
+/// assembly of the matrix is not measured.
 #[divan::bench]
 fn dense_lu_41_of_nalgebra(bencher: Bencher<'_, '_>) {
     let a = nalgebra::DMatrix::from_fn(41, 41, |i, j| {
@@ -117,7 +119,7 @@ fn dense_lu_41_of_nalgebra(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| black_box(&a).clone().lu().solve(black_box(&b)));
 }
 
-/// Performs the whole run of ten seconds at the default tolerances, with output rows without
+/// Performs the whole run of ten seconds at the default tolerances. The output rows contain no
 /// reactions.
 #[divan::bench(sample_count = 20)]
 fn whole_run(bencher: Bencher<'_, '_>) {

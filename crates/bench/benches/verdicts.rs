@@ -1,6 +1,6 @@
-//! Benchmarks of the 22 × 21 matrix of the robot for a user of the library: certificates, and
-//! verdicts at a point that is already certified. Each benchmark asserts its result before its time
-//! is measured: `cargo bench -p bench --bench verdicts`.
+//! Benchmarks of the library with the 22 × 21 matrix of the robot: certificates of the rank, and
+//! verdicts on reactions at a point whose rank is already certified. Each benchmark asserts its
+//! result before its time is measured: `cargo bench -p bench --bench verdicts`.
 
 use std::hint::black_box;
 
@@ -47,7 +47,7 @@ fn unique(s: &Solvability, groups: &[RowRanges]) -> usize {
         .count()
 }
 
-/// Computes rank, dependencies and proof for the entries as exact numbers.
+/// Computes rank, dependencies and proof, with the entries as exact values.
 #[divan::bench]
 fn certify_exact(bencher: Bencher<'_, '_>) {
     let (c, _) = matrix();
@@ -55,7 +55,8 @@ fn certify_exact(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::certify_exact(black_box(&c)));
 }
 
-/// Computes rank, dependencies and bounds within the uncertainty of the data.
+/// Computes rank, dependencies and bounds, with entries that are uncertain within the accuracy of
+/// the data.
 #[divan::bench]
 fn certify_within(bencher: Bencher<'_, '_>) {
     let c = DdMatrix::from(&matrix().0);
@@ -66,7 +67,8 @@ fn certify_within(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::certify_within(black_box(&c), rank::Accuracy::Absolute(1e-15)));
 }
 
-/// Computes the verdicts of all rows and groups only from the matrix.
+/// Computes from the matrix alone whether the multipliers of each row and the reaction of each
+/// group are unique.
 #[divan::bench]
 fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     let (c, groups) = matrix();
@@ -75,8 +77,8 @@ fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// Computes the verdict of every reaction of the robot, with its certificate and the smallest error
-/// of the data that would give a lower rank.
+/// Computes the verdict on every reaction of the robot, with its certificate and the smallest error
+/// of the data that would reduce the rank.
 #[divan::bench]
 fn analysis(bencher: Bencher<'_, '_>) {
     let p = prepared();

@@ -1,6 +1,7 @@
-//! Measures the least time of ten seconds of the robot at the default tolerances, with 201 rows
-//! that are discarded, interpreted and on generated code. The command `cargo xtask guards` compares
-//! this time with that of the same program compiled without monitors.
+//! Measures the least time to simulate ten seconds of the robot at the default tolerances,
+//! interpreted and with generated code. The 201 output rows are discarded. The command
+//! `cargo xtask guards` compares this time with the time of the same program compiled without
+//! monitors.
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;

@@ -13,7 +13,7 @@ use linalg::{KeptRowSaddle, Matrix, singular_values};
 use nalgebra::{DMatrix, DVector};
 use rank::decide;
 
-/// Returns the median over batches of the time of one call, in microseconds.
+/// Returns the time of one call in microseconds, as the median over batches.
 fn microseconds(mut call: impl FnMut()) -> f64 {
     const BATCHES: usize = 31;
     const BATCH_SECONDS: f64 = 0.01;

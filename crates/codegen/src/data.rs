@@ -1,6 +1,6 @@
-//! The data of a constraint: the numbers that it stores, and its derivatives with respect to each
-//! of them. A value that is computed from other numbers is not a datum, because its derivative
-//! follows from theirs by the chain rule.
+//! The data of a constraint: the values that it stores, and its derivatives with respect to each of
+//! them. A value that is computed from other values is not a datum, because its derivative follows
+//! from the derivatives of those values by the chain rule.
 
 use proc_macro2::Ident;
 use quote::format_ident;
@@ -12,7 +12,7 @@ use crate::identity;
 use crate::parse::{Definition, Kept, ParamKind};
 use crate::vector::cross;
 
-/// Numbers that form one quantity, such as the two components of a point.
+/// Values that form one quantity, such as the two components of a point.
 #[derive(Clone)]
 pub(crate) struct Datum {
     /// Name of the datum in the specification.
@@ -22,13 +22,13 @@ pub(crate) struct Datum {
     pub(crate) field: Ident,
     /// The optional parameter that overrides the field.
     pub(crate) overridden_by: Option<Ident>,
-    /// The kernel inputs that represent its numbers, in order.
+    /// The kernel inputs that represent the components of the datum, in order.
     pub(crate) symbols: Vec<Expr>,
 }
 
 impl Datum {
-    /// Number of independent numbers: axes have three, those of a rotation vector; an angle stored
-    /// by its cosine and sine has one.
+    /// Number of independent components. Axes have three, which form a rotation vector; an angle
+    /// stored by its cosine and sine has one.
     pub(crate) fn count(&self) -> usize {
         match self.shape {
             Shape::Axes(_) => 3,
@@ -38,19 +38,19 @@ impl Datum {
     }
 }
 
-/// The meaning of the numbers of a datum.
+/// The meaning of the components of a datum.
 #[derive(Clone)]
 pub(crate) enum Shape {
     Point(Ident),
     Direction(Ident),
-    /// Axes, by nine symbols; the numbers are a rotation vector.
+    /// Axes, represented by nine symbols; the components of the datum form a rotation vector.
     Axes(Ident),
     Line,
     Plane,
-    /// One number with its unit, and its index in a list of several.
+    /// A single value with its unit, and its index if it belongs to a list.
     Number(Ident, Option<usize>),
     Kept(Ident),
-    /// An angle stored by its cosine and sine; the number is the change of the angle.
+    /// An angle stored by its cosine and sine; the datum is a change of the angle.
     Turn,
     KeptVector(Ident),
 }
@@ -91,8 +91,7 @@ pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
                     push(format!("{name}[{k}]"), shape, &values[k..=k]);
                 }
             }
-            // Optional numbers are values stored at the start; functions of time are passed as
-            // jets.
+            // Optional values are stored at the start; functions of time are passed as jets.
             ParamKind::Number(_) | ParamKind::Function(_) | ParamKind::Functions(_) => {}
         }
     }
@@ -138,7 +137,7 @@ pub(crate) fn of_turn(model: &Model) -> Datum {
     }
 }
 
-/// The derivation with respect to each number, in order.
+/// The derivation with respect to each component of the data, in order.
 pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Along> {
     let mut all = Vec::new();
     for datum in data {
@@ -149,7 +148,7 @@ pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Along> {
     all
 }
 
-/// The images of the symbols of a datum for its number `k`.
+/// The images of the symbols of a datum for its component `k`.
 fn images(model: &mut Model, datum: &Datum, k: usize) -> Vec<(Expr, Expr)> {
     let g = &mut model.g;
     match datum.shape {
@@ -171,8 +170,8 @@ fn images(model: &mut Model, datum: &Datum, k: usize) -> Vec<(Expr, Expr)> {
     }
 }
 
-/// The derivation with respect to one number. The images of computed values are their own
-/// derivatives, each computed with the derivatives of the values before it.
+/// The derivation with respect to one component of a datum. The image of each computed value is its
+/// derivative, which is computed with the images of the values before it.
 fn by(model: &mut Model, datum: &Datum, k: usize) -> Along {
     let mut images = images(model, datum, k);
     let mut along = model.inputs.derivation(&model.g, &images);
@@ -202,8 +201,8 @@ pub(crate) fn read_by<'e>(model: &Model, outputs: impl Iterator<Item = &'e Expr>
     stored
 }
 
-/// The nonzero derivatives of stored numbers with respect to the data: index of the stored number,
-/// index of the datum, value.
+/// The nonzero derivatives of stored values with respect to the data: index of the stored value,
+/// index of the datum, derivative.
 pub(crate) fn slopes(
     model: &mut Model,
     stored: &[Symbol],

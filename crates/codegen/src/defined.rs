@@ -1,12 +1,13 @@
 //! Values in space that are differentiated as a whole: rotated vectors and products of vectors.
 //!
-//! Entry by entry, the derivative of R·s along a rotation differentiates nine products; as a whole
-//! it is R·(ω × s). The product u·w of directions of two bodies changes by (ω × u)·w; this needs w
-//! in the frame of u, once for all three rotations. Therefore each such value is a symbol while
-//! derivatives are computed, with rules for its derivative. It is replaced by its definition before
-//! code is printed ([`Defined::expand`]).
+//! If R·s is differentiated entry by entry along a rotation, nine products are differentiated. The
+//! derivative as a whole is R·(ω × s). The product u·w of directions of two bodies changes by (ω ×
+//! u)·w; for this product, w is transformed to the frame of u once for all three rotations.
+//! Therefore each such value is a symbol while derivatives are computed, with rules for its
+//! derivative. It is replaced by its definition before code is printed ([`Defined::expand`]).
 //!
-//! In the plane there are no such values, because a rotation has only two numbers.
+//! In the plane there are no such values, because a rotation is given by only two values, cosine
+//! and sine.
 //!
 //! With these rules ∂(C·a − Γ)/∂x of a hinge in space has 360 products; entry by entry it has 939.
 
@@ -326,7 +327,8 @@ impl Along {
         }
     }
 
-    /// The time derivation: two equal products of two bodies become one.
+    /// The same derivation for derivatives with respect to time, in which equal products of two
+    /// bodies are computed only once.
     pub(crate) fn in_time(self) -> Self {
         Self {
             ordered: true,

@@ -45,7 +45,8 @@ pub(crate) struct ConstraintKernels {
 }
 
 impl ConstraintKernels {
-    /// The expressions of the rows: all kernels that run in any number type.
+    /// The expressions of the rows, which contain all kernels that can be evaluated in any numeric
+    /// type.
     pub(crate) fn rows(&self) -> impl Iterator<Item = &Expr> {
         let c = self.c.iter().map(|e| &e.value);
         let others = [&self.phi, &self.b, &self.gamma, &self.component];
@@ -76,8 +77,8 @@ pub(crate) enum Component {
     None,
     /// The component of the force along the body's vector.
     Along,
-    /// The force along the joint coordinate that a motion moves: for each multiplier, the negative
-    /// of this derivative of Φ.
+    /// The force along the joint coordinate that a drive prescribes. The coefficient of each
+    /// multiplier is the negative of this derivative of Φ.
     Motion(Along),
 }
 
@@ -344,8 +345,8 @@ fn entry(model: &mut Model, c: &[Entry], row: usize, column: usize) -> Expr {
     }
 }
 
-/// Whether a row contains a value stored at the start; such a row is satisfied at any start and
-/// does not restrict it.
+/// Whether a row contains a value stored at the start. Such a row is satisfied at any initial
+/// configuration and does not restrict it.
 fn keeps_start(model: &Model, row: Expr) -> bool {
     model.depends_on(row, |s| match s {
         Source::Kept { field, .. } => {

@@ -320,7 +320,7 @@ fn only_in(d: &Definition, space: Space, at: &Ident, what: &str) -> syn::Result<
     ))
 }
 
-/// The parameter after `like` must be axes that are declared before.
+/// Checks that the parameter after `like` consists of axes and is declared before.
 fn check_like(d: &Definition, like: &Ident, own: &Param) -> syn::Result<()> {
     let mut before = d.params.iter().take_while(|p| p.name != own.name);
     let is_axes = |p: &Param| matches!(p.kind, ParamKind::Axes { .. });

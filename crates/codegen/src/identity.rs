@@ -172,7 +172,7 @@ fn rotation(point: u64, key: &str) -> [[f64; 3]; 3] {
     ]
 }
 
-/// A number in [0, 1) that depends only on the arguments (FNV-1a).
+/// A value in [0, 1) that depends only on the arguments (FNV-1a).
 fn sample(point: u64, key: &str) -> f64 {
     let mut hash = 0xcbf2_9ce4_8422_2325_u64 ^ point.wrapping_mul(0x9e37_79b9_7f4a_7c15);
     for byte in key.bytes() {

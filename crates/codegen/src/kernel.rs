@@ -16,13 +16,13 @@ pub(crate) struct Kernel {
     pub(crate) counts: Counts,
 }
 
-/// Prints `outputs` for a number type.
+/// Prints `outputs` for a numeric type.
 pub(crate) fn kernel(model: &Model, outputs: &[Expr], scalar: Scalar) -> Kernel {
     print(model, outputs, scalar, &[])
 }
 
-/// Prints rows with the indices of the stored numbers that they read; `stored` contains the symbols
-/// of these numbers.
+/// Prints rows with the indices of the stored values that they read; `stored` contains the symbols
+/// of these values.
 pub(crate) fn rows(model: &Model, outputs: &[Expr], stored: &[Symbol]) -> Kernel {
     print(model, outputs, Scalar::Generic, stored)
 }

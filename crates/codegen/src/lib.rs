@@ -10,7 +10,7 @@
 //! | `vector` | vectors as sums of parts in frames: products of parts in the same frame need no rotation |
 //! | `defined` | rotated vectors and products of vectors in space, differentiated as a whole |
 //! | `elaborate` | expressions of the language → scalars of the graph, with shapes checked |
-//! | `data` | the numbers that a constraint stores, and the derivatives with respect to them |
+//! | `data` | the values that a constraint stores, and the derivatives with respect to them |
 //! | `identity` | tests whether an expression is zero for every pose |
 //! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods; force laws → Q and its derivatives |
 //! | `kernel` | a list of expressions → one function with its operation count |

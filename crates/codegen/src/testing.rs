@@ -1,4 +1,4 @@
-//! Definitions for tests, and numbers for their expressions.
+//! Definitions for tests, and values for their expressions.
 
 use symbolic::Expr;
 
@@ -72,7 +72,7 @@ pub(crate) fn force(text: &str) -> (Model, ForceKernels) {
     (model, kernels)
 }
 
-/// Numbers for the inputs of kernels.
+/// Values for the inputs of kernels.
 pub(crate) struct State {
     /// x, y, angle of each slot.
     pub(crate) pose: Vec<[f64; 3]>,
@@ -117,7 +117,7 @@ impl State {
     }
 }
 
-/// A few dozen roundings of numbers of order one to ten.
+/// A few dozen roundings of values of order one to ten.
 pub(crate) const ROUNDING: f64 = 1e-13;
 
 /// Equal up to rounding.

@@ -11,13 +11,13 @@ use crate::plan::Decision;
 use crate::prepare::PreparedMechanism;
 use crate::run::{ReducedJacobian, derivatives};
 
-/// The method of a run: the given one, or Dormand–Prince 8(5,3), or Radau IIA if forces make the
-/// motion stiff at its start. A mechanism without a degree of freedom has no equation that an
-/// implicit method could solve.
+/// Returns the method of a run: the given method, if there is one; Radau IIA if forces make the
+/// motion stiff at its start; otherwise Dormand–Prince 8(5,3). The motion of a mechanism without
+/// degrees of freedom needs no implicit method.
 ///
 /// # Errors
-/// Used if the motion has no Jacobian at the start, or if it never has one because a force calls a
-/// function.
+/// Returns an error if an implicit method is requested or considered, but the motion has no
+/// Jacobian at the start, or a force calls an external function.
 pub(crate) fn method(
     prepared: &PreparedMechanism,
     options: &MotionOptions,
@@ -75,7 +75,8 @@ fn decided(value: Method, reason: String) -> Decision<Method> {
     Decision::new(value, value.name(), reason)
 }
 
-/// The largest |λ| (1/s) of the motion on independent coordinates at the start.
+/// The largest |λ| (1/s) over the eigenvalues λ of the motion on independent coordinates at the
+/// start.
 fn fastest_rate(prepared: &PreparedMechanism) -> Result<f64, MotionFault> {
     let mut motion = KeptRowMotion::new(prepared)?;
     let mut reduced = ReducedJacobian::new(&motion);
@@ -84,8 +85,9 @@ fn fastest_rate(prepared: &PreparedMechanism) -> Result<f64, MotionFault> {
     Ok(spectral_radius(reduced.jacobian()))
 }
 
-/// Estimated from the growth of a vector under the matrix: the geometric mean is also valid for
-/// complex pairs.
+/// Estimates the spectral radius from the growth of a vector in repeated multiplication by the
+/// matrix. The geometric mean of the growth factors is also valid for complex conjugate
+/// eigenvalues.
 fn spectral_radius(a: &Matrix) -> f64 {
     let k = a.nrows();
     // It is improbable that an eigenvector is orthogonal to this vector.

@@ -3,10 +3,11 @@
 //! decides when a run may use it.
 //!
 //! Generated code has fixed independent rows and a fixed order of elimination, so it cannot choose
-//! new pivots. Instead it reports the quality of its pivots, its *health*: the smallest ratio of a
-//! pivot, with its sign, to the smallest |pivot| that the generator found at the same position. A
-//! health of 1 is as good as in the generator; at 0 or less, the code has passed a singular pivot;
-//! NaN is never healthy. The caller must check the health.
+//! new pivots. Instead it reports the quality of its pivots, called its *health*. The health is the
+//! smallest ratio of a pivot, with its sign, to the smallest |pivot| that the generator found at
+//! the same position. A health of 1 means that the pivots are as large as in the generator. At 0 or
+//! less, a pivot is zero or has changed its sign. NaN counts as unreliable. The caller must check
+//! the health.
 
 mod belongs;
 mod inputs;
@@ -83,7 +84,7 @@ pub struct CodeSpec {
 /// ```
 ///
 /// No function allocates memory, and no function panics on slices of the lengths below. The
-/// arguments may be any numbers; the health states whether the result can be used.
+/// arguments may have any values; the health shows whether the result can be used.
 ///
 /// | argument | length | meaning |
 /// | --- | --- | --- |
@@ -99,8 +100,8 @@ pub trait SceneCode {
     /// Computes `a` from `M·a + C_Kᵀ·λ_K = Q`, `C_K·a = Γ_K`; returns the health.
     fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64;
 
-    /// Computes the multipliers λ of the same equations, with 0 for redundant rows; returns the
-    /// health.
+    /// Computes the multipliers λ of the equations of [`SceneCode::acceleration`], with 0 for
+    /// redundant rows; returns the health.
     fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64;
 
     /// Computes Φ of all holonomic rows.
@@ -109,22 +110,22 @@ pub trait SceneCode {
     /// Computes `C·v − b` of all rows.
     fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]);
 
-    /// Computes the smallest `dq` in the mass metric with `Φq·dq = −phi` on the independent rows of
-    /// Φq; returns the health of their pivots.
+    /// Computes the `dq` of smallest norm in the mass metric that satisfies `Φq·dq = −phi` for the
+    /// independent rows of Φq; returns the health of the pivots of these rows.
     fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64;
 
-    /// Computes the smallest `dv` in the mass metric with `C·dv = −residual` on the independent
-    /// rows of C; returns the health.
+    /// Computes the `dv` of smallest norm in the mass metric that satisfies `C·dv = −residual` for
+    /// the independent rows of C; returns the health.
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64;
 
-    /// The numbers of a mechanism that the code takes as inputs; `None` if all numbers are
+    /// The parameters of a mechanism that the code takes as inputs; `None` if all parameters are
     /// constants in the code.
     fn inputs(&self) -> Option<&CodeInputs> {
         None
     }
 
     /// The same code with these input values, in the order of the inputs; `None` if the code has no
-    /// inputs or another number of inputs.
+    /// inputs or expects another number of inputs.
     fn with_inputs(&self, _values: &[f64]) -> Option<Arc<SharedCode>> {
         None
     }
@@ -133,7 +134,7 @@ pub trait SceneCode {
 /// Generated code that several threads can share.
 pub type SharedCode = dyn SceneCode + Send + Sync;
 
-/// The functions of [`SceneCode`], for other evaluators of the code.
+/// Identifies a function of [`SceneCode`], for programs that evaluate the code by other means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CodeFunction {
     /// [`SceneCode::acceleration`]

@@ -1,5 +1,5 @@
-//! Counts of work that tests compare, to prove that a run does not do work which its plan omits.
-//! Without tests the counts cost nothing.
+//! Counters of work. With them, tests prove that a run does not do the work that its plan omits.
+//! The counters exist only in tests.
 
 /// Kinds of work that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub(crate) enum WorkKind {
     Accelerations,
 }
 
-/// Counts one piece of work.
+/// Adds one to the counter of this kind of work.
 #[inline]
 pub(crate) fn note(work: WorkKind) {
     #[cfg(test)]

@@ -1,11 +1,11 @@
 //! Finds a static equilibrium near a start: Φ(q, t) = 0, v = 0 and `Zᵀ·Q(q, 0, t) = 0` at the time
 //! of the start. Z is a basis of the velocities that the rows allow.
 //!
-//! The search follows the forces: each step solves `(K + μ·I)·y = Zᵀ·Q`. K is the stiffness of the
-//! forces and of the multipliers, and μ makes `K + μ·I` positive definite and limits the length of
-//! the step. Near an equilibrium this is Newton's method. Therefore a potential decreases at each
-//! step, and the search leaves a maximum of the potential if a force acts there. Masses have no
-//! influence.
+//! Each step of the search follows the unbalanced forces. It solves `(K + μ·I)·y = Zᵀ·Q`. K is the
+//! stiffness of the forces and of the multipliers, and μ makes `K + μ·I` positive definite and
+//! limits the length of the step. Near an equilibrium this is Newton's method. Because the steps
+//! follow the forces, a potential decreases at each step, and the search moves away from a maximum
+//! of the potential as soon as a force acts. Masses have no influence.
 //!
 //! Sources: C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM
 //! J. Numer. Anal. 35 (1998) 508–523; J. J. Moré, D. C. Sorensen, Computing a trust region step,
@@ -33,8 +33,8 @@ pub use error::{EquilibriumError, UnbalancedForce};
 /// Options of a search for an equilibrium.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EquilibriumOptions {
-    /// Whether the search leaves an equilibrium that is not a minimum of the potential by a small
-    /// displacement.
+    /// Whether the search continues from an equilibrium that is not a minimum of the potential,
+    /// after a small displacement.
     pub stable: bool,
 }
 
@@ -49,23 +49,23 @@ pub struct Equilibrium {
     pub q: Vec<f64>,
     /// Number of steps of the search.
     pub steps: usize,
-    /// Number of small displacements by which the search left an equilibrium that is not a minimum
-    /// of the potential.
+    /// Number of small displacements after which the search continued from an equilibrium that is
+    /// not a minimum of the potential.
     pub pushes: usize,
-    /// Largest remaining force or torque along a free motion, as a share of the largest acting one.
+    /// Largest remaining force or torque along a free motion, divided by the largest acting one.
     pub residual: f64,
     /// Largest acting force, or torque divided by the size of the mechanism (N).
     pub largest_force: f64,
     /// Stability of the equilibrium against small displacements.
     pub stability: RestStability,
-    /// Descriptions of the free motions without a force and without stiffness; they keep their
-    /// position.
+    /// Descriptions of the free motions along which neither a force nor a stiffness acts; the
+    /// search does not move the mechanism along them.
     pub idle: Vec<String>,
     /// Descriptions of the unstable free motions: the forces drive the mechanism away from the
     /// equilibrium.
     pub falling: Vec<String>,
-    /// Whether the position depends on the path: nonholonomic rows restrict the path, but not the
-    /// position.
+    /// Whether the equilibrium depends on the path of the search, because nonholonomic rows
+    /// restrict the path but not the position.
     pub depends_on_way: bool,
     /// Drives and joints that are locked here, but would accelerate at once because of their
     /// functions of time.
@@ -83,7 +83,8 @@ pub enum RestStability {
     Stable,
     /// No motion is unstable, but some motions have no stiffness.
     Idle,
-    /// The equilibrium is not a minimum of the potential: the forces increase some displacement.
+    /// The equilibrium is not a minimum of the potential; the forces increase some small
+    /// displacements.
     Unstable,
     /// Stability is not analysed because of nonholonomic rows.
     Nonholonomic,
@@ -126,7 +127,7 @@ impl RestStability {
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, Description, Mechanism, StartOptions};
 ///
-/// // A pendulum that is described upright, but for a thousandth, hangs.
+/// // The start is 1e-3 m from the upright position; the pendulum hangs in the equilibrium.
 /// let mut d = Description { gravity: [0.0, -9.81], ..Description::new("pendulum") };
 /// let bob = d.body(Body { position: [1e-3, 1.0], ..Body::new("bob", 1.0, 0.1) });
 /// d.joint("pivot", &[BodyRef::Ground, bob], Revolute { s_i: [0.0; 2], s_j: [-1e-3, -1.0] });
@@ -174,7 +175,8 @@ pub fn equilibrium(
 }
 
 /// Describes the bodies that fall freely at the configuration q and time t, and the loads that act
-/// on them. Such bodies have no connection to the ground. `None` if no body certainly falls.
+/// on them. Such bodies have no connection to the ground. Returns `None` if it is not certain that
+/// a body falls.
 pub(crate) fn falling(prepared: &PreparedMechanism, t: f64, q: &[f64]) -> Option<String> {
     let mut statics = Statics::new(prepared);
     statics.t = t;
@@ -182,17 +184,17 @@ pub(crate) fn falling(prepared: &PreparedMechanism, t: f64, q: &[f64]) -> Option
     (!falls.is_empty()).then(|| error::push(&falls))
 }
 
-/// A search, step by step.
+/// State of a search for an equilibrium.
 struct EquilibriumSearch<'m> {
     statics: Statics<'m>,
     at: Balance,
-    /// Maximum step length, for each body (sizes of the mechanism, radians).
+    /// Maximum step length for each body (in sizes of the mechanism, or rad).
     radius: f64,
     steps: usize,
     pushes: usize,
     /// Number of successive steps along a motion without stiffness.
     unresisted: usize,
-    /// Smallest remaining force so far, and the number of steps since it fell by half.
+    /// Smallest remaining force so far, and the number of steps since it was last halved.
     best: f64,
     stalled: usize,
 }
@@ -299,7 +301,7 @@ impl EquilibriumSearch<'_> {
                     continue;
                 }
             };
-            // Work per length at the end and at the start of the step.
+            // Work per length of the step, first at its start and then at its end.
             let begins = dot(&self.at.free, &y);
             let ends = dot(&self.statics.scaled(&at), &moved);
             let ratio = ends / begins;
@@ -321,7 +323,7 @@ impl EquilibriumSearch<'_> {
         }
     }
 
-    /// Leaves an equilibrium that is not a minimum of the potential.
+    /// Moves the mechanism away from an equilibrium that is not a minimum of the potential.
     fn push(&mut self, along: &[f64]) -> Result<(), EquilibriumError> {
         let largest = along
             .iter()

@@ -30,14 +30,14 @@ pub enum MotionFault {
         /// The reference value with which the pivot is compared.
         scale: f64,
     },
-    /// The independent coordinates no longer determine the others.
+    /// The independent coordinates no longer determine the dependent ones.
     #[error(
         "at t = {t} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot} times the \
          one at their choice", t = rounded(*time), pivot = short(*pivot))]
     IndependentCoordinates {
         /// Time (s).
         time: f64,
-        /// The row that has no solution.
+        /// The row that cannot be satisfied.
         row: RowLabel,
         /// Pivot relative to the pivot at the choice of the coordinates.
         pivot: f64,
@@ -83,7 +83,7 @@ pub enum MotionFault {
     /// A force calls an external function, which gives values but no derivatives.
     #[error("{needs} derivatives of all forces, and {source}; {instead}")]
     NoDerivatives {
-        /// The calculation that needs derivatives, with its verb.
+        /// Text with the calculation that needs derivatives and its verb.
         needs: &'static str,
         /// The force that calls a function.
         source: CalledForce,
@@ -124,8 +124,8 @@ pub enum MotionFault {
         /// Drives and joints with functions of time in this row and in the rows that implied it.
         drives: Box<[String]>,
     },
-    /// A row that is redundant within the stated tolerance has a larger violation than data within
-    /// the tolerance explain.
+    /// The violation of a row that is redundant within the stated tolerance is larger than data
+    /// within this tolerance can cause.
     #[error(
         "at t = {time} s row {row} is violated by {residual} ({level}), but the stated tolerance explains only {bound}: within the tolerance the mechanism cannot move farther than this position ({way} since the start). Correct the dimensions of its joint, state a larger tolerance for the joint, or end the run earlier", residual = short(*residual), bound = short(*bound))]
     BeyondTolerance {
@@ -137,7 +137,7 @@ pub enum MotionFault {
         level: &'static str,
         /// Residual of the row.
         residual: f64,
-        /// Largest violation that data within the tolerance explain.
+        /// Largest violation that data within the tolerance can cause.
         bound: f64,
         /// Distance that the mechanism has moved since its start.
         way: String,
@@ -184,7 +184,7 @@ pub enum MotionFault {
         /// Distance: lengths as a fraction of the size of the mechanism, angles in radians.
         by: f64,
     },
-    /// An output row is far from the path of its step.
+    /// An output row is far from the path of the step that contains the row.
     #[error(
         "the row at t = {t} s lies {by:.2} (lengths of the mechanism, or radians) from where the step around it leads, at the {coordinate} of \
          `{body}`, or has other velocities: near a singular configuration the method's output between steps may lead to another branch; use another method, \
@@ -226,7 +226,7 @@ pub enum MotionFault {
         /// The drives, and the limits of their motion.
         limit: Box<DriveLimit>,
     },
-    /// The independent rows became dependent, and the program can choose no others.
+    /// The independent rows became dependent, and no other independent rows can be chosen.
     #[error(
         "at t = {t} s the kept rows are nearly dependent and no others can be chosen: {what}", t = rounded(*time))]
     NoRows {
@@ -433,7 +433,7 @@ fn implied(drives: &[String]) -> String {
 }
 
 /// States the limit with which a residual was compared. A run continues up to the last allowed
-/// state, so both numbers may be equal when printed.
+/// state, so both values may be equal when printed.
 fn above(residual: f64, tolerance: f64) -> String {
     let [found, allowed] = [residual, tolerance].map(short);
     if found == allowed {
@@ -443,7 +443,7 @@ fn above(residual: f64, tolerance: f64) -> String {
     }
 }
 
-/// Describes the interval between two times; prints one time if both look the same.
+/// Describes the interval between two times; prints one time if both are equal after rounding.
 fn instant(from: f64, to: f64) -> String {
     let [from, to] = [from, to].map(rounded);
     if from == to {

@@ -24,15 +24,15 @@ pub struct Event {
     pub impulses: Vec<ReactionImpulse>,
 }
 
-/// The impulse of a joint or drive if velocities jump: the integral of its reaction over the
-/// instant, with the components of the reaction.
+/// The impulse of a joint or drive at a jump of the velocities: the integral of each component of
+/// the reaction over the instant.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionImpulse {
     /// The joint or drive.
     pub id: ConstraintId,
-    /// The components that are not identically zero, and the component that the definition names;
-    /// with their names and their verdicts at this instant (N·s, N·m·s).
+    /// The components that are not identically zero, and the component that the joint type defines.
+    /// Each has its name and its value (N·s, N·m·s), with the verdict at this instant.
     pub components: Vec<(&'static str, Value)>,
 }
 
@@ -60,7 +60,7 @@ pub enum EventKind {
     RowsExchanged,
     /// The mechanism moved through a singular configuration: the rank fell for an instant.
     SingularPassage,
-    /// A prescribed rate jumped, and the velocities jumped with it.
+    /// A prescribed rate jumped, and therefore the velocities also jumped.
     Impulse,
     /// Generated code became unreliable: the equations are interpreted from this time on.
     CodeLeft,

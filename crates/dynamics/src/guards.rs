@@ -1,6 +1,6 @@
-//! Whether the monitors of a run are compiled. They monitor redundant rows, residuals and energy,
-//! output rows far from the path of their step, the prediction of singular configurations, the
-//! exchange of independent rows, and generated code.
+//! A switch that compiles the monitors of a run. They check redundant rows, residuals and energy,
+//! the distance of output rows from the path of their step, and generated code. They also predict
+//! singular configurations and exchange independent rows.
 //!
 //! The monitors are always compiled, except in the build that measures their cost:
 //! `cargo xtask guards` compiles with `--cfg pfaff_unguarded`.

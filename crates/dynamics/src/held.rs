@@ -1,5 +1,5 @@
-//! States at rest in which functions of time are locked: a drive that starts to move has no effect
-//! there.
+//! States at rest with locked functions of time. A drive that would start to move at this time
+//! counts as locked.
 
 use model::{Mechanism, System};
 
@@ -27,8 +27,8 @@ pub(crate) fn rests(mechanism: &Mechanism, size: f64, v: &[f64]) -> bool {
     each.all(|(j, v)| v.abs() <= RESTING_RATE * unit(j))
 }
 
-/// Drives and joints that their functions of time accelerate at rest at the coordinates q, by more
-/// than the rounding error for a mechanism of this size (m).
+/// Names of drives and joints whose functions of time prescribe an acceleration at rest at the
+/// coordinates q. Rounding errors for a mechanism of this size (m) do not count.
 pub(crate) fn accelerated(mechanism: &Mechanism, size: f64, t: f64, q: &[f64]) -> Vec<String> {
     let layout = mechanism.layout();
     let mut s = mechanism.scratch();

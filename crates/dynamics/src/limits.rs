@@ -1,11 +1,12 @@
-//! Table of limits: every number of this crate that was chosen by its authors. Each entry states
-//! what the number is, its unit, and what breaks if it is wrong (if it is too small, or too large).
-//! It also names the test that fails then: `none, work only` if only time or memory change, `none`
-//! if there is no test yet. `tests/all/limits.rs` reads this table.
+//! Table of limits: every constant of this crate that was chosen by its authors. Each entry states
+//! the meaning of the constant, its unit, and the effects of a value that is too small or too
+//! large. It also names the test that fails then: `none, work only` if only time or memory change,
+//! `none` if there is no test yet. `tests/all/limits.rs` reads this table.
 //!
-//! A share of pivots is relative to the *reference pivots*, the pivots at the state at which the
-//! independent rows were chosen. "Independent rows" are the constraint rows that are solved
-//! (`kept`); "redundant rows" are the other ones (`dropped`).
+//! A share of pivots is relative to the *reference pivots*. These are the pivots at the state at
+//! which the independent rows were chosen. "Independent rows" are the constraint rows that are
+//! solved (`kept`); "redundant rows" are the other ones (`dropped`). A *rounding* is the relative
+//! rounding error of `f64`.
 
 use std::ops::RangeInclusive;
 
@@ -15,14 +16,14 @@ use crate::options::MotionOptions;
 
 /// From this number of independent rows on, the equations are solved through the Schur complement
 /// if more than [`FREE_MOST`] degrees of freedom are left. Unit: rows. Too small: small mechanisms
-/// lose independent coordinates and refinement. Too large: the work of one evaluation of a chain
-/// grows with the cube of its rows. Test: `it_is_where_its_drive_is_by_every_method`.
+/// are solved without independent coordinates and refinement. Too large: the work of one evaluation
+/// of a chain grows with the cube of its rows. Test: `it_is_where_its_drive_is_by_every_method`.
 pub(crate) const SCHUR_FROM: usize = 64;
 
 /// Up to this number of degrees of freedom, the null space takes less work than the Schur
 /// complement. Unit: motions. Too small: runs take longer, and mechanisms with few degrees of
-/// freedom lose independent coordinates and refinement. Too large: runs take longer. Test: none,
-/// work only.
+/// freedom are solved without independent coordinates and refinement. Too large: runs take longer.
+/// Test: none, work only.
 pub(crate) const FREE_MOST: usize = 16;
 
 /// In a mechanism without constraint rows, the null space is stored for implicit methods up to this
@@ -31,14 +32,14 @@ pub(crate) const FREE_MOST: usize = 16;
 /// matrices. Test: `free_bodies_take_memory_in_proportion`.
 pub(crate) const FREE_DENSE: usize = 1024;
 
-/// From this number of independent rows on, the redundant rows are compared with sums of
-/// independent rows. Unit: rows. Too small: large coefficients may cancel. Too large: runs take
-/// longer. Test: none, work only.
+/// From this number of independent rows on, the coefficients of two random sums of redundant rows
+/// are computed, and not those of each redundant row. Unit: rows. Too small: large coefficients may
+/// cancel. Too large: runs take longer. Test: none, work only.
 pub(crate) const SUMMED_FROM: usize = 64;
 
 /// Up to this number of independent rows, solutions with graded masses are refined, whatever the
 /// number of degrees of freedom. Unit: rows. Too small: solutions for light bodies of large
-/// mechanisms lose digits. Too large: work grows with the cube. Test: none.
+/// mechanisms lose digits. Too large: the work grows with the cube of the rows. Test: none.
 pub(crate) const REFINED_MOST: usize = 600;
 
 /// A mechanism with more rows than this and more than [`FREE_MOST`] degrees of freedom is not
@@ -66,8 +67,8 @@ pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
 
 /// At an accepted step, quaternions with a length in this range are unchanged; others are scaled to
 /// length one. The motion does not depend on the length, but the tolerance of a step is relative to
-/// it. Unit: length. Too small: steps change coordinates unnecessarily. Too large: the orientation
-/// of free bodies loses digits in runs with loose tolerances. Test:
+/// the length. Unit: length. Too small: steps change coordinates unnecessarily. Too large: the
+/// orientation of free bodies loses digits in runs with loose tolerances. Test:
 /// `a_quaternion_that_has_drifted_far_is_scaled`.
 pub(crate) const QUATERNION_LENGTHS: RangeInclusive<f64> = 0.5..=2.0;
 
@@ -199,10 +200,10 @@ pub(crate) const LINEARISE_ACCURACY: f64 = 1e-6;
 /// corner. Test: `a_short_rod_in_a_large_mechanism_has_derivatives`.
 pub(crate) const LINEARISE_SHORTER: usize = 3;
 
-/// The state is at rest if each body accelerates by no more than this share of its acceleration by
-/// the same forces without joints. Unit: share. Too small: equilibria that are accurate to only a
-/// few digits are rejected. Too large: matrices are computed for a state that the motion leaves
-/// immediately. Test: `a_pendulum_held_aside_is_not_at_rest`.
+/// The state is at rest if each body accelerates by no more than this share of the acceleration
+/// that the same forces would cause without joints. Unit: share. Too small: equilibria that are
+/// accurate to only a few digits are rejected. Too large: matrices are computed for a state that
+/// the motion leaves immediately. Test: `a_pendulum_held_aside_is_not_at_rest`.
 pub(crate) const STEADY_ACCELERATION: f64 = 1e-6;
 
 /// In a steady state, the rate of change of the acceleration is at most this share of the cube of
@@ -235,14 +236,15 @@ pub(crate) const ZERO_ENTRY: f64 = 16.0 * f64::EPSILON;
 /// `what_first_order_says_of_stability`.
 pub(crate) const NEITHER: f64 = 1e-9;
 
-/// The first free direction is chosen whose share is at least this fraction of the largest share.
-/// Unit: share. Too small: the coordinates may determine the state badly. Too large: rounding
+/// The free share of a direction is the part that the directions chosen before do not determine.
+/// The first direction is chosen whose free share is at least this fraction of the largest one.
+/// Unit: share. Too small: the chosen coordinates may be nearly dependent. Too large: rounding
 /// decides which coordinates are chosen. Test: `a_pendulum_has_the_matrices_of_its_textbook`.
 pub(crate) const CHOSEN_PIVOT: f64 = 0.3;
 
 /// A direction is determined by the chosen directions if less than this share of it is free. Unit:
-/// share. Too small: coordinates are accepted that determine nothing. Too large: useful coordinates
-/// near a dead centre are rejected. Test: `asked_coordinates_have_to_be_independent`.
+/// share. Too small: coordinates are accepted that depend on the chosen ones. Too large: useful
+/// coordinates near a dead centre are rejected. Test: `asked_coordinates_have_to_be_independent`.
 pub(crate) const DEPENDENT_COORDINATE: f64 = 1e-6;
 
 // Projection.
@@ -268,9 +270,10 @@ pub(crate) const VELOCITY_CORRECTIONS: usize = 3;
 /// constraints drift. Test: `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
 pub(crate) const ROUNDINGS: f64 = 10.0;
 
-/// Limit of the same kind for pivots that have fallen below [`WEAK`] and for dependent coordinates.
-/// Unit: roundings. Too small: the limit cannot be reached. Too large: the residuals of the
-/// independent rows are amplified in the redundant rows. Test: `limits_stand_in_their_order`.
+/// Limit that replaces [`ROUNDINGS`] for rows whose pivots have fallen below [`WEAK`] and for
+/// dependent coordinates. Unit: roundings. Too small: the limit cannot be reached. Too large: the
+/// residuals of the independent rows are amplified in the redundant rows. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const FEW_ROUNDINGS: f64 = 1.0;
 
 /// Pivots below this share are weak. Unit: share of pivots. Too small: redundant rows are violated
@@ -295,22 +298,22 @@ pub(crate) const STALLED_ROUNDINGS: f64 = 50.0;
 /// `factors_serve_as_long_as_a_correction_gains_a_digit`.
 pub(crate) const CONVERGENCE: f64 = 0.1;
 
-/// The independent rows imply a redundant row if its residual is below this share of its own terms
-/// and of the terms of the independent rows, weighted by their coefficients. For example, the terms
-/// of a row with an arm of 1e30 m do not limit the violation of an angle. Unit: share of terms. Too
-/// small: rounding errors of the independent rows, 1e-15, cause good steps to be rejected. Too
-/// large: rows that start to differ are detected late. Test:
+/// The independent rows imply a redundant row if its residual is below this share of its terms.
+/// These are its own terms, and the terms of the independent rows times their coefficients. For
+/// example, the terms of a row with an arm of 1e30 m do not limit the violation of an angle. Unit:
+/// share of terms. Too small: rounding errors of the independent rows, 1e-15, cause good steps to
+/// be rejected. Too large: rows that start to differ are detected late. Test:
 /// `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
 pub(crate) const DROPPED_MISFIT: f64 = 1e-11;
 
-/// A constraint violation that grows by less than this share counts as unchanged, and its first
-/// time is reported. Unit: share of the misfit. Too small: rounding decides the time of a constant
-/// violation. Too large: the reported time of a growing violation is too early. Test:
-/// `a_door_on_two_hinges_misses_by_their_distance`.
+/// A constraint violation that grows by less than this share counts as unchanged, and the time of
+/// its first occurrence is reported. Unit: share of the misfit. Too small: rounding decides the
+/// time of a constant violation. Too large: the reported time of a growing violation is too early.
+/// Test: `a_door_on_two_hinges_misses_by_their_distance`.
 pub(crate) const SAME_MISFIT: f64 = 1e-9;
 
-/// Share of the size of the mechanism by which the velocities of redundant rows may differ during
-/// the time of a run, however slow the motion is. This share is some hundred roundings. Unit: share
+/// However slow the motion is, the velocities of redundant rows may differ by this share of the
+/// size of the mechanism per duration of the run. The share is some hundred roundings. Unit: share
 /// of size. Too small: mechanisms at rest are rejected. Too large: slow contradictions are not
 /// detected. Test: `limits_stand_in_their_order`.
 pub(crate) const AT_REST: f64 = 1e-13;
@@ -321,36 +324,37 @@ pub(crate) const AT_REST: f64 = 1e-13;
 /// is accepted. Test: `limits_stand_in_their_order`.
 pub(crate) const POSITION_MISFIT: f64 = 1e-5;
 
-/// Smallest share of the reference pivots that increases the allowed residual of redundant rows.
-/// Below this share, rows are left out of the solution. Unit: share of pivots. Too small: redundant
-/// rows may be violated by any amount. Too large: good steps near a singular configuration are
-/// rejected. Test: `limits_stand_in_their_order`.
+/// If the pivots fall, the allowed residual of redundant rows increases, down to this share of the
+/// reference pivots. Below this share, rows are left out of the solution. Unit: share of pivots.
+/// Too small: redundant rows may be violated by any amount. Too large: good steps near a singular
+/// configuration are rejected. Test: `limits_stand_in_their_order`.
 pub(crate) const NEAREST_PIVOT: f64 = 1e-6;
 
-/// The rows of bodies at rest contain rounding errors of the other rows; in generated code, their
-/// terms count as at least this share of the largest term. Unit: share of terms. Too small: the run
-/// stops using generated code if bodies are at rest. Too large: the constraints of slow bodies
-/// drift. Test: none.
+/// The rows of bodies at rest contain rounding errors of the other rows. For generated code, the
+/// terms of these rows count as at least this share of the largest term. Unit: share of terms. Too
+/// small: the run stops using generated code if bodies are at rest. Too large: the constraints of
+/// slow bodies drift. Test: none.
 pub(crate) const CODE_AT_REST: f64 = 1e-4;
 
 // Independent coordinates.
 
-/// A partition is renewed if its pivots have fallen below this share of the pivots at its choice.
-/// The pivots should not fall to the limit of lost rows during a step. Unit: share of pivots. Too
-/// small: the completion of states fails within a step. Too large: linear systems are set up
-/// repeatedly. Test: `partitions_are_renewed_as_a_blade_turns`.
+/// A partition into independent and dependent coordinates is replaced if its pivots have fallen
+/// below this share of the pivots at its choice. They must not fall so far within a step that rows
+/// are left out. Unit: share of pivots. Too small: the completion of states fails within a step.
+/// Too large: linear systems are set up repeatedly. Test:
+/// `partitions_are_renewed_as_a_blade_turns`.
 pub(crate) const PARTITION_WORN: f64 = 0.5;
 
-/// If a dependent coordinate moves by more than this when a state is completed, it may be on
+/// If a dependent coordinate moves by more than this when a state is completed, the state may be on
 /// another branch or in another revolution. Unit: share of the mechanism's size, or rad. Too small:
 /// long steps are rejected. Too large: the motion changes to another branch. Test:
 /// `shifted_systems_are_solved`.
 pub(crate) const FAR_COMPLETION: f64 = 0.6;
 
-/// In addition to [`FAR_COMPLETION`], dependent coordinates may move by this multiple of the
-/// distance that the mechanism would travel from the last accepted state at its velocities. Unit:
-/// ways. Too small: long steps are rejected. Too large: the motion changes to another branch. Test:
-/// none.
+/// In addition to [`FAR_COMPLETION`], dependent coordinates may move by this multiple of a
+/// distance. The distance is the displacement since the last accepted state, extrapolated with the
+/// velocities of this state. Unit: ways. Too small: long steps are rejected. Too large: the motion
+/// changes to another branch. Test: none.
 pub(crate) const FAR_EXTRAPOLATED: f64 = 2.0;
 
 /// Allowed distance between the end of a step and the position predicted from the velocities at
@@ -366,9 +370,9 @@ pub(crate) const FAR_AT_REST: f64 = 1e-2;
 // Exchange of independent rows.
 
 /// Other independent rows are chosen if the pivots have fallen below this share. The rounding
-/// errors of the independent rows reach the redundant rows multiplied by the inverse of the pivots.
-/// Unit: share of pivots. Too small: redundant rows are violated. Too large: the rows are chosen
-/// again at every step. Test: `limits_stand_in_their_order`.
+/// errors of the independent rows affect the redundant rows, multiplied by the inverse of the
+/// pivots. Unit: share of pivots. Too small: redundant rows are violated. Too large: the rows are
+/// chosen again at every step. Test: `limits_stand_in_their_order`.
 pub(crate) const PIVOT_LOSS: f64 = 0.1;
 
 /// The rows requested by the user are used again above this share. Unit: share of pivots. Too
@@ -407,9 +411,9 @@ pub(crate) const SHARPENED: f64 = 0.2;
 /// `limits_stand_in_their_order`.
 pub(crate) const DELICATE: f64 = 0.1;
 
-/// A step is searched for a singular configuration if a stage is below this share. Unit: share of
-/// pivots. Too small: singular configurations are not reported, and their branches are not
-/// compared. Too large: ordinary steps are searched. Test:
+/// A step is searched for a singular configuration if the pivots of a stage are below this share.
+/// Unit: share of pivots. Too small: singular configurations are not reported, and their branches
+/// are not compared. Too large: ordinary steps are searched. Test:
 /// `rows_that_nobody_wants_are_not_computed`.
 pub(crate) const SUSPECT: f64 = 0.1;
 
@@ -469,14 +473,14 @@ pub(crate) const COARSE: f64 = 1e-13;
 pub(crate) const LEAST_SCALE: f64 = 0.1;
 
 /// Relative error that rounding may cause in a step over a singular configuration if the steps are
-/// short. A limit of 1e-10 was not enough at a tolerance of 1e-10 if the run switches to the
+/// short. A limit of 1e-10 was not enough at a tolerance of 1e-10 if the run switched to the
 /// interpreter before the singular configuration. Unit: 1. Too small: the step size collapses
 /// before the singular configuration. Too large: the step over it loses digits. Test: none.
 pub(crate) const PASSED: f64 = 1e-9;
 
-/// Largest relative correction of a step over a singular configuration. Unit: share of the distance
-/// at which it ends: other branches are as far away as that. Too small: runs stop before the
-/// singular configuration. Too large: the motion changes to another branch. Test:
+/// Largest correction of a step over a singular configuration. Unit: share of the distance at which
+/// it ends: other branches are as far away as that. Too small: runs stop before the singular
+/// configuration. Too large: the motion changes to another branch. Test:
 /// `a_run_may_end_in_the_flat_pose_or_beside_it`.
 pub(crate) const SMOOTH: f64 = 0.01;
 
@@ -487,9 +491,9 @@ pub(crate) const SMOOTH: f64 = 0.01;
 /// Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
 pub(crate) const KINK: f64 = 0.25;
 
-/// The step size collapses within this share of the run before the time at which constraints
-/// contradict each other. Unit: share of the run. Too small: the contradiction is not reported as
-/// the cause. Too large: an unrelated contradiction is reported. Test:
+/// A contradiction of constraints is reported as the cause of a collapsed step size if it was found
+/// at most this share of the run later. Unit: share of the run. Too small: the contradiction is not
+/// reported as the cause. Too large: an unrelated contradiction is reported. Test:
 /// `a_contradiction_just_ahead_is_why_a_run_stops`.
 pub(crate) const JUST_AHEAD: f64 = 1e-9;
 
@@ -504,8 +508,8 @@ pub(crate) const NO_REACTIONS: f64 = 1e-6;
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NO_REACTIONS_TOLERANCES: f64 = 1e3;
 
-/// Loose tolerances must not remove reactions at pivots above this share. Unit: share of pivots.
-/// Too small: reactions are wrong. Too large: accurate reactions are left out. Test:
+/// At pivots above this share, reactions are reported even if the tolerance is loose. Unit: share
+/// of pivots. Too small: reactions are wrong. Too large: accurate reactions are left out. Test:
 /// `pivots_are_compared_with_what_the_tolerance_leaves_of_them`.
 pub(crate) const NO_REACTIONS_MAX: f64 = 1e-2;
 
@@ -526,8 +530,8 @@ pub(crate) const SHARP: f64 = 1e-7;
 /// Too large: the search takes longer. Test: `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const BEYOND: f64 = 1.5;
 
-/// A pivot that falls to this share of the present one and rises again counts as vanishing; the
-/// remainder is the error of a parabola. Unit: share of the present pivot. Too small: singular
+/// A pivot that falls to this share of the present one and rises again counts as vanishing, because
+/// the predicted path is only a parabola. Unit: share of the present pivot. Too small: singular
 /// configurations are not predicted. Too large: steps avoid regular configurations. Test:
 /// `limits_stand_in_their_order`.
 pub(crate) const VANISHES: f64 = 0.2;
@@ -544,20 +548,22 @@ pub(crate) const STAYS: f64 = 0.75;
 pub(crate) const GLANCES: usize = 6;
 
 /// A pivot has a minimum between two instants if it falls to this share of both neighbouring
-/// values. At an end of the searched interval, the pivot falls without rising again. Unit: share of
-/// the pivots at the neighbouring places. Too small: singular configurations are not found. Too
-/// large: one singular configuration is reported twice. Test:
+/// values. A pivot that is small at an end of the searched interval has no minimum there. Unit:
+/// share of the pivots at the neighbouring places. Too small: singular configurations are not
+/// found. Too large: one singular configuration is reported twice. Test:
 /// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const RISES: f64 = 0.5;
 
-/// Between two instants, a pivot falls by at most this multiple of its largest change between two
-/// neighbouring instants. Unit: 1. Too small: singular configurations are not found. Too large: the
-/// search takes longer. Test: `a_pivot_that_vanishes_as_a_root_is_searched_for`.
+/// A search assumes that, between two instants, a pivot falls by at most this multiple of its
+/// largest change between neighbouring instants. Unit: 1. Too small: singular configurations are
+/// not found. Too large: the search takes longer. Test:
+/// `a_pivot_that_vanishes_as_a_root_is_searched_for`.
 pub(crate) const STEEPER: f64 = 2.0;
 
-/// Number of intervals of a step from which the motion through a singular configuration is
-/// analysed. Unit: intervals. Too small: the analysis does not find the singular configuration. Too
-/// large: the analysis takes longer. Test: `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
+/// Number of intervals into which a step is divided to analyse the motion through a singular
+/// configuration. Unit: intervals. Too small: the analysis does not find the singular
+/// configuration. Too large: the analysis takes longer. Test:
+/// `a_driven_parallelogram_goes_on_smoothly_and_says_so`.
 pub(crate) const PASSAGE_STATES: usize = 8;
 
 /// Maximum number of rows for which the motion through a singular configuration is analysed. The
@@ -579,18 +585,19 @@ pub(crate) const BESIDE: f64 = 0.02;
 // Jumps.
 
 /// Residuals below this share of the terms of their row do not count as jumps. For rates, the terms
-/// are those of the largest row. Unit: share of terms. Too small: a rounding error counts as an
+/// of the largest row are used. Unit: share of terms. Too small: a rounding error counts as an
 /// impulse. Too large: small jumps are not reported. Test: `smooth_steps_are_no_jumps`.
 pub(crate) const NO_JUMP: f64 = 1e-9;
 
 /// A continuous function changes much more between two times that are this number of roundings
-/// apart than between neighbouring times. Unit: roundings. Too small: rounding errors hide the
-/// change. Too large: other changes are included. Test: `smooth_steps_are_no_jumps`.
+/// apart than between neighbouring floating-point numbers. Unit: roundings. Too small: rounding
+/// errors hide the change. Too large: other changes are included. Test:
+/// `smooth_steps_are_no_jumps`.
 pub(crate) const WIDE: f64 = 1e6;
 
-/// A change is a jump if more than this share of the change over the wider interval remains over
-/// the narrow one. Unit: share. Too small: steep functions count as jumps. Too large: jumps count
-/// as steep functions. Test: `a_jump_of_the_rate_is_an_impulse_with_its_energy`.
+/// A change is a jump if the change over the narrow interval is more than this share of the change
+/// over the wide interval ([`WIDE`]). Unit: share. Too small: steep functions count as jumps. Too
+/// large: jumps count as steep functions. Test: `a_jump_of_the_rate_is_an_impulse_with_its_energy`.
 pub(crate) const REMAINS: f64 = 0.5;
 
 // Rows of output.
@@ -643,23 +650,23 @@ pub(crate) const PATIENCE: u64 = 8;
 /// the use of code. Too large: wrong code is used again. Test: none.
 pub(crate) const SAME_ACCELERATIONS: f64 = 1e-9;
 
-/// Allowed difference between values of generated code and of the interpreter. Unit: share of
-/// terms. Too small: rounding errors cause code to be rejected. Too large: code of a similar
-/// mechanism is accepted. Test: `code_of_another_mechanism_is_refused`.
+/// Allowed difference between the values of generated code and of the interpreter at the start and
+/// near it. Unit: share of terms. Too small: rounding errors cause code to be rejected. Too large:
+/// code of a similar mechanism is accepted. Test: `code_of_another_mechanism_is_refused`.
 pub(crate) const SAME_VALUES: f64 = 1e-9;
 
 /// Number of states near the start at which values are compared. Unit: states. Too small: the code
 /// of another mechanism agrees by chance. Too large: the comparison takes longer. Test: none.
 pub(crate) const CODE_STATES: usize = 6;
 
-/// Distance of these states from the start. Unit: size of the mechanism, or rad. Too small:
-/// differences in geometry are not detected. Too large: the code is not healthy at these states.
-/// Test: none.
+/// Distance of the states for this comparison from the start. Unit: size of the mechanism, or rad.
+/// Too small: differences in geometry are not detected. Too large: the code is not healthy at these
+/// states. Test: none.
 pub(crate) const DISTANCE: f64 = 0.01;
 
-/// Velocities at these states; they must be large enough that terms in their squares are
-/// significant. Unit: size of the mechanism, or rad, per second. Too small: these terms are not
-/// significant. Too large: these terms dominate all others. Test:
+/// Velocities at the states for this comparison; they must be so large that terms quadratic in the
+/// velocities are significant. Unit: size of the mechanism, or rad, per second. Too small: these
+/// terms are not significant. Too large: these terms dominate all others. Test:
 /// `code_of_another_mechanism_is_refused`.
 pub(crate) const SPEED: f64 = 1.0;
 
@@ -722,9 +729,9 @@ impl MotionOptions {
     /// Description of [`MotionOptions::RTOL_RANGE`] for error messages.
     pub const RTOL_EXPECTED: &str = "a number from 1e-15 (rounding) to 0.1";
 
-    /// Maximum number of output rows. A hundred bodies with six numbers each then take some 100 GB.
-    /// Unit: rows. Too small: long runs are rejected. Too large: disks are filled. Test:
-    /// `runs_that_would_never_end_are_refused_by_name`.
+    /// Maximum number of output rows. For a hundred bodies with six values each, the output then
+    /// takes some 100 GB. Unit: rows. Too small: long runs are rejected. Too large: disks are
+    /// filled. Test: `runs_that_would_never_end_are_refused_by_name`.
     pub const MOST_ROWS: f64 = 1e7;
 
     /// Default maximum number of accepted and rejected steps. Unit: steps. Too small: long runs are
@@ -737,7 +744,7 @@ impl MotionOptions {
 mod tests {
     use super::*;
 
-    /// In each row of the table, each number is less than the next one; otherwise a state would
+    /// In each row of the table, each value is less than the next one; otherwise a state would
     /// belong to two classes.
     #[test]
     fn limits_stand_in_their_order() {

@@ -1,16 +1,16 @@
 //! Small motions about an equilibrium or a steady motion: `ẋ = A·x + B·u`.
 //!
 //! The state x consists of independent positions and independent velocities. The number of
-//! positions equals the degrees of freedom of the holonomic rows, and the number of velocities
-//! those of all rows. Both are small changes of named coordinates of the bodies: translations and
-//! rotations of their frames, in axes that may rotate with one of them
-//! ([`LineariseOptions::follow`]).
+//! positions is the number of degrees of freedom with the holonomic rows alone, and the number of
+//! velocities is that with all rows. Positions and velocities are small changes of named
+//! coordinates of the bodies: translations and rotations of their frames. The axes may rotate with
+//! one of the bodies ([`LineariseOptions::follow`]).
 //!
 //! The state is displaced along a curve whose direction satisfies the linearised constraints, and
-//! the accelerations of the motion on independent rows are differentiated along it. The derivative
+//! the accelerations on independent rows are differentiated along this curve. The derivative
 //! depends only on the direction, so the curve needs no projection. Central differences of order
-//! eight from steps of 1/128 of the mechanism are accurate to rounding. Their difference from those
-//! of order six is the estimate of the error.
+//! eight with steps of 1/128 of the size of the mechanism are accurate to rounding. The difference
+//! between order eight and order six is the error estimate.
 
 mod bases;
 mod chosen;
@@ -55,8 +55,8 @@ pub struct LineariseOptions {
 
 /// Linearises the motion about the state q, v at time t; the state must satisfy the constraints.
 ///
-/// At rest (v = 0), functions of time keep their values at t, as in [`crate::equilibrium`]. The
-/// further motion of a drive is an input.
+/// At rest (v = 0), functions of time keep their values at t, as in [`crate::equilibrium`]. A
+/// deviation of a drive from this value is an input.
 ///
 /// # Errors
 /// - [`LineariseError::NotSteady`]: the state is neither an equilibrium nor steady.

@@ -4,8 +4,8 @@
 //! with other independent rows from an accepted and corrected state; this does not change the
 //! motion.
 //!
-//! The rows that the user requests to drop are dropped again once the other rows are independent
-//! again. Reactions always belong to the requested rows.
+//! The rows that the user requests to drop are dropped again as soon as the other rows are
+//! independent again. Reactions always belong to the requested choice of rows.
 
 use model::{Mechanism, Scratch, System};
 use solvability::ChosenValues;
@@ -253,7 +253,7 @@ impl<'m> KeptRowMotion<'m> {
         self.write_multipliers(t, q, v, lambda.to_be_written())
     }
 
-    /// As [`Self::multipliers`], as plain numbers.
+    /// Like [`Self::multipliers`], but writes only the values.
     pub(crate) fn write_multipliers(
         &mut self,
         t: f64,
@@ -340,7 +340,7 @@ impl<'m> KeptRowMotion<'m> {
         self.solve_factored(state.v, a)
     }
 
-    /// The same accelerations if the pose is evaluated and the rows are factored.
+    /// Computes the accelerations if the pose is evaluated and the rows are factored.
     pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
         self.watch.passage.see(&self.equations.velocity);
         self.equations.solve_factored(v, a)
@@ -363,7 +363,7 @@ impl<'m> KeptRowMotion<'m> {
         (q, &rest[..layout.n_v])
     }
 
-    /// The parts q, v and, if y contains it, the work; or their rates.
+    /// The parts q and v of y, and the work if y contains it; or the rates of these parts.
     pub(crate) fn parts_mut<'y>(
         &self,
         y: &'y mut [f64],

@@ -41,16 +41,16 @@ pub struct OutputRequest {
     pub groups: Vec<Group>,
     /// The verdicts that are requested with the reactions.
     pub verdicts: Verdicts,
-    /// Additional choices of multipliers for which all reactions are requested; they are possible
-    /// at the start.
+    /// Additional assumptions (choices) that select one solution for reactions that are not unique.
+    /// All reactions are requested for each choice; each choice selects a solution at the start.
     pub choices: Vec<NamedChoice>,
 }
 
 /// Verdicts that are computed with reactions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdicts {
-    /// Verdicts on time intervals, and the instants that differ: computed at accepted steps and
-    /// output rows.
+    /// Verdicts for time intervals, and for the instants that differ from them. They are computed
+    /// at accepted steps and output rows.
     WithInstants,
     /// Verdicts on the whole run. They are computed at the start, and in each time interval at the
     /// end of its first accepted step and at the start of its last step. If a verdict is still
@@ -144,7 +144,7 @@ pub struct Plan<'a> {
     pub groups: Vec<Group>,
     /// Verdicts that are computed with reactions.
     pub verdicts: Verdicts,
-    /// Choices of multipliers for which reactions are computed at output rows.
+    /// Additional assumptions (choices) for which reactions are computed at output rows.
     pub choices: Vec<NamedChoice>,
     /// Components of the mechanism, or the whole mechanism as the only component.
     pub components: Vec<ComponentPlan<'a>>,

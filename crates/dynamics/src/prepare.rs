@@ -30,18 +30,18 @@ pub struct PreparedMechanism {
     pub v: Vec<f64>,
     /// The requested choice of independent rows.
     pub choice: RowChoice,
-    /// Options of the start, such as the coordinates that it keeps.
+    /// Options of the start, for example coordinates that the assembly must not change.
     pub start: StartOptions,
-    /// Whether a tolerance is stated and there are redundant rows: they may be redundant only
-    /// within this tolerance. Then these rows have constraint violations, and the choice of the
+    /// Whether a tolerance is stated and there are redundant rows. These rows may be redundant only
+    /// within the tolerance. Then they have constraint violations, and the choice of the
     /// independent rows changes the motion by a similar amount.
     pub may_miss: bool,
     /// Rank and independent rows of C.
     pub decision: RowDecision,
     /// Rank and independent rows of Φq alone, which determine the configuration.
     pub position_decision: RowDecision,
-    /// The decisions at the start, part by part, from which the verdicts at the start are computed;
-    /// `None` for a component of another mechanism.
+    /// The rank decisions at the start, for each part of the mechanism; the verdicts at the start
+    /// are computed from them. `None` for a component of another mechanism.
     pub decided: Option<Arc<Rows>>,
     /// Result of the assembly of the configuration.
     pub assembly: Assembly,
@@ -225,8 +225,8 @@ pub fn prepare_after(
     }
     let found = rows_of(&mechanism, 0.0, &assembly.q)?;
     if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
-        // The cause that prevents any motion is reported first, because it is also an error of the
-        // analysis.
+        // A cause that prevents any motion is reported first, because it also causes an error of
+        // the analysis.
         return Err(if found.are_certified() {
             start_velocity(&mechanism, start, &found, &assembly.q, &found.all.kept)
                 .err()
@@ -291,8 +291,8 @@ fn on_rows(
     })
 }
 
-/// The rows of C and of Φq that are requested to be redundant: the same ones for Φq, as far as they
-/// are holonomic.
+/// The rows of C and of Φq that are requested to be redundant; for Φq, those of the rows that are
+/// holonomic.
 fn drop_within_tolerance(
     mechanism: &Mechanism,
     found: &Rows,
@@ -338,9 +338,9 @@ pub fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<Motio
 }
 
 /// Velocities of an assembled start, see [`consistent_velocity`], and a contradiction between
-/// accelerations there, if any: redundant rows may allow the velocities but no motion that starts
-/// with them. Rows that contradict each other for all initial velocities, such as rows of drives,
-/// are reported before given velocities that contradict the rows.
+/// accelerations there, if any. Such a contradiction exists if redundant rows allow the velocities
+/// but no motion that starts with them. Rows that contradict each other for all initial velocities,
+/// such as rows of drives, are reported before given velocities that contradict the rows.
 ///
 /// # Errors
 /// - [`MotionError::Start`]: the given velocities are impossible.

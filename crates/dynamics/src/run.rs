@@ -73,8 +73,8 @@ pub fn simulate(
     simulate_until(prepared, options, &|| false, row)
 }
 
-/// Like [`simulate`]; `stop` is called at each evaluation, and the run ends at the last accepted
-/// step when it returns true.
+/// Like [`simulate`], but `stop` is called at each evaluation. When `stop` returns true, the run
+/// ends at the last accepted step.
 ///
 /// # Errors
 /// Returns the same errors as [`simulate`].
@@ -101,8 +101,9 @@ impl Plan<'_> {
         self.simulate_watched(&|_| ControlFlow::Continue(()), &|| false, row)
     }
 
-    /// Like [`Plan::simulate`]; `watch` is also called between rows, at each accepted step, and
-    /// `stop` at each evaluation: when it returns true, the run ends at the last accepted step.
+    /// Like [`Plan::simulate`], with two more functions. `watch` is called at each accepted step,
+    /// also between rows. `stop` is called at each evaluation; when it returns true, the run ends
+    /// at the last accepted step.
     ///
     /// # Errors
     /// Returns the same errors as [`Plan::simulate`].
@@ -116,8 +117,8 @@ impl Plan<'_> {
     }
 
     /// Like [`Plan::simulate_watched`], but `evaluator` evaluates the code of the mechanism and
-    /// must return its results. This is for callers that evaluate several runs at once. A plan
-    /// without code runs as usual.
+    /// must return the results of this code. This is for callers that evaluate several runs at
+    /// once. A plan without code runs as usual.
     ///
     /// # Errors
     /// Returns the same errors as [`Plan::simulate`].

@@ -33,7 +33,7 @@ impl Dyadic {
         (!self.is_zero()).then_some(self.exponent)
     }
 
-    /// Returns whether it is zero.
+    /// Returns whether the number is zero.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         self.mantissa.is_zero()
@@ -90,7 +90,8 @@ impl From<f64> for Dyadic {
         assert!(x.is_finite(), "{x} is no number");
         const FIELD: u64 = (1 << 52) - 1;
         let (bits, biased) = (x.to_bits() & FIELD, (x.to_bits() >> 52) & 0x7ff);
-        // Subnormal numbers have no hidden bit and the exponent of the smallest normal numbers.
+        // Subnormal numbers have no hidden bit, and their exponent is the exponent of the smallest
+        // normal numbers.
         let hidden = if biased == 0 { 0 } else { FIELD + 1 };
         let mantissa = BigInt::from(bits + hidden);
         let mantissa = if x < 0.0 { -mantissa } else { mantissa };

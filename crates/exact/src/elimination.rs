@@ -9,9 +9,10 @@ use num_traits::{One, Zero};
 ///
 /// Source: E. H. Bareiss, Sylvester's identity and multistep integer-preserving Gaussian
 /// elimination, Math. Comp. 22 (1968): all entries remain minors of the matrix,
-/// `row ← (d_k·row − b·pivot row)/d_{k−1}`. In this implementation, a row is not changed while its
-/// b is zero: after ℓ steps it is divided by `d_ℓ`, and a pivot row is first converted to
-/// `d_{k−1}`. Sparse matrices stay sparse, and their entries stay small.
+/// `row ← (d_k·row − b·pivot row)/d_{k−1}`. In this implementation, a row does not change while its
+/// b is zero. A row that last changed after ℓ steps has the divisor `d_ℓ`; before it is used as a
+/// pivot row, it is converted to the divisor `d_{k−1}`. Sparse matrices stay sparse, and their
+/// entries stay small.
 pub(super) fn eliminate(mut rows: Vec<Vec<BigInt>>, columns: usize) -> (usize, Vec<Vec<BigInt>>) {
     let mut determinants = vec![BigInt::one()];
     let mut steps = vec![0; rows.len()];

@@ -18,8 +18,8 @@ use crate::elimination::eliminate;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Exact {
-    /// Integers: row i of the matrix is row i of these numbers times `2^row_exponents[i]`, times a
-    /// power of two for each column.
+    /// Integers. Row i of the matrix is row i of these integers times `2^row_exponents[i]`, with
+    /// each column multiplied by a power of two.
     rows: Vec<Vec<BigInt>>,
     row_exponents: Vec<i64>,
     rank: usize,
@@ -90,14 +90,15 @@ impl Exact {
         self.z.iter().all(|z| z[i].is_zero())
     }
 
-    /// Returns a basis of the vectors z with `zᵀ·C = 0`, for a matrix of integers. The rows of
-    /// other matrices are multiplied by powers of two.
+    /// Returns a basis of the vectors z with `zᵀ·C = 0`, for a matrix C of integers. If C was given
+    /// in another form, its rows were multiplied by powers of two, and the basis belongs to these
+    /// scaled rows.
     #[must_use]
     pub fn null_space(&self) -> &[Vec<BigInt>] {
         &self.z
     }
 
-    /// Returns whether `ℓᵀ·λ` is unique, for a matrix with integer entries: `ℓᵀ·Z = 0`.
+    /// Returns whether `ℓᵀ·λ` is unique, that is `ℓᵀ·Z = 0`, for a matrix with integer entries.
     #[must_use]
     pub fn determines(&self, l: &[BigInt]) -> bool {
         let product = |z: &Vec<BigInt>| z.iter().zip(l).map(|(z, l)| z * l).sum::<BigInt>();
@@ -142,8 +143,8 @@ impl Exact {
     }
 }
 
-/// Returns the matrix as integers, made small by powers of two for rows and columns, and the
-/// exponents of the rows.
+/// Multiplies the rows and columns of the matrix by powers of two so that the entries are small
+/// integers. Returns these integers and the exponents of the rows.
 fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
     let n = matrix.first().map_or(0, Vec::len);
     let entries: Vec<(usize, usize, i64)> = matrix
@@ -171,8 +172,8 @@ fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
     (rows.collect(), down)
 }
 
-/// Number of sweeps that move the powers of two of rows and columns near their least-squares
-/// values. More sweeps could only make the later steps faster.
+/// Number of sweeps that adjust the powers of two of rows and columns towards their least-squares
+/// values. More sweeps would not change the result, only the time of the later steps.
 const SWEEPS: usize = 12;
 
 /// Returns the mean of the values for each index.

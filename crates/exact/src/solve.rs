@@ -1,15 +1,15 @@
-//! Solves the equations of motion on kept rows exactly:
+//! Solves exactly the equations of motion with independent rows only:
 //!
 //! ```text
 //! | M  Cᵀ | | a |   | Q |
 //! | C  0  | | λ | = | Γ |     M = diag(m) ≥ 0 (n), C the kept rows (r×n)
 //! ```
 //!
-//! All given numbers count as exact fractions, and the result is rounded once, at the end. It is
-//! therefore correct for the C, M, Q and Γ that a program in `f64` uses; the rounding errors in
-//! these numbers themselves are not included. If rows are redundant, only kept rows may be given: Γ
-//! of the other rows contains its own rounding error, and the equations of all rows together have
-//! no solution.
+//! All given values count as exact fractions, and the result is rounded once, at the end. The
+//! result is therefore correct for the C, M, Q and Γ that a program in `f64` uses, but the rounding
+//! errors in C, M, Q and Γ are not corrected. If rows are redundant, only independent rows may be
+//! given: Γ of the redundant rows contains separate rounding errors, so that the equations of all
+//! rows have no common solution.
 
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, ToPrimitive, Zero};
@@ -18,22 +18,22 @@ use crate::dyadic::Dyadic;
 use crate::elimination::eliminate;
 use crate::rank::Exact;
 
-/// The solution; each number is rounded to the nearest `f64`.
+/// The solution; each value is rounded to the nearest `f64`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solution {
     /// Accelerations, n values.
     pub a: Vec<f64>,
-    /// Multipliers of the kept rows, r values.
+    /// Multipliers of the given rows, r values.
     pub lambda: Vec<f64>,
 }
 
-/// The reason why there is no solution, or more than one.
+/// The reason why the equations do not have exactly one solution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Singular {
     /// The rows are dependent.
     Rows,
-    /// The rows are independent, but M is not positive definite on ker C: a motion that they allow
-    /// moves no mass.
+    /// The rows are independent, but M is not positive definite on ker C: the rows allow a motion
+    /// that moves no mass.
     Massless,
 }
 
@@ -57,7 +57,7 @@ pub enum Singular {
 /// Returns [`Singular`] if there is no unique solution.
 ///
 /// # Panics
-/// Panics if a number is not finite, or the shapes do not match.
+/// Panics if a value is not finite, or the shapes do not match.
 pub fn solve<R: AsRef<[f64]>>(
     mass: &[f64],
     rows: &[R],
@@ -93,16 +93,16 @@ pub fn solve<R: AsRef<[f64]>>(
     Ok(Solution { a, lambda })
 }
 
-/// Returns a row of numbers as integers, all multiplied by the same power of two.
+/// Returns the entries of a row as integers, all multiplied by the same power of two.
 fn whole(row: &[f64]) -> Vec<BigInt> {
     let row: Vec<Dyadic> = row.iter().map(|&x| Dyadic::from(x)).collect();
     let least = row.iter().filter_map(Dyadic::exponent).min().unwrap_or(0);
     row.iter().map(|x| x.over_power(least)).collect()
 }
 
-/// Returns the unknowns of an upper triangular system whose last column is its right-hand side.
-/// Multiplied by the determinant they are integers (Cramer's rule), so that all divisions except
-/// the last are exact.
+/// Returns the unknowns of an upper triangular system whose last column is its right-hand side. The
+/// products of the unknowns and the determinant are integers (Cramer's rule), so that all divisions
+/// except the last are exact.
 fn back_substituted(rows: &[Vec<BigInt>]) -> Vec<f64> {
     let n = rows.len();
     let determinant = rows
@@ -151,8 +151,8 @@ mod tests {
         ] {
             assert_eq!(quotient(&big(x), &big(y)), x / y, "{x}/{y}");
         }
-        // The values are half a unit in the last place, slightly more and slightly less: only much
-        // later digits decide.
+        // The values are half a unit in the last place, slightly more and slightly less. The
+        // difference is only in much later digits, and it determines the rounding.
         let half = (BigInt::one() << 200) + (BigInt::one() << 147);
         let one = BigInt::one() << 200;
         assert_eq!(quotient(&half, &one), 1.0);
@@ -168,8 +168,8 @@ mod tests {
         let found = solve(&[3.0, 3.0, 0.0], &rows, &[0.0, -30.0, 0.0], &[0.0, 0.0]).unwrap();
         assert_eq!(found.a, [0.0, -10.0, -5.0]);
         assert_eq!(found.lambda, [0.0, 0.0]);
-        // With a moment of inertia of 12 = m·l², the acceleration is half as large, and the pivot
-        // carries half of the weight.
+        // With a moment of inertia of 12 = m·l², the acceleration is half as large, and the
+        // reaction in the pivot is half of the weight.
         let found = solve(&[3.0, 3.0, 12.0], &rows, &[0.0, -30.0, 0.0], &[0.0, 0.0]).unwrap();
         assert_eq!(found.a, [0.0, -5.0, -2.5]);
         assert_eq!(found.lambda, [0.0, -15.0]);

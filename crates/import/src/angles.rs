@@ -1,4 +1,4 @@
-//! Angles that may be in another unit than the unit of the file: degrees instead of radians, and
+//! Finds angles that are probably not in the unit of the file: degrees instead of radians, or
 //! radians instead of degrees.
 
 use crate::limits::{COMMON_ANGLE, TURN};

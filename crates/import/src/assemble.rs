@@ -1,6 +1,6 @@
-//! A pose at which loops are closed. It is found from a guess by least squares in the coordinates
-//! of the joints that define the positions of links. If this fails, the search continues from the
-//! gaps of the guess in steps, and from other guesses.
+//! Finds a pose at which loops are closed. The search starts from a guess and uses least squares in
+//! the coordinates of the joints that define the positions of links. If this fails, the gaps of the
+//! guess are reduced in steps, and other guesses are tried.
 
 mod loops;
 
@@ -15,11 +15,11 @@ use loops::{Gap, Tree};
 /// A pose of all links.
 pub(crate) struct Assembly {
     poses: Vec<Isometry3<f64>>,
-    /// For each joint, changes of its coordinates relative to the described pose.
+    /// For each joint, the changes of the joint coordinates relative to the described pose.
     moved: Vec<[f64; 2]>,
     /// Displacements of the joints.
     displacements: Vec<Isometry3<f64>>,
-    /// The largest remaining gap, as a share of the size or in rad.
+    /// The largest remaining gap, as a share of the size of the model or in rad.
     pub(crate) gap: f64,
     /// Description of how the pose was found.
     pub(crate) way: &'static str,
@@ -46,8 +46,8 @@ pub(crate) fn poses(model: &Model, guess: &[(usize, usize, f64)]) -> Vec<Isometr
     State::new(model, guess).poses(model)
 }
 
-/// Descriptions of the gaps for these poses of the links and these coordinate changes: names with
-/// distances and angles.
+/// Descriptions of the gaps for these poses of the links and these coordinate changes. Each
+/// contains the name of the loop, the distance and the angle.
 pub(crate) fn open(model: &Model, poses: &[Isometry3<f64>], moved: &[[f64; 2]]) -> Vec<String> {
     let gaps = Tree::new(model).gaps(model, poses, moved);
     let open = gaps.iter().filter(|gap| gap.size() > OPEN);
@@ -55,7 +55,7 @@ pub(crate) fn open(model: &Model, poses: &[Isometry3<f64>], moved: &[[f64; 2]]) 
         .collect()
 }
 
-/// Assembles a model from a guess of its coordinate changes. Coordinates in `held` (joint,
+/// Assembles a model from a guess of the coordinate changes. Coordinates in `held` (joint,
 /// coordinate) keep the values of the guess, if the loops can be closed with them.
 pub(crate) fn assemble(
     model: &Model,
@@ -71,7 +71,8 @@ pub(crate) fn assemble(
     let mut best = first.search(model, &tree.holding(held));
     if best.1 > ASSEMBLED && !held.is_empty() {
         let free = first.search(model, &tree);
-        // If both fail because of too few digits, the pose with the requested values is used.
+        // If neither search closes the loops because the data have too few digits, the pose with
+        // the requested values is used.
         if free.1 <= ASSEMBLED || best.1 > CLOSED {
             best = free;
         }
@@ -93,9 +94,9 @@ pub(crate) fn assemble(
     })
 }
 
-/// Makes a pose the described pose. Springs, couplings and orientations that welds keep still refer
-/// to the pose of the file. This is not possible for springs of spherical joints that have rotated:
-/// they are removed, and their joints are returned.
+/// Makes a pose the described pose. Springs, couplings and the orientations of welds still refer to
+/// the pose of the file. This is not possible for springs of spherical joints that have rotated:
+/// these springs are removed, and the names of their joints are returned.
 pub(crate) fn describe(model: &mut Model, found: &Assembly) -> Vec<String> {
     let mut removed = Vec::new();
     for k in 0..model.joints.len() {
@@ -146,7 +147,8 @@ impl State {
         state
     }
 
-    /// Computes the displacement of a joint from its coordinates, if it has coordinates.
+    /// Computes the displacement of a joint from the joint coordinates, if the joint has
+    /// coordinates.
     fn follow(&mut self, model: &Model, joint: usize) {
         let of = &model.joints[joint];
         let n = of.kind.measures().len();
@@ -156,8 +158,8 @@ impl State {
         }
     }
 
-    /// The state with the smallest gap that the search finds from this state, its gap, and a
-    /// description of how it was found.
+    /// Searches from this state. Returns the state with the smallest gap, the gap, and a
+    /// description of how the state was found.
     fn search(&self, model: &Model, tree: &Tree) -> (Self, f64, &'static str) {
         let mut best = self.clone();
         let mut least = best.descend(model, tree, None);
@@ -268,7 +270,7 @@ impl State {
                     continue;
                 };
                 let mut step = factor.solve(&gradient);
-                // The step is at most half a radian, or half of the size.
+                // The step is at most half a radian, or half of the size of the model.
                 let longest = step.amax();
                 if longest > 0.5 {
                     step *= 0.5 / longest;

@@ -1,5 +1,6 @@
-//! Axes of loops that are nearly parallel or nearly meet, either because of rounded digits or
-//! because of an intended tilt. They are reported, and made parallel or intersecting on request.
+//! Finds axes of a loop that are nearly parallel or nearly intersect, either because of rounded
+//! digits or because of an intended tilt. These axes are reported, and made parallel or
+//! intersecting on request.
 
 use model::words::estimate;
 use std::cmp::Reverse;
@@ -16,7 +17,7 @@ use crate::pose::placing;
 pub enum Axes {
     /// Axes are only reported.
     Told,
-    /// Axes that are nearly parallel or nearly meet are made parallel or intersecting, and the
+    /// Axes that are nearly parallel or nearly intersect are made parallel or intersecting, and the
     /// changes are reported.
     Snapped,
 }
@@ -51,7 +52,7 @@ impl Tilt {
     }
 }
 
-/// Angle up to which axes are made parallel, from the accuracy of angles.
+/// Angle up to which axes are made parallel, computed from the accuracy of angles in the file.
 fn near(angle: Option<f64>) -> f64 {
     SNAPPED.max(3.0 * angle.unwrap_or(0.0))
 }
@@ -68,7 +69,7 @@ fn tilted(
         .iter()
         .filter_map(|&joint| axis(model, poses, joint))
         .collect();
-    // The reference is the axis to which most other axes of the loop are parallel.
+    // The reference axis is the axis with the largest number of parallel axes in the loop.
     let agree = |a: &JointAxis| of.iter().filter(|b| tilt(a, b) <= known).count();
     let votes: Vec<usize> = of.iter().map(agree).collect();
     let best = (0..of.len()).max_by_key(|&k| (votes[k], Reverse(of[k].joint)));
@@ -110,8 +111,8 @@ pub(crate) fn tilts(model: &Model, poses: &[Isometry3<f64>], angle: Option<f64>)
     (!words.is_empty()).then(|| words.join("; "))
 }
 
-/// Makes nearly parallel axes parallel, before loops are closed: `poses` are the poses of the
-/// guess.
+/// Makes nearly parallel axes parallel, before loops are closed. `poses` are the poses of the
+/// initial guess.
 pub(crate) fn align(
     model: &mut Model,
     poses: &[Isometry3<f64>],
@@ -142,8 +143,8 @@ fn sentence(words: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
-/// Reports axes of each loop that are nearly parallel or nearly meet. `poses` are the poses of the
-/// links at the start, `tolerance` the accuracy of lengths and angles.
+/// Reports axes of each loop that are nearly parallel or nearly intersect. `poses` are the poses of
+/// the links at the start, `tolerance` the accuracy of lengths and angles.
 pub(crate) fn look(
     model: &mut Model,
     poses: &[Isometry3<f64>],
@@ -256,7 +257,8 @@ fn shift(model: &mut Model, poses: &[Isometry3<f64>], joint: usize, by: Vector3<
     }
 }
 
-/// The joints of each loop: the joint that closes it, and the joints of the tree between its links.
+/// The joints of each loop: the joint that closes the loop, and the joints of the tree between the
+/// links of this joint.
 fn loops(model: &Model) -> Vec<Vec<usize>> {
     let before = placing(model);
     let chain = |link: Option<usize>| {
@@ -276,7 +278,7 @@ fn loops(model: &Model) -> Vec<Vec<usize>> {
     closing
         .map(|(k, joint)| {
             let [mut a, mut b] = joint.links.map(chain);
-            // The common part of both chains does not belong to the loop.
+            // Joints that both chains contain do not belong to the loop.
             while a.last().is_some() && a.last() == b.last() {
                 a.pop();
                 b.pop();

@@ -1,5 +1,5 @@
-//! Couplings that are not satisfied at the described pose of the links: a dependent coordinate is
-//! moved to the value that its coupling requires.
+//! Corrects couplings that are not satisfied at the described pose of the links: the dependent
+//! coordinate is changed to the value that the coupling requires.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,7 @@ fn value(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
-/// Coefficients of P(s + x) − P(s) for changes of x.
+/// Coefficients of P(s + x) − P(s) as a polynomial in x.
 pub(crate) fn about(coefficients: &[f64], s: f64) -> Vec<f64> {
     let mut shifted = coefficients.to_vec();
     if s != 0.0 {
@@ -32,8 +32,8 @@ pub(crate) fn about(coefficients: &[f64], s: f64) -> Vec<f64> {
     shifted
 }
 
-/// The given coordinates (joint, coordinate, change relative to the described pose), the
-/// coordinates that depend on them, and the coordinates on which they depend linearly.
+/// Extends the given coordinates (joint, coordinate, change relative to the described pose) by the
+/// coordinates that couplings determine from them. A linear coupling is used in both directions.
 pub(crate) fn follow(model: &Model, given: &[(usize, usize, f64)]) -> Vec<(usize, usize, f64)> {
     let mut known: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     known.extend(given.iter().map(|&(joint, k, change)| ((joint, k), change)));
@@ -85,7 +85,7 @@ pub(crate) fn settle(model: &mut Model, findings: &mut Findings) {
     for coupling in &mut model.couplings {
         let x = coupling.x.map_or(0.0, |(joint, k)| shifts[joint][k]);
         coupling.coefficients = about(&coupling.coefficients, x);
-        // A coupling without a leading coordinate locks its coordinate.
+        // A coupling with a constant polynomial locks its coordinate.
         if coupling.coefficients.iter().all(|c| *c == 0.0) {
             coupling.x = None;
         }

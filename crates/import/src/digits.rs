@@ -1,8 +1,10 @@
-//! The finest decimal place in a file: half a unit of it is the accuracy of the numbers.
+//! Finds the finest decimal place in a file. Half a unit of this place is the accuracy of the
+//! numbers.
 //!
 //! A file does not state how many digits of its numbers are significant: `0.5` may be an exact half
-//! or a rounded number. The finest place among all lengths is the resolution of the writer, so half
-//! a unit of it is the tolerance of lengths; the same applies to angles and directions.
+//! or a rounded number. The finest place among all lengths is the resolution of the program that
+//! wrote the file, so half a unit of this place is the tolerance of lengths. The same applies to
+//! angles and directions.
 
 /// The finest decimal place of numbers of one kind.
 #[derive(Clone, Copy, Default)]

@@ -14,7 +14,7 @@ use crate::xml::{Element, Value, parse};
 pub enum Folder {
     /// Includes are rejected, as for a text from standard input.
     None,
-    /// The folder of the file, and folders in it.
+    /// The folder of the file, and its subfolders.
     At(PathBuf),
 }
 

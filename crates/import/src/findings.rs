@@ -1,5 +1,5 @@
-//! Findings while a file is read: problems because of which it is rejected, content that the scene
-//! omits, and the number of digits.
+//! Findings while a file is read: problems because of which the file is rejected, content that the
+//! scene omits, and the number of digits.
 
 use std::ops::Range;
 
@@ -21,7 +21,7 @@ pub(crate) enum Fault {
     Format,
     /// An element or attribute is missing.
     Missing,
-    /// A text differs from the expected value: a number, a word, a list of some length.
+    /// A text is not of the expected kind, such as a number, a word, or a list of a given length.
     Value,
     /// A name that does not exist.
     Unknown,
@@ -33,13 +33,13 @@ pub(crate) enum Fault {
     Unsupported,
     /// Links and joints that are inconsistent.
     Structure,
-    /// A number that no body or joint can have.
+    /// A number that is not possible for a body or joint, such as a negative mass.
     Range,
     /// An included file that cannot be used.
     Include,
     /// A file of loop closures that cannot be read.
     Loops,
-    /// Loops that no pose of the search closes.
+    /// Loops that are not closed at any pose that the search finds.
     Assembly,
 }
 
@@ -196,7 +196,8 @@ impl Findings {
         (!is_fine).then(|| (std::mem::take(&mut self.problems), self.more))
     }
 
-    /// The numbers of a value: finite, at least `least` and at most `most` of them.
+    /// The numbers of a value, which must be finite. At least `least` and at most `most` numbers
+    /// are required.
     pub(crate) fn numbers(
         &mut self,
         value: &Value,
@@ -263,7 +264,7 @@ impl Findings {
         Some(nalgebra::Vector3::from_column_slice(&numbers))
     }
 
-    /// A vector that is not zero, of length 1.
+    /// A nonzero vector, scaled to length 1.
     pub(crate) fn direction(&mut self, value: &Value) -> Option<nalgebra::Vector3<f64>> {
         let vector = self.vector(value, NumberKind::Direction)?;
         let length = vector.norm();
@@ -304,7 +305,8 @@ impl Findings {
     }
 }
 
-/// A vector scaled to length 1. A vector with length 1 within rounding keeps its digits.
+/// A vector scaled to length 1. If its length is already 1 to within rounding, the digits do not
+/// change.
 pub(crate) fn unit(vector: nalgebra::Vector3<f64>) -> nalgebra::Vector3<f64> {
     let scaled = vector / vector.amax();
     let length = scaled.norm() * vector.amax();

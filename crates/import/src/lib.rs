@@ -62,13 +62,13 @@ pub struct ImportedScene {
     pub scene: String,
     /// `MJCF`, `URDF` or `SDF`.
     pub format: &'static str,
-    /// Content of the file that the scene does not contain.
+    /// Content of the file that the scene omits.
     pub omissions: Vec<Omission>,
     /// Statements about the scene as a whole, which are also at the start of its text.
     pub remarks: Vec<String>,
     /// Number of bodies, and number of joints and couplings, in the file.
     pub counts: [usize; 2],
-    /// Number of rotors for armatures: each rotor is one more body with a joint and a coupling.
+    /// Number of rotors for armatures. Each rotor is one more body with a joint and a coupling.
     pub rotors: usize,
 }
 
@@ -93,8 +93,8 @@ pub struct Refusal {
 
 impl Refusal {
     fn of(mut diagnostics: Vec<Diagnostic>, more: usize, texts: &[SourceText]) -> Self {
-        // Positions belong to one text: problems of other files are reported after the user has
-        // corrected this one.
+        // Positions refer to one text. Problems of other files are reported after the user has
+        // corrected this file.
         let file = diagnostics
             .first()
             .map_or_else(String::new, |d| d.file.clone());
@@ -150,7 +150,8 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
             Err(problem) => return Err(Box::new(Refusal::of(vec![*problem], 0, &texts))),
         }
     }
-    // Files that include each other would be read repeatedly without end.
+    // A file whose includes have problems is rejected here, because files that include each other
+    // would be read without end.
     if let Some(refusal) = refused(&mut findings) {
         return Err(refusal);
     }
@@ -245,7 +246,8 @@ fn read<'a>(
         );
         findings.of(Fault::Unsupported, root, message);
     }
-    // Readers would not find misspelt names, and would report them as missing.
+    // A file with misspelt names is rejected here. The readers would report the intended names as
+    // missing.
     if findings.has_problems() {
         return (Model::default(), format);
     }

@@ -1,9 +1,9 @@
-//! Numbers that were chosen by the authors. Limits of a file before parsing prevent that a file
-//! uses all memory or the whole stack. Other numbers define when loops are closed, axes are
-//! parallel and numbers are exact, or are defaults of formats.
+//! Constants chosen by the authors. The limits that are checked before parsing prevent a file from
+//! using all memory or the whole stack. Other constants define when loops are closed, axes are
+//! parallel and values are exact, or are defaults of formats.
 
 /// Largest size of a file. Unit: bytes. Too small: large scans of robots with comments are
-/// rejected. Too large: a malicious file uses some 20 times as much memory. Test:
+/// rejected. Too large: a malicious file of this size uses about 20 times as much memory. Test:
 /// `hostile_files_are_refused`.
 pub(crate) const LARGEST: usize = 16 << 20;
 
@@ -16,27 +16,27 @@ pub(crate) const MOST_NODES: u32 = 1 << 19;
 /// rejected. Too large: recursive readers overflow the stack. Test: `hostile_files_are_refused`.
 pub(crate) const DEEPEST: usize = 300;
 
-/// Maximum number of attributes of an element. Unit: number. Too small: no element of a format has
-/// more than 60, but extensions may have more. Too large: more time is used, which grows with the
-/// second power. Test: `many_attributes_cost_no_time`.
+/// Maximum number of attributes of an element. Unit: number. Too small: elements with many
+/// attributes of extensions are rejected; the formats define at most 60. Too large: the time grows
+/// with the square of the number. Test: `many_attributes_cost_no_time`.
 pub(crate) const MOST_ATTRIBUTES: usize = 256;
 
 /// Maximum number of declarations of name spaces in a file. Unit: number. Too small: files that
-/// repeat them in each element are rejected. Too large: more time is used, because all declarations
-/// are valid within the elements that contain them. Test: `many_attributes_cost_no_time`.
+/// repeat them in each element are rejected. Too large: more time is used, because the parser
+/// searches all declarations of the surrounding elements. Test: `many_attributes_cost_no_time`.
 pub(crate) const MOST_NAME_SPACES: usize = 1024;
 
 /// Maximum number of included files. Unit: number. Too small: a model of many parts is rejected.
 /// Too large: more memory is used. Test: `includes_stay_in_their_folder`.
 pub(crate) const MOST_FILES: usize = 64;
 
-/// Maximum number of listed problems. Unit: number. Too small: a user needs more rounds of
-/// corrections. Too large: the list is too long to read. Test: `problems_are_counted`.
+/// Maximum number of listed problems. Unit: number. Too small: a user must correct and import a
+/// file more often. Too large: the list is too long to read. Test: `problems_are_counted`.
 pub(crate) const MOST_PROBLEMS: usize = 100;
 
 /// Finest digit that is used as a tolerance. Unit: share of the size, or rad. Too small: the
-/// sixteenth digit of a double is a tolerance. Too large: files with twelve digits count as exact.
-/// Test: `digits_give_the_tolerance`.
+/// sixteenth digit of a double counts as a tolerance. Too large: files with twelve digits count as
+/// exact. Test: `digits_give_the_tolerance`.
 pub(crate) const FINEST: f64 = 1e-12;
 
 /// Coarsest digit that is used as a tolerance. Unit: share of the size, or rad. Too small: files
@@ -44,14 +44,14 @@ pub(crate) const FINEST: f64 = 1e-12;
 /// such as 0.5 written by hand count as inaccurate. Test: `digits_give_the_tolerance`.
 pub(crate) const COARSEST: f64 = 1e-3;
 
-/// Gap below which a loop is closed. Unit: share of the size, or rad. Too small: rounding errors of
-/// long chains count as a gap. Too large: the reader of scenes moves links that count as assembled.
-/// Test: `loops_are_closed_from_a_guess`.
+/// Gap below which a loop counts as closed. Unit: share of the size, or rad. Too small: rounding
+/// errors of long chains count as a gap. Too large: the reader of scenes moves links that count as
+/// assembled. Test: `loops_are_closed_from_a_guess`.
 pub(crate) const ASSEMBLED: f64 = 1e-11;
 
-/// Largest gap that is accepted with a remark, if no pose closes the loops better because data with
-/// few digits are inconsistent. Unit: share of the size, or rad. Too small: models with rounded
-/// numbers are rejected. Too large: open loops count as closed. Test:
+/// Largest gap that is accepted with a remark. Such a gap remains at the best pose if data with few
+/// digits are inconsistent. Unit: share of the size, or rad. Too small: models with rounded numbers
+/// are rejected. Too large: open loops count as closed. Test:
 /// `loops_that_cannot_close_are_refused`.
 pub(crate) const CLOSED: f64 = 1e-4;
 
@@ -65,18 +65,17 @@ pub(crate) const OPEN: f64 = 1e-7;
 pub(crate) const ITERATIONS: usize = 100;
 
 /// Number of searches from other guesses. Unit: number. Too small: loops are not closed from a bad
-/// guess. Too large: it takes longer until a model is rejected. Test:
-/// `loops_are_closed_from_a_guess`.
+/// guess. Too large: the rejection of a model takes longer. Test: `loops_are_closed_from_a_guess`.
 pub(crate) const GUESSES: usize = 24;
 
 /// Maximum number of coordinates of a search. Unit: number. Too small: humanoid robots with many
-/// loops are not assembled. Too large: memory and time grow with the third power. Test:
+/// loops are not assembled. Too large: time grows with the third power of the number. Test:
 /// `many_coordinates_are_not_tried`.
 pub(crate) const MOST_COORDINATES: usize = 400;
 
-/// Angle below which axes are parallel; it allows for the rounding error of products of rotations.
-/// Unit: rad. Too small: rounding errors are reported as a tilt. Too large: a tilt in the twelfth
-/// digit is not reported. Test: `tilted_axes_are_told`.
+/// Angle below which axes count as parallel; this value allows for the rounding error of products
+/// of rotations. Unit: rad. Too small: rounding errors are reported as a tilt. Too large: a tilt in
+/// the twelfth digit is not reported. Test: `tilted_axes_are_told`.
 pub(crate) const EXACT: f64 = 1e-12;
 
 /// Angle up to which axes of a loop are reported as nearly parallel. Unit: rad. Too small: an
@@ -84,29 +83,31 @@ pub(crate) const EXACT: f64 = 1e-12;
 /// planar. Test: `tilted_axes_are_told`.
 pub(crate) const NEARLY: f64 = 0.15;
 
-/// Angle up to which axes are made parallel on request, even if it is larger than the digits of the
-/// file explain. Unit: rad. Too small: π/2 written as 1.57 is not corrected. Too large: intended
-/// tilts are removed. Test: `tilted_axes_are_told`.
+/// Angle up to which axes are made parallel on request, even if the number of digits in the file
+/// does not explain this angle. Unit: rad. Too small: π/2 written as 1.57 is not corrected. Too
+/// large: intended tilts are removed. Test: `tilted_axes_are_told`.
 pub(crate) const SNAPPED: f64 = 2e-3;
 
-/// Cosine below which two intersecting hinges of one body are a universal joint. Unit: 1. Too
+/// Cosine below which two intersecting hinges of one body become a universal joint. Unit: 1. Too
 /// small: because of rounding errors of unit vectors, a massless body is created between the
 /// hinges. Too large: axes that are not perpendicular are made perpendicular. Test:
 /// `every_file_is_a_scene`.
 pub(crate) const PERPENDICULAR: f64 = 4.0 * f64::EPSILON;
 
-/// Cosine below which both axes of a universal joint of SDF count as perpendicular; six digits have
-/// this accuracy. Unit: 1. Too small: a massless body is created between rounded axes. Too large:
-/// oblique axes are made perpendicular. Test: `loops_springs_and_limits`.
+/// Cosine below which the two axes of a universal joint of SDF count as perpendicular. It is the
+/// accuracy of six digits. Unit: 1. Too small: a massless body is created between rounded axes. Too
+/// large: oblique axes are made perpendicular. Test: `loops_springs_and_limits`.
 pub(crate) const RIGHT_ANGLE: f64 = 1e-6;
 
-/// Largest number, as in scenes. Unit: that of the number. Too small: no effect is known. Too
-/// large: products of numbers overflow. Test: `numbers_have_bounds`.
+/// Largest value of a number, the same as in scenes. Unit: that of the number. Too small: large
+/// values are rejected; no file with such values is known. Too large: products of values overflow.
+/// Test: `numbers_have_bounds`.
 pub(crate) const LARGEST_NUMBER: f64 = 1e60;
 
 /// Products of inertia below this share of the largest entry of a tensor are rounding errors of a
-/// rotation or a sum. Unit: 1. Too small: diagonal tensors are written with products such as 1e-19.
-/// Too large: products that a file states are removed. Test: `rounded_products_are_zero`.
+/// rotation or a sum. Unit: 1. Too small: diagonal tensors are written with products of inertia
+/// such as 1e-19. Too large: products of inertia that a file contains are removed. Test:
+/// `rounded_products_are_zero`.
 pub(crate) const ROUNDING: f64 = 1e-15;
 
 /// Allowed difference between a coordinate and its requested value. Unit: share of the value, at
@@ -114,28 +115,30 @@ pub(crate) const ROUNDING: f64 = 1e-15;
 /// the ninth digit is not reported. Test: `values_that_cannot_be_held_are_told`.
 pub(crate) const HELD: f64 = 1e-9;
 
-/// Angle in radians beyond which an angle looks like degrees: one revolution, whose last digit may
-/// be rounded up. Unit: rad. Too small: a full revolution is reported. Too large: small angles in
-/// degrees are not reported. Test: `angles_of_another_unit_are_seen`.
+/// An angle in radians above this value was probably written in degrees. The value is one
+/// revolution, rounded up. Unit: rad. Too small: a full revolution is reported. Too large: small
+/// angles in degrees are not reported. Test: `angles_of_another_unit_are_seen`.
 pub(crate) const TURN: f64 = 6.3;
 
-/// An angle in degrees looks like radians if its distance from π/4, π/6 or one of their multiples
-/// is at most this. Unit: rad. Too small: 1.57 is not reported. Too large: ordinary angles of few
-/// degrees are reported. Test: `angles_of_another_unit_are_seen`.
+/// An angle in degrees was probably written in radians if its difference from a multiple of π/4 or
+/// π/6 is at most this value. Unit: rad. Too small: 1.57 is not reported. Too large: ordinary
+/// angles of few degrees are reported. Test: `angles_of_another_unit_are_seen`.
 pub(crate) const COMMON_ANGLE: f64 = 1e-3;
 
-/// Step of finite differences for derivatives of gaps: their error is some 1e-10, which does not
-/// slow down Newton's method. Unit: 1 (rad, sizes). Too small: the rounding error grows. Too large:
-/// the truncation error of the difference grows. Test: `loops_are_closed_from_a_guess`.
+/// Step of finite differences for derivatives of gaps. The error of the derivatives is about 1e-10,
+/// which does not slow down Newton's method. Unit: 1 (rad, sizes). Too small: the rounding error
+/// grows. Too large: the truncation error of the difference grows. Test:
+/// `loops_are_closed_from_a_guess`.
 pub(crate) const DIFFERENCE: f64 = 1e-5;
 
-/// Distance below which two axes meet, as a share of the accuracy of lengths. Unit: 1. Too small:
-/// rounding errors are reported as a distance. Too large: distances in the last digit are not
-/// reported. Test: `tilted_axes_are_told`.
+/// Distance below which two axes count as intersecting, as a share of the accuracy of lengths.
+/// Unit: 1. Too small: rounding errors are reported as a distance. Too large: distances in the last
+/// digit are not reported. Test: `tilted_axes_are_told`.
 pub(crate) const MEETING: f64 = 1e-6;
 
-/// Maximum number of names in advice. Unit: number. Too small: the intended name is not in the
-/// list. Too large: the list is too long to read. Test: `names_that_no_format_knows_are_refused`.
+/// Maximum number of names in advice. Unit: number. Too small: the intended name may be missing in
+/// the list. Too large: the list is too long to read. Test:
+/// `names_that_no_format_knows_are_refused`.
 pub(crate) const MOST_LISTED: usize = 16;
 
 /// Maximum number of letters of a file name in a message. Unit: number. Too small: different names

@@ -1,5 +1,6 @@
-//! Loop closures of a URDF in a separate file, as in Gepetto's collection of parallel robots: pairs
-//! of links whose frames coincide, and joints with more degrees of freedom than URDF supports.
+//! Reads loop closures of a URDF from a separate file, as in Gepetto's collection of parallel
+//! robots. The file contains pairs of links whose frames coincide, and joints with more degrees of
+//! freedom than URDF supports.
 
 mod yaml;
 
@@ -82,7 +83,7 @@ fn apply(
     Ok(())
 }
 
-/// Checks that each key occurs once, and that no key is a misspelling of another one.
+/// Checks that each key occurs once, and that no key is a misspelt form of a supported key.
 fn check_names(keys: &[Key], text: &SourceText, findings: &mut Findings) -> Result<(), Wrong> {
     let mut seen: HashMap<&str, usize> = HashMap::new();
     for key in keys {
@@ -112,7 +113,7 @@ fn check_names(keys: &[Key], text: &SourceText, findings: &mut Findings) -> Resu
 /// Two names of links, each with its position in the text.
 type Pair<'n> = [(&'n str, usize); 2];
 
-/// The pairs of links of `closed_loop`, which may be missing if the file has joints.
+/// The pairs of links in the key `closed_loop`. The key may be missing if the file has joints.
 fn pairs(loops: Option<&Key>, has_joints: bool) -> Result<Vec<Pair<'_>>, Wrong> {
     let pairs = match loops.map(|key| (key.at, &key.value)) {
         Some((_, Node::List(pairs, _))) => pairs,

@@ -28,7 +28,7 @@ impl Default for Mass {
 }
 
 impl Mass {
-    /// A body with this tensor in axes that are rotated relative to the axes of the body.
+    /// A body whose tensor is given in axes that are rotated relative to the axes of the body.
     pub(crate) fn turned(
         mass: f64,
         centre: Vector3<f64>,
@@ -43,7 +43,8 @@ impl Mass {
         }
     }
 
-    /// The same body in other axes: `pose` maps its own axes to these.
+    /// The same body in other axes. `pose` transforms coordinates in the present axes to
+    /// coordinates in the new axes.
     pub(crate) fn seen(&self, pose: &Isometry3<f64>) -> Self {
         Self {
             mass: self.mass,
@@ -56,7 +57,8 @@ impl Mass {
         self.mass == 0.0 && self.inertia == Matrix3::zeros()
     }
 
-    /// Both bodies as one; if one of them has no mass, the numbers of the other are unchanged.
+    /// Both bodies as one body. If one of them has no mass, the values of the other body are
+    /// returned unchanged.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         if other.is_nothing() {
             return *self;
@@ -87,7 +89,7 @@ impl Mass {
     }
 }
 
-/// A tensor in other axes; without a rotation its digits do not change.
+/// A tensor in other axes. If the rotation is zero, the digits of the tensor do not change.
 fn turned(axes: UnitQuaternion<f64>, inertia: Matrix3<f64>) -> Matrix3<f64> {
     if axes == UnitQuaternion::identity() {
         return inertia;
@@ -113,13 +115,13 @@ fn steiner(mass: f64, d: Vector3<f64>) -> Matrix3<f64> {
     (Matrix3::identity() * d.dot(&d) - d * d.transpose()) * mass
 }
 
-/// A homogeneous solid about its centre, its axis along z.
+/// A homogeneous solid with its centre at the origin and its axis along z.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Solid {
     Sphere {
         radius: f64,
     },
-    /// A cylinder of this half length with hemispheres at its ends.
+    /// A cylinder with this half length and with hemispheres at both ends.
     Capsule {
         radius: f64,
         half: f64,
@@ -158,8 +160,8 @@ impl Solid {
                 let whole = height + 4.0 / 3.0 * r;
                 let (tube, ends) = (mass * height / whole, mass * (4.0 / 3.0 * r) / whole);
                 let along = tube * r * r / 2.0 + 0.4 * ends * r * r;
-                // Hemispheres: centre of mass at 3r/8 from their plane, moment 83/320·m·r² about
-                // it.
+                // A hemisphere has its centre of mass at 3r/8 from its plane, and the moment of
+                // inertia 83/320·m·r² about the centre of mass.
                 let across = tube * (3.0 * r * r + height * height) / 12.0
                     + ends * (0.4 * r * r + 0.375 * r * height + 0.25 * height * height);
                 [across, across, along]
@@ -182,7 +184,7 @@ impl Solid {
 mod tests {
     use super::*;
 
-    /// A capsule as 400 000 discs: volume and moments from a sum.
+    /// Compares volume and moments of a capsule with the sum over 400 000 discs.
     #[test]
     fn a_capsule_is_the_sum_of_its_discs() {
         let (radius, half) = (0.3, 0.5);
@@ -204,8 +206,8 @@ mod tests {
         assert!((z - along).abs() < 1e-9 && (x - across).abs() < 1e-9);
     }
 
-    /// A rotation by a quarter turn, whose cosine is 2e-16, leaves a diagonal tensor diagonal;
-    /// products that a file states do not change.
+    /// A rotation by a quarter turn has a computed cosine of 2e-16, but a diagonal tensor remains
+    /// diagonal. Products of inertia that a file contains do not change.
     #[test]
     fn rounded_products_are_zero() {
         use std::f64::consts::FRAC_PI_2;

@@ -1,6 +1,6 @@
 //! The common data of all formats: links with mass and position, joints between them, couplings.
 //!
-//! All positions are at the *described* pose, at which the coordinates of all joints have the
+//! All positions refer to the *described* pose, at which the coordinates of all joints have the
 //! values `zero`. A link that is `None` is the ground.
 
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
@@ -11,11 +11,11 @@ use crate::mass::Mass;
 #[derive(Clone, Debug)]
 pub(crate) struct Link {
     pub(crate) name: String,
-    /// Transformation from its axes to the axes of the ground, at the described pose.
+    /// Transformation from the axes of the link to the axes of the ground, at the described pose.
     pub(crate) pose: Isometry3<f64>,
     /// Mass in the axes of the link.
     pub(crate) mass: Mass,
-    /// Share of its weight that is compensated: `gravcomp` of MuJoCo.
+    /// Share of the weight that is compensated: `gravcomp` of MuJoCo.
     pub(crate) held_weight: f64,
 }
 
@@ -32,7 +32,7 @@ pub(crate) enum JointKind {
     Screw(f64),
     Planar,
     Fixed,
-    /// Six degrees of freedom: the scene has no joint, but the file has coordinates.
+    /// Six degrees of freedom. The scene has no joint in this case, but the file has coordinates.
     Free,
 }
 
@@ -72,7 +72,7 @@ pub(crate) struct Load {
     pub(crate) damping: f64,
     /// Value of the coordinate at which the spring has no load.
     pub(crate) reference: f64,
-    /// Inertia of a rotor that rotates with the coordinate.
+    /// Moment of inertia of a rotor that rotates with the coordinate.
     pub(crate) armature: f64,
 }
 
@@ -80,13 +80,14 @@ pub(crate) struct Load {
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
     pub(crate) name: String,
-    /// Names of the coordinates: names of the joints of the file that this joint replaces.
+    /// Names of the coordinates. They are the names of the joints in the file that this joint
+    /// replaces.
     pub(crate) names: [String; 2],
     pub(crate) kind: JointKind,
     /// First and second link.
     pub(crate) links: [Option<usize>; 2],
-    /// Whether the joint determines the position of the second link, as an edge of the tree of
-    /// links. Other joints close loops.
+    /// Whether the joint is an edge of the tree of links and determines the position of its second
+    /// link. Other joints close loops.
     pub(crate) places: bool,
     /// Point of the joint in the axes of each link.
     pub(crate) points: [Vector3<f64>; 2],
@@ -94,8 +95,8 @@ pub(crate) struct Joint {
     pub(crate) axes: [Vector3<f64>; 2],
     /// Second axis of a universal joint, in the axes of the second link.
     pub(crate) cross: Vector3<f64>,
-    /// For joints that keep an orientation and close a loop: the axes of both links that must
-    /// coincide. `None` keeps the relative orientation at the described pose.
+    /// For joints that close a loop and fix the relative orientation: the axes in both links that
+    /// must coincide. `None` means that the relative orientation at the described pose is fixed.
     pub(crate) frames: Option<[UnitQuaternion<f64>; 2]>,
     /// Values of the coordinates at the described pose.
     pub(crate) zero: [f64; 2],
@@ -133,8 +134,8 @@ impl Joint {
     }
 }
 
-/// y = a₀ + a₁·x + a₂·x² + …; x and y are coordinates of joints, relative to the values for which
-/// `coefficients` are given.
+/// The equation y = a₀ + a₁·x + a₂·x² + …. The variables x and y are changes of joint coordinates
+/// from the values to which `coefficients` refer.
 #[derive(Clone, Debug)]
 pub(crate) struct Coupling {
     pub(crate) name: String,
@@ -153,7 +154,7 @@ pub(crate) struct Frame {
     pub(crate) pose: Isometry3<f64>,
 }
 
-/// A state of all joints by coordinates, as given by a keyframe.
+/// The coordinates and velocities of all joints, as given by a keyframe.
 #[derive(Clone, Debug)]
 pub(crate) struct Keyframe {
     pub(crate) name: String,
@@ -180,7 +181,7 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// Number of coordinates with an armature, each of which becomes a rotor.
+    /// Number of coordinates with an armature. Each armature becomes a rotor.
     pub(crate) fn rotors(&self) -> usize {
         let active = self.joints.iter().filter(|joint| joint.is_active);
         let loads = active.flat_map(|joint| joint.loads);

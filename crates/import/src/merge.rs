@@ -1,4 +1,4 @@
-//! Merges links that are fixed to other links into these.
+//! Merges each link that is fixed to another link into this other link.
 
 use nalgebra::Isometry3;
 
@@ -6,12 +6,12 @@ use crate::findings::Findings;
 use crate::mechanism::{Frame, Joint, JointKind, Model};
 use crate::pose::{Motion, placing};
 
-/// Position of the axes of a link after merging: the link that contains them, and their pose in
-/// this link.
+/// Position of the axes of a link after merging: the link into which the link was merged, and the
+/// pose of the axes relative to it.
 type Host = (Option<usize>, Isometry3<f64>);
 
-/// Merges links that fixed joints position into the links before them. `motions` are the motions of
-/// the links; they do not change.
+/// Merges each link that a fixed joint positions into the first link of this joint. `motions` are
+/// the motions of the links; the motions of the remaining links do not change.
 pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut Findings) {
     let hosts = hosts(model);
     let is_merged = |k: &usize| hosts[*k].0 != Some(*k);
@@ -31,7 +31,7 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
     for &link in &merged {
         absorb(model, link, &hosts[link]);
     }
-    // Remaining bodies, by their new indices.
+    // New indices of the remaining links.
     let mut numbers = vec![None; hosts.len()];
     let stay = (0..hosts.len()).filter(|k| !is_merged(k));
     for (new, old) in stay.enumerate() {
@@ -105,13 +105,13 @@ fn hosts(model: &Model) -> Vec<Host> {
     (0..model.links.len()).map(host).collect()
 }
 
-/// Adds the mass of a link to that of its host, and its name to the frames.
+/// Adds the mass of a link to the mass of its host, and the name of the link to the frames.
 fn absorb(model: &mut Model, link: usize, (host, pose): &Host) {
     let own = model.links[link].clone();
     if let Some(host) = *host {
         let seen = own.mass.seen(pose);
         let whole = &mut model.links[host];
-        // Gravity compensation of the merged body: the mean of both shares, weighted by mass.
+        // The gravity compensation of the merged body is the mean of both shares, weighted by mass.
         let held = whole.held_weight * whole.mass.mass + own.held_weight * seen.mass;
         whole.mass = whole.mass.plus(&seen);
         if held != 0.0 && whole.mass.mass > 0.0 {

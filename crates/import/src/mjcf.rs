@@ -26,7 +26,8 @@ pub(crate) use names::NAMES;
 use reader::Reader;
 use source::Source;
 
-/// Kind of omissions for actuators that have no effect without a signal, and for others.
+/// Kinds of omission for actuators that have no effect without a signal, and for all other
+/// actuators.
 const IDLE_ACTUATORS: &str = "actuators";
 const ACTING: &str = "actuators that act without a signal, too: accelerations differ";
 
@@ -156,13 +157,14 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Kind of omission for an actuator: motors have no effect without a signal, others have.
+    /// Kind of omission for an actuator. Motors have no effect without a signal; other actuators
+    /// have an effect.
     fn actuator(&mut self, element: Element<'a>) -> &'static str {
         let has = |element: &Element, key: &str| {
             let value = element.attribute(key);
             value.is_some_and(|value| value.text.split_whitespace().any(|x| x.parse() != Ok(0.0)))
         };
-        // Damping and armature of an actuator belong to its joint.
+        // Damping and armature of an actuator act on the joint of the actuator.
         if has(&element, "damping") || has(&element, "armature") {
             return ACTING;
         }

@@ -1,5 +1,5 @@
-//! Converts names of a file to names of a scene: each name occurs once, and the scene accepts each
-//! name.
+//! Converts names of a file to names of a scene. Each resulting name is unique and valid in a
+//! scene.
 
 use std::collections::{HashMap, HashSet};
 
@@ -18,7 +18,8 @@ pub(crate) struct Names {
 }
 
 impl Names {
-    /// A name for a scene: the given one if it is free, otherwise with a number.
+    /// Returns a name for a scene: the given name if it is not in use, otherwise the given name
+    /// with a number.
     pub(crate) fn take(&mut self, name: &str, findings: &mut Findings) -> String {
         let free = self.free(name);
         if free != name {
@@ -32,7 +33,7 @@ impl Names {
         free
     }
 
-    /// A free name that does not come from the file.
+    /// Returns an unused name that does not come from the file.
     pub(crate) fn free(&mut self, name: &str) -> String {
         let clean = fit(name);
         let mut free = clean.clone();

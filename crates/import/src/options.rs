@@ -14,8 +14,8 @@ pub struct Options {
     pub base: Base,
     /// A file of loop closures of a URDF: its name and its text.
     pub loops: Option<(String, String)>,
-    /// Values of joint coordinates near which loops are closed: name of the joint and value (m or
-    /// rad), with the sense of the coordinate in the file.
+    /// Values of joint coordinates near which loops are closed: name of the joint, and value (m or
+    /// rad) with the sign convention of the file.
     pub pose: Vec<(String, f64)>,
     /// Treatment of axes that are nearly parallel or nearly meet.
     pub axes: Axes,
@@ -40,9 +40,9 @@ impl Default for Options {
 /// Treatment of links that are fixed to others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FixedLinks {
-    /// They are merged into the others and become markers.
+    /// The links are merged into the other links and become markers.
     Merged,
-    /// They are bodies with a `fixed` joint.
+    /// The links are bodies with a `fixed` joint.
     Kept,
 }
 

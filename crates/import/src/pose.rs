@@ -1,8 +1,8 @@
 //! Poses of links for given joint coordinates: products of displacements relative to the described
 //! pose.
 //!
-//! The displacement of a link is the displacement of the previous link, followed by the
-//! displacement of its joint about the described position of the joint: g_child = g_parent·D(q).
+//! The displacement of a link is g_child = g_parent·D(q), with the displacement g_parent of the
+//! previous link and the displacement D(q) of the joint at its described position.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
@@ -34,8 +34,8 @@ impl JointPlacement {
         Isometry3::from_parts(Translation3::from(shift), rotation)
     }
 
-    /// The displacement for coordinate changes relative to the described pose; spherical joints and
-    /// free links have the coordinates of a state.
+    /// The displacement for coordinate changes relative to the described pose. For spherical joints
+    /// and free links, `q` contains the coordinates of a keyframe.
     pub(crate) fn displacement(&self, kind: JointKind, q: &[f64]) -> Isometry3<f64> {
         let about = |axis: Vector3<f64>, angle: f64| self.turn(rotation(axis, angle));
         let along =
@@ -64,7 +64,7 @@ impl JointPlacement {
     }
 }
 
-/// The rotation of a rotation vector; exactly the identity for an angle of zero.
+/// The rotation by an angle about an axis. For an angle of zero it is exactly the identity.
 pub(crate) fn rotation(axis: Vector3<f64>, angle: f64) -> UnitQuaternion<f64> {
     if angle == 0.0 {
         return UnitQuaternion::identity();
@@ -89,7 +89,7 @@ pub(crate) fn along_z(z: Vector3<f64>) -> UnitQuaternion<f64> {
     rotation(axis, angle)
 }
 
-/// A quaternion of any length except zero.
+/// The rotation of a quaternion of any length except zero.
 pub(crate) fn quaternion([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
     let q = Quaternion::new(w, x, y, z);
     if q == Quaternion::identity() {
@@ -98,13 +98,14 @@ pub(crate) fn quaternion([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(q)
 }
 
-/// Displacements of all links for displacements of the joints, in any order of the joints. A link
-/// that no joint positions keeps its described pose.
+/// Computes the displacements of all links from the displacements of the joints; the joints may
+/// have any order. A link whose position no joint determines has its described pose.
 pub(crate) fn displaced(model: &Model, joints: &[Isometry3<f64>]) -> Vec<Isometry3<f64>> {
     let mut links = vec![None; model.links.len()];
     let before = placing(model);
     for link in 0..model.links.len() {
-        // The search goes up to a link with a known displacement, and down again.
+        // The loop follows the tree up to a link with a known displacement. Then the displacements
+        // are computed down to the link.
         let (mut chain, mut at) = (Vec::new(), Some(link));
         let mut known = Isometry3::identity();
         while let Some(link) = at {
@@ -182,7 +183,8 @@ pub(crate) fn at_state(model: &Model, q: &[Vec<f64>], v: Option<&[Vec<f64>]>) ->
         })
         .collect();
     let Some(v) = v else { return motions };
-    // Twists (ω, velocity of the body point at the origin of the ground) are added along the chain.
+    // The twists of the joints (ω, velocity of the body point at the origin of the ground) are
+    // added along the chain.
     let no_twist = (Vector3::zeros(), Vector3::zeros());
     for link in 0..model.links.len() {
         let mut twist: (Vector3<f64>, Vector3<f64>) = no_twist;
@@ -211,7 +213,8 @@ pub(crate) fn at_state(model: &Model, q: &[Vec<f64>], v: Option<&[Vec<f64>]>) ->
     motions
 }
 
-/// The twist of a joint: angular velocity, and velocity of the point at the origin of the ground.
+/// The twist of a joint: angular velocity, and velocity of the body point at the origin of the
+/// ground.
 fn joint_twist(
     place: &JointPlacement,
     kind: JointKind,

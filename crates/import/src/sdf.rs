@@ -19,12 +19,12 @@ pub(crate) use names::NAMES;
 pub(crate) struct Scope<'n> {
     links: HashMap<&'n str, Option<usize>>,
     frames: Frames,
-    /// Axes are written in the axes of the model, as in versions before 1.5.
+    /// Whether joint axes are given in the axes of the model, as in versions before 1.5.
     in_model: bool,
 }
 
 impl<'n> Scope<'n> {
-    /// For joints in `<gazebo>` of a URDF.
+    /// The scope for joints in the element `<gazebo>` of a URDF.
     pub(crate) fn of_links(names: &'n HashMap<String, usize>) -> Self {
         let links = names
             .iter()

@@ -21,7 +21,7 @@ pub(crate) fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64
     z * y * x
 }
 
-/// A tensor of ixx, iyy, izz, ixy, ixz, iyz.
+/// The inertia tensor with the entries ixx, iyy, izz, ixy, ixz, iyz.
 pub(crate) fn tensor([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> Matrix3<f64> {
     Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
 }
@@ -33,8 +33,8 @@ pub(crate) fn assume_gravity(model: &mut Model, findings: &mut Findings) {
     findings.remarks.push(remark.to_owned());
 }
 
-/// Decides which joints determine the positions of links: the first joint of each link, unless it
-/// would close a cycle. The other joints close loops.
+/// Decides which joints determine the positions of links. These are the first joint of each link,
+/// unless this joint would close a cycle. The other joints close loops.
 pub(crate) fn find_tree(model: &mut Model) {
     let mut before: Vec<Option<Option<usize>>> = vec![None; model.links.len()];
     for joint in &mut model.joints {
@@ -97,8 +97,8 @@ pub(crate) fn with_second_axis(
     model.joints.extend([outer, inner]);
 }
 
-/// The position of a joint on both links: its frame in the axes of the second link, at the
-/// described pose.
+/// Computes the position of a joint on both links from the joint frame in the axes of the second
+/// link, at the described pose.
 pub(crate) fn joint_between(
     model: &Model,
     name: &str,

@@ -12,8 +12,8 @@ use crate::pose::{self, Motion};
 use crate::xml::Element;
 use model::words::rough;
 
-/// The state at which the scene starts, and whether it has velocities; `None` if it starts at the
-/// described pose. `angle` is the accuracy of angles in the file.
+/// The initial state of the scene, and whether this state has velocities; `None` if the scene
+/// starts at the described pose. `angle` is the accuracy of angles in the file.
 pub(crate) fn start(
     model: &mut Model,
     options: &Options,
@@ -74,7 +74,8 @@ pub(crate) fn start(
     Some((motions, moves))
 }
 
-/// Angles of a start have no full revolutions, but couplings count them.
+/// Rejects keyframes with full revolutions of coupled joints. The initial angles in a scene do not
+/// contain full revolutions, but couplings depend on them.
 fn refuse_turns(model: &Model, keyframe: &str, root: Element, findings: &mut Findings) {
     for coupling in model.couplings.iter().filter(|coupling| coupling.is_active) {
         for (joint, k) in coupling.x.into_iter().chain([coupling.y]) {
@@ -163,7 +164,7 @@ fn asked<'o>(
     out
 }
 
-/// A number with five digits.
+/// A number rounded to five digits.
 fn short(x: f64) -> f64 {
     format!("{x:.4e}").parse().unwrap_or(x)
 }
@@ -268,7 +269,7 @@ fn tell_moved(model: &Model, asked: &[RequestedValue], findings: &mut Findings) 
     }
 }
 
-/// Explains why no part can move, for a root that is fixed by default.
+/// Explains why the mechanism cannot move, if its root is fixed by default.
 pub(crate) fn nothing_moves(format: &str, base: Base) -> Option<String> {
     let is_fixed = format == "URDF" && base == Base::Fixed;
     is_fixed.then(|| "the root link is fixed to the ground by default: --base free".to_owned())

@@ -6,8 +6,8 @@ use crate::limits::{COARSEST, FINEST};
 use crate::mechanism::Model;
 use crate::write::number;
 
-/// The tolerances of lengths and of directions for the start of a scene's text; reports the reason
-/// if there is no tolerance.
+/// The tolerances of lengths and directions, which are written at the start of a scene's text. If
+/// there is no tolerance, the reason is reported.
 pub(crate) fn tolerances(model: &Model, findings: &mut Findings) -> [Option<f64>; 2] {
     let size = size(model);
     let length = findings.lengths.half_unit();
@@ -37,7 +37,7 @@ pub(crate) fn tolerances(model: &Model, findings: &mut Findings) -> [Option<f64>
     found
 }
 
-/// Size of a model: the largest distance of a joint or link from the first link.
+/// Size of a model, defined as the largest distance of a joint or link from the first link.
 fn size(model: &Model) -> f64 {
     let Some(first) = model.links.first() else {
         return 0.0;

@@ -307,8 +307,8 @@ fn place(
     true
 }
 
-/// A cycle of joints, in which the child of each joint is the parent of the next one. `before`
-/// contains the joint of which a link is the child.
+/// Returns a cycle of joints, in which the child of each joint is the parent of the next joint.
+/// `before` contains, for each link, the joint whose child is this link.
 fn cycle(edges: &[Edge], before: &[Option<usize>]) -> Option<Vec<usize>> {
     let mut seen = vec![usize::MAX; before.len()];
     for first in 0..before.len() {
@@ -457,7 +457,8 @@ fn gazebo(
 
 /// Adds the closures of a file of loops.
 pub(crate) fn close_loops(model: &mut Model, text: &scene::SourceText, findings: &mut Findings) {
-    // In the file of loops, the name of a joint means the link that the joint positions.
+    // In the file of loops, the name of a joint refers to the link whose position the joint
+    // determines.
     let joints = model
         .joints
         .iter()

@@ -1,7 +1,7 @@
-//! The names in a format: for each supported element, its attributes and its child elements. A name
-//! that is in no list is rejected at its position, because a misspelt `density` would change the
-//! mass. In formats that allow extensions, names that are not similar to a known name are omitted
-//! and reported.
+//! The names in a format: for each supported element, the names of its attributes and child
+//! elements. A name that is not in the lists is rejected at its position, because a misspelt
+//! `density` would change the mass. In formats that allow extensions, names that are not similar to
+//! a known name are omitted and reported.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::xml::Element;
 pub(crate) struct Vocabulary {
     pub(crate) entries: &'static [Entry],
     /// Whether programs for the format ignore unknown names. In this case, names that are not
-    /// similar to a known name are extensions.
+    /// similar to a known name count as extensions.
     pub(crate) is_open: bool,
 }
 
@@ -23,9 +23,10 @@ pub(crate) struct Vocabulary {
 pub(crate) struct Entry {
     /// Name of the element; `around/name` if the name has another meaning within that element.
     element: &'static str,
-    /// Names that a reader uses or reports itself.
+    /// Names that the reader of the format uses or reports.
     read: &'static str,
-    /// Names without an effect on the mechanism: appearance, and settings of omitted content.
+    /// Names without an effect on the mechanism, such as appearance and settings of omitted
+    /// content.
     idle: &'static str,
     /// Names that are omitted and reported, with their kind.
     left: &'static [(&'static str, &'static str)],

@@ -10,14 +10,14 @@ use crate::mechanism::{Joint, JointKind, Load, Model};
 use crate::names::Names;
 use crate::pose::{Motion, along_z};
 
-/// Content that is written in addition to the model.
+/// Data that are written in addition to the model.
 pub(crate) struct Heading<'a> {
     /// Name of the file and name of its format.
     pub(crate) source: (&'a str, &'static str),
     /// Accuracy of lengths and directions (m, rad).
     pub(crate) tolerance: [Option<f64>; 2],
-    /// The start poses of the links, if they differ from the described poses, and whether the links
-    /// move.
+    /// The initial poses of the links, if these differ from the described poses, and whether the
+    /// links have initial velocities.
     pub(crate) start: Option<(&'a [Motion], bool)>,
 }
 
@@ -97,7 +97,7 @@ pub(crate) fn by_kind(omissions: &[Omission]) -> Vec<(&'static str, Vec<String>)
     kinds
 }
 
-/// A comment in lines; characters that would end a comment are replaced.
+/// Writes a comment, wrapped to lines. Characters that would end a comment are replaced.
 fn comment(out: &mut String, lead: &str, words: &str) {
     let mut line = lead.to_owned();
     let mut is_empty = true;
@@ -251,7 +251,7 @@ impl<'a> Writer<'a> {
         frames: [UnitQuaternion<f64>; 2],
         out: &mut String,
     ) -> [String; 2] {
-        // The z axis of a marker is the axis of a slide.
+        // For a slide, the joint axis is the z-axis of the marker.
         let own = match joint.kind {
             JointKind::Translational => along_z(frames[1].inverse() * joint.axes[1]),
             _ => UnitQuaternion::identity(),
@@ -377,8 +377,8 @@ impl<'a> Writer<'a> {
         let of = self.coordinate(k, coordinate).to_owned();
         let name = self.elements.free(&format!("{of} spring"));
         let of = |list: &[f64; 2]| list.get(coordinate).copied().unwrap_or(0.0);
-        // A start determines an angle only up to full revolutions: the others are added to the free
-        // angle of the spring.
+        // The initial state determines an angle only up to full revolutions, so the full
+        // revolutions are added to the free angle of the spring.
         let turns = match joint.kind.measures().get(coordinate) {
             Some(&"displacement") | None => 0.0,
             Some(_) => (of(&joint.moved) / std::f64::consts::TAU).round(),
@@ -430,8 +430,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A wheel on the ground that rotates with a coordinate. Its kinetic energy ½·a·q̇² is that of
-    /// a rotor which MuJoCo adds to the diagonal of the mass matrix.
+    /// Writes a wheel on the ground that rotates with a coordinate. Its kinetic energy ½·a·q̇²
+    /// equals the energy of the armature, which MuJoCo adds to the diagonal of the mass matrix.
     fn rotor(&mut self, k: usize, coordinate: usize, inertia: f64, out: &mut String) {
         let joint = self.coordinate(k, coordinate).to_owned();
         let wheel = self.places.free(&format!("{joint} rotor"));
@@ -488,7 +488,7 @@ fn key(out: &mut String, key: &str, value: &str) {
     let _ = writeln!(out, "{key} = {value}");
 }
 
-/// The shortest digits that represent this double.
+/// The number with the fewest digits that represent this double.
 pub(crate) fn number(x: f64) -> String {
     if x == 0.0 {
         "0.0".to_owned()

@@ -1,4 +1,5 @@
-//! XML files with the positions of all values: protected parsing, elements, attributes.
+//! Parses XML files within limits of size and depth, and provides elements and attributes with
+//! their positions in the text.
 
 use std::ops::Range;
 
@@ -148,7 +149,8 @@ impl<'a> Element<'a> {
     }
 }
 
-/// Parses a text. Declarations of types and entities, great depth and great size are rejected.
+/// Parses a text. Texts that declare document types or entities, and texts that exceed the limits
+/// of depth or size, are rejected.
 pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>> {
     let text = source.text();
     let refuse = |code, span, message: String, label: &str| {
@@ -195,9 +197,9 @@ pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>
     }
 }
 
-/// Position of the first excess in a text that would overflow the stack of the parser, or would
-/// take more than linear time. The parser searches each attribute among all others of its element,
-/// and each prefix among all name spaces.
+/// Position at which a text first exceeds a limit. Beyond the limits, the stack of the parser could
+/// overflow, or parsing could take more than linear time. The parser compares each attribute with
+/// all other attributes of its element, and each prefix with all name spaces.
 fn too_much(text: &str) -> Option<(usize, String)> {
     let (mut depth, mut spaces) = (0_usize, 0);
     let tags = Tags { text, at: 0 };
@@ -222,13 +224,14 @@ fn too_much(text: &str) -> Option<(usize, String)> {
     None
 }
 
-/// The tags of a text, as far as it is XML.
+/// Iterates over the tags of a text, as far as the text is XML.
 struct Tags<'t> {
     text: &'t str,
     at: usize,
 }
 
-/// A tag: its start, its kind, its number of attributes, and how many of these declare name spaces.
+/// A tag: its start, its kind, its number of attributes, and the number of attributes that declare
+/// name spaces.
 struct Tag {
     at: usize,
     kind: TagKind,

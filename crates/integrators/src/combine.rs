@@ -1,5 +1,4 @@
-//! The inner loop of explicit methods: sums of stages. The stages and weights are chosen by each
-//! method.
+//! The inner loop of explicit methods: sums of stages. Each method chooses its stages and weights.
 
 /// Writes `y = y0 + h·Σ w_j k_j`. All slices are at least as long as `y`.
 #[inline]

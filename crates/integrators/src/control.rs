@@ -1,13 +1,14 @@
 //! Step-size control from the estimated error: a PI controller with limits.
 //!
-//! The rule is `h_new = h · clamp(safety · err^(−α) · err_old^β)`: Gustafsson's controller in the
-//! form of Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4 and of
-//! Hairer, Wanner, vol. II, IV.2. It is evaluated with one logarithm and one exponential per step.
-//! The module `drive` handles failures of trials, and each method computes its error estimate.
+//! The rule is `h_new = h · clamp(safety · err^(−α) · err_old^β)`. This is Gustafsson's controller
+//! in the form of Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4
+//! and of Hairer, Wanner, vol. II, IV.2. It is evaluated with one logarithm and one exponential per
+//! step. The module `drive` handles failures of trials, and each method computes its error
+//! estimate.
 
 /// Determines the size of the next trial step.
 pub trait StepControl {
-    /// Resets the memory at the start of a leg.
+    /// Resets the memory at the start of an interval between two break times.
     fn reset(&mut self);
 
     /// Returns the next step size after an accepted step of size `h` with error norm `error` ≤ 1.
@@ -18,7 +19,7 @@ pub trait StepControl {
     fn reject(&mut self, h: f64, error: f64) -> f64;
 
     /// Returns the next step size after a trial of size `h` that gave no error estimate or was
-    /// rejected. `factor` is the proposal of the loop.
+    /// rejected. `factor` is the step-size factor that the integration loop proposes.
     fn shorten(&mut self, h: f64, factor: f64) -> f64;
 }
 
@@ -29,7 +30,8 @@ pub(crate) struct ControlConstants {
     pub(crate) alpha: f64,
     /// β, exponent of the previous error; 0 gives the classical controller.
     pub(crate) beta: f64,
-    /// The step size is this fraction of the size with an error exactly equal to the tolerance.
+    /// Safety factor: the step size is this fraction of the size whose estimated error equals the
+    /// tolerance.
     pub(crate) safety: f64,
     /// Smallest permitted h_new / h.
     pub(crate) min_factor: f64,
@@ -67,7 +69,7 @@ impl StepControl for Control {
     /// Does not increase the step size directly after a rejection.
     fn accept(&mut self, h: f64, error: f64) -> f64 {
         let c = self.constants;
-        // The value ln 0 = −∞ gives the factor +∞, which is limited.
+        // For an error of 0, ln 0 = −∞ leads to the factor +∞, which is then limited.
         let log_error = error.ln();
         let factor = c.safety * (c.beta * self.log_previous_error - c.alpha * log_error).exp();
         let limit = if self.after_rejection {

@@ -1,20 +1,21 @@
 //! Decides whether simplified Newton iterations have converged, will not converge, or have reached
-//! the noise of rounding; for all implicit methods.
+//! the noise of rounding. The module is used by all implicit methods.
 //!
 //! Source: Hairer, Wanner II, 2nd ed., IV.8, and the constants of the authors' program RADAU5; the
 //! rule for noise is new.
 
 pub(crate) const MAX_ITERATIONS: u32 = 7;
-/// If the convergence rate is at most this value, the matrices are kept for another step.
+/// If the convergence rate is at most this value, the matrices are used for another step.
 pub(crate) const GOOD_RATE: f64 = 1e-3;
 /// If the convergence rate is at least this value, the iteration does not converge.
 const BAD_RATE: f64 = 0.99;
 /// Step-size factor if the convergence rate is not known.
 const FACTOR_WITHOUT_RATE: f64 = 0.5;
-/// If an iteration has converged at this rate and then stops converging, it may have reached the
-/// noise of rounding …
+/// An iteration may have reached the noise of rounding if it has converged at this rate before and
+/// then stops converging.
 const RATE_ABOVE_NOISE: f64 = 0.1;
-/// … provided that its increments are below this fraction of the permitted error.
+/// Largest increment of an iteration that has reached this noise, as a fraction of the permitted
+/// error.
 const LARGEST_NOISE: f64 = 0.03;
 
 /// The decision after an iteration.
@@ -36,7 +37,7 @@ pub(crate) struct Convergence {
     /// Smoothed quotient of successive increments.
     pub(crate) rate: f64,
     /// Bound rate/(1 − rate) on the remaining error relative to the last increment. For a first
-    /// iteration it is taken from earlier steps.
+    /// iteration the bound is taken from earlier steps.
     remaining: f64,
     norm: f64,
     quotient: f64,
@@ -57,7 +58,8 @@ impl Default for Convergence {
 }
 
 impl Convergence {
-    /// Returns the state for the next solve, which keeps the reliability of a first increment.
+    /// Returns the state for the next solve. Its first iteration uses the bound on the remaining
+    /// error from this solve.
     pub(crate) fn next(self) -> Self {
         Self {
             remaining: self.remaining.max(f64::EPSILON).powf(0.8),
@@ -139,7 +141,7 @@ mod tests {
         assert_eq!(verdicts, [GoOn, GoOn, Converged]);
         assert!((last.rate - 1e-2).abs() < 1e-16);
         assert_eq!(judge_all(&[1.0, 1.0], 1e-5).0[1], Diverged { factor: 0.5 });
-        // After six halvings, the increments are far from 1e-8.
+        // With a rate of 0.5, even the last permitted increment is far larger than 1e-8.
         let (verdicts, _) = judge_all(&[1.0, 0.5], 1e-8);
         assert!(matches!(verdicts[1], Diverged { factor } if factor > 0.5 && factor < 0.8));
         assert_eq!(judge_all(&[f64::NAN], 1e-5).0, [Diverged { factor: 0.5 }]);
@@ -151,7 +153,7 @@ mod tests {
         let (verdicts, last) = judge_all(&[1.0, 1e-3, 1e-3, 1e-3], 1e-6);
         assert_eq!(verdicts[3], Converged);
         assert_eq!(last.rate, 1e-3);
-        // The increments are too large for noise and never contracted.
+        // The increments are too large to be noise, and they have not decreased before.
         let (verdicts, _) = judge_all(&[1e3, 1.0, 1.0, 1.0], 1e-6);
         assert!(matches!(verdicts[3], Diverged { .. }));
         assert!(matches!(

@@ -1,5 +1,5 @@
-//! The loop that all methods share: trials, rejections, accepted steps, legs between break times,
-//! and limits.
+//! The integration loop of all methods. It handles trials, rejections, accepted steps, the
+//! intervals between break times, and limits.
 //!
 //! The `Stepper` of a method contains its formulas, `control` the step-size control, and `sample`
 //! the output times.
@@ -17,20 +17,20 @@ use std::ops::ControlFlow;
 /// A step below this many units in the last place of t counts as collapsed: stage times could no
 /// longer be distinguished.
 const SMALLEST_STEP_IN_EPSILONS: f64 = 16.0;
-/// If a step would leave less than this fraction of itself before the end of a leg, it is extended
-/// to the end.
+/// A step is extended to the next break time or the end if the distance to it is less than this
+/// multiple of the step.
 const STRETCH: f64 = 1.01;
-/// A step that ends before an ill-conditioned time leaves this fraction of the largest distance
-/// that a step of its size can step over.
+/// Distance from an ill-conditioned time at which a step before this time ends, as a fraction of
+/// the largest distance that a step of the same size can go over.
 const LEFT_TO_PASS: f64 = 0.8;
 /// If a step ends before an ill-conditioned time at a distance of at most this multiple of its
-/// size, its error may exceed the tolerance by the slack of that time. A step that leaves nearly
-/// its whole size to the next step is still in this range.
+/// size, its error may exceed the tolerance by the [`slack`](Delicate::slack) of this time. A step
+/// that leaves nearly its whole size to the next step is still in this range.
 const NEAR: f64 = 2.0;
 /// Number of trials between checks of progress.
 const STRIDE: u64 = 2000;
 /// If a run, at the pace of the last [`STRIDE`] trials, would need this multiple of the permitted
-/// steps, it makes no progress: a transient would have ended long before.
+/// steps, the run is not making progress, because a transient would have ended long before.
 const HOPELESS: f64 = 1e3;
 /// Step-size factor after a failed evaluation.
 const FACTOR_AFTER_FAILURE: f64 = 0.25;
@@ -40,8 +40,8 @@ const FACTOR_AFTER_HOOK: f64 = 0.5;
 /// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted
 /// step.
 ///
-/// Memory is allocated only before the first step. If t0 = t_end, the function evaluates and calls
-/// nothing.
+/// Memory is allocated only before the first step. If t0 = t_end, the function neither evaluates f
+/// nor calls `observe`.
 ///
 /// # Errors
 ///
@@ -199,7 +199,7 @@ struct Run<'a, E: std::error::Error + 'static> {
     t: f64,
     /// Signed size of the next trial.
     h: f64,
-    /// Size of the next trial before it was changed for a reason other than its error.
+    /// Size of the next trial before it was changed for a reason other than the estimated error.
     uncut: Option<f64>,
     noise: Noise,
     states: States,
@@ -238,7 +238,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         }
     }
 
-    /// Computes derivative and first step size at the start of a leg.
+    /// Computes derivative and first step size at the start of an interval between two break times.
     fn start<O: Ode<Error = E>, S: Stepper<O>>(
         &mut self,
         ode: &mut O,
@@ -322,8 +322,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         if distance <= 0.0 || distance >= 1.0 + reach {
             return;
         }
-        // In units of h: this step goes over the time if it may be long enough. Otherwise it leaves
-        // slightly less than the range of the next step.
+        // Sizes are in units of h. This step goes over the time if it can be long enough. Otherwise
+        // it ends slightly nearer to the time than the next step can reach.
         let share = if distance <= reach {
             distance / gap
         } else {
@@ -333,7 +333,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.h *= share;
     }
 
-    /// Returns the next trial, which ends exactly at the end of the leg if it reaches it.
+    /// Returns the next trial. If it reaches the next break time or the end, it ends there exactly.
     fn next_trial<'l>(&mut self, leg: &'l Leg) -> Result<Trial<'l>, IntegrationError<E>> {
         let (t, h) = (self.t, self.h);
         let steps = self.statistics.accepted + self.statistics.rejected();
@@ -368,7 +368,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         })
     }
 
-    /// Returns whether the progress of the last trials is too small to reach the end of the leg.
+    /// Returns whether the progress of the last trials is too small to reach the next break time or
+    /// the end.
     fn stands_still(&mut self, steps: u64, remaining: f64) -> bool {
         let (before, since) = self.looked_at;
         if steps < before + STRIDE {
@@ -471,8 +472,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        // A step shortened by the end of its leg or before an ill-conditioned time does not reduce
-        // the size of later steps.
+        // A step that was shortened to end at a break time or before an ill-conditioned time does
+        // not reduce the size of later steps.
         let is_cut = trial.t1 == trial.leg.end || self.uncut.is_some();
         let wanted = self.uncut.take().unwrap_or(self.h);
         let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));

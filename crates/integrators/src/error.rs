@@ -1,4 +1,4 @@
-//! Errors with names and numbers.
+//! Errors of an integration, with their names and data.
 
 use crate::statistics::Statistics;
 use std::error::Error;
@@ -29,7 +29,8 @@ pub enum Cause<E: Error + 'static> {
         "Newton's iteration for the stages does not converge (rate {rate:.2e} after {iterations} iterations)"
     )]
     NewtonDiverges {
-        /// Last increment divided by the previous one; NaN or infinite if they are not finite.
+        /// Last increment divided by the previous one; NaN or infinite if an increment is not
+        /// finite.
         rate: f64,
         /// Number of iterations with the last Jacobian.
         iterations: u32,
@@ -72,7 +73,7 @@ pub enum IntegrationError<E: Error + 'static> {
     InvalidOption {
         /// Name of the field.
         option: &'static str,
-        /// The permitted values.
+        /// Value of the option.
         value: f64,
         /// The allowed values.
         expected: &'static str,
@@ -141,7 +142,7 @@ pub enum IntegrationError<E: Error + 'static> {
         /// Signed size of the next trial step.
         h: f64,
     },
-    /// The function whose zeros are events is not a number.
+    /// The value of the function whose zeros are events is NaN.
     #[error("the event function is not a number at t = {t}")]
     EventUndefined {
         /// The time.

@@ -15,15 +15,15 @@ use crate::step::Step;
 use std::error::Error;
 use std::ops::ControlFlow;
 
-/// Direction of the zeros of g that count, in the direction of integration.
+/// Direction of the zero crossings of g that count as events, in the direction of integration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Direction {
-    /// All zeros.
+    /// All zero crossings.
     #[default]
     Any,
-    /// Zeros from negative to positive values.
+    /// Zero crossings from negative to positive values.
     Rising,
-    /// Zeros from positive to negative values.
+    /// Zero crossings from positive to negative values.
     Falling,
 }
 
@@ -31,14 +31,14 @@ pub enum Direction {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Crossing {
-    /// Time, exact to a few units in the last place of t for the dense output. At this time g is
-    /// zero or already has its new sign.
+    /// Time of the zero of the dense output, exact to a few units in the last place. At this time g
+    /// is zero or already has its new sign.
     pub t: f64,
     /// Whether g was negative before.
     pub is_rising: bool,
 }
 
-/// Number of parts of a step. g is evaluated at their ends.
+/// Number of parts into which a step is divided. g is evaluated at the ends of the parts.
 const PARTS: u32 = 10;
 /// Width of the final bracket around a zero, in units of the rounding of t.
 const WIDTH_IN_EPSILONS: f64 = 2.0;
@@ -48,8 +48,8 @@ const WIDTH_IN_EPSILONS: f64 = 2.0;
 /// g is evaluated at eleven points of each step, first in the dense output without extra
 /// evaluations. The accurate dense output is used only in a step in which the sign changes. A zero
 /// at the end of a step belongs to that step; a zero at the start of the integration is ignored.
-/// The search does not detect two zeros between neighbouring points, or a change of sign due to a
-/// jump of the state at a break time. It detects a contact without change of sign (a grazing
+/// The search does not detect two zeros between neighbouring points, or a change of sign that a
+/// jump of the state at a break time causes. It detects a contact without change of sign (a grazing
 /// contact) only if g is exactly 0 at one of the points. Limit the step size if g changes faster
 /// than the solution, and search for zeros of dg/dt if contacts matter.
 ///
@@ -147,7 +147,8 @@ impl Crossings {
     }
 }
 
-/// Returns end number `i` of the parts of a step; the ends of the step are exact.
+/// Returns the boundary with index `i` between the parts of a step; indices 0 and [`PARTS`] are
+/// exactly the ends of the step.
 fn place(t0: f64, t1: f64, i: u32) -> f64 {
     if i == PARTS {
         t1
@@ -174,8 +175,8 @@ fn number<E: Error + 'static>(t: f64, g: f64) -> Result<f64, IntegrationError<E>
 /// accurate dense output at that time.
 ///
 /// Zeros that [`Crossings`] does not detect are not detected by this function, either. A motion
-/// that continues from an event begins with g = 0 up to rounding. Choose the direction so that this
-/// initial zero does not count.
+/// that continues from an event begins with g = 0, apart from rounding. Choose the direction so
+/// that this initial zero does not count.
 ///
 /// # Errors
 ///

@@ -1,10 +1,11 @@
-//! The time span, its break times, and the one-sided evaluation of f at them.
+//! The interval of integration, its break times, and the one-sided evaluation of f at the break
+//! times.
 //!
-//! The interval between two break times is called a *leg*. A step never crosses the end of a leg,
-//! but ends there exactly. f is evaluated only at times within the leg. At a break time, the
-//! neighbouring floating-point number replaces the time. Therefore f has its left limit in the
-//! previous leg and its right limit in the next leg, for any form of the condition `if t < …` in
-//! the problem.
+//! The code calls the interval between two neighbouring break times a *leg*. A step never crosses
+//! the end of a leg, but ends there exactly. f is evaluated only at times within the leg. At a
+//! break time, the neighbouring floating-point number replaces the time. Therefore f has its left
+//! limit in the previous leg and its right limit in the next leg, for any form of the condition
+//! `if t < …` in the problem.
 
 use crate::error::IntegrationError;
 use std::error::Error;
@@ -34,8 +35,8 @@ impl Interval<'static> {
     }
 }
 
-/// A smooth part of the interval. `inside` are the first and last times at which f may be
-/// evaluated, in the direction of integration.
+/// A smooth part of the interval: the part between two neighbouring break times. `inside` are the
+/// first and last times at which f may be evaluated, in the direction of integration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Leg {
     pub(crate) start: f64,
@@ -58,8 +59,8 @@ impl Interval<'_> {
         if self.t_end < self.t0 { -1.0 } else { 1.0 }
     }
 
-    /// Checks the times and divides the interval into legs, in the direction of integration. There
-    /// are no legs if t0 = t_end.
+    /// Checks the times and divides the interval at its break times, in the direction of
+    /// integration. There are no parts if t0 = t_end.
     pub(crate) fn legs<E: Error + 'static>(&self) -> Result<Vec<Leg>, IntegrationError<E>> {
         let invalid = |name, value| Err(IntegrationError::InvalidTime { name, value });
         if !self.t0.is_finite() {
@@ -100,7 +101,8 @@ impl Interval<'_> {
             }
         };
         let inside = (towards(start, true), towards(end, false));
-        // If two break times are neighbouring numbers, there is no number between them.
+        // Between neighbouring floating-point numbers there is no other number, so two such break
+        // times have no time between them.
         let inside = if (inside.1 - inside.0) * sign >= 0.0 {
             inside
         } else {

@@ -63,7 +63,7 @@ impl Outcome {
     }
 }
 
-/// A trial step from t over h to t1 = t + h, within a leg.
+/// A trial step of size h from t to t1 = t + h, between two neighbouring break times.
 #[derive(Debug, Clone, Copy)]
 pub struct Trial<'a> {
     pub(crate) leg: &'a Leg,
@@ -73,8 +73,8 @@ pub struct Trial<'a> {
 }
 
 impl Trial<'_> {
-    /// Returns the time of the stage with node `c`; at break times the neighbouring number within
-    /// the leg.
+    /// Returns the time of the stage with node `c`. At a break time it is the neighbouring
+    /// floating-point number within the step's interval.
     #[inline]
     pub(crate) fn stage_time(&self, c: f64) -> f64 {
         let t = if c == 1.0 {
@@ -86,7 +86,8 @@ impl Trial<'_> {
     }
 }
 
-/// Both ends of an accepted step: states (after projection) and derivatives there.
+/// Both ends of an accepted step: the states (after projection) and the derivatives at these
+/// states.
 #[derive(Debug, Clone, Copy)]
 pub struct Ends<'a> {
     pub(crate) trial: Trial<'a>,
@@ -111,7 +112,7 @@ pub struct Start<'a> {
 const AHEAD: f64 = 0.45;
 
 /// Returns a relative position in the widest gap between nodes, including 0 and 1. It is the middle
-/// of the gap, if a step with the time at this position ends farther away than it began.
+/// of the gap, limited so that the step ends farther from the time at this position than it began.
 pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     let all = || nodes.iter().copied().chain([0.0, 1.0]);
     let gap = |from: f64| (from, all().filter(|c| *c > from).fold(1.0, f64::min));
@@ -166,7 +167,7 @@ pub trait Stepper<O: Ode>: Dense<O> {
         statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>>;
 
-    /// Resets the memory of earlier steps, at the start of a leg.
+    /// Resets the memory of earlier steps, at the start of an interval between two break times.
     fn restart(&mut self) {
         self.control().reset();
     }
@@ -182,7 +183,7 @@ pub trait Stepper<O: Ode>: Dense<O> {
     }
 
     /// Returns the size of the next trial after a trial of size h that gave no error estimate or
-    /// was rejected. `factor` is the proposal of the loop.
+    /// was rejected. `factor` is the step-size factor that the integration loop proposes.
     fn after_failure(&mut self, h: f64, factor: f64) -> f64 {
         self.control().shorten(h, factor)
     }

@@ -10,7 +10,7 @@ use std::error::Error;
 /// An ordinary differential equation `y' = f(t, y)`, y ∈ ℝⁿ.
 pub trait Ode {
     /// Error of f or of the hook. A trial step with an error is rejected and repeated with a
-    /// smaller step size; the error is returned to the caller only if this does not help.
+    /// smaller step size; the caller receives the error only if smaller steps also fail.
     type Error: Error + 'static;
 
     /// Returns the number n of components of y.
@@ -47,8 +47,8 @@ pub trait Ode {
     }
 
     /// Returns a later time near which f should not be evaluated, if there is one: a removable
-    /// singularity, near which values are mostly rounding. The steps are chosen such that this time
-    /// is between two stages, as far from both as the method permits.
+    /// singularity, near which the values are mostly rounding errors. The steps are chosen such
+    /// that this time is between two stages, as far from both as the method permits.
     fn delicate_time(&self) -> Option<Delicate> {
         None
     }
@@ -61,9 +61,9 @@ pub trait Ode {
         false
     }
 
-    /// The function is called at each break time inside the interval, before the first evaluation
-    /// after it, with the time just after it. It may change `y` (length n), so that the solution
-    /// jumps.
+    /// The function is called at each break time inside the interval, before f is evaluated after
+    /// this time. `t` is the time just after the break time. The function may change `y` (length
+    /// n), so that the solution jumps.
     ///
     /// # Errors
     ///
@@ -74,18 +74,18 @@ pub trait Ode {
     }
 }
 
-/// A time near which f is mostly rounding.
+/// A time near which the values of f are mostly rounding errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Delicate {
     /// The time.
     pub t: f64,
-    /// Factor ≥ 1 by which the error of a step over the time may exceed the tolerance, because
-    /// smaller steps would come closer to it and be less accurate. For the same reason, if error
-    /// control has failed within one step before the time, steps up to it may exceed the tolerance
-    /// as well.
+    /// Factor ≥ 1 by which the error of a step over the time may exceed the tolerance. The reason
+    /// is that smaller steps would come closer to the time and be less accurate. For the same
+    /// reason, if error control has failed within one step before the time, steps up to it may
+    /// exceed the tolerance as well.
     pub slack: f64,
     /// Smallest weight of a component in the norm of a step that may exceed the tolerance. It is
-    /// needed because rounding does not decrease where a component is near zero.
+    /// needed because the rounding error does not decrease if a component is near zero.
     pub least_scale: f64,
 }
 
@@ -96,9 +96,9 @@ pub struct StepInfo<'a> {
     pub t0: f64,
     /// Time at the end of the step.
     pub t: f64,
-    /// Time at which f must be evaluated at the end of the step. It is `t`, except at a break time:
-    /// there it is the neighbouring floating-point number within the step, so that f has its limit
-    /// from this side.
+    /// Time at which f must be evaluated at the end of the step. It is `t`, except at a break time.
+    /// In this case it is the neighbouring floating-point number within the step, so that f has its
+    /// one-sided limit.
     pub t_rhs: f64,
     /// Estimated local error in the weighted norm; at most 1, or the slack of an ill-conditioned
     /// time.

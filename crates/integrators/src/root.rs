@@ -26,7 +26,7 @@ pub(crate) fn bracketed_root<E>(
     let direction = (b - a).signum();
     let length = (b - a).abs();
     let k1 = 0.2 / length;
-    // Number of bisections that reach the width, plus one additional permitted evaluation.
+    // Number of bisections that reach the width, plus one permitted extra evaluation.
     let bisections = (length / width).log2().ceil().max(0.0) + 1.0;
     // Largest distance from the middle that satisfies this bound.
     let mut reach = 0.5 * width * bisections.exp2();
@@ -46,8 +46,8 @@ pub(crate) fn bracketed_root<E>(
         } else {
             middle - towards_middle * radius
         };
-        // If rounding, or values whose quotient overflows, put the point outside, the middle is
-        // used.
+        // The middle is used if rounding, or the overflow of a quotient, puts the point outside the
+        // bracket.
         let is_inside = (projected - a) * direction > 0.0 && (b - projected) * direction > 0.0;
         let x = if is_inside { projected } else { middle };
         if x == a || x == b {

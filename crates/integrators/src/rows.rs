@@ -53,7 +53,7 @@ pub enum OutputTimes {
 pub struct Rows {
     times: OutputTimes,
     interval: Interval<'static>,
-    /// Number of the next row.
+    /// Index of the next row.
     index: u64,
     y: Vec<f64>,
 }
@@ -179,7 +179,7 @@ impl OutputTimes {
         }
     }
 
-    /// Returns the time of row number `index`, if the row exists.
+    /// Returns the time of the row with this index, if the row exists.
     fn get(&self, index: u64, interval: &Interval<'_>) -> Option<f64> {
         match self {
             Self::At(times) => usize::try_from(index)
@@ -187,8 +187,8 @@ impl OutputTimes {
                 .and_then(|i| times.get(i))
                 .copied(),
             Self::Every(dt) => {
-                // The time is a product, not a sum, so that rounding does not accumulate. Time
-                // number i counts if i·dt is below the length.
+                // The time is a product, not a sum, so that rounding does not accumulate. A row
+                // with index i exists if i·dt is below the length.
                 let length = (interval.t_end - interval.t0).abs();
                 let before_end = |i: u64| length - i as f64 * dt > SAME_ROW * dt.min(length);
                 if index == 0 || before_end(index) {

@@ -1,18 +1,18 @@
 //! The automatic first step.
 //!
 //! Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4,
-//! "Starting step size", with the sums over the components (not their mean) and the constants of
-//! the authors' program DOPRI5.
+//! "Starting step size". As in the authors' program DOPRI5, the norms are sums over the components
+//! (not means), and the constants are those of this program.
 
 use crate::control::weighted_square_sum;
 use crate::interval::Leg;
 use crate::ode::{Ode, evaluate};
 use crate::statistics::Statistics;
 
-/// Size of the exploratory step, or the estimate, if y or f is too small to give a scale; in units
-/// of t.
+/// If y or f is too small to determine a scale, this is the size of the exploratory step, and the
+/// estimate of the first step; in units of t.
 const SMALL_STEP: f64 = 1e-6;
-/// Limit for sums of squares and derivatives; smaller values give no scale.
+/// If a sum of squares is at most this value, it determines no scale.
 const NO_SCALE: f64 = 1e-10;
 const NO_DERIVATIVE: f64 = 1e-15;
 
@@ -25,7 +25,7 @@ pub(crate) struct StartScratch<'a> {
 /// Returns the signed first step for a method of order `order` from (`leg.start`, `y0`), where f0
 /// is the value of f there; |h| ≤ `h_max`.
 ///
-/// An explicit Euler step of 1 % of |y|/|f| measures the second derivative; then h is chosen so
+/// An explicit Euler step of 1 % of |y|/|f| measures the second derivative. Then h is chosen so
 /// that `h^order · max(|f|, |f'|) = 0.01` in the norm with weights `scale`. If f cannot be
 /// evaluated after the Euler step, 1 % of that step is used, and error control adapts it.
 pub(crate) fn initial_step<O: Ode>(

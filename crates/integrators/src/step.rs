@@ -37,10 +37,10 @@ pub enum OutputError<E: Error + 'static> {
 /// An accepted step from (t0, y0) to (t1, y1); y1 is the state after projection by the hook.
 ///
 /// Both dense outputs give exactly y0 at t0 and y1 at t1. Their derivatives there are f(t0, y0) and
-/// f(t1, y1). Therefore they are continuously differentiable over all steps between two break
-/// times, with and without projection. (The outputs of [`Radau5`](crate::Radau5) are continuous,
-/// and their derivatives are correct up to their error.) Between the ends they do not satisfy
-/// constraints, so project rows before writing them.
+/// f(t1, y1). Therefore both outputs are continuously differentiable over all steps between two
+/// break times, with and without projection. (The outputs of [`Radau5`](crate::Radau5) are
+/// continuous, and their derivatives are correct up to the error of the output.) Between the ends
+/// of a step, the outputs do not satisfy constraints, so project rows before writing them.
 pub struct Step<'a, O: Ode> {
     ode: &'a mut O,
     dense: &'a mut dyn Dense<O>,
@@ -145,8 +145,8 @@ impl<'a, O: Ode> Step<'a, O> {
     }
 
     /// Writes y(t) to `out` (length n), with the same global order as the steps. The first call
-    /// within a step makes extra evaluations of f. Further calls in the same step, and calls at its
-    /// ends, make no evaluations.
+    /// within a step makes extra evaluations of f. Further calls in the same step, and calls at the
+    /// ends of the step, make no evaluations.
     ///
     /// # Errors
     ///

@@ -1,5 +1,5 @@
-//! Rooted trees and the order conditions of Butcher's theory, which use no table. They serve to
-//! test the tables.
+//! Rooted trees and the order conditions of Butcher's theory, for tests of the coefficient tables.
+//! The conditions are generated from the trees, not copied from a table.
 //!
 //! A Runge–Kutta formula with weights b(θ) has order p if `Σ b_i(θ)·Φ_i(τ) = θ^|τ| / γ(τ)` for all
 //! rooted trees τ with at most p nodes. Source: Hairer, Nørsett, Wanner I, 2nd ed., II.2 and II.6.

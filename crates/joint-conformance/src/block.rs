@@ -1,9 +1,8 @@
-//! The data type for comparisons: a dense matrix of kernel results. It is not used for other
-//! calculations.
+//! A dense matrix of kernel results, for comparisons. It is not used for other calculations.
 
 use joints::Ring;
 
-/// A dense matrix, row by row, of computed or expected results of a kernel.
+/// A dense matrix of computed or expected results of a kernel, stored by rows.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Block<T = f64> {
     rows: usize,
@@ -12,7 +11,7 @@ pub(crate) struct Block<T = f64> {
 }
 
 impl<T: Copy> Block<T> {
-    /// A block with the same value everywhere.
+    /// Returns a block with this value in all entries.
     #[must_use]
     pub(crate) fn filled(rows: usize, columns: usize, value: T) -> Self {
         Self {
@@ -22,7 +21,7 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// One column.
+    /// Returns a block with one column.
     #[must_use]
     pub(crate) fn column(entries: Vec<T>) -> Self {
         Self {
@@ -32,7 +31,8 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// These blocks, all with the same number of rows, side by side.
+    /// Returns a block that contains these blocks side by side; all of them must have the same
+    /// number of rows.
     ///
     /// # Panics
     /// Panics if the numbers of rows differ.
@@ -54,7 +54,7 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// The first `rows` rows; all of them if there are fewer.
+    /// Returns the first `rows` rows, or all rows if there are fewer.
     #[must_use]
     pub(crate) fn head(&self, rows: usize) -> Self {
         let rows = rows.min(self.rows);
@@ -65,31 +65,31 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// Number of rows.
+    /// Returns the number of rows.
     #[must_use]
     pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// All entries, row by row.
+    /// Returns all entries, by rows.
     #[must_use]
     pub(crate) fn entries(&self) -> &[T] {
         &self.entries
     }
 
-    /// One row.
+    /// Returns one row.
     ///
     /// # Panics
-    /// Panics if there is no such row.
+    /// Panics if the row does not exist.
     #[must_use]
     pub(crate) fn row(&self, row: usize) -> &[T] {
         &self.entries[row * self.columns..][..self.columns]
     }
 
-    /// One entry.
+    /// Returns one entry.
     ///
     /// # Panics
-    /// Panics if there is no such entry.
+    /// Panics if the entry does not exist.
     #[must_use]
     pub(crate) fn get(&self, row: usize, column: usize) -> T {
         self.row(row)[column]
@@ -98,13 +98,13 @@ impl<T: Copy> Block<T> {
     /// Changes one entry.
     ///
     /// # Panics
-    /// Panics if there is no such entry.
+    /// Panics if the entry does not exist.
     pub(crate) fn set(&mut self, row: usize, column: usize, value: T) {
         assert!(column < self.columns, "column {column} of {}", self.columns);
         self.entries[row * self.columns + column] = value;
     }
 
-    /// The block with a function applied to each entry.
+    /// Applies a function to each entry and returns the resulting block.
     #[must_use]
     pub(crate) fn map<U>(&self, f: impl Fn(T) -> U) -> Block<U> {
         Block {
@@ -114,7 +114,7 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// Combines two blocks of the same shape entry by entry.
+    /// Combines the corresponding entries of two blocks of the same shape.
     ///
     /// # Panics
     /// Panics if the shapes differ.
@@ -125,7 +125,7 @@ impl<T: Copy> Block<T> {
         combined
     }
 
-    /// Combines each entry with the same entry of a block of the same shape, in place.
+    /// Combines each entry with the corresponding entry of a block of the same shape, in place.
     ///
     /// # Panics
     /// Panics if the shapes differ.
@@ -142,13 +142,13 @@ impl<T: Copy> Block<T> {
 }
 
 impl<T: Ring> Block<T> {
-    /// The product with a vector.
+    /// Returns the product with a vector.
     #[must_use]
     pub(crate) fn times(&self, v: &[T]) -> Self {
         Self::column((0..self.rows).map(|r| dot(self.row(r), v)).collect())
     }
 
-    /// The product of the transpose with a vector.
+    /// Returns the product of the transpose with a vector.
     #[must_use]
     pub(crate) fn transpose_times(&self, v: &[T]) -> Self {
         let column = |k| (0..self.rows).map(|r| self.get(r, k)).collect::<Vec<_>>();
@@ -156,27 +156,27 @@ impl<T: Ring> Block<T> {
     }
 }
 
-/// The sum of the products of two vectors, entry by entry.
+/// Returns the scalar product of two vectors.
 pub(crate) fn dot<T: Ring>(a: &[T], b: &[T]) -> T {
     let products = a.iter().zip(b).map(|(&a, &b)| a * b);
     products.fold(T::from(0.0), |sum, product| sum + product)
 }
 
 impl Block {
-    /// The largest magnitude of an entry; NaN if an entry is NaN.
+    /// Returns the largest magnitude of an entry; NaN if an entry is NaN.
     #[must_use]
     pub(crate) fn largest(&self) -> f64 {
         largest(self.entries.iter().copied())
     }
 
-    /// The Frobenius norm.
+    /// Returns the Frobenius norm.
     #[must_use]
     pub(crate) fn norm(&self) -> f64 {
         self.entries.iter().map(|e| e * e).sum::<f64>().sqrt()
     }
 
-    /// Row and column of the entry that differs most from the same entry of `other`; a NaN counts
-    /// as the largest difference. Returns `None` for empty blocks.
+    /// Returns row and column of the entry with the largest difference from the corresponding entry
+    /// of `other`; a NaN counts as the largest difference. Returns `None` for empty blocks.
     #[must_use]
     pub(crate) fn worst(&self, other: &Self) -> Option<(usize, usize)> {
         let difference = self.zip(other, |a, b| (a - b).abs());
@@ -189,7 +189,8 @@ impl Block {
         Some((at / self.columns, at % self.columns))
     }
 
-    /// The largest difference of two entries; NaN if a difference is NaN, or if the shapes differ.
+    /// Returns the largest difference between corresponding entries; NaN if a difference is NaN, or
+    /// if the shapes differ.
     #[must_use]
     pub(crate) fn difference(&self, other: &Self) -> f64 {
         if (self.rows, self.columns) == (other.rows, other.columns) {
@@ -201,7 +202,7 @@ impl Block {
     }
 }
 
-/// The largest magnitude; NaN if a value is NaN.
+/// Returns the largest magnitude; NaN if a value is NaN.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(0.0, |m: f64, e| {
         if m.is_nan() || e.is_nan() {

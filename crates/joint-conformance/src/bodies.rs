@@ -1,5 +1,5 @@
-//! Operations of the harness on the bodies of a space: random poses, rigid motions, and the forces
-//! on bodies. Velocities are plain numbers here, one for each degree of freedom.
+//! Operations on the bodies of a space: random poses, rigid motions, and the forces on bodies. In
+//! this module, velocities are lists of numbers, one for each velocity component.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -9,48 +9,51 @@ use joints::{Argument, Plane, Space, Space3, plane, space3};
 use crate::case::{Kind, Random};
 use crate::number::Number;
 
-/// A space whose definitions can be checked.
+/// A space whose definitions can be tested.
 pub trait Bodies: Space {
-    /// Names of the degrees of freedom of a body.
+    /// Names of the velocity components of a body.
     const DOFS: &'static [&'static str];
     /// Names of the components of a wrench.
     const COMPONENTS: &'static [&'static str];
 
-    /// A pose near `base`, within `reach`.
+    /// Returns a random pose whose coordinates differ from `base` by at most `reach`.
     #[doc(hidden)]
     fn draw(kind: Kind, base: f64, reach: f64, random: &mut Random) -> Self::Pose<f64>;
 
-    /// Description of a pose.
+    /// Returns a description of a pose as text.
     #[doc(hidden)]
     fn words(x: &Self::Pose<f64>) -> String;
 
-    /// The pose with the orientation of another pose.
+    /// Returns a pose with its orientation replaced by that of another pose.
     #[doc(hidden)]
     fn with_orientation(x: &Self::Pose<f64>, of: &Self::Pose<f64>) -> Self::Pose<f64>;
 
-    /// A point, or a vector that defines a direction.
+    /// Returns a point, or a vector that defines a direction, as an argument.
     #[doc(hidden)]
     fn argument(numbers: [f64; 3]) -> Argument;
 
-    /// The pose after a motion with constant velocities for the time τ.
+    /// Returns the pose after the time τ, for constant velocities.
     #[doc(hidden)]
     fn moved<D: Number>(x: &Self::Pose<f64>, v: &[f64], tau: D) -> Self::Pose<D>;
 
-    /// A pose after one rigid motion of the whole mechanism, which is the same for all bodies.
+    /// Returns the pose after a rigid motion of the whole mechanism; the motion is the same for all
+    /// bodies.
     #[doc(hidden)]
     fn carried(x: &Self::Pose<f64>) -> Self::Pose<f64>;
     #[doc(hidden)]
     fn carried_velocities(v: &[f64]) -> Vec<f64>;
 
-    /// Coordinates of the origin, and the largest number of the orientation.
+    /// Returns the coordinates of the origin, and the largest magnitude of the values for the
+    /// orientation.
     #[doc(hidden)]
     fn origin(x: &Self::Pose<f64>) -> ([f64; 3], f64);
 
-    /// Force and moment about a point, in ground components, of a generalised force on a body.
+    /// Returns force and torque about a point, in ground components, for a generalised force on a
+    /// body.
     #[doc(hidden)]
     fn wrench(x: &Self::Pose<f64>, q: &[f64], about: [f64; 3]) -> Vec<f64>;
 
-    /// Velocity of a point of the body at a unit velocity of each degree of freedom.
+    /// Returns the velocity of a point of the body for a unit value of each velocity component.
     #[doc(hidden)]
     fn point_velocities(x: &Self::Pose<f64>, point: [f64; 3]) -> Vec<[f64; 3]>;
 }
@@ -127,8 +130,8 @@ impl Bodies for Plane {
     }
 }
 
-/// A rigid motion: a rotation by about 0.9 rad about an axis that is not an axis of the frame, and
-/// a translation.
+/// A rigid motion: a rotation by about 0.9 rad about an axis that is not a coordinate axis, and a
+/// translation.
 fn carrier() -> space3::Pose {
     space3::Pose::new([0.7, -1.3, 0.4], [0.9, 0.2, -0.3, 0.25])
 }
@@ -147,8 +150,7 @@ impl Bodies for Space3 {
     fn draw(kind: Kind, base: f64, reach: f64, random: &mut Random) -> space3::Pose {
         let r = [base, -base, base].map(|base| base + random.within(reach));
         let quaternion = match kind {
-            // Rotations by a quarter or half a turn about the axes, and by a third of a turn about
-            // a diagonal.
+            // Rotations by 90° or 180° about the coordinate axes, and by 120° about a diagonal.
             Kind::RightAngles => [
                 [1.0, 0.0, 0.0, 0.0],
                 [1.0, 1.0, 0.0, 0.0],
@@ -156,12 +158,12 @@ impl Bodies for Space3 {
                 [0.0, 0.0, 1.0, 0.0],
                 [1.0, 1.0, 1.0, 1.0],
             ][random.below(5)],
-            // Nearly half a turn about some axis.
+            // A rotation by nearly 180° about some axis.
             Kind::NearPi => {
                 let axis: [f64; 3] = std::array::from_fn(|_| random.within(1.0));
                 [[1e-9, -1e-9][random.below(2)], axis[0], axis[1], axis[2]]
             }
-            // Quaternions that are far from length one.
+            // Quaternions whose length is far from one.
             Kind::LargeAngles => std::array::from_fn(|_| 1e3 * random.within(1.0)),
             _ => std::array::from_fn(|_| random.within(1.0)),
         };
@@ -183,8 +185,8 @@ impl Bodies for Space3 {
         Argument::Triple(numbers)
     }
 
-    /// R·exp([ωτ]×) by Rodrigues' formula; ω is constant in the frame of the body, so that the
-    /// angular acceleration is zero.
+    /// Computes R·exp([ωτ]×) by Rodrigues' formula. ω is constant in the body frame, so the angular
+    /// acceleration is zero.
     fn moved<D: Number>(x: &space3::Pose, v: &[f64], tau: D) -> space3::Pose<D> {
         let omega = [v[3], v[4], v[5]];
         let speed = omega.iter().map(|w| w * w).sum::<f64>().sqrt();
@@ -203,7 +205,7 @@ impl Bodies for Space3 {
                 D::from(d[k]) + sin * D::from(once[k]) + versine * D::from(twice[k])
             })
         };
-        // Column k of the result is R times the rotated k-th axis.
+        // Column k of the result is R times the k-th axis after the rotation.
         let columns = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(turned);
         let rot = std::array::from_fn(|row| {
             std::array::from_fn(|k| {
@@ -261,8 +263,8 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     ]
 }
 
-/// Axes for a parameter: random directions along and across, or directions along the axes of the
-/// frame.
+/// Returns axes for a parameter: random directions for the axis and perpendicular to it, or
+/// directions along the axes of the frame.
 pub(crate) fn axes(kind: Kind, random: &mut Random) -> Argument {
     if kind == Kind::RightAngles {
         let along = [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]][random.below(3)];

@@ -1,5 +1,5 @@
-//! Cases: random parameters, poses and motions according to the specification of a definition, both
-//! ordinary and special ones.
+//! Cases with random parameters, poses and motions that agree with the specification of a
+//! definition. Some cases are ordinary, others have special properties.
 
 use std::fmt;
 
@@ -8,18 +8,19 @@ use joints::spec::{Parameter, Shape, Spec, Unit};
 
 use crate::bodies::{Bodies, axes};
 
-/// Number of ordinary cases of one check.
+/// Number of ordinary cases in one check.
 pub const ORDINARY_CASES: usize = 1000;
-/// Number of special cases of one check, of each kind.
+/// Number of cases with each special property in one check.
 pub const AWKWARD_CASES: usize = 25;
-/// Number of motions of one case. A right-hand side with one row can vanish by chance for one
-/// motion, and its relative error is then meaningless; several motions together avoid this.
+/// Number of motions of one case. For one motion, a right-hand side with only one row can be zero
+/// by chance, and its relative error is then meaningless; this is unlikely for several motions
+/// together.
 pub(crate) const MOTIONS: usize = 4;
 
-/// Coordinates of ordinary poses are within ± this number.
+/// Largest magnitude of the coordinates of ordinary poses.
 const REACH: f64 = 2.0;
 
-/// Special property of a case.
+/// The special property of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Kind {
@@ -27,22 +28,22 @@ pub enum Kind {
     Ordinary,
     /// All frames have the same orientation.
     ParallelFrames,
-    /// Angles are 0, ±π/2 or ±π, in space also a third of a turn, and directions are along an axis
-    /// of the frame.
+    /// Angles are 0, ±π/2 or ±π, in space also ±2π/3, and directions are along the axes of the
+    /// frame.
     RightAngles,
     /// Angles differ from ±π by 1e-9.
     NearPi,
-    /// Angles of about ±1000; in space, quaternions with a length of about 1000.
+    /// Angles are about ±1000; in space, the length of quaternions is about 1000.
     LargeAngles,
-    /// Coordinates within ±1000.
+    /// Coordinates are within ±1000.
     FarApart,
-    /// Coordinates within ±2 of a point 1000 away.
+    /// Coordinates are within ±2 of a point at a distance of 1000.
     FarTogether,
-    /// All points are the origins of their frames.
+    /// All points are at the origins of their frames.
     ZeroOffsets,
     /// All bodies have the same pose.
     Coincident,
-    /// All bodies have the same pose, and all points are the origins of their frames.
+    /// All bodies have the same pose, and all points are at the origins of their frames.
     CoincidentPoints,
     /// All bodies are at rest.
     AtRest,
@@ -63,7 +64,7 @@ impl Kind {
     ];
 }
 
-/// Velocities and accelerations, one for each degree of freedom of each slot, and multipliers.
+/// Velocities and accelerations, one for each velocity component of each body, and multipliers.
 #[derive(Clone, Debug)]
 pub(crate) struct Motion {
     pub(crate) v: Vec<f64>,
@@ -74,13 +75,13 @@ pub(crate) struct Motion {
 /// One case: all arguments of the kernels of a definition.
 #[derive(Clone, Debug)]
 pub(crate) struct Case<S: Bodies> {
-    /// Number of the case among the cases of the check.
+    /// Index of the case in the check.
     pub(crate) index: usize,
     /// Special property of the case.
     pub(crate) kind: Kind,
     /// Values of the parameters.
     pub(crate) arguments: Vec<Argument>,
-    /// The assembled start, at which initial values are computed.
+    /// The assembled initial configuration, at which initial values are computed.
     pub(crate) start: Vec<S::Pose<f64>>,
     /// The poses at which kernels are evaluated.
     pub(crate) x: Vec<S::Pose<f64>>,
@@ -88,15 +89,16 @@ pub(crate) struct Case<S: Bodies> {
     pub(crate) f: Vec<[f64; 3]>,
     /// Whether the kernels use the cosine and sine of the last function of time.
     pub(crate) turning: bool,
-    /// The input values for the unwrapped angles.
+    /// The values of the unwrapped angles, as arguments of the kernels.
     pub(crate) counted: Vec<f64>,
     pub(crate) motions: Vec<Motion>,
     pub(crate) spec: &'static Spec,
 }
 
 impl<S: Bodies> Case<S> {
-    /// All cases for a definition with this number of rows; `turning` if the kernels use the cosine
-    /// and sine of its last function of time, `turns` unwrapped angles.
+    /// Returns all cases for a definition with this number of rows. `turning` means that the
+    /// kernels use the cosine and sine of the last function of time; `turns` is the number of
+    /// unwrapped angles.
     pub(crate) fn all(
         seed: u64,
         spec: &'static Spec,
@@ -133,14 +135,14 @@ impl<S: Bodies> Case<S> {
         })
     }
 
-    /// Whether kernels are also compared with finite differences. This is done in every fourth
-    /// ordinary case, because it is the most expensive part of a check.
+    /// Returns whether kernels are also compared with finite differences. This comparison is done
+    /// in every fourth ordinary case, because it is the most expensive part of a check.
     pub(crate) fn has_differences(&self) -> bool {
         self.kind == Kind::Ordinary && self.index.is_multiple_of(4)
     }
 
-    /// The case with a new ordinary start, from a larger region with every attempt: a wheel must be
-    /// above a plane that may be out of reach.
+    /// Returns the case with another ordinary initial configuration. The region grows with every
+    /// attempt, because a wheel must be above a plane, which may be far away.
     pub(crate) fn with_another_start(&self, attempt: u64) -> Self {
         let mut random = Random(attempt ^ ((self.index as u64) << 32));
         let reach = REACH * (1.0 + attempt as f64 / 50.0);
@@ -150,7 +152,8 @@ impl<S: Bodies> Case<S> {
         }
     }
 
-    /// The case after a rigid motion of all bodies: poses, start and motions.
+    /// Returns the case after a rigid motion of all bodies, which changes poses, initial poses and
+    /// motions.
     pub(crate) fn moved(&self) -> Self {
         let poses = |x: &[S::Pose<f64>]| x.iter().map(S::carried).collect();
         let twists = |v: &[f64]| -> Vec<f64> {
@@ -173,8 +176,8 @@ impl<S: Bodies> Case<S> {
         }
     }
 
-    /// The largest coordinate of poses, start and parameters, at least 1: a rounding error of 1 ε
-    /// in this coordinate changes Φ by this number times ‖C‖·ε.
+    /// Returns the largest coordinate of poses, initial poses and parameters, at least 1. A
+    /// relative error of ε in this coordinate changes Φ by ε times this coordinate times ‖C‖.
     pub(crate) fn size(&self) -> f64 {
         let poses = self.x.iter().chain(&self.start).flat_map(|p| {
             let ([x, y, z], angle) = S::origin(p);
@@ -242,15 +245,15 @@ fn argument<S: Bodies>(parameter: &Parameter, kind: Kind, random: &mut Random) -
 
 fn number(unit: Unit, random: &mut Random) -> f64 {
     match unit {
-        // The radius is smaller than the reach of poses, because the distance of a body from a
-        // plane may have to be larger than the radius.
+        // The radius is smaller than the largest coordinate of poses, because some definitions
+        // require that the distance of a body from a plane exceeds the radius.
         Unit::Radius => random.within(1.0).abs(),
         unit if unit.may_be_negative() => random.within(3.0),
         _ => random.within(5.0).abs(),
     }
 }
 
-/// As many random numbers as a vector has components.
+/// Returns a vector with random components.
 fn vector<S: Bodies>(reach: f64, random: &mut Random) -> [f64; 3] {
     let mut vector = [0.0; 3];
     vector[..S::DIM].fill_with(|| random.within(reach));
@@ -300,7 +303,8 @@ fn motion<S: Bodies>(slots: usize, rows: usize, kind: Kind, random: &mut Random)
     }
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014): reproducible on every platform, without a dependency.
+/// The random-number generator SplitMix64 (Steele, Lea, Flood 2014), which is reproducible on every
+/// platform and needs no dependency.
 pub struct Random(pub(crate) u64);
 
 impl Random {
@@ -312,7 +316,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// Uniform in ±reach.
+    /// Returns a number with uniform distribution in ±reach.
     pub(crate) fn within(&mut self, reach: f64) -> f64 {
         let unit = (self.next() >> 11) as f64 / (1u64 << 53) as f64;
         reach * (2.0 * unit - 1.0)

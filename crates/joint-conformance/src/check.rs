@@ -1,5 +1,5 @@
-//! One check for constraints and forces: all cases of a definition, and the properties of each
-//! case.
+//! The check of one constraint or force: all cases of a definition, and the properties that are
+//! tested in each case.
 
 use joints::Space;
 use joints::spec::Shape;
@@ -13,7 +13,7 @@ use crate::kernels::KernelNumber;
 use crate::state::Along;
 use crate::subject::{By, Derivative, Subject};
 
-/// Checks all cases of one definition.
+/// Tests all cases of one definition.
 pub(crate) fn check<S: Subject>(of: S, seed: u64) -> Result<(), Failure> {
     let name = of.common().name;
     let mut patterns = of.patterns()?;
@@ -55,14 +55,16 @@ pub(crate) fn check<S: Subject>(of: S, seed: u64) -> Result<(), Failure> {
     of.facts(&seen)
 }
 
-/// Maximum share of the cases in which a force law may have no value. Rotations are beyond 3 rad in
-/// a tenth of the ordinary cases, and half turns are among the special cases.
+/// A force law may have no value in at most this fraction of the cases. In a tenth of the ordinary
+/// cases, rotations exceed 3 rad, and the special cases contain rotations by half a revolution.
 const MOST_UNDEFINED: f64 = 0.25;
 
-/// Number of starts that are tried for one case before its requirements count as impossible.
+/// Number of initial configurations that are tried for one case before its requirements count as
+/// impossible.
 const STARTS: u64 = 100;
 
-/// The definition with the parameters of a case, at a start that satisfies its requirements.
+/// Constructs the definition with the parameters of a case, at an initial configuration that
+/// satisfies its requirements.
 fn assembled<S: Subject>(
     of: S,
     case: &Case<S::Space>,
@@ -83,7 +85,7 @@ fn assembled<S: Subject>(
     for attempt in 0..STARTS {
         let definition = S::definition(&mut made);
         definition.initialise(&case.start);
-        // The index after the last requirement must also be satisfied.
+        // A requirement with an index after the last one must always be satisfied.
         let mut all = 0..=spec.requirements.len();
         if all.all(|k| definition.requirement(k, &case.start)) {
             return Ok((made, case));
@@ -94,14 +96,14 @@ fn assembled<S: Subject>(
     Err(fail(Property::Requirements, entry))
 }
 
-/// One case of one definition.
+/// The check of one case of one definition.
 pub(crate) struct Check<'a, S: Subject> {
     pub(crate) of: S,
     pub(crate) made: &'a S::Made,
     pub(crate) case: &'a Case<S::Space>,
 }
 
-/// A kernel along a curve.
+/// A kernel as a function of the curve parameter.
 struct Path<'a, S: Subject> {
     check: &'a Check<'a, S>,
     motion: &'a Motion,
@@ -118,13 +120,13 @@ impl<S: Subject> Curve for Path<'_, S> {
 }
 
 impl<S: Subject> Check<'_, S> {
-    /// A kernel at the state itself.
+    /// Returns a kernel at the state itself.
     pub(crate) fn at(&self, kernel: S::Kernel, motion: &Motion) -> Block {
         let state = Along::Time.state(self.case, motion, 0.0);
         self.of.final_kernel(self.made, kernel, &state)
     }
 
-    /// The blocks of all motions, next to each other.
+    /// Returns the blocks of all motions side by side.
     pub(crate) fn each(&self, block: impl Fn(&Motion) -> Block) -> Block {
         Block::beside(&self.case.motions.iter().map(block).collect::<Vec<_>>())
     }
@@ -149,8 +151,9 @@ impl<S: Subject> Check<'_, S> {
             } = *derivative;
             let expected = self.each(|m| self.derivative::<O>(of, by, m).map(|e| sign * e));
             let found = self.each(|m| self.at(kernel, m).head(expected.rows()));
-            // Terms may cancel for every motion, such as ω × ω in Γ of a ball about its own centre.
-            // Then the remaining rounding error is compared with the differentiated terms.
+            // Terms may cancel for every motion, for example ω × ω in Γ of a ball about its own
+            // centre. In this case, the remaining rounding error is compared with the size of the
+            // differentiated terms.
             let oracle = if found.largest() == 0.0 {
                 oracle.with_floor(self.each(|m| self.at(of, m)).largest())
             } else {
@@ -160,7 +163,7 @@ impl<S: Subject> Check<'_, S> {
         })
     }
 
-    /// A derivative of a kernel.
+    /// Computes a derivative of a kernel.
     pub(crate) fn derivative<O: Differentiate>(
         &self,
         of: S::Kernel,
@@ -180,7 +183,7 @@ impl<S: Subject> Check<'_, S> {
         }
     }
 
-    /// Norms do not change if all bodies move as one rigid body.
+    /// Checks that norms do not change if all bodies move as one rigid body.
     fn rigid_motion(&self) -> Result<(), Failure> {
         if self.case.kind != Kind::Ordinary || !is_internal(self.of) {
             return Ok(());
@@ -206,7 +209,8 @@ impl<S: Subject> Check<'_, S> {
         })
     }
 
-    /// The generalised forces on all slots have no resultant force and no resultant moment.
+    /// Checks that the generalised forces on all bodies have neither a resultant force nor a
+    /// resultant torque.
     pub(crate) fn balance(&self, loads: &[&[f64]], floor: f64) -> Result<(), Failure> {
         let sums = loads.iter().map(|load| resultant::<S>(&self.case.x, load));
         let sums = Block::beside(&sums.collect::<Vec<_>>());
@@ -214,14 +218,14 @@ impl<S: Subject> Check<'_, S> {
         self.claim(Property::Balance, Oracle::identity(floor), &sums, &none)
     }
 
-    /// Change of Φ or Q for a relative error of 1 in the coordinates. It is also the change of C,
-    /// because the rows of C have a size of about one length.
+    /// Returns the change of Φ or Q for a relative error of 1 in the coordinates. The value is also
+    /// used for changes of C, because an entry of C has about the size of one length.
     pub(crate) fn scale(&self) -> f64 {
         let slope = self.at(S::SLOPE, &self.case.motions[0]);
         slope.largest().max(1.0) * self.case.size()
     }
 
-    /// Equality within the effect of an error of the coordinates.
+    /// Checks that two blocks are equal within the effect of errors in the coordinates.
     pub(crate) fn identity(
         &self,
         property: Property,
@@ -231,7 +235,7 @@ impl<S: Subject> Check<'_, S> {
         self.claim(property, Oracle::identity(self.scale()), found, expected)
     }
 
-    /// Decides a claim; `property` determines the names of its entries.
+    /// Checks a claim; `property` determines the names of the entries.
     pub(crate) fn claim(
         &self,
         property: Property,
@@ -248,7 +252,7 @@ impl<S: Subject> Check<'_, S> {
         self.decide(&claim, |row, column| entry(self.of, property, row, column))
     }
 
-    /// Returns the worst entry if the claim is false; `entry` names it.
+    /// Returns the entry with the largest error if the claim is false; `entry` returns its name.
     pub(crate) fn decide(
         &self,
         claim: &Claim<'_>,
@@ -257,14 +261,14 @@ impl<S: Subject> Check<'_, S> {
         claim.decide(self.of.common().name, self.case, entry)
     }
 
-    /// A failure of a fact of this case.
+    /// Returns the failure for a fact about this case.
     pub(crate) fn fact(&self, property: Property, entry: String, facts: [f64; 2]) -> Failure {
         let name = self.of.common().name;
         fact(name, property, entry, facts, Some(self.case))
     }
 }
 
-/// Whether a definition relates bodies to each other, according to its specification.
+/// Returns whether a definition relates bodies to each other, according to its specification.
 pub(crate) fn is_internal<S: Subject>(of: S) -> bool {
     let common = of.common();
     let on_ground =
@@ -272,7 +276,7 @@ pub(crate) fn is_internal<S: Subject>(of: S) -> bool {
     common.slots.len() > 1 && !common.parameters.iter().any(on_ground)
 }
 
-/// Force and moment about the global origin of a generalised force on all slots.
+/// Returns force and torque about the origin of the ground for a generalised force on all bodies.
 fn resultant<S: Subject>(x: &[<S::Space as Space>::Pose<f64>], q: &[f64]) -> Block {
     let mut sum = vec![0.0; n_dof::<S>()];
     for (x, q) in x.iter().zip(q.chunks(n_dof::<S>())) {
@@ -282,12 +286,12 @@ fn resultant<S: Subject>(x: &[<S::Space as Space>::Pose<f64>], q: &[f64]) -> Blo
     Block::column(sum)
 }
 
-/// Number of degrees of freedom of a body.
+/// Returns the number of velocity components of a body.
 pub(crate) fn n_dof<S: Subject>() -> usize {
     <S::Space as Space>::N_DOF
 }
 
-/// Description of an entry of a property; blocks of several motions are next to each other.
+/// Returns a description of an entry of a property; blocks of several motions are side by side.
 pub(crate) fn entry<S: Subject>(of: S, property: Property, row: usize, column: usize) -> String {
     let n = of.columns();
     let row_name = |row: usize| match of.rows().get(row) {

@@ -1,4 +1,4 @@
-//! The kernels of a constraint, and the properties that only constraints have.
+//! The kernels of a constraint, and the properties that are tested only for constraints.
 
 mod data;
 mod identities;
@@ -18,7 +18,7 @@ use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, dense, sparse};
 use identities::phi_at_start;
 
-/// A constraint definition as the subject of a check.
+/// A constraint definition for a check.
 #[derive(Clone, Copy)]
 pub(crate) struct OfConstraint<S: Bodies> {
     spec: &'static ConstraintSpec,
@@ -28,7 +28,7 @@ pub(crate) struct OfConstraint<S: Bodies> {
 type Make<S> = fn(&[Argument]) -> Result<Box<dyn AnyConstraint<S>>, ArgumentError>;
 
 impl<S: Bodies> OfConstraint<S> {
-    /// The definition K.
+    /// Creates the subject for the definition K.
     pub(crate) fn new<K: Constraint<S>>() -> Self {
         Self {
             spec: const { &K::SPEC },
@@ -36,7 +36,7 @@ impl<S: Bodies> OfConstraint<S> {
         }
     }
 
-    /// Row and column of each entry of C.
+    /// Returns row and column of each entry of C.
     fn c_pattern(self) -> Vec<[usize; 2]> {
         let entries = self.spec.c.iter();
         entries
@@ -45,10 +45,10 @@ impl<S: Bodies> OfConstraint<S> {
     }
 }
 
-/// Kernels of a constraint, and quantities computed from them.
+/// The kernels of a constraint, and quantities computed from them.
 #[derive(Clone, Copy)]
 pub(crate) enum Kernel {
-    /// Φ, of the holonomic rows.
+    /// Φ of the holonomic rows.
     Phi,
     C,
     B,
@@ -70,7 +70,7 @@ pub(crate) enum Kernel {
     DResidualDp,
 }
 
-/// Derivatives of Φ, in the holonomic rows.
+/// Derivatives of Φ in the holonomic rows.
 const OF_POSITIONS: [Derivative<Kernel>; 4] = {
     use {Derivative as D, Kernel as K, Property as P};
     [
@@ -93,10 +93,10 @@ const OF_VELOCITIES: [Derivative<Kernel>; 5] = {
     ]
 };
 
-/// Observations over all cases.
+/// Properties that were observed in some case.
 #[derive(Default)]
 pub(crate) struct Seen {
-    /// Rows of Φ that are not zero at every start.
+    /// Rows of Φ that are not zero at every initial configuration.
     restricting: BTreeSet<usize>,
     depends_on_time: bool,
 }
@@ -241,7 +241,7 @@ impl<S: Bodies> Subject for OfConstraint<S> {
         OF_POSITIONS.iter().chain(&OF_VELOCITIES)
     }
 
-    /// Kernels write exactly their own entries.
+    /// Checks that kernels write exactly the entries that they must write.
     fn before(check: &Check<'_, Self>) -> Result<(), Failure> {
         let (k, spec) = (check.made.plain(), check.of.spec);
         let at = Along::Time.state(check.case, &check.case.motions[0], 0.0);
@@ -311,7 +311,7 @@ impl<S: Bodies> Subject for OfConstraint<S> {
     }
 }
 
-/// Entries of C in the order of the pattern, constant and varying ones.
+/// Returns the constant and the varying entries of C, in the order of the pattern.
 fn c_entries<S: Bodies, D: KernelNumber>(
     k: &dyn Element<D, S>,
     x: &[S::Pose<D>],

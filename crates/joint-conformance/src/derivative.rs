@@ -1,5 +1,5 @@
-//! Derivatives along a curve, by two methods independent of the kernels: dual numbers, and central
-//! differences with Richardson extrapolation.
+//! Derivatives along a curve, by two methods that are independent of the kernels: dual numbers, and
+//! central differences with Richardson extrapolation.
 
 use num_dual::Dual2_64;
 
@@ -7,9 +7,9 @@ use crate::block::Block;
 use crate::kernels::KernelNumber;
 use crate::number::Dual;
 
-/// A block that depends on one number τ; its derivatives are computed at τ = 0.
+/// A block that depends on a scalar τ; its derivatives are computed at τ = 0.
 pub(crate) trait Curve {
-    /// The block at τ.
+    /// Returns the block at τ.
     fn at<D: KernelNumber>(&self, tau: D) -> Block<D>;
 }
 
@@ -21,7 +21,7 @@ pub(crate) trait Differentiate {
     fn second(curve: &impl Curve) -> Block;
 }
 
-/// Dual numbers: exact up to rounding errors.
+/// Differentiation with dual numbers, which is exact up to rounding errors.
 pub(crate) struct DualNumbers;
 
 impl Differentiate for DualNumbers {
@@ -36,21 +36,23 @@ impl Differentiate for DualNumbers {
     }
 }
 
-/// Central differences over halved steps, extrapolated to step zero. The error of a central
-/// difference is a series in h², so each extrapolation removes one power. The result is the value
-/// of the whole table that is closest to both values from which it was computed.
+/// Central differences with steps that are halved, extrapolated to step zero. The error of a
+/// central difference is a series in h², so each extrapolation removes one term of the series. From
+/// all extrapolated values, the result is the one with the smallest difference from the two values
+/// from which it was computed.
 pub(crate) struct Differences;
 
-/// The largest step, as a power of two: about a tenth of the sizes in ordinary cases.
+/// The exponent of the largest step, a power of two; this step is about a tenth of the sizes in
+/// ordinary cases.
 const LARGEST: i32 = -3;
-/// Number of steps of a first difference, down to 2⁻¹²: forces near a vanishing length need small
-/// steps.
+/// Number of steps for a first derivative. The smallest step is 2⁻¹², because forces near a length
+/// of zero need small steps.
 const FIRST_STEPS: i32 = 10;
-/// Number of steps of a second difference, down to 2⁻⁷: the rounding error grows as 1/h², to at
-/// most 1e-11.
+/// Number of steps for a second derivative. The smallest step is 2⁻⁷; the rounding error is
+/// proportional to 1/h² and at most 1e-11.
 const SECOND_STEPS: i32 = 5;
-/// Number of extrapolations per step: with more, the rounding error grows faster than the
-/// truncation error decreases.
+/// Number of extrapolations for each step. With more extrapolations, the rounding error grows
+/// faster than the truncation error decreases.
 const ORDERS: usize = 4;
 
 impl Differentiate for Differences {
@@ -71,7 +73,7 @@ impl Differentiate for Differences {
     }
 }
 
-/// The first derivative at 0 of a block of one plain number.
+/// Computes the first derivative at 0 of a block that is a function of a number of type `f64`.
 pub(crate) fn by_differences(block: impl Fn(f64) -> Block) -> Block {
     extrapolate(FIRST_STEPS, |h| {
         let mut difference = block(h);
@@ -118,7 +120,8 @@ mod tests {
         let (sin, cos) = 1f64.sin_cos();
         assert!((DualNumbers::first(&Sine).get(0, 0) - cos).abs() <= f64::EPSILON);
         assert!((DualNumbers::second(&Sine).get(0, 0) + sin).abs() <= f64::EPSILON);
-        // The rounding error of a difference is about ε/h, of a second difference ε/h².
+        // The rounding error of a first difference is about ε/h, and that of a second difference
+        // about ε/h².
         assert!((Differences::first(&Sine).get(0, 0) - cos).abs() <= 1e-12);
         assert!((Differences::second(&Sine).get(0, 0) + sin).abs() <= 1e-11);
     }

@@ -1,25 +1,26 @@
-//! The report of a check: the definition, the property, the entry, both values, and the case that
-//! reproduces the failure.
+//! The report of a failed check: the definition, the property, the entry, both values, and the case
+//! with which the failure can be reproduced.
 
 use std::fmt;
 
 use crate::block::Block;
 
-/// A property of all definitions.
+/// A property that definitions must have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Property {
-    /// Parameters drawn from the specification are accepted.
+    /// The constructor accepts random parameters that agree with the specification.
     Arguments,
-    /// The requirements are satisfied at some start, and a requirement with a larger index is
-    /// always satisfied.
+    /// The requirements are satisfied at some initial configuration, and a requirement with an
+    /// index after the last one is always satisfied.
     Requirements,
-    /// Entries of a pattern are within the block, occur once, and do not vanish in all cases.
+    /// The entries of a pattern are within the block, occur only once, and are nonzero in some
+    /// case.
     Pattern,
     /// `c_constant` writes the constant entries and `c` the others; `b` writes only if the
-    /// constraint is rheonomic.
+    /// constraint depends on time.
     Writes,
-    /// `C = ∂Φ/∂x` along the degrees of freedom.
+    /// `C = ∂Φ/∂x` along the velocity components.
     C,
     /// `b = −∂Φ/∂t`
     B,
@@ -37,40 +38,40 @@ pub enum Property {
     DGammaDv,
     /// `∂(C·v − b)/∂x`
     DVelocityDx,
-    /// Cosine, sine and rate of an unwrapped angle belong to one moving angle.
+    /// Cosine, sine and rate of an unwrapped angle are those of the same angle.
     Turned,
-    /// `data` returns the numbers in the specification, and `set_data` sets them.
+    /// `data` returns as many values as the specification contains, and `set_data` sets them.
     Data,
     /// `∂(λᵀ·Φ)/∂p`
     DPhiDp,
     /// `∂(λᵀ·(C·a − Γ))/∂p`
     DResidualDp,
-    /// The programs of the rows compute the same results as the kernels, bit for bit.
+    /// The programs of the rows give the same results as the kernels, bit for bit.
     Programs,
-    /// The wrench is −C of the first body, moved to the reference point.
+    /// The wrench is −C of the first body, transferred to the reference point.
     Wrench,
     /// The force law has a value at most poses.
     Defined,
-    /// The reference point is fixed in its body: the first one, or the carrier of wheels that other
-    /// joints support.
+    /// The reference point is fixed in the first body, or, if joints support wheels on a carrier,
+    /// in the carrier.
     Place,
-    /// The named component is the force along a unit vector, or the torque.
+    /// The named component is the force along a unit vector, or a torque.
     Component,
-    /// The component of a drive is the force that does the work: times the rate of the motion it is
-    /// b.
+    /// The component of a drive is the load that does work: its product with the rate of the motion
+    /// is b.
     Power,
-    /// Forces on the bodies add up to zero force and zero moment.
+    /// Forces on the bodies have neither a resultant force nor a resultant torque.
     Balance,
     /// A rigid motion of all bodies does not change the norm of any block.
     RigidMotion,
-    /// Rows that store an initial value are zero at the start, and rows that restrict the start are
-    /// not always zero.
+    /// Rows that store an initial value are zero at the initial configuration, and rows that
+    /// restrict the initial configuration are not always zero.
     Start,
     /// `∂Q/∂x`
     DqDx,
     /// `∂Q/∂v`
     DqDv,
-    /// The velocity terms of a force never add energy.
+    /// The terms of a force that depend on velocities never add energy.
     Dissipation,
 }
 
@@ -114,13 +115,13 @@ impl fmt::Display for Property {
     }
 }
 
-/// Source of the expected value.
+/// The method that gives the expected value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Reference {
-    /// A derivative by dual numbers.
+    /// A derivative computed with dual numbers.
     DualNumbers,
-    /// A derivative by central differences, extrapolated.
+    /// A derivative computed with central differences and extrapolation.
     Differences,
     /// An identity between kernels, or a statement of the specification.
     Identity,
@@ -133,29 +134,28 @@ pub struct Failure {
     pub definition: &'static str,
     /// The property.
     pub property: Property,
-    /// Source of the expected value.
+    /// The method that gives the expected value.
     pub reference: Reference,
-    /// Description of the worst entry.
+    /// Description of the entry with the largest error.
     pub entry: String,
-    /// Row of the worst entry.
+    /// Row of this entry.
     pub row: usize,
-    /// Column of the worst entry.
+    /// Column of this entry.
     pub column: usize,
-    /// Value of the kernel.
+    /// The value that the kernel computes.
     pub found: f64,
-    /// Value of the reference.
+    /// The expected value.
     pub expected: f64,
-    /// The size relative to which the difference is measured: usually the largest entry of the
-    /// block.
+    /// The size to which the difference is relative, usually the largest entry of the block.
     pub scale: f64,
-    /// The largest difference allowed, relative to the scale.
+    /// The largest permitted difference, relative to `scale`.
     pub tolerance: f64,
     /// Description of the case, if the property belongs to a single case.
     pub case: Option<String>,
 }
 
 impl Failure {
-    /// The difference relative to the scale.
+    /// Returns the difference relative to `scale`.
     #[must_use]
     pub fn relative_error(&self) -> f64 {
         (self.found - self.expected).abs() / self.scale
@@ -189,41 +189,42 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Tolerance for comparisons with dual numbers and identities. Both sides have the rounding error
-/// of some ten operations, about 1e-15, times up to 1e3 for coordinates or angles of this size.
+/// Tolerance for comparisons with dual numbers and for identities. Both sides have the rounding
+/// error of about ten operations, which is about 1e-15; for coordinates or angles of up to 1e3, it
+/// is up to 1e3 times larger.
 pub const DUAL_TOLERANCE: f64 = 1e-12;
 
-/// Tolerance for comparisons with differences. The best step loses about a third of the digits of a
-/// first derivative, and extrapolation recovers most of them; second derivatives determine the
-/// tolerance.
+/// Tolerance for comparisons with finite differences. Even the best step loses about a third of the
+/// digits of a first derivative; extrapolation recovers most of them. The tolerance is determined
+/// by second derivatives.
 pub const DIFFERENCE_TOLERANCE: f64 = 1e-9;
 
-/// A method to compute a reference, with its accuracy.
+/// A method that computes expected values, with its accuracy.
 #[derive(Clone, Copy)]
 pub(crate) struct Oracle {
     pub(crate) reference: Reference,
     pub(crate) tolerance: f64,
-    /// Smallest size with which a difference is compared: the size of the terms before they
-    /// cancelled.
+    /// Lower limit of the size to which a difference is relative: the size of the terms before
+    /// cancellation.
     pub(crate) floor: f64,
 }
 
 impl Oracle {
-    /// If a block vanishes, every dual part vanishes, too, unless terms cancel.
+    /// If a block is zero, the derivatives in all dual numbers are zero, too, unless terms cancel.
     pub(crate) const DUAL_NUMBERS: Self = Self {
         reference: Reference::DualNumbers,
         tolerance: DUAL_TOLERANCE,
         floor: 0.0,
     };
 
-    /// Ordinary cases have coordinates, speeds and parameters of about 1.
+    /// In ordinary cases, coordinates, velocities and parameters are about 1.
     pub(crate) const DIFFERENCES: Self = Self {
         reference: Reference::Differences,
         tolerance: DIFFERENCE_TOLERANCE,
         floor: 1.0,
     };
 
-    /// The same oracle with a floor that is at least this large.
+    /// Returns the same method with a floor that is at least this large.
     pub(crate) fn with_floor(self, floor: f64) -> Self {
         Self {
             floor: self.floor.max(floor),
@@ -231,7 +232,7 @@ impl Oracle {
         }
     }
 
-    /// An identity between terms of the size `floor`.
+    /// Returns the method for an identity between terms of the size `floor`.
     pub(crate) fn identity(floor: f64) -> Self {
         Self {
             reference: Reference::Identity,
@@ -241,8 +242,8 @@ impl Oracle {
     }
 }
 
-/// A claim: two blocks are equal up to the tolerance, relative to their largest entry or to the
-/// floor of the oracle.
+/// The claim that two blocks are equal up to the tolerance, relative to their largest entry or to
+/// the floor of the method.
 pub(crate) struct Claim<'a> {
     pub(crate) property: Property,
     pub(crate) oracle: Oracle,
@@ -251,7 +252,7 @@ pub(crate) struct Claim<'a> {
 }
 
 impl Claim<'_> {
-    /// Returns the worst entry if the claim is false; `entry` names it.
+    /// If the claim is false, returns the entry with the largest error; `entry` returns its name.
     pub(crate) fn decide(
         &self,
         definition: &'static str,
@@ -285,8 +286,8 @@ impl Claim<'_> {
     }
 }
 
-/// A failure of a fact that is not a comparison of blocks: `found` is the observed number,
-/// `expected` the required one.
+/// Returns the failure for a fact that is not a comparison of blocks: `found` is the observed
+/// value, `expected` the required one.
 pub(crate) fn fact(
     definition: &'static str,
     property: Property,

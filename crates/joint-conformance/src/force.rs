@@ -1,4 +1,4 @@
-//! The kernels of a force, and the properties that only forces have.
+//! The kernels of a force, and the properties that are tested only for forces.
 
 use joints::spec::{ForceSpec, Spec};
 use joints::{Argument, ArgumentError, Definition, Force, ForceElement};
@@ -14,7 +14,7 @@ use crate::pattern::Pattern;
 use crate::state::{Along, State};
 use crate::subject::{By, Derivative, Subject, sparse};
 
-/// A force definition as the subject of a check.
+/// A force definition for a check.
 #[derive(Clone, Copy)]
 pub(crate) struct OfForce<S: Bodies> {
     spec: &'static ForceSpec,
@@ -24,7 +24,7 @@ pub(crate) struct OfForce<S: Bodies> {
 type Make<S> = fn(&[Argument]) -> Result<Box<dyn AnyForce<S>>, ArgumentError>;
 
 impl<S: Bodies> OfForce<S> {
-    /// The definition K.
+    /// Creates the subject for the definition K.
     pub(crate) fn new<K: Force<S>>() -> Self {
         Self {
             spec: const { &K::SPEC },
@@ -37,7 +37,7 @@ impl<S: Bodies> OfForce<S> {
     }
 }
 
-/// Kernels of a force.
+/// The kernels of a force.
 #[derive(Clone, Copy)]
 pub(crate) enum Kernel {
     Q,
@@ -104,7 +104,7 @@ impl<S: Bodies> Subject for OfForce<S> {
         DERIVATIVES.iter()
     }
 
-    /// A force law has no value only if a rotation vector is near half a turn.
+    /// The value of a force law is undefined only if a rotation vector is near half a revolution.
     fn is_defined(check: &Check<'_, Self>) -> bool {
         check.case.motions.iter().all(|motion| {
             let state = Along::Motion.state(check.case, motion, Traced::from(0.0));
@@ -136,7 +136,7 @@ impl<S: Bodies> Subject for OfForce<S> {
 }
 
 impl<S: Bodies> OfForce<S> {
-    /// Q as a column.
+    /// Returns Q as a column.
     fn q<D: Number>(self, k: &dyn ForceElement<D, S>, at: &State<S, D>) -> Block<D> {
         let State { x, v, f, .. } = at;
         let v = &State::<S, D>::twists(v);
@@ -146,9 +146,9 @@ impl<S: Bodies> OfForce<S> {
 }
 
 impl<S: Bodies> Check<'_, OfForce<S>> {
-    /// `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0` at rest. In motion, a force may decrease with a
-    /// velocity and still dissipate energy; an example is the side force of a tyre as a function of
-    /// the longitudinal speed.
+    /// Checks `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0` at rest. In motion, the second condition
+    /// is not necessary for dissipation; an example is the side force of a tyre, which decreases
+    /// with the longitudinal speed.
     fn dissipation(&self, m: &Motion) -> Result<(), Failure> {
         let rest = Motion {
             v: vec![0.0; m.v.len()],

@@ -1,4 +1,5 @@
-//! Constraints and forces of any definition, with their kernels in each number type of the harness.
+//! Constraints and forces of any definition as trait objects, with their kernels in each number
+//! type of the harness.
 
 use joints::{
     Constraint, ConstraintKernels, Definition, Element, Force, ForceElement, Reaction, Scalar,
@@ -7,21 +8,21 @@ use joints::{
 use crate::bodies::Bodies;
 use crate::number::{Dual, Number, Traced};
 
-/// A constraint of any definition.
+/// A constraint of any definition, as a trait object.
 pub(crate) trait AnyConstraint<S: Bodies> {
-    /// Kernels for plain numbers.
+    /// Returns the kernels for `f64`.
     fn plain(&self) -> &dyn ConstraintKernels<S>;
 
-    /// Rows for dual numbers.
+    /// Returns the rows for dual numbers.
     fn dual(&self) -> &dyn Element<Dual, S>;
 
-    /// Reaction for dual numbers.
+    /// Returns the reaction for dual numbers.
     fn dual_reaction(&self) -> &dyn Reaction<Dual, S>;
 
-    /// The same constraint with these numbers instead of its own; see [`Definition::set_data`].
+    /// Returns the same constraint with these stored values; see [`Definition::set_data`].
     fn with_data(&self, numbers: &[f64]) -> Box<dyn AnyConstraint<S>>;
 
-    /// The constraint as a definition.
+    /// Returns the constraint as a definition.
     fn definition(&mut self) -> &mut dyn Definition<S>;
 }
 
@@ -49,18 +50,18 @@ impl<K: Constraint<S>, S: Bodies> AnyConstraint<S> for K {
     }
 }
 
-/// A force of any definition.
+/// A force of any definition, as a trait object.
 pub(crate) trait AnyForce<S: Bodies> {
-    /// Kernels for plain numbers.
+    /// Returns the kernels for `f64`.
     fn plain(&self) -> &dyn ForceElement<f64, S>;
 
-    /// Kernels for dual numbers.
+    /// Returns the kernels for dual numbers.
     fn dual(&self) -> &dyn ForceElement<Dual, S>;
 
-    /// Kernels for numbers that record whether the force has no value.
+    /// Returns the kernels for numbers that record whether the value of the force is undefined.
     fn traced(&self) -> &dyn ForceElement<Traced, S>;
 
-    /// The force as a definition.
+    /// Returns the force as a definition.
     fn definition(&mut self) -> &mut dyn Definition<S>;
 }
 
@@ -84,13 +85,13 @@ impl<K: Force<S>, S: Bodies> AnyForce<S> for K {
 
 /// A number type in which all kernels are compiled.
 pub(crate) trait KernelNumber: Number + Scalar {
-    /// The rows of a constraint in this number type.
+    /// Returns the rows of a constraint in this number type.
     fn of_constraint<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Element<Self, S>;
 
-    /// The reaction of a constraint in this number type.
+    /// Returns the reaction of a constraint in this number type.
     fn reaction_of<S: Bodies>(constraint: &dyn AnyConstraint<S>) -> &dyn Reaction<Self, S>;
 
-    /// The kernels of a force in this number type.
+    /// Returns the kernels of a force in this number type.
     fn of_force<S: Bodies>(force: &dyn AnyForce<S>) -> &dyn ForceElement<Self, S>;
 }
 

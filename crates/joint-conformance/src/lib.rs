@@ -2,28 +2,29 @@
 //!
 //! # What is compared
 //!
-//! A definition is checked by its type alone. Parameters, poses, motions, multipliers and functions
-//! of time are random numbers according to the specification, reproducible from a seed:
-//! [`ORDINARY_CASES`] ordinary cases, and [`AWKWARD_CASES`] of each special [`Kind`]. The check
-//! compares the largest difference of a block of kernel results, relative to its largest entry.
+//! A definition is tested by its type alone. Parameters, poses, motions, multipliers and functions
+//! of time are random numbers that agree with the specification and can be reproduced from a seed.
+//! There are [`ORDINARY_CASES`] ordinary cases, and [`AWKWARD_CASES`] of each special [`Kind`]. The
+//! largest difference in a block of kernel results must be small relative to the largest entry of
+//! the block.
 //!
 //! | block | reference, by dual numbers (1e-12) and, in every fourth ordinary case, by differences (1e-9) |
 //! | --- | --- |
-//! | C, b | derivatives of Φ along each degree of freedom and in time |
+//! | C, b | derivatives of Φ along each velocity component and with respect to time |
 //! | C·v − b | Φ̇ along the motion |
-//! | Γ | −d²Φ/dτ² along (x + τv, t + τ), and −d(C·v − b)/dτ, which also holds for velocity rows |
+//! | Γ | −d²Φ/dτ² along (x + τv, t + τ), and −d(C·v − b)/dτ, which is valid for velocity rows, too |
 //! | ∂(Cᵀλ)/∂x, ∂(C·a − Γ)/∂x, ∂Γ/∂v, ∂Q/∂x, ∂Q/∂v | derivatives of the kernels above, including entries outside the patterns |
 //! | ∂(λᵀΦ)/∂p, ∂(λᵀ(C·a − Γ))/∂p | differences through `set_data`; the second by dual numbers from the first |
-//! | wrench, reference point | −C of the first body, moved; a point fixed in the first body, or in the carrier of wheels |
-//! | balance | forces and moments on all bodies add up to zero |
-//! | norms | unchanged by a rigid motion of all bodies |
-//! | start | rows that store an initial value are zero at the start |
+//! | wrench, reference point | −C of the first body, transferred to the reference point; a point fixed in the first body, or in the carrier of wheels |
+//! | balance | the resultant force and torque on all bodies are zero |
+//! | norms | do not change if all bodies move as one rigid body |
+//! | start | rows that store an initial value are zero at the initial configuration |
 //! | velocity terms of forces | never add energy |
 //!
-//! Balance and norms are checked for definitions that relate bodies to each other: definitions with
-//! two or more slots and without a line of the ground. For constraints, the balance is checked at
-//! position level, because velocities are relative to the ground. A joint to the ground has the
-//! ground in a slot.
+//! Balance and norms are tested for definitions that relate bodies to each other, that is,
+//! definitions with two or more bodies and without a line of the ground. For constraints, the
+//! balance is tested at position level, because velocities are relative to the ground. For a joint
+//! to the ground, the ground is one of these bodies.
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -53,28 +54,28 @@ use constraint::OfConstraint;
 use force::OfForce;
 use joints::{Constraint, Force, Visitor, plane_constraints, plane_forces, space3};
 
-/// Checks a constraint definition and the drives of its joint coordinates.
+/// Tests a constraint definition and the drives of its joint coordinates.
 ///
 /// # Errors
-/// The first property that is violated.
+/// Returns the first property that is violated.
 pub fn check_constraint<K: Constraint<S>, S: Bodies>(seed: u64) -> Result<(), Failure> {
     let mut checks = Checks::default();
     Visitor::<S>::constraint::<K>(&mut checks);
     checks.run(seed)
 }
 
-/// Checks a force definition.
+/// Tests a force definition.
 ///
 /// # Errors
-/// The first property that is violated.
+/// Returns the first property that is violated.
 pub fn check_force<F: Force<S>, S: Bodies>(seed: u64) -> Result<(), Failure> {
     check(OfForce::<S>::new::<F>(), seed)
 }
 
-/// Checks all definitions of the library.
+/// Tests all definitions of the library.
 ///
 /// # Errors
-/// The first violated property of the first definition that violates one.
+/// Returns the first violated property of the first definition that violates one.
 pub fn check_all(seed: u64) -> Result<(), Failure> {
     let mut checks = Checks::default();
     plane_constraints(&mut checks);
@@ -84,7 +85,7 @@ pub fn check_all(seed: u64) -> Result<(), Failure> {
     checks.run(seed)
 }
 
-/// The checks of the visited definitions, in their order.
+/// The checks of the visited definitions, in the order of the visits.
 #[derive(Default)]
 struct Checks(Vec<Box<Check>>);
 
@@ -92,7 +93,8 @@ struct Checks(Vec<Box<Check>>);
 type Check = dyn Fn(u64) -> Result<(), Failure> + Sync;
 
 impl Checks {
-    /// Makes all checks up to the first failure, as many at the same time as there are processors.
+    /// Runs all checks up to the first failure; as many run at the same time as there are
+    /// processors.
     fn run(&self, seed: u64) -> Result<(), Failure> {
         let next = AtomicUsize::new(0);
         let (failed, failures) = (AtomicBool::new(false), Mutex::new(BTreeMap::new()));
@@ -114,7 +116,7 @@ impl Checks {
             }
             work();
         });
-        // The checks before the first failure were started before it, and have succeeded.
+        // All checks before the first failure were started earlier and have succeeded.
         let failures = failures
             .into_inner()
             .unwrap_or_else(PoisonError::into_inner);

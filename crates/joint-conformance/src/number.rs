@@ -1,5 +1,5 @@
-//! Number types of the references: plain numbers for differences, dual numbers for exact
-//! derivatives, and numbers that record where a force law has no value.
+//! Number types for the expected values: `f64` for differences, dual numbers for exact derivatives,
+//! and numbers that record whether the value of a force law is undefined.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -7,9 +7,9 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use joints::{Real, Scalar};
 use num_dual::{Dual2_64, DualNum};
 
-/// A number type for poses: it has its own cosine and sine.
+/// A number type for poses, which has cosine and sine.
 pub trait Number: Real {
-    /// Sine and cosine.
+    /// Returns the sine and the cosine.
     fn sin_cos(self) -> (Self, Self);
 }
 
@@ -19,18 +19,18 @@ impl Number for f64 {
     }
 }
 
-/// A dual number of `num-dual` as a number of kernels, with its first and second derivative. One
-/// type is used for both, because each type compiles all kernels once more.
+/// A dual number of `num-dual` as a number type of kernels, with first and second derivative. The
+/// same type is used for both derivatives, because all kernels must be compiled for each type.
 #[derive(Clone, Copy)]
 pub(crate) struct Dual(pub(crate) Dual2_64);
 
 thread_local! {
-    /// Derivatives of the numbers that a constraint stores, by their indices.
+    /// Derivatives of the values that a constraint stores, by their indices.
     static SLOPES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 }
 
-/// The result of `ask` if the numbers stored by constraints have these derivatives, by their
-/// indices; all other numbers are constant.
+/// Returns the result of `ask` if the values stored by constraints have these derivatives, by their
+/// indices; all other values are constant.
 pub(crate) fn with_slopes<R>(slopes: Vec<f64>, ask: impl FnOnce() -> R) -> R {
     SLOPES.set(slopes);
     let answer = ask();
@@ -52,7 +52,7 @@ impl Number for Dual {
     }
 }
 
-/// As for plain numbers, square root and reciprocal of zero are zero, with derivatives zero.
+/// Square root and reciprocal of zero are zero, as for `f64`, and their derivatives are zero.
 impl Real for Dual {
     fn sqrt(self) -> Self {
         self.unless_zero(DualNum::sqrt)
@@ -62,8 +62,7 @@ impl Real for Dual {
         self.unless_zero(DualNum::recip)
     }
 
-    /// Uses the Taylor series about the real part; at most three terms of the difference from the
-    /// real part are nonzero.
+    /// Uses the Taylor series about the real part; at most three terms of the series are nonzero.
     fn angle_over_sine(self, order: u8) -> Self {
         let c = self.0.re;
         let of = |more: u8| Self::from(rotation::angle_over_sine(c, order + more));
@@ -128,8 +127,9 @@ impl Neg for Dual {
     }
 }
 
-/// A number that records whether it was computed from a rotation vector near half a turn, which has
-/// no value. A result that is NaN for another reason, such as 0/0, is not excused by this record.
+/// A number that records whether it was computed from a rotation vector near half a revolution, for
+/// which a force law has no value. A result that is NaN for another reason, for example 0/0, is
+/// still an error.
 #[derive(Clone, Copy)]
 pub(crate) struct Traced {
     value: f64,
@@ -231,10 +231,10 @@ mod tests {
 
     #[test]
     fn roots_and_reciprocals_have_their_textbook_derivatives() {
-        // √x at 4: 2, 1/4, −1/32.
+        // √x at x = 4, with derivatives: 2, 1/4, −1/32.
         let root = Real::sqrt(Dual(Dual2_64::new(4.0, 1.0, 0.0))).0;
         assert_eq!((root.re, root.v1, root.v2), (2.0, 0.25, -0.03125));
-        // 1/x at 2: 1/2, −1/4, 1/4.
+        // 1/x at x = 2, with derivatives: 1/2, −1/4, 1/4.
         let inverse = Dual(Dual2_64::new(2.0, 1.0, 0.0)).recip_or_zero().0;
         assert_eq!((inverse.re, inverse.v1, inverse.v2), (0.5, -0.25, 0.25));
     }

@@ -1,13 +1,13 @@
-//! Sparsity patterns: entries are in range, occur once, and are nonzero in some case.
+//! Tests of sparsity patterns: entries are in range, occur only once, and are nonzero in some case.
 
 use crate::block::Block;
 use crate::failure::{Failure, Property, fact};
 
-/// An entry counts as nonzero if it exceeds this fraction of its block; the rounding error of a sum
-/// that is identically zero is smaller.
+/// An entry counts as nonzero if it exceeds this fraction of the largest entry of its block; the
+/// rounding error of a sum that is identically zero is smaller.
 const ALIVE: f64 = 1e-10;
 
-/// The entries of a pattern that were nonzero in some case.
+/// A pattern, and the entries of it that were nonzero in some case.
 pub(crate) struct Pattern {
     block: &'static str,
     entries: Vec<[usize; 2]>,
@@ -15,7 +15,7 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// The pattern of a block of this shape.
+    /// Creates the pattern of a block of this shape.
     ///
     /// # Errors
     /// Returns an error if an entry is outside the block, or occurs twice.
@@ -55,7 +55,7 @@ impl Pattern {
         }
     }
 
-    /// Checks that no entry was zero in all cases.
+    /// Checks that every entry was nonzero in some case.
     pub(crate) fn all_alive(&self, definition: &'static str) -> Result<(), Failure> {
         match self.alive.iter().position(|alive| !alive) {
             Some(k) => {

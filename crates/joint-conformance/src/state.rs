@@ -1,27 +1,28 @@
-//! The inputs of a kernel, and the part of them that moves while a derivative is computed: one
-//! degree of freedom of one body, time, or everything along the motion.
+//! The arguments of a kernel, and the arguments that vary when a derivative is computed: one
+//! velocity component of one body, the time, or everything along the motion.
 
 use crate::bodies::Bodies;
 use crate::case::{Case, Motion};
 use crate::number::Number;
 
-/// The curve through a state.
+/// The curve through a state along which a derivative is computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Along {
-    /// The pose along one column of the block; all other inputs are constant.
+    /// The pose varies along one column of the block; all other arguments are constant.
     Pose(usize),
-    /// The twist along one column of the block; all other inputs are constant.
+    /// The twist varies along one column of the block; all other arguments are constant.
     Twist(usize),
-    /// Time, with fixed bodies: the functions of time advance.
+    /// The time varies, and with it the functions of time; bodies do not move.
     Time,
-    /// `x + τv` with constant v, and the functions of time advance; acceleration terms are omitted.
+    /// The bodies move by `x + τv` with constant v, and the time varies, too; terms with
+    /// accelerations are omitted.
     Motion,
 }
 
-/// The inputs of kernels, at one point of a curve.
+/// The arguments of kernels at one point of a curve.
 pub(crate) struct State<S: Bodies, D: Number> {
     pub(crate) x: Vec<S::Pose<D>>,
-    /// Velocities and accelerations as numbers.
+    /// Velocities and accelerations, one for each velocity component.
     pub(crate) v: Vec<D>,
     pub(crate) a: Vec<D>,
     pub(crate) f: Vec<[D; 3]>,
@@ -29,14 +30,14 @@ pub(crate) struct State<S: Bodies, D: Number> {
 }
 
 impl<S: Bodies, D: Number> State<S, D> {
-    /// Twists of the slots.
+    /// Returns the twists of the bodies.
     pub(crate) fn twists(numbers: &[D]) -> Vec<S::Twist<D>> {
         numbers.chunks(S::N_DOF).map(S::twist).collect()
     }
 }
 
 impl Along {
-    /// The state at τ.
+    /// Returns the state at τ.
     pub(crate) fn state<S: Bodies, D: Number>(
         self,
         case: &Case<S>,
@@ -89,7 +90,7 @@ impl Along {
     }
 }
 
-/// Cosine and sine of an angle, each with two derivatives.
+/// Returns the cosine and the sine of an angle, each with two derivatives.
 fn turn<D: Number>([f, f_t, f_tt]: [D; 3]) -> [[D; 3]; 2] {
     let (sin, cos) = f.sin_cos();
     let square = f_t * f_t;

@@ -1,4 +1,4 @@
-//! The functions of a definition that the harness needs, for constraints and forces.
+//! The functions that the harness needs for a definition of a constraint or a force.
 
 use joints::spec::{Row, Spec};
 use joints::{Argument, ArgumentError, Definition, Ring};
@@ -11,54 +11,55 @@ use crate::kernels::KernelNumber;
 use crate::pattern::Pattern;
 use crate::state::State;
 
-/// A definition as used by the harness: its specification and its constructor. It is a value, not a
-/// type, so that the harness is compiled once for all definitions of a space.
+/// A definition in the form that the harness needs: its specification and its constructor. It is a
+/// value and not a type, so that the harness is compiled only once for all definitions of a space.
 pub(crate) trait Subject: Copy {
     /// The space of its bodies.
     type Space: Bodies;
-    /// The definition with values for its parameters.
+    /// The constructed element.
     type Made;
-    /// Names of the kernels, and of quantities computed from them.
+    /// The kernels, and quantities computed from them.
     type Kernel: Copy + 'static;
-    /// Observations that are required in at least one case.
+    /// Properties that must be observed in at least one case.
     type Seen: Default;
 
-    /// The kernel that determines the effect of an error of the coordinates.
+    /// The kernel that determines the effect of errors in the coordinates.
     const SLOPE: Self::Kernel;
     /// Kernels whose norm does not change if all bodies move as one rigid body, with their names.
     const INVARIANTS: &'static [(Self::Kernel, &'static str)];
 
-    /// The common part of the specifications of constraints and forces.
+    /// Returns the part of the specification that constraints and forces have in common.
     fn common(self) -> &'static Spec;
 
-    /// Rows, each with a multiplier; forces have no rows.
+    /// Returns the rows, each of which has a multiplier; forces have no rows.
     fn rows(self) -> &'static [Row] {
         &[]
     }
 
-    /// Whether the kernels use the cosine and sine of the last function of time.
+    /// Returns whether the kernels use the cosine and sine of the last function of time.
     fn turning(self) -> bool {
         false
     }
 
-    /// Number of angles that the definition receives with their revolutions.
+    /// Returns the number of angles that the kernels receive including full revolutions.
     fn turns(self) -> usize {
         0
     }
 
-    /// Number of columns of the blocks: the degrees of freedom of the slots.
+    /// Returns the number of columns of the blocks: the number of velocity components of all
+    /// bodies.
     fn columns(self) -> usize {
         <Self::Space as joints::Space>::N_DOF * self.common().slots.len()
     }
 
-    /// The definition with these values for its parameters.
+    /// Constructs the element with these values of its parameters.
     fn make(self, arguments: &[Argument]) -> Result<Self::Made, ArgumentError>;
 
-    /// The constructed object as a definition.
+    /// Returns the constructed element as a definition.
     fn definition(made: &mut Self::Made) -> &mut dyn Definition<Self::Space>;
 
-    /// A kernel as a dense block. Entries that the kernel does not write stay NaN, so that every
-    /// comparison detects them.
+    /// Returns a kernel as a dense block. Entries that the kernel does not write are NaN, so that
+    /// every comparison detects them.
     fn kernel<D: KernelNumber>(
         self,
         made: &Self::Made,
@@ -66,8 +67,8 @@ pub(crate) trait Subject: Copy {
         at: &State<Self::Space, D>,
     ) -> Block<D>;
 
-    /// A kernel for plain numbers, including kernels that are not differentiated: their code is
-    /// then compiled for one number type.
+    /// Returns a kernel for `f64`. Kernels that are not differentiated are included, so that they
+    /// need to be compiled only for this type.
     fn final_kernel(
         self,
         made: &Self::Made,
@@ -77,52 +78,52 @@ pub(crate) trait Subject: Copy {
         self.kernel(made, kernel, at)
     }
 
-    /// Kernels with a pattern.
+    /// Returns the kernels with a sparsity pattern.
     ///
     /// # Errors
-    /// Returns an error if a pattern has entries outside of its block, or the same entry twice.
+    /// Returns an error if a pattern has an entry outside of its block, or the same entry twice.
     fn patterns(self) -> Result<Vec<(Self::Kernel, Pattern)>, Failure>;
 
-    /// Kernels that are derivatives of others.
+    /// Returns the kernels that are derivatives of other kernels.
     fn derivatives() -> impl Iterator<Item = &'static Derivative<Self::Kernel>>;
 
-    /// Whether the kernels have values at all states of a case.
+    /// Returns whether the kernels have values at all states of a case.
     fn is_defined(_check: &Check<'_, Self>) -> bool {
         true
     }
 
-    /// Checks that must succeed before kernels are evaluated.
+    /// Performs the checks that must succeed before kernels are evaluated.
     fn before(_check: &Check<'_, Self>) -> Result<(), Failure> {
         Ok(())
     }
 
-    /// Properties in addition to derivatives, patterns and norms.
+    /// Checks the properties other than derivatives, patterns and norms.
     fn properties(check: &Check<'_, Self>) -> Result<(), Failure>;
 
-    /// Records one case.
+    /// Records the properties observed in one case.
     fn see(_check: &Check<'_, Self>, _seen: &mut Self::Seen) {}
 
     /// Checks whether the specification agrees with the observations in all cases.
     fn facts(self, seen: &Self::Seen) -> Result<(), Failure>;
 }
 
-/// A kernel that is a derivative of another one.
+/// A kernel that must be a derivative of another kernel.
 pub(crate) struct Derivative<K> {
-    /// The violated property if kernel and derivative differ.
+    /// The property that is violated if the kernel differs from the derivative.
     pub(crate) property: Property,
     /// The kernel.
     pub(crate) kernel: K,
-    /// Sign: the kernel is this number times the derivative.
+    /// The kernel is this factor times the derivative.
     pub(crate) sign: f64,
-    /// The differentiated kernel.
+    /// The kernel that is differentiated.
     pub(crate) of: K,
     /// The variable of the derivative.
     pub(crate) by: By,
 }
 
 impl<K> Derivative<K> {
-    /// `kernel = sign · d of / d by` in the rows of `of`; otherwise the definition violates the
-    /// property.
+    /// Claims `kernel = sign · d of / d by` in the rows of `of`; if it is false, the definition
+    /// violates the property.
     pub(crate) const fn new(property: Property, kernel: K, sign: f64, of: K, by: By) -> Self {
         Self {
             property,
@@ -137,26 +138,26 @@ impl<K> Derivative<K> {
 /// Variable of a derivative.
 #[derive(Clone, Copy)]
 pub(crate) enum By {
-    /// Each degree of freedom of the poses, next to each other.
+    /// Each velocity component of the poses, side by side.
     Poses,
-    /// Each degree of freedom of the twists, next to each other.
+    /// Each velocity component of the twists, side by side.
     Twists,
     /// Time, with constant poses.
     Time,
-    /// τ of the motion `x + τv`, `t + τ`.
+    /// The parameter τ of the motion `x + τv`, `t + τ`.
     Motion,
-    /// The second derivative with respect to τ of the motion.
+    /// The parameter τ of the motion, twice (second derivative).
     MotionTwice,
 }
 
-/// The column that a kernel with `n` results writes.
+/// Returns the column that a kernel with `n` results writes.
 pub(crate) fn dense<T: Ring>(n: usize, write: impl FnOnce(&mut [T])) -> Block<T> {
     let mut out = vec![T::from(f64::NAN); n];
     write(&mut out);
     Block::column(out)
 }
 
-/// The block that a kernel writes with its pattern; other entries are zero.
+/// Returns the block that a kernel writes in the order of its pattern; other entries are zero.
 pub(crate) fn sparse<T: Ring>(
     [rows, columns]: [usize; 2],
     pattern: &[[usize; 2]],

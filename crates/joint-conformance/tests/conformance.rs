@@ -1,4 +1,4 @@
-//! Checks all properties of all definitions, and tests that the harness detects faults.
+//! Tests all properties of all definitions, and tests that the harness detects errors.
 
 mod mutants;
 
@@ -8,7 +8,7 @@ use joints::visitor::Visitor;
 use joints::{Constraint, Force};
 use pfaff_joint_conformance::check_all;
 
-/// An arbitrary number, fixed so that a failure can be reproduced.
+/// An arbitrary number, which is fixed so that failures can be reproduced.
 const SEED: u64 = 2013;
 
 #[test]
@@ -42,7 +42,7 @@ fn every_parameter_is_described() {
     for spec in specs.0 {
         for parameter in spec.parameters {
             let (doc, name) = (parameter.doc, parameter.name);
-            // The text does not repeat information that the shape states.
+            // The description must not repeat what the shape already states.
             let is_sentence = doc.ends_with('.') && doc.starts_with(char::is_uppercase);
             assert!(
                 is_sentence && !doc.contains("(m"),

@@ -6,7 +6,8 @@ use proc_macro::TokenStream;
 /// Defines a constraint: its type, its specification and its kernels, as an implementation of
 /// `joints::Constraint`.
 ///
-/// The crate `codegen` describes the language; the description of this crate contains an example.
+/// The crate `codegen` describes the language; the description of the present crate contains an
+/// example.
 #[proc_macro]
 pub fn joint(call: TokenStream) -> TokenStream {
     items(Kind::Constraint, call)

@@ -1,14 +1,14 @@
-//! Definitions that are not part of the library, compared with numbers derived by hand, and names
-//! that may collide with generated code.
+//! Tests definitions outside the library against values derived by hand, and names that may collide
+//! with generated code.
 
 #![deny(warnings)]
 
 mod pfaff {
-    //! A facade from the view of its users: the crate `joints` under another path, with a wrapped
-    //! macro.
+    //! A facade crate from the point of view of its users: it exports the crate `joints` under
+    //! another path and wraps the macro.
     pub(crate) use joints as kernels;
 
-    /// The macro `joint!` with the path of the facade.
+    /// The macro `joint!` with the path in the facade.
     #[macro_export]
     macro_rules! facade_joint {
         ($($definition:tt)*) => {
@@ -34,7 +34,8 @@ joint! { plane EqualDistance(i, j, k) {
     place: origin(k);
 } }
 
-/// The values of a row at r_i = (0, 0), r_j = (4, 0), r_k = (1, 2): a = (1, 2), b = (−3, 2).
+/// The value of the row at r_i = (0, 0), r_j = (4, 0), r_k = (1, 2), where a = (1, 2) and b = (−3,
+/// 2).
 #[test]
 fn equal_distance_by_hand() {
     let joint = EqualDistance {};
@@ -78,7 +79,7 @@ fn equal_distance_by_hand() {
     Element::c(&joint, &x, &[], &mut c);
     assert_eq!(c, [-2.0, -4.0, -6.0, 4.0, 8.0, 0.0]);
 
-    // Γ = −2(ȧ·ȧ − ḃ·ḃ) with ȧ = (2, 0) and ḃ = (1, −1), that is −2(4 − 2).
+    // The expected Γ is −2(ȧ·ȧ − ḃ·ḃ) with ȧ = (2, 0) and ḃ = (1, −1), that is −2(4 − 2).
     let mut gamma = [0.0];
     Element::gamma(&joint, &x, &v, &[], &mut gamma);
     assert_eq!(gamma, [-4.0]);
@@ -104,7 +105,7 @@ fn the_facade_path_is_used() {
     assert_eq!(phi, [1.0, -3.0]);
 }
 
-// Every parameter here has the name of a value in the generated code.
+// In this definition, every parameter has the name of a value in the generated code.
 joint! { plane Awkward(i, s) {
     /// A point of body i has prescribed coordinates in body s; the names are chosen to collide.
     params {
@@ -154,7 +155,7 @@ fn names_that_collide_are_told_apart() {
         f_0: 13.0,
         f_0_t: 14.0,
     };
-    // Body i is rotated by a right angle: its point is at r_i + (−20, 10), its n is (−1, 0), and
+    // Body i is rotated by 90°. Therefore its point is at r_i + (−20, 10), its n is (−1, 0), and
     // perp(n) is (0, −1).
     let x = [
         Pose {
@@ -173,7 +174,7 @@ fn names_that_collide_are_told_apart() {
     assert_eq!(phi, [-184.25, -208.5]);
 }
 
-// Values with the names of arguments of kernels, or of a pattern of Rust.
+// Stored values with the names of arguments of kernels, or of a pattern of Rust.
 joint! { plane Shadows(i) {
     /// `N² + N + angle = lambda·x_0` with `N = d² + d`, `d = x − x_0`.
     params { lambda: Ratio }
@@ -196,8 +197,8 @@ fn names_of_arguments_hide_nothing() {
     assert_eq!(phi, [0.5]);
 }
 
-/// The value `v = lambda·x_0` is computed from other numbers, so it changes with them; out = 1,
-/// None = 2, dNone/dx_0 = −3.
+/// The value `v = lambda·x_0` is computed from other stored values, so it changes with them. Here
+/// out = 1, None = 2, and dNone/dx_0 = −3.
 #[test]
 fn what_is_computed_from_other_numbers_changes_with_them() {
     let mut joint = Shadows::new(3.0);
@@ -212,13 +213,14 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
         .phi(&[10.0], &mut gradient);
     // The derivatives are ∂/∂lambda = −x_0 = −2 and ∂/∂x_0 = (2·2 + 1)·(−3) − 3 = −18.
     assert_eq!(gradient, [-20.0, -180.0]);
-    // C = (2·None + 1)·(2·out + 1) along x: its derivative with respect to x_0 is 2·(−3)·3 + 5·(−2)
-    // = −28.
+    // C = (2·None + 1)·(2·out + 1) along x, so its derivative with respect to x_0 is 2·(−3)·3 +
+    // 5·(−2) = −28.
     let slopes = joint.slopes(&pose, &[], SlopedOutputs::All(&[Twist::zero()]));
     slopes.residual(&[10.0], &[1.0, 0.0, 0.0], &mut gradient);
     assert_eq!(gradient, [0.0, -280.0]);
 
-    // Changed numbers are returned unchanged, and v = 5·4 is computed from them: 0 + 0 + 0.5 − 20.
+    // The changed values are returned unchanged, and v = 5·4 is computed from them; the row is 0 +
+    // 0 + 0.5 − 20.
     Definition::set_data(&mut joint, &[5.0, 4.0]);
     let mut numbers = [0.0; 2];
     Definition::data(&joint, &mut numbers);
@@ -228,8 +230,8 @@ fn what_is_computed_from_other_numbers_changes_with_them() {
     assert_eq!(phi, [-19.5]);
 }
 
-// Quotients that are computed before the motion: kernels of constraints are polynomials
-// nevertheless.
+// Quotients that are computed before the motion, so that the kernels of the constraint are
+// polynomials.
 joint! { plane Scaled(i, j) {
     /// `along·(p − start) = square·angle` with a square that is a chain of quotients.
     params {
@@ -247,8 +249,8 @@ joint! { plane Scaled(i, j) {
     place: origin(i);
 } }
 
-/// The square is (s_1/rest)·inverse/s_0 with inverse = 1/5 at the start, the given rest = 2, and s
-/// = (4, 3): (3/2)·(1/5)/4.
+/// The square is (s_1/rest)·inverse/s_0 with inverse = 1/5 from the initial configuration, the
+/// given rest = 2, and s = (4, 3). Its value is (3/2)·(1/5)/4.
 #[test]
 fn quotients_of_data_have_their_derivatives() {
     use joints::spec::{DatumShape as S, Unit};
@@ -259,7 +261,8 @@ fn quotients_of_data_have_their_derivatives() {
     ];
     let mut joint = Scaled::from_arguments(&arguments).expect("the arguments are right");
     let start = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
-    // The constructor takes the values without their shapes; stored values come from the start.
+    // The constructor has the values without their shapes as arguments; stored initial values are
+    // computed from the initial configuration.
     assert_eq!(Scaled::new(joint.line, [4.0, 3.0]).with_rest(2.0), joint);
     assert_ne!(Scaled::new(joint.line, [4.0, 3.0]), joint);
     Definition::initialise(&mut joint, &start);
@@ -285,8 +288,9 @@ fn quotients_of_data_have_their_derivatives() {
     joint
         .slopes(&x, &[], SlopedOutputs::Phi)
         .phi(&[1.0], &mut found);
-    // Φ = along·(p − start) + square/2: the derivative with respect to the start is −along, with
-    // respect to along p − start, then that of square/2 with respect to each factor.
+    // Φ = along·(p − start) + square/2. Its derivative with respect to the start is −along, and
+    // with respect to along it is p − start; the other derivatives are those of square/2 with
+    // respect to each factor.
     let half = 0.5 * 0.075;
     let expected = [
         0.0,
@@ -302,7 +306,8 @@ fn quotients_of_data_have_their_derivatives() {
         assert!((found - expected).abs() < 1e-15, "{found} {expected}");
     }
 
-    // A rest length given by the user is retained when initial values are computed again.
+    // A rest length that is given by the user does not change when initial values are computed
+    // again.
     numbers[6] = 8.0;
     Definition::set_data(&mut joint, &numbers);
     Definition::initialise(&mut joint, &start);
@@ -319,7 +324,8 @@ force! { plane Magnet(i, j) {
     force: -(1.0 - off) * strength / (l * l) on l;
 } }
 
-/// At distance 5 along (3, 4) the force is 100/25 = 4 N, on body j −4·(0.6, 0.8).
+/// At a distance of 5 along (3, 4), the attraction is 100/25 = 4 N, so the force on body j is
+/// −4·(0.6, 0.8).
 #[test]
 fn magnet_by_hand() {
     let magnet = Magnet {
@@ -331,12 +337,13 @@ fn magnet_by_hand() {
     assert_eq!(Magnet::SPEC.q, [0, 1, 3, 4]);
     ForceElement::q(&magnet, &x, &[Twist::zero(); 2], &[], &mut q);
     for (found, expected) in q.into_iter().zip([2.4, 3.2, -2.4, -3.2]) {
-        // The bound covers several roundings of numbers of order 1 to 100.
+        // The bound covers the rounding errors of several operations on values of 1 to 100.
         assert!((found - expected).abs() < 1e-13, "{found} {expected}");
     }
 }
 
-/// `(A || B) && (C || D)` keeps its parentheses: at l = 20 and switched on, C and D are both false.
+/// The generated code contains `(A || B) && (C || D)` with its parentheses: at l = 20 and with the
+/// attraction switched on, C and D are both false.
 #[test]
 fn conditions_keep_their_parentheses() {
     let far = [Pose::GROUND, Pose::new(12.0, 16.0, 0.0)];
@@ -366,7 +373,7 @@ fn the_text_is_what_its_author_wrote() {
     assert!(text.ends_with("place: origin(k);\n} }"), "{text}");
 }
 
-// A joint in space: a pin in a slot with two walls; the pin rotates about a third direction.
+// A joint in space: a pin in a slot with two walls; the pin can rotate about a third direction.
 joint! { space SlottedPin(i, j) {
     /// Point `p` of body j has constant distances from two walls of body i, and its axis is always
     /// parallel to that of the slot.
@@ -388,9 +395,9 @@ joint! { space SlottedPin(i, j) {
     place: point(i, s);
 } }
 
-/// Body i is rotated by 90° about z, body j by 180°: u = (0, 1, 0), v = (−1, 0, 0), w = (0, 0, 1),
-/// and d = (−3, 2, 5) − (1, 1, 1). The third row is (u × w)·w = 0; the joint coordinate is 90°, 0
-/// at the start.
+/// Body i is rotated by 90° about z, and body j by 180°. Therefore u = (0, 1, 0), v = (−1, 0, 0),
+/// w = (0, 0, 1), and d = (−3, 2, 5) − (1, 1, 1). The third row is (u × w)·w = 0; the joint
+/// coordinate is 90°, and it was 0 at the start.
 #[test]
 fn a_joint_in_space_by_hand() {
     use joints::space3::{Axes, Pose};
@@ -414,7 +421,7 @@ fn a_joint_in_space_by_hand() {
     let mut turn = pin.turn_drive();
     turn.initialise(&[Pose::GROUND; 2]);
     let mut phi = [0.0];
-    // sin(90° − f) for f = 0, with f given by its cosine and sine.
+    // The row is sin(90° − f) for f = 0; f is given by its cosine and sine.
     Element::phi(&turn, &x, &[[1.0, 0.0, 0.0], [0.0, 0.0, 0.0]], &mut phi);
     assert_eq!(phi, [1.0]);
     assert_eq!(SlottedPin::SPEC.measures.len(), 1);

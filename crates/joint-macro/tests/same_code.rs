@@ -1,13 +1,13 @@
-//! A macro in a user's crate computes the same results as the code of the library. Every definition
-//! of the library is passed to `joint!` or `force!` here, and specifications and kernels must agree
-//! with those of the crate `joints`, bit for bit.
+//! Tests that the macro in a crate of a user gives the same results as the code of the library.
+//! Every definition of the library is passed to `joint!` or `force!` here; specifications and
+//! kernels must agree with those of the crate `joints`, bit for bit.
 
 use joints::{
     Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, SlopedOutputs, Twist, Visitor,
     plane_constraints, plane_forces,
 };
 
-/// One module for each definition file, with the text of the file as its content.
+/// Creates one module for each definition file; its content is the text of the file.
 macro_rules! own {
     ($($module:ident)*) => { $(
         mod $module {
@@ -51,10 +51,10 @@ fn own_forces<V: Visitor>(visitor: &mut V) {
     visitor.force::<tyre::Tyre>();
 }
 
-/// Number of poses for each definition.
+/// Number of poses that are tested for each definition.
 const POSES: u64 = 20;
 
-/// Specifications and values of definitions, in the order in which they are visited.
+/// Specifications and values of definitions, in the order in which the definitions are visited.
 #[derive(Default)]
 struct Record {
     facts: Vec<String>,
@@ -155,7 +155,7 @@ impl Numbers {
                 Shape::Point { .. } | Shape::Direction { .. } => Argument::Pair(self.array()),
                 Shape::Axes { .. } | Shape::GroundPlane => Argument::Absent,
                 Shape::GroundLine => Argument::Pairs([self.array(), self.array()]),
-                // Every second optional number is given.
+                // Every second optional parameter is given.
                 Shape::Numbers(_) if p.optional && self.next() < 0.0 => Argument::Absent,
                 Shape::Numbers(units) => {
                     Argument::Numbers(units.iter().map(|_| self.next().abs()).collect())
@@ -178,7 +178,8 @@ fn constraint_bits<K: Constraint>(seed: u64) -> Vec<u64> {
     let f: Vec<[f64; 3]> = spec.common.functions().map(|_| numbers.array()).collect();
     let lambda = numbers.array::<8>();
     let mut out = Vec::new();
-    // Kernels write the entries of their patterns; the rest of the buffer is unchanged in both.
+    // The kernels write the entries of their patterns; the rest of the buffer must not change in
+    // either case.
     let mut call = |kernel: &dyn Fn(&mut [f64])| {
         let mut values = [7.0; BUFFER];
         kernel(&mut values);

@@ -1,5 +1,6 @@
-//! Values for the parameters of a definition. They are checked against its [`Parameter`] list in
-//! one place, so that a kernel never receives a direction of length zero or a negative stiffness.
+//! Values for the parameters of a definition. They are checked against the list of [`Parameter`]s
+//! in one place, so that a kernel never receives a direction of length zero or a negative
+//! stiffness.
 
 use std::fmt;
 
@@ -7,29 +8,28 @@ use crate::plane::Line;
 use crate::spec::{Parameter, Shape};
 use crate::{plane, space3};
 
-/// One value, in the order of the definition's parameters.
+/// One value; values are in the order of the parameters of the definition.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Argument {
-    /// A point of the plane, or a vector that is converted to a direction.
+    /// A point in the plane, or a vector that is converted to a direction.
     Pair([f64; 2]),
-    /// A point of space, or a vector that is converted to a direction.
+    /// A point in space, or a vector that is converted to a direction.
     Triple([f64; 3]),
-    /// A vector along an axis of space, and a vector across it, if it is needed.
+    /// A vector along an axis in space, and a vector perpendicular to the axis, if it is needed.
     Axis([f64; 3], Option<[f64; 3]>),
-    /// A point and a vector of space.
+    /// A point and a vector in space.
     Triples([[f64; 3]; 2]),
-    /// Axes of space, for example those of another body.
+    /// Axes in space, for example those of another body.
     Axes(space3::Axes),
     /// Two points.
     Pairs([[f64; 2]; 2]),
     /// One or more numbers, as many as the parameter has.
     Numbers(Vec<f64>),
-    /// Not given: the parameter has a default, or is a function of time, which is passed
-    /// separately.
+    /// No value: the parameter has a default, or is a function of time, which is passed separately.
     Absent,
 }
 
-/// Error in the values for a definition.
+/// Error in the values for the parameters of a definition.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ArgumentError {
@@ -40,7 +40,7 @@ pub enum ArgumentError {
         /// Number of values given.
         found: usize,
     },
-    /// A value is missing and the parameter has no default.
+    /// A value is missing, and the parameter has no default.
     Missing {
         /// Name of the parameter.
         parameter: &'static str,
@@ -54,34 +54,34 @@ pub enum ArgumentError {
         /// Number of components of vectors.
         dim: usize,
     },
-    /// A number is NaN, infinite or above [`LARGEST`].
+    /// A value is NaN, infinite or above [`LARGEST`].
     NotFinite {
         /// Name of the parameter.
         parameter: &'static str,
-        /// The number.
+        /// The value.
         value: f64,
     },
-    /// A negative number for a parameter that must not be negative.
+    /// A value is negative, but its parameter must not be negative.
     Negative {
         /// Name of the parameter.
         parameter: &'static str,
-        /// The number.
+        /// The value.
         value: f64,
     },
-    /// A direction of length zero, or a line through two equal points.
+    /// A direction has length zero, or the two points of a line are equal.
     NoDirection {
         /// Name of the parameter.
         parameter: &'static str,
         /// The vector for the direction.
         vector: Vec<f64>,
     },
-    /// The direction across an axis is parallel to the axis.
+    /// The direction that should be perpendicular to an axis is parallel to it.
     NotAcross {
         /// Name of the parameter.
         parameter: &'static str,
         /// The vector along the axis.
         axis: [f64; 3],
-        /// The vector for the direction across the axis.
+        /// The vector that should be perpendicular to the axis.
         cross: [f64; 3],
     },
 }
@@ -147,13 +147,13 @@ impl fmt::Display for ArgumentError {
 
 impl std::error::Error for ArgumentError {}
 
-/// The numbers, separated by commas.
+/// Prints the numbers, separated by commas.
 fn listed(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(f64::to_string).collect();
     numbers.join(", ")
 }
 
-/// Reads checked values in sequence; used by generated constructors.
+/// Reads and checks the values in sequence, for generated constructors.
 pub struct Reader<'a> {
     parameters: &'static [Parameter],
     arguments: &'a [Argument],
@@ -161,10 +161,11 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// A reader of `arguments` for `parameters`.
+    /// Creates a reader of `arguments` for `parameters`.
     ///
     /// # Errors
-    /// [`ArgumentError::Count`] if the numbers differ.
+    /// Returns [`ArgumentError::Count`] if the number of values differs from the number of
+    /// parameters.
     pub fn new(
         parameters: &'static [Parameter],
         arguments: &'a [Argument],
@@ -194,7 +195,7 @@ impl<'a> Reader<'a> {
         self.next += 1;
     }
 
-    /// Reads a point of the plane.
+    /// Reads a point in the plane.
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong shape or is not finite.
@@ -207,7 +208,7 @@ impl<'a> Reader<'a> {
         Ok(*p)
     }
 
-    /// Reads a point of space.
+    /// Reads a point in space.
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong shape or is not finite.
@@ -220,7 +221,7 @@ impl<'a> Reader<'a> {
         Ok(*p)
     }
 
-    /// Reads a direction of the plane and normalises it.
+    /// Reads a direction in the plane and normalises it.
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong shape, is not finite or has length
@@ -234,7 +235,7 @@ impl<'a> Reader<'a> {
         plane::Direction::new(*v).ok_or_else(|| no_direction(parameter, v))
     }
 
-    /// Reads a direction of space and normalises it.
+    /// Reads a direction in space and normalises it.
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong shape, is not finite or has length
@@ -248,12 +249,12 @@ impl<'a> Reader<'a> {
         space3::Direction::new(*v).ok_or_else(|| no_direction(parameter, v))
     }
 
-    /// Reads an axis with the directions across it. If an optional value is absent, the axes of the
-    /// frame are used.
+    /// Reads an axis and the directions perpendicular to it. If an optional value is missing, the
+    /// axes of the frame are used.
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong shape, is not finite or has length
-    /// zero, or if the direction across the axis is parallel to it.
+    /// zero, or if the direction perpendicular to the axis is parallel to it.
     pub fn axes(&mut self) -> Result<space3::Axes, ArgumentError> {
         let (parameter, argument) = self.take();
         let (axis, cross) = match argument {
@@ -280,8 +281,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Reads a plane of the ground: a point and a normal. If an optional value is absent, the plane
-    /// z = 0 is used.
+    /// Reads a plane of the ground, given by a point and a normal. If an optional value is missing,
+    /// the plane z = 0 is used.
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong shape or is not finite, or if the
@@ -317,7 +318,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// Returns an error if the value is missing, has a wrong count, is not finite, or is negative
-    /// for a parameter that must not be negative.
+    /// although its parameter must not be negative.
     pub fn numbers<const N: usize>(&mut self) -> Result<[f64; N], ArgumentError> {
         let (parameter, argument) = self.take();
         let Argument::Numbers(values) = argument else {
@@ -341,10 +342,10 @@ impl<'a> Reader<'a> {
         Ok(values)
     }
 
-    /// Reads one number that may be absent.
+    /// Reads one number that may be missing.
     ///
     /// # Errors
-    /// Returns the same errors as [`Reader::numbers`], but without an error for a missing value.
+    /// Returns the same errors as [`Reader::numbers`], except for a missing value.
     pub fn optional_number(&mut self) -> Result<Option<f64>, ArgumentError> {
         if self.arguments[self.next] == Argument::Absent {
             self.next += 1;
@@ -361,7 +362,7 @@ fn no_direction(parameter: &'static Parameter, vector: &[f64]) -> ArgumentError 
     }
 }
 
-/// `dim` is the number of components of a vector.
+/// Returns the error for a value with a wrong shape; `dim` is the number of components of a vector.
 fn mismatch(parameter: &'static Parameter, argument: &Argument, dim: usize) -> ArgumentError {
     match argument {
         Argument::Absent => ArgumentError::Missing {
@@ -385,13 +386,14 @@ fn usable(parameter: &'static Parameter, values: &[f64]) -> Result<(), ArgumentE
     }
 }
 
-/// The largest magnitude of a number that describes a mechanism, in its SI unit. Products of five
-/// such numbers are finite. Above this limit, products in rows and in their rounding bounds
-/// overflow, and wrong verdicts were observed from 1e100 on. The observable universe has 1e27 m and
-/// 1e53 kg.
+/// The largest permitted magnitude of a value in the description of a mechanism, in its SI unit.
+/// Products of five values up to this limit are finite. Above this limit, products in rows and in
+/// bounds of their rounding errors overflow; wrong verdicts were observed from 1e100 on. For
+/// comparison, the observable universe has 1e27 m and 1e53 kg.
 pub const LARGEST: f64 = 1e60;
 
-/// Whether a number may describe a mechanism: it is finite and not above [`LARGEST`].
+/// Returns whether a value is permitted in the description of a mechanism: it is finite and not
+/// above [`LARGEST`].
 #[must_use]
 pub fn is_usable(x: f64) -> bool {
     x.abs() <= LARGEST

@@ -1,10 +1,10 @@
 //! Constraints: the traits that a definition implements.
 //!
-//! A block has one row for each constraint row. For each body slot it has as many columns as a body
-//! has velocities: x, y, rotation in the plane; x, y, z and three rotations in space. The slices
-//! `x` and `v` contain the poses and twists of the slots in order, `f` the values and derivatives
-//! `[f, ḟ, f̈]` of the functions of time. Output slices are overwritten. Sparse outputs follow the
-//! pattern of the [`ConstraintSpec`].
+//! A block is a matrix with one row for each constraint row. It has one column for each velocity
+//! component of each body: x, y, rotation in the plane; x, y, z and three rotations in space. The
+//! slices `x` and `v` contain the poses and twists of the bodies in the order of the definition,
+//! `f` the values and derivatives `[f, ḟ, f̈]` of the functions of time. Output slices are
+//! overwritten. Sparse outputs follow the pattern of the [`ConstraintSpec`].
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::element::{Element, Reaction};
@@ -21,8 +21,8 @@ pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
     /// The specification of the definition.
     const SPEC: ConstraintSpec;
 
-    /// The constraint with these values for its parameters; initial values are zero until
-    /// [`crate::Definition::initialise`].
+    /// Creates the constraint with these values of its parameters; initial values are zero until
+    /// [`crate::Definition::initialise`] is called.
     ///
     /// # Errors
     /// Returns an error if a value is missing, has a wrong shape or is out of range.
@@ -31,10 +31,10 @@ pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
     /// Calls a visitor with the drives of the joint coordinates, in the order of the `measures`.
     fn visit_drives<V: Visitor<S>>(_visitor: &mut V) {}
 
-    /// The rows in a number type.
+    /// Returns the rows in a number type.
     fn element<T: Scalar>(&self) -> &dyn Element<T, S>;
 
-    /// The reaction in a number type.
+    /// Returns the reaction in a number type.
     fn reaction<T: Real>(&self) -> &dyn Reaction<T, S>;
 }
 
@@ -44,23 +44,24 @@ pub trait Constraint<S: Space = Plane>: ConstraintKernels<S> + Clone + 'static {
 /// The derivatives with respect to poses and velocities are closed forms. Definitions with long
 /// closed forms use the dual numbers of [`crate::slopes`] instead.
 pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S> {
-    /// The rows of all constraints of this kind, which run in any number type.
+    /// Returns the rows for all constraints of this kind as programs, which run in any number type.
     fn programs(&self) -> &Programs;
 
-    /// Adds the numbers of this constraint that the programs need to `out`.
+    /// Appends the values of this constraint that the programs need to `out`.
     fn stored(&self, out: &mut Vec<f64>);
 
-    /// Passes the derivatives of these numbers with respect to the numbers of
-    /// [`crate::Definition::data`] to `entry`, without zeros: index of the stored number, index of
-    /// the datum, value.
+    /// Calls `entry` for each nonzero derivative of these values with respect to the values of
+    /// [`crate::Definition::data`]. Its arguments are the index of the value for the programs, the
+    /// index in `data`, and the derivative.
     fn d_stored_dp(&self, entry: &mut dyn FnMut(usize, usize, f64));
 
-    /// Entries of `∂(Cᵀλ)/∂x`, for the degrees of freedom of the slots.
+    /// Computes the entries of `∂(Cᵀλ)/∂x` with respect to displacements along the velocity
+    /// components of the bodies.
     fn d_force_dx(&self, x: &[S::Pose<f64>], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
         slopes::d_force_dx::<S>(&of_kind(self), (x, f), lambda, out);
     }
 
-    /// Entries of `∂(C·a − Γ)/∂x`.
+    /// Computes the entries of `∂(C·a − Γ)/∂x`.
     fn d_residual_dx(
         &self,
         x: &[S::Pose<f64>],
@@ -72,12 +73,12 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
         slopes::d_residual_dx::<S>(&of_kind(self), At { x, v: Some(v), f }, a, out);
     }
 
-    /// Entries of `∂Γ/∂v`.
+    /// Computes the entries of `∂Γ/∂v`.
     fn d_gamma_dv(&self, x: &[S::Pose<f64>], v: &[S::Twist<f64>], f: &[[f64; 3]], out: &mut [f64]) {
         slopes::d_gamma_dv::<S>(&of_kind(self), At { x, v: Some(v), f }, out);
     }
 
-    /// Entries of `∂(C·v − b)/∂x`.
+    /// Computes the entries of `∂(C·v − b)/∂x`.
     fn d_velocity_dx(
         &self,
         x: &[S::Pose<f64>],
@@ -88,18 +89,19 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
         slopes::d_velocity_dx::<S>(&of_kind(self), At { x, v: Some(v), f }, out);
     }
 
-    /// Derivatives of the rows with respect to the numbers of [`crate::Definition::data`].
+    /// Computes the derivatives of the rows with respect to the values of
+    /// [`crate::Definition::data`].
     fn slopes(&self, x: &[S::Pose<f64>], f: &[[f64; 3]], of: SlopedOutputs<'_, S>) -> Slopes {
         let mut of_stored = Vec::new();
         self.d_stored_dp(&mut |place, number, slope| of_stored.push((place, number, slope)));
         Slopes::of(&of_kind(self), &of_stored, (x, f), of)
     }
 
-    /// A copy.
+    /// Returns a copy.
     fn boxed(&self) -> Box<dyn ConstraintKernels<S>>;
 }
 
-/// The programs of a constraint with its numbers.
+/// Returns the programs of a constraint together with its values.
 fn of_kind<S: Space>(kernels: &(impl ConstraintKernels<S> + ?Sized)) -> OfKind<'_> {
     let mut stored = Vec::new();
     kernels.stored(&mut stored);

@@ -1,5 +1,5 @@
-//! The rows of a constraint and its reaction: the kernels that are compiled in several number
-//! types. [`crate::constraint`] describes the slices.
+//! The rows of a constraint and its reaction; these kernels are compiled in several number types.
+//! [`crate::constraint`] describes the slices.
 
 use crate::definition::Definition;
 use crate::ring::{Real, Scalar};
@@ -25,20 +25,21 @@ pub trait Element<T: Scalar = f64, S: Space = Plane>: Definition<S> {
     /// because their b is zero.
     fn b(&self, _x: &[S::Pose<T>], _f: &[[T; 3]], _out: &mut [T]) {}
 
-    /// Writes `Γ` of `C·a = Γ`, one value for each row.
+    /// Writes `Γ` in `C·a = Γ`, one value for each row.
     fn gamma(&self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
     /// Writes the coefficients of the named component of the reaction, `Σ out·λ`; writes nothing if
-    /// there is no such component.
+    /// the definition names no component.
     fn component(&self, _x: &[S::Pose<T>], _f: &[[T; 3]], _out: &mut [T]) {}
 }
 
 /// The reaction of a constraint in closed form, for one number type.
 pub trait Reaction<T: Real = f64, S: Space = Plane> {
-    /// Entries of the map `W` (components × rows) to the wrench on the first body, `W·λ` =
-    /// `[Fx, Fy, T]` or `[Fx, Fy, Fz, Tx, Ty, Tz]`, with the moment about the reference point.
+    /// Writes the entries of the map `W` (components × rows) from multipliers to the wrench on the
+    /// first body, `W·λ` = `[Fx, Fy, T]` or `[Fx, Fy, Fz, Tx, Ty, Tz]`. The torque is about the
+    /// reference point.
     fn wrench(&self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// The reference point of the reaction, global components.
+    /// Returns the reference point of the reaction, in ground components.
     fn place(&self, x: &[S::Pose<T>]) -> S::Vector<T>;
 }

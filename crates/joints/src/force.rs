@@ -1,7 +1,7 @@
 //! Forces: the traits that a definition implements.
 //!
-//! Each force is a force law on relative coordinates: `Q = Σ law·∂coordinate/∂x`, so that internal
-//! forces balance by construction. [`crate::constraint`] describes the slices.
+//! Each force consists of force laws of relative coordinates, `Q = Σ law·∂coordinate/∂x`, so that
+//! internal forces always balance. [`crate::constraint`] describes the slices.
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::definition::Definition;
@@ -15,14 +15,14 @@ pub trait Force<S: Space = Plane>: ForceElement<f64, S> + Clone + 'static {
     /// The specification of the definition.
     const SPEC: ForceSpec;
 
-    /// The force with these values for its parameters; initial values are zero until
-    /// [`Definition::initialise`].
+    /// Creates the force with these values of its parameters; initial values are zero until
+    /// [`Definition::initialise`] is called.
     ///
     /// # Errors
     /// Returns an error if a value is missing, has a wrong shape or is out of range.
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError>;
 
-    /// The kernels in a number type.
+    /// Returns the kernels in a number type.
     fn element<T: Real>(&self) -> &dyn ForceElement<T, S>;
 }
 
@@ -31,12 +31,12 @@ pub trait ForceElement<T: Real = f64, S: Space = Plane>: Definition<S> {
     /// The specification of the definition.
     fn spec(&self) -> &'static ForceSpec;
 
-    /// Entries of Q, with the pattern of the specification.
+    /// Writes the entries of Q, in the pattern of the specification.
     fn q(&self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Entries of `∂Q/∂x`.
+    /// Writes the entries of `∂Q/∂x`.
     fn dq_dx(&self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Entries of `∂Q/∂v`.
+    /// Writes the entries of `∂Q/∂v`.
     fn dq_dv(&self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]);
 }

@@ -9,14 +9,14 @@
 //! | [`recorded`] | a number type that records its operations |
 //! | [`slopes`] | derivatives with dual numbers |
 //! | [`space`] | the plane and three-dimensional space as types |
-//! | [`plane`], [`space3`] | poses and twists of bodies, and directions fixed in them |
-//! | [`spec`] | specifications of definitions: rows, parameters, patterns, counts |
+//! | [`plane`], [`space3`] | poses and twists of bodies, and directions fixed in bodies |
+//! | [`spec`] | specifications of definitions: rows, parameters, sparsity patterns, numbers of entries |
 //! | [`arguments`] | values for the parameters of a definition |
-//! | [`definition`] | the numbers stored by constraints and forces |
+//! | [`definition`] | the values stored by constraints and forces |
 //! | [`element`] | the kernels of constraints in several number types: rows and reaction |
 //! | [`constraint`] | a constraint definition as a type, and all its kernels |
 //! | [`force`] | a force definition as a type, and its kernels |
-//! | [`visitor`] | iteration over all definitions with their types |
+//! | [`visitor`] | iteration over all definitions as types |
 //! | [`generated`] | one module for each file in `definitions/` |
 
 pub mod arguments;

@@ -1,19 +1,20 @@
-//! Planar bodies in kernels: their poses and twists. Kernels do not use the coordinates of the
-//! whole system.
+//! Poses and twists of planar bodies, as the arguments of kernels. Kernels do not use the
+//! coordinates of the whole system.
 
 use crate::ring::Ring;
 
-/// Number of velocity degrees of freedom of a planar body: x, y, rotation.
+/// Number of velocity components of a planar body: x, y, rotation.
 pub const N_DOF: usize = 3;
 
-/// Position and rotation of a body: origin of its frame, angle with its cosine and sine.
+/// Position and rotation of a body: the origin of the body frame, and its angle with cosine and
+/// sine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<T = f64> {
-    /// Global x of the frame's origin (m).
+    /// Ground coordinate x of the origin of the body frame (m).
     pub x: T,
-    /// Global y of the frame's origin (m).
+    /// Ground coordinate y of the origin of the body frame (m).
     pub y: T,
-    /// Angle of the frame relative to the global one (rad), with full revolutions.
+    /// Angle of the body frame relative to the ground frame (rad), including full revolutions.
     pub angle: T,
     /// cos(angle)
     pub cos: T,
@@ -22,7 +23,7 @@ pub struct Pose<T = f64> {
 }
 
 impl Pose<f64> {
-    /// The pose of the ground: the global frame.
+    /// The pose of the ground, whose frame is the ground frame.
     pub const GROUND: Self = Self {
         x: 0.0,
         y: 0.0,
@@ -31,7 +32,7 @@ impl Pose<f64> {
         sin: 0.0,
     };
 
-    /// A pose with this position and angle; cosine and sine are computed.
+    /// Returns a pose with this position and angle; its cosine and sine are computed.
     #[must_use]
     pub fn new(x: f64, y: f64, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
@@ -44,14 +45,14 @@ impl Pose<f64> {
         }
     }
 
-    /// The local coordinates of a global point: `R ᵀ·(p − r)`.
+    /// Converts a point from ground coordinates to body coordinates: `R ᵀ·(p − r)`.
     #[must_use]
     pub fn to_local(&self, p: [f64; 2]) -> [f64; 2] {
         let (dx, dy) = (p[0] - self.x, p[1] - self.y);
         [self.cos * dx + self.sin * dy, self.cos * dy - self.sin * dx]
     }
 
-    /// The global coordinates of a point of the body: `r + R·s`.
+    /// Converts a point from body coordinates to ground coordinates: `r + R·s`.
     #[must_use]
     pub fn to_global(&self, s: [f64; 2]) -> [f64; 2] {
         [
@@ -60,7 +61,7 @@ impl Pose<f64> {
         ]
     }
 
-    /// The same pose in another number type.
+    /// Returns the same pose in another number type.
     #[must_use]
     pub fn cast<T: Ring>(&self) -> Pose<T> {
         Pose {
@@ -73,19 +74,19 @@ impl Pose<f64> {
     }
 }
 
-/// Velocity of a body, or any other derivative along its three degrees of freedom.
+/// Velocity of a body, or any other derivative with these three components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist<T = f64> {
-    /// Global x velocity of the frame's origin (m/s).
+    /// Velocity of the origin of the body frame along ground x (m/s).
     pub x: T,
-    /// Global y velocity of the frame's origin (m/s).
+    /// Velocity of the origin of the body frame along ground y (m/s).
     pub y: T,
     /// Angular velocity (rad/s).
     pub omega: T,
 }
 
 impl<T: Ring> Twist<T> {
-    /// A body at rest.
+    /// Returns the twist of a body at rest.
     #[must_use]
     pub fn zero() -> Self {
         Self {
@@ -101,12 +102,12 @@ impl<T: Ring> Twist<T> {
 pub struct Direction([f64; 2]);
 
 impl Direction {
-    /// The direction of the frame's x-axis.
+    /// The direction of the x-axis of the frame.
     pub const X: Self = Self([1.0, 0.0]);
-    /// The direction of the frame's y-axis.
+    /// The direction of the y-axis of the frame.
     pub const Y: Self = Self([0.0, 1.0]);
 
-    /// The direction of `v`; `None` if `v` is zero or not finite.
+    /// Returns the direction of `v`; `None` if `v` is zero or not finite.
     ///
     /// ```
     /// use pfaff_joints::Direction;
@@ -125,16 +126,16 @@ impl Direction {
         Some(Self([v[0] / length, v[1] / length]))
     }
 
-    /// Sets components as returned by `Definition::data`, possibly with small changes, without
-    /// normalisation: a derivative with respect to a component leaves the unit circle. For
-    /// generated code.
+    /// Creates a direction from the components that `Definition::data` returns, possibly with small
+    /// changes, without normalisation. A derivative with respect to one component needs a vector
+    /// outside the unit circle. For generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn from_data(xy: [f64; 2]) -> Self {
         Self(xy)
     }
 
-    /// Components of the direction.
+    /// Returns the components of the direction.
     #[must_use]
     pub fn xy(self) -> [f64; 2] {
         self.0
@@ -149,15 +150,15 @@ pub struct Line {
 }
 
 impl Line {
-    /// The line through two points; `None` if they coincide or are not finite.
+    /// Returns the line through two points; `None` if they coincide or are not finite.
     #[must_use]
     pub fn new(start: [f64; 2], end: [f64; 2]) -> Option<Self> {
         let along = Direction::new([end[0] - start[0], end[1] - start[1]])?;
         Some(Self { start, along })
     }
 
-    /// Sets start and direction as returned by `Definition::data`, without normalisation; see
-    /// [`Direction::from_data`].
+    /// Creates a line from the start and the direction that `Definition::data` returns, without
+    /// normalisation; see [`Direction::from_data`].
     #[doc(hidden)]
     #[must_use]
     pub fn from_data(start: [f64; 2], along: [f64; 2]) -> Self {
@@ -167,13 +168,13 @@ impl Line {
         }
     }
 
-    /// The first point.
+    /// Returns the first point.
     #[must_use]
     pub fn start(&self) -> [f64; 2] {
         self.start
     }
 
-    /// The unit vector from the first point to the second.
+    /// Returns the unit vector from the first point to the second.
     #[must_use]
     pub fn along(&self) -> Direction {
         self.along

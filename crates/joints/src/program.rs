@@ -1,26 +1,27 @@
-//! The rows of a constraint as programs: lists of additions and multiplications that run in any
-//! number type. They are recorded once for each kind of constraint.
+//! The rows of a constraint as programs, which are lists of additions and multiplications that run
+//! in any number type. They are recorded once for each kind of constraint.
 //!
-//! The motion uses the kernels compiled for `f64`. All other calculations need the rows only once a
-//! configuration: in double-double precision, with the sizes of their terms, with derivatives, or
-//! as operations of generated code. They run these programs, so that no kernel is compiled for
-//! them.
+//! For the motion, the kernels compiled for `f64` are used. All other calculations need the rows
+//! only once for each configuration: in double-double precision, with the sizes of their terms,
+//! with derivatives, or as operations of generated code. These calculations use the programs, so
+//! that kernels need not be compiled for them.
 //!
-//! The numbers passed to a program have a fixed order: the numbers stored by the constraint
-//! ([`crate::ConstraintKernels::stored`]), the poses of the slots, the functions of time with two
-//! derivatives each, and the twists of the slots.
+//! The arguments of a program are in this order: the values stored by the constraint
+//! ([`crate::ConstraintKernels::stored`]), the poses of the bodies, the functions of time with two
+//! derivatives each, and the twists of the bodies.
 
 use crate::element::Element;
 use crate::recorded::{Operation, RecordedNumber, record};
 use crate::ring::Ring;
 use crate::space::Space;
 
-/// An index into the values of a program.
+/// Converts an index into the values of a program.
 fn place_of(k: usize) -> u32 {
     u32::try_from(k).unwrap_or(u32::MAX)
 }
 
-/// One operation on indexed values: first the given values, then one value for each operation.
+/// One operation on values with indices; the arguments come first, then the result of each
+/// operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Step {
     Number(f64),
@@ -30,18 +31,18 @@ enum Step {
     Neg(u32),
 }
 
-/// One kernel as a polynomial in the given values.
+/// One kernel as a polynomial in its arguments.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Program {
     given: usize,
     steps: Vec<Step>,
-    /// Entries of the output that the program writes, each with the index of its value.
+    /// Entries of the output that the program writes, each with the index of the value.
     written: Vec<(usize, u32)>,
 }
 
 impl Program {
-    /// The program of an operation list that starts with the given number of inputs. Entries of
-    /// `out` that are still `unwritten` do not belong to the kernel.
+    /// Creates the program of an operation list whose first operations are `given` inputs. Entries
+    /// of `out` that still have the value `unwritten` do not belong to the kernel.
     fn new(
         given: usize,
         tape: &[Operation],
@@ -83,7 +84,7 @@ impl Program {
         program.without_idle_steps()
     }
 
-    /// The same program without steps that no output needs.
+    /// Returns the same program without the steps that are not needed for any output.
     fn without_idle_steps(self) -> Self {
         let mut needed = vec![false; self.steps.len()];
         let step_of = |place: u32| (place as usize).checked_sub(self.given);
@@ -131,7 +132,7 @@ impl Program {
         }
     }
 
-    /// Runs the program on the given values.
+    /// Runs the program with these arguments.
     fn run<T: Ring>(&self, mut values: Vec<T>, out: &mut [T]) {
         assert_eq!(values.len(), self.given, "what a program is given");
         for step in &self.steps {
@@ -154,7 +155,8 @@ impl Program {
 /// The programs of one kind of constraint.
 #[derive(Clone, Debug)]
 pub struct Programs {
-    /// Number of values with derivatives that the programs need; more may be given.
+    /// Number of functions of time (values with derivatives) that the programs need; more may be
+    /// passed.
     jets: usize,
     phi: Program,
     c_constant: Program,
@@ -164,7 +166,7 @@ pub struct Programs {
     component: Program,
 }
 
-/// Inputs of a program: poses, functions of time, and twists if the program depends on them.
+/// Arguments of a program: poses, functions of time, and twists if the program depends on them.
 type KernelInputs<'a, S, T> = (
     &'a [<S as Space>::Pose<T>],
     &'a [[T; 3]],
@@ -217,7 +219,7 @@ impl Programs {
         }
     }
 
-    /// The rows of a constraint that stores these numbers.
+    /// Returns the rows of a constraint that stores these values.
     #[must_use]
     pub fn of<'p, T: Ring>(&'p self, stored: &'p [T]) -> Rows<'p, T> {
         Rows {
@@ -227,7 +229,8 @@ impl Programs {
     }
 }
 
-/// The rows of one constraint in any number type, with the outputs of the kernels of [`Element`].
+/// The rows of one constraint in any number type, with the same outputs as the kernels of
+/// [`Element`].
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'p, T> {
     programs: &'p Programs,
@@ -235,32 +238,33 @@ pub struct Rows<'p, T> {
 }
 
 impl<T: Ring> Rows<'_, T> {
-    /// Φ of the holonomic rows.
+    /// Computes Φ of the holonomic rows.
     pub fn phi<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.phi, (x, f, &[]), out);
     }
 
-    /// The entries of C that depend only on parameters; the other entries do not change.
+    /// Computes the entries of C that depend only on parameters; the other entries do not change.
     pub fn c_constant<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.c_constant, (x, f, &[]), out);
     }
 
-    /// The other entries of C.
+    /// Computes the other entries of C.
     pub fn c<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.c, (x, f, &[]), out);
     }
 
-    /// b; scleronomic constraints write nothing.
+    /// Computes b; scleronomic constraints write nothing.
     pub fn b<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.b, (x, f, &[]), out);
     }
 
-    /// Γ.
+    /// Computes Γ.
     pub fn gamma<S: Space>(self, x: &[S::Pose<T>], v: &[S::Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.gamma, (x, f, v), out);
     }
 
-    /// The coefficients of the named component; nothing is written if there is no such component.
+    /// Computes the coefficients of the named component; writes nothing if the definition names no
+    /// component.
     pub fn component<S: Space>(self, x: &[S::Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.run::<S>(&self.programs.component, (x, f, &[]), out);
     }
@@ -284,7 +288,7 @@ mod tests {
     use super::*;
     use crate::Magnitude;
 
-    /// y = x₀·x₁ − x₁ + 2, with a step that no output needs.
+    /// The program for y = x₀·x₁ − x₁ + 2, with one step that is not needed for the output.
     fn program() -> Program {
         let (tape, (out, unwritten)) = record(|| {
             let [a, b] = [0, 1].map(RecordedNumber::input);
@@ -309,7 +313,7 @@ mod tests {
 
     #[test]
     fn steps_that_no_output_needs_are_left_out() {
-        // A product, a difference, a constant and a sum.
+        // The needed steps are a product, a difference, a constant and a sum.
         assert_eq!(program().steps.len(), 4);
     }
 }

@@ -1,24 +1,25 @@
-//! A number type that records its operations. A kernel runs on it once and writes its operations,
-//! with the values of its parameters, to an operation list (`tape`), from which programs for one
-//! mechanism are generated. This module does not differentiate or simplify the operations.
+//! A number type that records its operations. A kernel runs once with this type and writes its
+//! operations, with the values of its parameters, to an operation list (`tape`). Programs for one
+//! mechanism are generated from this list. This module neither differentiates nor simplifies the
+//! operations.
 //!
-//! The operation list is thread-local, because kernels only copy numbers.
+//! The operation list is thread-local, because kernels can only copy numbers.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::ring::{Real, Scalar};
 
-/// Index of an operation in the operation list of the present recording.
+/// Index of an operation in the operation list of the current recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RecordedNumber(usize);
 
-/// One operation of an operation list; operands come before their uses.
+/// One operation of an operation list; operands come before the operations that use them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
     /// A constant.
     Number(f64),
-    /// The input with this number.
+    /// The input with this index.
     Input(usize),
     /// `a + b`
     Add(RecordedNumber, RecordedNumber),
@@ -42,8 +43,8 @@ thread_local! {
     static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Runs `f` and returns the operations of all [`RecordedNumber`]s in it, in their order. Numbers
-/// of one recording are invalid in another.
+/// Runs `f` and returns the operations on all [`RecordedNumber`]s in it, in the order of execution.
+/// Numbers of one recording are not valid in another recording.
 ///
 /// ```
 /// use pfaff_joints::recorded::{Operation, RecordedNumber, record};
@@ -62,13 +63,13 @@ pub fn record<R>(f: impl FnOnce() -> R) -> (Vec<Operation>, R) {
 }
 
 impl RecordedNumber {
-    /// An input.
+    /// Returns the input with index `k`.
     #[must_use]
     pub fn input(k: usize) -> Self {
         Self::push(Operation::Input(k))
     }
 
-    /// Index in the operation list.
+    /// Returns the index in the operation list.
     #[must_use]
     pub fn place(self) -> usize {
         self.0
@@ -88,8 +89,8 @@ impl From<f64> for RecordedNumber {
     }
 }
 
-/// Numbers stored by a constraint are inputs: its rows are recorded for all constraints of its
-/// kind.
+/// The values stored by a constraint are inputs, because the rows are recorded once for all
+/// constraints of a kind.
 impl Scalar for RecordedNumber {
     fn stored(_: f64, place: usize) -> Self {
         Self::input(place)

@@ -1,11 +1,11 @@
 //! Number types of kernels: `f64` for motion, recording numbers for all other calculations, dual
-//! numbers for tests. Programs run in any ring.
+//! numbers for tests. Programs run in any type with the operations of a ring.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use rotation::angle_over_sine;
 
-/// Operations needed by constraint kernels, which are polynomials.
+/// Operations that constraint kernels need; these kernels are polynomials.
 pub trait Ring:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
@@ -16,10 +16,10 @@ impl<T> Ring for T where
 {
 }
 
-/// A number type in which the rows of constraints are compiled.
+/// A number type in which the kernels for the rows of constraints are compiled.
 pub trait Scalar: Ring {
-    /// A stored number of a constraint, as its rows read it; `_place` is its index in
-    /// [`crate::ConstraintKernels::stored`].
+    /// Returns a value stored by a constraint, in the form in which its rows read it; `_place` is
+    /// the index in [`crate::ConstraintKernels::stored`].
     #[must_use]
     fn stored(value: f64, _place: usize) -> Self {
         Self::from(value)
@@ -28,19 +28,18 @@ pub trait Scalar: Ring {
 
 impl Scalar for f64 {}
 
-/// Additional operations needed by force kernels: square roots for distances, quotients for
+/// Additional operations that force kernels need: square roots for distances, quotients for
 /// directions.
 pub trait Real: Ring + Div<Output = Self> {
     /// `√self`
     #[must_use]
     fn sqrt(self) -> Self;
 
-    /// `1/self`, and 0 for 0: the direction of a vector of length zero is zero.
+    /// `1/self`, and 0 for 0, so that the direction of a vector of length zero is zero.
     #[must_use]
     fn recip_or_zero(self) -> Self;
 
-    /// The derivative of this order with respect to c, of θ/sin θ with c = cos θ, see
-    /// [`angle_over_sine`].
+    /// The derivative of θ/sin θ with respect to c = cos θ, of this order; see [`angle_over_sine`].
     #[must_use]
     fn angle_over_sine(self, order: u8) -> Self;
 }
@@ -59,10 +58,10 @@ impl Real for f64 {
     }
 }
 
-/// The size of the terms that a polynomial adds: every operation is applied to absolute values, and
-/// differences become sums. A kernel with these numbers returns, for each result, a bound on the
-/// terms that cancel in it. This bound times the relative error of the data is a bound on the error
-/// of the result.
+/// The size of the terms of a polynomial: every operation is applied to absolute values, and
+/// differences become sums. For each result, a kernel with this number type returns a bound on the
+/// terms that cancel in the result. The product of this bound and the relative error of the data is
+/// a bound on the error of the result.
 ///
 /// ```
 /// use pfaff_joints::Magnitude;
@@ -73,7 +72,7 @@ impl Real for f64 {
 pub struct Magnitude(f64);
 
 impl Magnitude {
-    /// The value, not negative.
+    /// The value, which is never negative.
     #[must_use]
     pub fn value(self) -> f64 {
         self.0

@@ -1,6 +1,6 @@
-//! Derivatives of the rows with dual numbers, through the programs of the kernels: with respect to
-//! the numbers that a constraint stores, and with respect to poses and velocities if no closed form
-//! is compiled.
+//! Derivatives of the rows with dual numbers, computed with the programs of the kernels. They are
+//! with respect to the values that a constraint stores, and also with respect to poses and
+//! velocities if no closed form is compiled.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -8,10 +8,10 @@ use crate::program::Programs;
 use crate::space::Space;
 use crate::spec::{ConstraintSpec, Entry};
 
-/// Number of directions of one dual number: the degrees of freedom of a body in space.
+/// Number of directions of one dual number: the number of velocity components of a body in space.
 const LANES: usize = 6;
 
-/// A number with its derivatives along a few directions.
+/// A value with its derivatives along a few directions.
 #[derive(Clone, Copy, Debug)]
 struct Dual {
     value: f64,
@@ -26,7 +26,8 @@ impl Dual {
         }
     }
 
-    /// A value that depends on two numbers, with its derivatives with respect to them.
+    /// Returns a value that depends on two dual numbers, given its derivatives with respect to
+    /// both.
     fn of(value: f64, [(x, by_x), (y, by_y)]: [(Self, f64); 2]) -> Self {
         Self::with(value, |k| by_x * x.slopes[k] + by_y * y.slopes[k])
     }
@@ -70,24 +71,24 @@ impl Neg for Dual {
     }
 }
 
-/// The data of a constraint that its programs need.
+/// A kind of constraint, and the values of one constraint, as its programs need them.
 pub(crate) struct OfKind<'k> {
     pub(crate) spec: &'static ConstraintSpec,
     pub(crate) programs: &'k Programs,
-    /// The numbers of the constraint that the programs need.
+    /// The values stored by the constraint that the programs need.
     pub(crate) stored: Vec<f64>,
 }
 
-/// The state on which the rows depend.
+/// The state at which the rows are evaluated.
 #[derive(Clone, Copy)]
 pub(crate) struct At<'a, S: Space> {
     pub(crate) x: &'a [S::Pose<f64>],
-    /// Γ is computed only with twists.
+    /// The twists; Γ is computed only if they are given.
     pub(crate) v: Option<&'a [S::Twist<f64>]>,
     pub(crate) f: &'a [[f64; 3]],
 }
 
-/// Inputs of the kernels of a constraint, with their slopes along a few directions.
+/// Arguments of the kernels of a constraint, with their derivatives along a few directions.
 struct DualInputs {
     stored: Vec<Dual>,
     x: Vec<Dual>,
@@ -119,7 +120,7 @@ impl DualInputs {
         self.v.chunks_exact(S::N_DOF).map(S::twist).collect()
     }
 
-    /// Adds the derivatives of the pose of a slot along each degree of freedom of its body.
+    /// Adds the derivatives of the pose of a body along each of its velocity components.
     fn move_slot<S: Space>(&mut self, slot: usize, pose: &S::Pose<f64>) {
         let own = &mut self.x[S::N_POSE * slot..][..S::N_POSE];
         let mut rates = vec![0.0; S::N_POSE];
@@ -131,7 +132,7 @@ impl DualInputs {
         }
     }
 
-    /// Adds the derivatives with respect to each velocity of the body of a slot.
+    /// Adds the derivatives with respect to each velocity component of a body.
     fn accelerate_slot<S: Space>(&mut self, slot: usize) {
         for (dof, v) in self.v[S::N_DOF * slot..][..S::N_DOF].iter_mut().enumerate() {
             v.slopes[dof] = 1.0;
@@ -156,8 +157,8 @@ enum Kernel<'a, S: Space> {
     Gamma,
 }
 
-/// Entries of a derivative with respect to the pose or, for Γ, with respect to velocities, in the
-/// order of a pattern.
+/// Computes the entries of a derivative with respect to the pose or, for Γ, with respect to
+/// velocities, in the order of a pattern.
 fn block<S: Space>(
     kind: &OfKind<'_>,
     at: At<'_, S>,
@@ -186,7 +187,7 @@ fn block<S: Space>(
         let (x, v) = (seeded.poses::<S>(), seeded.twists::<S>());
         let rows_of = kind.programs.of(&seeded.stored);
         let zero = Dual::from(0.0);
-        // Derivatives of the rows, or of the columns of Cᵀλ.
+        // Derivatives of the rows, or of the entries of Cᵀλ.
         let mut sums = vec![[0.0; LANES]; rows.max(S::N_DOF * spec.common.slots.len())];
         let mut add = |to: usize, factor: f64, d: &Dual| {
             let slopes = sums[to].iter_mut().zip(d.slopes);
@@ -257,20 +258,20 @@ pub(crate) fn d_velocity_dx<S: Space>(kind: &OfKind<'_>, at: At<'_, S>, out: &mu
     block(kind, at, kind.spec.d_velocity_dx, &Kernel::Velocity, out);
 }
 
-/// The outputs of the rows that are differentiated.
+/// The outputs of the rows to be differentiated.
 #[derive(Clone, Copy, Debug)]
 pub enum SlopedOutputs<'a, S: Space> {
     /// Φ.
     Phi,
     /// C.
     C,
-    /// Φ, C, and Γ at these twists of the slots.
+    /// Φ, C, and Γ at these twists of the bodies.
     All(&'a [S::Twist<f64>]),
 }
 
-/// Derivatives of Φ, C and Γ with respect to each number p of [`crate::Definition::data`]. Values
-/// that are computed from other numbers change with them. Values stored at the start do not change,
-/// because they are separate numbers.
+/// Derivatives of Φ, C and Γ with respect to each value p of [`crate::Definition::data`]. Values
+/// that are computed from other stored values are differentiated as functions of them. Stored
+/// initial values are constant in these derivatives, because they are separate values.
 ///
 /// ```
 /// use pfaff_joints::generated::Distance;
@@ -290,12 +291,12 @@ pub enum SlopedOutputs<'a, S: Space> {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Slopes {
-    /// Derivatives of the holonomic rows of Φ for each number; empty if not requested, like the
-    /// other fields.
+    /// Derivatives of the holonomic rows of Φ with respect to each value; empty if they were not
+    /// requested, like the other fields.
     phi: Vec<f64>,
-    /// Derivatives of the entries of C for each number.
+    /// Derivatives of the entries of C with respect to each value.
     c: Vec<f64>,
-    /// Derivatives of the rows of Γ for each number; empty without velocities.
+    /// Derivatives of the rows of Γ with respect to each value; empty without velocities.
     gamma: Vec<f64>,
     entries: &'static [Entry],
     sizes: [usize; 3],
@@ -359,7 +360,7 @@ impl Slopes {
         slopes
     }
 
-    /// Writes `∂(λᵀ·Φ)/∂p`, from the λ of the holonomic rows.
+    /// Computes `∂(λᵀ·Φ)/∂p`, with the λ of the holonomic rows.
     pub fn phi(&self, lambda: &[f64], out: &mut [f64]) {
         let rows = self.sizes[0];
         for (p, out) in out.iter_mut().enumerate() {
@@ -368,7 +369,7 @@ impl Slopes {
         }
     }
 
-    /// Writes `∂(λᵀ·C·y)/∂p`, for the velocities or accelerations y of the slots.
+    /// Computes `∂(λᵀ·C·y)/∂p`, for the velocities or accelerations y of the bodies.
     pub fn power(&self, lambda: &[f64], y: &[f64], out: &mut [f64]) {
         let factor = |e: &Entry| lambda[e.row] * y[self.n_dof * e.slot + e.dof];
         for (p, out) in out.iter_mut().enumerate() {
@@ -377,7 +378,7 @@ impl Slopes {
         }
     }
 
-    /// Writes `∂(λᵀ·(C·a − Γ))/∂p`, for the accelerations of the slots.
+    /// Computes `∂(λᵀ·(C·a − Γ))/∂p`, for the accelerations a of the bodies.
     pub fn residual(&self, lambda: &[f64], a: &[f64], out: &mut [f64]) {
         self.power(lambda, a, out);
         let rows = self.sizes[2];

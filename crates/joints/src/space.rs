@@ -1,4 +1,5 @@
-//! The two spaces in which bodies move, as types that define poses, twists and vectors.
+//! The two spaces in which bodies move, as types that define the types of poses, twists and
+//! vectors.
 //!
 //! Kernels, their traits and their tests are generic over the space; each definition belongs to one
 //! space.
@@ -12,7 +13,7 @@ use crate::{plane, space3};
 pub trait Space: Copy + Debug + Send + Sync + 'static {
     /// Number of components of a vector.
     const DIM: usize;
-    /// Number of velocities of a body.
+    /// Number of velocity components of a body.
     const N_DOF: usize;
     /// Components of a vector.
     type Vector<T: Ring>: Copy + AsRef<[T]>;
@@ -23,28 +24,28 @@ pub trait Space: Copy + Debug + Send + Sync + 'static {
     /// Number of values in a pose.
     const N_POSE: usize;
 
-    /// The pose with these values.
+    /// Returns the pose with these values.
     fn pose<T: Ring>(numbers: &[T]) -> Self::Pose<T>;
 
-    /// Adds the values of a pose to `out`.
+    /// Appends the values of a pose to `out`.
     fn numbers_of_pose<T: Ring>(pose: &Self::Pose<T>, out: &mut Vec<T>);
 
-    /// Writes the rates of the values of a pose that moves at 1 m/s or 1 rad/s along one degree of
-    /// freedom.
+    /// Writes the rates of the values of a pose if one velocity component of the body is 1 m/s or 1
+    /// rad/s.
     fn rates_of_pose(pose: &Self::Pose<f64>, dof: usize, out: &mut [f64]);
 
-    /// The twist with these velocities.
+    /// Returns the twist with these velocity components.
     fn twist<T: Ring>(velocities: &[T]) -> Self::Twist<T>;
 
-    /// The velocities of a twist.
+    /// Returns the velocity components of a twist.
     fn velocities<T: Ring>(twist: &Self::Twist<T>) -> impl Iterator<Item = T>;
 }
 
-/// The plane: bodies have three velocities.
+/// The plane: bodies have three velocity components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plane;
 
-/// Space: bodies have six velocities.
+/// Space: bodies have six velocity components.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Space3;
 
@@ -111,14 +112,14 @@ impl Space for Space3 {
         out.extend(pose.rot.iter().flatten());
     }
 
-    /// `Ṙ = R·[ω]×`
+    /// The rates of the rotation matrix are `Ṙ = R·[ω]×`.
     fn rates_of_pose(pose: &space3::Pose, dof: usize, out: &mut [f64]) {
         out.fill(0.0);
         let Some(axis) = dof.checked_sub(3) else {
             out[dof] = 1.0;
             return;
         };
-        // During a rotation about e_a, the next axes b and c change at the rates c and −b.
+        // For a rotation about e_a, the rates of the other two axes b and c are c and −b.
         let (b, c) = ((axis + 1) % 3, (axis + 2) % 3);
         for (row, out) in pose.rot.iter().zip(out[3..].chunks_exact_mut(3)) {
             (out[b], out[c]) = (row[c], -row[b]);

@@ -1,35 +1,35 @@
-//! Spatial bodies in kernels: poses and twists, and directions and axes that are fixed in a body.
-//! Kernels do not use the coordinates of the whole system.
+//! Poses and twists of spatial bodies, and directions and axes fixed in a body, as the arguments of
+//! kernels. Kernels do not use the coordinates of the whole system.
 //!
-//! A body rotates by a matrix R, from its frame to the ground. Its angular velocity ω has
-//! components in the **frame of the body**: `Ṙ = R·[ω]×`. Velocities of origins have ground
-//! components.
+//! The rotation of a body is given by a matrix R, which transforms vectors from the body frame to
+//! the ground frame. The components of its angular velocity ω are in the **frame of the body**:
+//! `Ṙ = R·[ω]×`. The components of the velocity of the origin are in ground axes.
 
 use crate::ring::Ring;
 
 pub use crate::generated::space3::*;
 
-/// Number of velocity degrees of freedom of a spatial body: x, y, z, then the rotation about the
-/// axes of its frame.
+/// Number of velocity components of a spatial body: x, y, z, then the rotations about the axes of
+/// the body frame.
 pub const N_DOF: usize = 6;
 
 /// Position and rotation of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose<T = f64> {
-    /// Ground components of the frame's origin (m).
+    /// Ground components of the position of the origin of the body frame (m).
     pub r: [T; 3],
-    /// R, by rows: column k is the k-th axis of the frame in ground components.
+    /// R, by rows; column k is the k-th axis of the body frame in ground components.
     pub rot: [[T; 3]; 3],
 }
 
 impl Pose<f64> {
-    /// The pose of the ground: the global frame.
+    /// The pose of the ground, whose frame is the ground frame.
     pub const GROUND: Self = Self {
         r: [0.0; 3],
         rot: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
     };
 
-    /// The pose with this position and this quaternion (w, x, y, z); the quaternion may have any
+    /// Returns the pose with this position and this quaternion (w, x, y, z), which may have any
     /// length except zero.
     ///
     /// ```
@@ -47,32 +47,32 @@ impl Pose<f64> {
         }
     }
 
-    /// The local coordinates of a global point: `Rᵀ·(p − r)`.
+    /// Converts a point from ground coordinates to body coordinates: `Rᵀ·(p − r)`.
     #[must_use]
     pub fn to_local(&self, p: [f64; 3]) -> [f64; 3] {
         self.direction_to_local(std::array::from_fn(|k| p[k] - self.r[k]))
     }
 
-    /// The global coordinates of a point of the body: `r + R·s`.
+    /// Converts a point from body coordinates to ground coordinates: `r + R·s`.
     #[must_use]
     pub fn to_global(&self, s: [f64; 3]) -> [f64; 3] {
         let arm = self.direction_to_global(s);
         std::array::from_fn(|k| self.r[k] + arm[k])
     }
 
-    /// The local components of a global vector: `Rᵀ·v`.
+    /// Converts a vector from ground components to body components: `Rᵀ·v`.
     #[must_use]
     pub fn direction_to_local(&self, v: [f64; 3]) -> [f64; 3] {
         std::array::from_fn(|k| dot(std::array::from_fn(|row| self.rot[row][k]), v))
     }
 
-    /// The global components of a vector of the body: `R·v`.
+    /// Converts a vector from body components to ground components: `R·v`.
     #[must_use]
     pub fn direction_to_global(&self, v: [f64; 3]) -> [f64; 3] {
         self.rot.map(|row| dot(row, v))
     }
 
-    /// The same pose in another number type.
+    /// Returns the same pose in another number type.
     #[must_use]
     pub fn cast<T: Ring>(&self) -> Pose<T> {
         Pose {
@@ -82,8 +82,8 @@ impl Pose<f64> {
     }
 }
 
-/// |e|²·R of the quaternion e = (w, x, y, z), by rows: polynomials of second degree, so that the
-/// result is a rotation, times |e|², for any length of e except zero.
+/// Returns |e|²·R (by rows) for the quaternion e = (w, x, y, z). The entries are polynomials of
+/// second degree; for any length of e except zero, the result is |e|² times a rotation matrix.
 #[must_use]
 pub fn rotation<T: Ring>([w, x, y, z]: [T; 4]) -> [[T; 3]; 3] {
     let twice = |a: T| a + a;
@@ -97,17 +97,17 @@ pub fn rotation<T: Ring>([w, x, y, z]: [T; 4]) -> [[T; 3]; 3] {
     ]
 }
 
-/// Velocity of a body, or any other derivative along its six degrees of freedom.
+/// Velocity of a body, or any other derivative with these six components.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist<T = f64> {
-    /// Ground components of the velocity of the frame's origin (m/s).
+    /// Ground components of the velocity of the origin of the body frame (m/s).
     pub v: [T; 3],
-    /// Components of the angular velocity in the frame of the body (rad/s).
+    /// Components of the angular velocity in the body frame (rad/s).
     pub omega: [T; 3],
 }
 
 impl<T: Ring> Twist<T> {
-    /// A body at rest.
+    /// Returns the twist of a body at rest.
     #[must_use]
     pub fn zero() -> Self {
         let zero = [T::from(0.0); 3];
@@ -123,14 +123,14 @@ impl<T: Ring> Twist<T> {
 pub struct Direction([f64; 3]);
 
 impl Direction {
-    /// The direction of the frame's x-axis.
+    /// The direction of the x-axis of the frame.
     pub const X: Self = Self([1.0, 0.0, 0.0]);
-    /// The direction of the frame's y-axis.
+    /// The direction of the y-axis of the frame.
     pub const Y: Self = Self([0.0, 1.0, 0.0]);
-    /// The direction of the frame's z-axis.
+    /// The direction of the z-axis of the frame.
     pub const Z: Self = Self([0.0, 0.0, 1.0]);
 
-    /// The direction of `v`; `None` if `v` is zero or not finite.
+    /// Returns the direction of `v`; `None` if `v` is zero or not finite.
     #[must_use]
     pub fn new(v: impl Into<[f64; 3]>) -> Option<Self> {
         let v = v.into();
@@ -144,42 +144,43 @@ impl Direction {
         Some(Self(v.map(|x| x / length)))
     }
 
-    /// Sets components as returned by `Definition::data`, possibly with small changes, without
-    /// normalisation: a derivative with respect to a component leaves the unit sphere. For
-    /// generated code.
+    /// Creates a direction from the components that `Definition::data` returns, possibly with small
+    /// changes, without normalisation. A derivative with respect to one component needs a vector
+    /// outside the unit sphere. For generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn from_data(xyz: [f64; 3]) -> Self {
         Self(xyz)
     }
 
-    /// Components of the direction.
+    /// Returns the components of the direction.
     #[must_use]
     pub fn xyz(self) -> [f64; 3] {
         self.0
     }
 }
 
-/// Three orthonormal directions u, v, w of a body, right-handed: w is the axis of a joint, u and v
-/// are perpendicular to it.
+/// Three orthonormal directions u, v, w fixed in a body, right-handed; w is the axis of a joint, u
+/// and v are perpendicular to it.
 ///
-/// As data they are one quantity, which can only rotate. Its three numbers are the components of a
-/// rotation vector in the frame of the body (rad); they are zero for the stored axes.
+/// As data they are one quantity, whose only possible change is a rotation. The three values of
+/// this quantity are the components of a rotation vector in the body frame (rad); they are zero for
+/// the stored axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes([[f64; 3]; 3]);
 
-/// Smallest sine of the angle between an axis and the direction across it: at 1e-6, the directions
-/// across keep ten digits.
+/// Smallest sine of the angle between an axis and the direction that should be perpendicular to it;
+/// at 1e-6, the perpendicular directions are accurate to ten digits.
 const LEAST_ANGLE: f64 = 1e-6;
 
 impl Axes {
     /// The axes of the frame.
     pub const FRAME: Self = Self([Direction::X.0, Direction::Y.0, Direction::Z.0]);
 
-    /// The axes with w along `axis` and u along the part of `across` that is perpendicular to the
-    /// axis. Without `across`, u is the coordinate axis with the smallest component along w, made
-    /// orthogonal to w. `None` if `axis` has length zero, or if the angle between `across` and the
-    /// axis is below 1e-6.
+    /// Returns the axes with w along `axis`, and with u along the part of `across` that is
+    /// perpendicular to w. Without `across`, u is computed from the coordinate axis with the
+    /// smallest component along w; it is made orthogonal to w. Returns `None` if `axis` has length
+    /// zero, or if the sine of the angle between `across` and the axis is below 1e-6.
     ///
     /// ```
     /// use pfaff_joints::space3::Axes;
@@ -203,7 +204,7 @@ impl Axes {
         if dot(across, across).sqrt() < LEAST_ANGLE {
             return None;
         }
-        // The second pass is needed because the first one leaves a rounding error relative to the
+        // The second pass is necessary: the rounding error of the first pass is relative to the
         // part that it removes.
         let u = Direction::new(across)?.0;
         let along = dot(u, w);
@@ -211,20 +212,21 @@ impl Axes {
         Some(Self([u, cross(w, u), w]))
     }
 
-    /// The directions u, v and w.
+    /// Returns the directions u, v and w.
     #[must_use]
     pub fn uvw(self) -> [[f64; 3]; 3] {
         self.0
     }
 
-    /// The same axes in the frame of another body; `map` converts each direction and must be a
-    /// rotation.
+    /// Returns the same axes in the frame of another body; `map` transforms each direction and must
+    /// be a rotation.
     #[must_use]
     pub fn map(self, map: impl FnMut([f64; 3]) -> [f64; 3]) -> Self {
         Self(self.0.map(map))
     }
 
-    /// The axes rotated by a rotation vector, in the frame of the body (rad). For generated code.
+    /// Returns the axes after a rotation by this rotation vector, given in the body frame (rad).
+    /// For generated code.
     #[doc(hidden)]
     #[must_use]
     pub fn turned(self, turn: [f64; 3]) -> Self {
@@ -232,7 +234,7 @@ impl Axes {
         if angle == 0.0 {
             return self;
         }
-        // sin(a)/a and (1 − cos a)/a².
+        // The coefficients sin(a)/a and (1 − cos a)/a².
         let half = (0.5 * angle).sin() / angle;
         let (first, second) = (angle.sin() / angle, 2.0 * half * half);
         self.map(|d| {
@@ -259,8 +261,8 @@ impl GroundPlane {
         along: Direction::X,
     };
 
-    /// The plane through a point and perpendicular to a vector; `None` if the vector is zero or not
-    /// finite.
+    /// Returns the plane through a point that is perpendicular to a vector; `None` if the vector is
+    /// zero or not finite.
     #[must_use]
     pub fn new(point: impl Into<[f64; 3]>, normal: impl Into<[f64; 3]>) -> Option<Self> {
         let normal = Direction::new(normal)?;
@@ -272,8 +274,8 @@ impl GroundPlane {
         })
     }
 
-    /// Sets point and normal as returned by `Definition::data`, without normalisation, see
-    /// [`Direction::from_data`]; the direction along the plane does not change.
+    /// Replaces point and normal by values that `Definition::data` returns, without normalisation;
+    /// see [`Direction::from_data`]. The direction along the plane does not change.
     #[doc(hidden)]
     #[must_use]
     pub fn with_data(self, point: [f64; 3], normal: [f64; 3]) -> Self {
@@ -284,20 +286,21 @@ impl GroundPlane {
         }
     }
 
-    /// The point.
+    /// Returns the point.
     #[must_use]
     pub fn point(&self) -> [f64; 3] {
         self.point
     }
 
-    /// The unit vector normal to the plane.
+    /// Returns the unit normal of the plane.
     #[must_use]
     pub fn normal(&self) -> Direction {
         self.normal
     }
 
-    /// A unit vector in the plane: the coordinate axis with the smallest component along the
-    /// normal, made orthogonal to it; x for the plane z = 0.
+    /// Returns a unit vector in the plane. It is computed from the coordinate axis with the
+    /// smallest component along the normal, made orthogonal to the normal; for the plane z = 0 it
+    /// is x.
     #[must_use]
     pub fn along(&self) -> Direction {
         self.along

@@ -1,41 +1,42 @@
-//! Specifications of definitions, as constants of the generated code, so that a scene reader, an
+//! Specifications of definitions, as constants of the generated code. With them, a scene reader, an
 //! assembler and a report can handle any joint.
 
 use std::fmt;
 use std::ops::Range;
 
-/// Common parts of the specifications of constraints and forces.
+/// What the specifications of constraints and forces have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct Spec {
     /// Name of the definition, for example `PinInSlot`.
     pub name: &'static str,
     /// Value of `type` in a scene file, for example `pin-in-slot`.
     pub scene_type: &'static str,
-    /// The key that distinguishes definitions with the same scene type, if there are several.
+    /// The key that distinguishes definitions with the same type in scenes, if there are several.
     pub variant: Option<Variant>,
-    /// The definition's doc comment.
+    /// The doc comment of the definition.
     pub doc: &'static str,
     /// The source text of the definition.
     pub text: &'static str,
-    /// Names of the body slots, for example `["i", "j"]`.
+    /// Names of the bodies in the definition, for example `["i", "j"]`.
     pub slots: &'static [&'static str],
     /// Parameters, in the order of their arguments.
     pub parameters: &'static [Parameter],
     /// Whether a scene gives one common reference point (`at = [x, y]`) or one point for each point
     /// parameter.
     pub points_apart: bool,
-    /// Whether two joints that a scene names define the bodies, points and axes of the definition,
-    /// except the last point. The first two slots are wheels, and each of the joints supports one
-    /// of them on the body in the third slot. The first point and the first axes in the third slot
-    /// belong to the first bearing, the second ones to the second bearing. The third point is the
-    /// reference point.
+    /// Whether the bodies, points and axes of the definition, except the last point, are taken from
+    /// two joints whose names the scene gives. The first two bodies are wheels; each of the two
+    /// joints supports one of them on the third body, the carrier. On the carrier, the first point
+    /// and the first axes belong to the first joint, the second ones to the second joint. The third
+    /// point is the reference point.
     pub bearings: bool,
-    /// Requirements on the assembled start, as text, in the order of `requirement`.
+    /// Requirements for the assembled initial configuration, as texts, in the order of
+    /// `requirement`.
     pub requirements: &'static [&'static str],
 }
 
 impl Spec {
-    /// The slots of the bodies in whose frames the points are given, in the order of the points.
+    /// Returns for each point the index of the body in whose frame it is given.
     pub fn slots_of_points(&self) -> impl Iterator<Item = usize> + use<> {
         self.parameters.iter().filter_map(|p| match p.shape {
             Shape::Point { slot } => Some(slot),
@@ -43,7 +44,7 @@ impl Spec {
         })
     }
 
-    /// Units of the functions of time that the kernels use, in the order of `f`.
+    /// Returns name and unit of the functions of time that the kernels use, in the order of `f`.
     pub fn functions(&self) -> impl Iterator<Item = (&'static str, Unit)> + use<> {
         self.parameters.iter().flat_map(|p| {
             let units = match p.shape {
@@ -55,7 +56,7 @@ impl Spec {
     }
 }
 
-/// The key that distinguishes definitions of one scene type.
+/// The key that distinguishes definitions with the same type in scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variant {
     /// Name of the key.
@@ -73,7 +74,8 @@ pub struct Parameter {
     pub name: &'static str,
     /// Kind of the value.
     pub shape: Shape,
-    /// Whether the parameter may be omitted: then its value at the assembled start is used.
+    /// Whether the parameter may be omitted; its value is then taken from the assembled initial
+    /// configuration.
     pub optional: bool,
     /// Doc comment of the parameter: its purpose in one sentence. Frame and unit follow from the
     /// shape.
@@ -81,7 +83,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// A parameter that must be given.
+    /// Creates a parameter that must be given.
     #[must_use]
     pub const fn required(name: &'static str, shape: Shape, doc: &'static str) -> Self {
         Self {
@@ -92,7 +94,8 @@ impl Parameter {
         }
     }
 
-    /// A parameter that may be omitted: then its value at the assembled start is used.
+    /// Creates a parameter that may be omitted; its value is then taken from the assembled initial
+    /// configuration.
     #[must_use]
     pub const fn optional(name: &'static str, shape: Shape, doc: &'static str) -> Self {
         Self {
@@ -107,22 +110,23 @@ impl Parameter {
 /// Kind of value of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
-    /// A point in the frame of the body in this slot.
+    /// A point in the frame of the body with this index.
     Point {
-        /// The slot.
+        /// Index of the body.
         slot: usize,
     },
-    /// A direction in the frame of the body in this slot.
+    /// A direction in the frame of the body with this index.
     Direction {
-        /// The slot.
+        /// Index of the body.
         slot: usize,
     },
-    /// An axis of space in the frame of the body in this slot, with the directions across it.
+    /// An axis in space in the frame of the body with this index, and the directions perpendicular
+    /// to it.
     Axes {
-        /// The slot.
+        /// Index of the body.
         slot: usize,
-        /// Index of the parameter to whose axes these are parallel at the described start, unless
-        /// they are given.
+        /// Index of another parameter with axes. Unless the parameter is given, its axes are
+        /// parallel to those axes in the described configuration.
         like: Option<usize>,
     },
     /// A straight line of the ground through two points.
@@ -136,7 +140,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Description of the shape, with as many coordinates as vectors have components.
+    /// Returns a description of the shape, in which points and vectors have `dim` components.
     #[must_use]
     pub fn words(self, dim: usize) -> impl fmt::Display {
         ShapeWords { shape: self, dim }
@@ -219,12 +223,12 @@ pub enum Unit {
     TorsionDamping,
     /// N/rad, not negative
     CorneringStiffness,
-    /// 1/m, only for values stored at the start
+    /// 1/m, only for stored initial values
     PerLength,
 }
 
 impl Unit {
-    /// Whether negative values are allowed.
+    /// Returns whether negative values are permitted.
     #[must_use]
     pub fn may_be_negative(self) -> bool {
         !matches!(
@@ -238,7 +242,7 @@ impl Unit {
         )
     }
 
-    /// Whether it is the unit of lengths.
+    /// Returns whether this is the unit of lengths.
     #[must_use]
     pub fn is_length(self) -> bool {
         matches!(self, Self::Length | Self::Radius)
@@ -268,35 +272,35 @@ impl fmt::Display for Unit {
 /// Specification of a constraint definition.
 #[derive(Clone, Copy, Debug)]
 pub struct ConstraintSpec {
-    /// The common parts of constraints and forces.
+    /// What constraints and forces have in common.
     pub common: Spec,
-    /// Joint, or drive of a joint coordinate.
+    /// Whether the constraint is a joint, or the drive of a joint coordinate.
     pub role: Role,
     /// Rows: `Φ(q, t) = 0`, then `Ψ(q, t)·q̇ + ψ(q, t) = 0`.
     pub rows: &'static [Row],
     /// Number of holonomic rows; they are the first rows.
     pub holonomic: usize,
-    /// Entries of the block of C that are not identically zero, row by row.
+    /// Entries of the block of C that are not identically zero, in the order of the rows.
     pub c: &'static [Entry],
-    /// Whether the constraint depends on time explicitly, so that b is not identically zero.
+    /// Whether the constraint depends explicitly on time, so that b is not identically zero.
     pub rheonomic: bool,
     /// Entries (component, row) of the map from multipliers to the wrench on the first body that
     /// are not identically zero.
     pub wrench: &'static [[usize; 2]],
-    /// A named force component in addition to the components of the wrench.
+    /// A component of the reaction that has a name, in addition to the components of the wrench.
     pub component: Option<&'static str>,
-    /// A note for readers of the reaction, without the name of the joint.
+    /// A note about the meaning of the reaction for reports, without the name of the joint.
     pub note: Option<&'static str>,
-    /// Relative coordinates that a drive may prescribe.
+    /// Joint coordinates that a drive may prescribe.
     pub measures: &'static [Measure],
-    /// Whether kernels use the cosine and the sine of the function of time instead of the function
-    /// itself, each with two derivatives: drives of angles in space.
+    /// Whether the kernels receive the cosine and the sine of the function of time, each with two
+    /// derivatives, in place of the function. This is the case for drives of angles in space.
     pub turning: bool,
-    /// Number of angles of space that the kernels receive with their full revolutions. Each has
-    /// three values after the functions of time: the angle since the start, its cosine and its
-    /// sine; their derivatives are not used.
+    /// Number of angles in space that the kernels receive including full revolutions. For each
+    /// angle, the kernels receive three values after the functions of time: the angle since the
+    /// start, its cosine and its sine. The derivatives of these values are not used.
     pub turns: usize,
-    /// Pattern (row of the block, column of the block) of `∂(Cᵀλ)/∂x`.
+    /// Pattern of `∂(Cᵀλ)/∂x`: pairs of row and column of the block.
     pub d_force_dx: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂(C·a − Γ)/∂x`.
     pub d_residual_dx: &'static [[usize; 2]],
@@ -304,13 +308,13 @@ pub struct ConstraintSpec {
     pub d_gamma_dv: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂(C·v − b)/∂x`.
     pub d_velocity_dx: &'static [[usize; 2]],
-    /// The numbers that the constraint stores: parameters, followed by values stored at the start.
-    /// Each number that is not computed from others belongs to exactly one datum.
+    /// The values that the constraint stores: parameters, followed by initial values. Each value
+    /// that is not computed from others belongs to exactly one datum.
     pub data: &'static [Datum],
 }
 
 impl ConstraintSpec {
-    /// Number of values in `data`.
+    /// Returns the number of values in `data`.
     #[must_use]
     pub const fn n_data(&self) -> usize {
         match self.data {
@@ -319,35 +323,36 @@ impl ConstraintSpec {
         }
     }
 
-    /// Number of values with derivatives in the input `f` of the kernels: functions of time, of
-    /// which one may be replaced by its cosine and sine, and three for each unwrapped angle.
+    /// Returns the number of elements of the argument `f` of the kernels. These are the functions
+    /// of time, of which one may be replaced by its cosine and sine, and three for each unwrapped
+    /// angle.
     #[must_use]
     pub fn n_jets(&self) -> usize {
         self.common.functions().count() + usize::from(self.turning) + 3 * self.turns
     }
 
-    /// Number of nonholonomic rows, which follow the holonomic ones.
+    /// Returns the number of nonholonomic rows, which come after the holonomic ones.
     #[must_use]
     pub const fn nonholonomic(&self) -> usize {
         self.rows.len() - self.holonomic
     }
 }
 
-/// Numbers stored by a constraint that belong together: a point, a direction, or a single number.
+/// Values stored by a constraint that belong together: a point, a direction, or a scalar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Datum {
-    /// Name of the parameter or of the stored value; `name[k]` for one number of a list.
+    /// Name of the parameter or of the initial value; `name[k]` for one entry of a list.
     pub name: &'static str,
-    /// Kind of the numbers.
+    /// Kind of the values.
     pub shape: DatumShape,
-    /// Index of the first number among the numbers of the constraint.
+    /// Index of the first of these values among all values of the constraint.
     pub first: usize,
-    /// Count of the numbers.
+    /// Number of values.
     pub count: usize,
 }
 
 impl Datum {
-    /// The datum with `count` numbers from `first` on.
+    /// Creates the datum with `count` values, the first of which has the index `first`.
     #[must_use]
     pub const fn new(name: &'static str, shape: DatumShape, first: usize, count: usize) -> Self {
         Self {
@@ -358,47 +363,49 @@ impl Datum {
         }
     }
 
-    /// Indices of the numbers among the numbers of the constraint.
+    /// Returns the indices of these values among all values of the constraint.
     #[must_use]
     pub fn numbers(&self) -> Range<usize> {
         self.first..self.first + self.count
     }
 }
 
-/// Kind of the numbers of a datum.
+/// Kind of the values of a datum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DatumShape {
-    /// As many numbers as a vector has components: a point in the frame of the body in this slot
-    /// (m).
+    /// A point in the frame of the body with this index (m); it has as many values as the space has
+    /// dimensions.
     Point {
-        /// The slot.
+        /// Index of the body.
         slot: usize,
     },
-    /// Components of a unit vector in the frame of the body in this slot. Only changes
+    /// Components of a unit vector in the frame of the body with this index. Only changes
     /// perpendicular to the vector are meaningful.
     Direction {
-        /// The slot.
+        /// Index of the body.
         slot: usize,
     },
-    /// Three numbers: the rotation vector of axes in the frame of the body in this slot (rad); they
-    /// are zero for the stored axes.
+    /// Three values: the rotation vector of axes in the frame of the body with this index (rad); it
+    /// is zero for the stored axes.
     Axes {
-        /// The slot.
+        /// Index of the body.
         slot: usize,
     },
-    /// Four numbers: x and y of the start of a line of the ground (m), and of the unit vector of
-    /// the line.
+    /// Four values: x and y of the start of a line of the ground (m), and the components of the
+    /// unit vector along the line.
     Line,
-    /// Six numbers: a point of a plane of the ground (m), and its unit normal.
+    /// Six values: a point of a plane of the ground (m), and the unit normal of the plane.
     Plane,
-    /// One number. An optional number that is not given has its value at the start.
+    /// A scalar parameter. An optional parameter that is not given has the value of the assembled
+    /// initial configuration.
     Number(Unit),
-    /// One number stored at the start; an angle that is stored by its cosine and sine has the value
-    /// 0 for the stored angle.
+    /// A scalar initial value. An angle that is stored by its cosine and sine has the value 0 for
+    /// the stored angle.
     Kept(Unit),
-    /// Components, in the frame of the body in this slot, of a vector stored at the start (m).
+    /// Components of a vector stored as an initial value (m), in the frame of the body with this
+    /// index.
     KeptVector {
-        /// The slot.
+        /// Index of the body.
         slot: usize,
     },
 }
@@ -415,15 +422,15 @@ pub enum Role {
 /// One row of a constraint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Name of the row within the joint.
+    /// Name of the row; it is unique within the joint.
     pub name: &'static str,
-    /// Whether the row restricts the start: a row that stores an initial value is satisfied at any
-    /// start.
+    /// Whether the row restricts the initial configuration. A row that stores an initial value does
+    /// not, because every initial configuration satisfies it.
     pub restricts_start: bool,
 }
 
 impl Row {
-    /// A row that restricts the start.
+    /// Creates a row that restricts the initial configuration.
     #[must_use]
     pub const fn restricting_start(name: &'static str) -> Self {
         Self {
@@ -432,7 +439,7 @@ impl Row {
         }
     }
 
-    /// A row that stores an initial value.
+    /// Creates a row that stores an initial value.
     #[must_use]
     pub const fn keeping_start(name: &'static str) -> Self {
         Self {
@@ -445,11 +452,11 @@ impl Row {
 /// One entry of the block of C.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Row of the constraint.
+    /// Index of the row in the constraint.
     pub row: usize,
-    /// Body slot.
+    /// Index of the body in the list of bodies.
     pub slot: usize,
-    /// Degree of freedom of the body: 0 x, 1 y, 2 rotation in the plane; 0 x, 1 y, 2 z, 3 to 5
+    /// Velocity component of the body: 0 x, 1 y, 2 rotation in the plane; 0 x, 1 y, 2 z, 3 to 5
     /// rotations in space.
     pub dof: usize,
     /// Whether the entry depends only on parameters.
@@ -457,7 +464,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// An entry that depends only on parameters.
+    /// Creates an entry that depends only on parameters.
     #[must_use]
     pub const fn constant(row: usize, slot: usize, dof: usize) -> Self {
         Self {
@@ -468,7 +475,7 @@ impl Entry {
         }
     }
 
-    /// An entry that depends on the configuration.
+    /// Creates an entry that depends on the configuration.
     #[must_use]
     pub const fn varying(row: usize, slot: usize, dof: usize) -> Self {
         Self {
@@ -480,20 +487,20 @@ impl Entry {
     }
 }
 
-/// A relative coordinate that a drive may prescribe.
+/// A joint coordinate that a drive may prescribe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measure {
-    /// Value of a drive's `type` in a scene file.
+    /// Value of the key `type` of the drive in a scene file.
     pub name: &'static str,
-    /// Name of the definition of the driven rows.
+    /// Name of the definition of the drive.
     pub drive: &'static str,
-    /// Whether the rows of the joint keep the coordinate at its initial value, so that the driven
-    /// rows replace them.
+    /// Whether the rows of the joint keep the coordinate at its initial value; in this case, the
+    /// rows of the drive replace them.
     pub is_kept: bool,
 }
 
 impl Measure {
-    /// A joint coordinate and the definition of its drive.
+    /// Creates a joint coordinate with the definition of its drive.
     #[must_use]
     pub const fn new(name: &'static str, drive: &'static str) -> Self {
         Self {
@@ -503,8 +510,8 @@ impl Measure {
         }
     }
 
-    /// A joint coordinate that the rows of the joint keep constant, and the definition of its
-    /// drive.
+    /// Creates a joint coordinate that the rows of the joint keep constant, with the definition of
+    /// its drive.
     #[must_use]
     pub const fn kept(name: &'static str, drive: &'static str) -> Self {
         Self {
@@ -517,19 +524,19 @@ impl Measure {
 /// Specification of a force definition.
 #[derive(Clone, Copy, Debug)]
 pub struct ForceSpec {
-    /// The parts in common with constraints.
+    /// What constraints and forces have in common.
     pub common: Spec,
     /// Columns of the block of Q that are not identically zero.
     pub q: &'static [usize],
-    /// Pattern (row, column of the block) of `∂Q/∂x`.
+    /// Pattern of `∂Q/∂x`: pairs of row and column of the block.
     pub dq_dx: &'static [[usize; 2]],
-    /// Pattern (row, column of the block) of `∂Q/∂v`.
+    /// Pattern of `∂Q/∂v`: pairs of row and column of the block.
     pub dq_dv: &'static [[usize; 2]],
     /// Whether the force depends on velocities.
     pub dissipative: bool,
-    /// Number of angles of space that the force receives with their full revolutions, like
+    /// Number of angles in space that the kernels receive including full revolutions; see
     /// [`ConstraintSpec::turns`].
     pub turns: usize,
-    /// Whether the force depends on time explicitly.
+    /// Whether the force depends explicitly on time.
     pub rheonomic: bool,
 }

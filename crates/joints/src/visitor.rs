@@ -1,19 +1,19 @@
-//! Iteration over definitions with their types: registries, test harnesses and benchmarks visit
-//! every definition without its name.
+//! Iteration over all definitions as types. Registries, test harnesses and benchmarks visit the
+//! definitions without using their names.
 
 use crate::constraint::Constraint;
 use crate::force::Force;
 use crate::space::{Plane, Space};
 
-/// Receives definitions of one space; [`crate::plane_constraints`], [`crate::plane_forces`],
-/// [`crate::space3::constraints`] and [`crate::space3::forces`] call it with the definitions of the
-/// library.
+/// Receives the definitions of one space. [`crate::plane_constraints`], [`crate::plane_forces`],
+/// [`crate::space3::constraints`] and [`crate::space3::forces`] call the visitor for the
+/// definitions of the library.
 pub trait Visitor<S: Space = Plane> {
-    /// Receives a constraint definition. Its drives are passed separately, through
+    /// Receives a constraint definition. The drives of the constraint are passed separately, by
     /// [`Constraint::visit_drives`].
     fn constraint<K: Constraint<S>>(&mut self);
 
-    /// Receives the driven rows of a joint coordinate.
+    /// Receives the definition of the drive of a joint coordinate.
     fn drive<K: Constraint<S>>(&mut self);
 
     /// Receives a force definition.

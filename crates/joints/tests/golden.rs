@@ -1,9 +1,10 @@
-//! Φ, velocity rows and forces compared with tables computed by hand. There is one file for each
-//! definition in `tests/golden`, and for space in its folder `space`. No derivative detects a wrong
-//! sign, a wrong axis or a missing row.
+//! Compares Φ, velocity rows and forces with tables that were computed by hand. There is one file
+//! for each definition in `tests/golden`; those for space are in the folder `space`. These tests
+//! are necessary because checks of derivatives do not detect a wrong sign, a wrong axis or a
+//! missing row.
 //!
-//! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the derivation of the
-//! numbers is in its comments.
+//! A file contains at least three poses with `phi`, `velocity` (C·v − b) or `q`; the derivation of
+//! the values is in the comments of the file.
 
 mod table;
 
@@ -13,10 +14,11 @@ use approx::{abs_diff_eq, assert_abs_diff_eq};
 use pfaff_joints::{Constraint, Definition, Force, ForceElement, Plane, Space3, Visitor};
 use table::{Golden, Tabled, read};
 
-/// Smallest number of poses that determine Φ, a velocity row or a force.
+/// Smallest number of poses that are sufficient to determine Φ, a velocity row or a force.
 const POSES: usize = 3;
 
-/// Numbers in the tables are at most of the order of 100 and result from about ten roundings.
+/// Values in the tables are at most about 100, and the computed values contain about ten rounding
+/// errors.
 const TOLERANCE: f64 = 1e-13;
 
 #[test]
@@ -136,7 +138,7 @@ fn constraint<K: Constraint<S>, S: Tabled>(golden: &Golden, place: &str) {
     compare(golden.place.as_ref(), point.as_ref(), place, "the place");
 }
 
-/// Returns cosine and sine of an angle, each with two derivatives.
+/// Returns the cosine and the sine of an angle, each with two derivatives.
 fn turn([f, f_t, f_tt]: [f64; 3]) -> [[f64; 3]; 2] {
     let (sin, cos) = f.sin_cos();
     [
@@ -180,8 +182,8 @@ fn requirements(golden: &Golden, place: &str, holds: impl Fn(usize) -> bool) {
     }
 }
 
-/// A spring of free length zero is linear in d, even if its points coincide: ∂Q/∂x is the stiffness
-/// there, although d has no direction.
+/// The force of a spring with free length zero is linear in d, also if the points of the spring
+/// coincide. Then ∂Q/∂x is the stiffness, although the direction of d is not defined.
 #[test]
 fn a_spring_of_free_length_zero_keeps_its_stiffness_at_length_zero() {
     use pfaff_joints::generated::SpringDamper;

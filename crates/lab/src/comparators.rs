@@ -1,16 +1,16 @@
-//! Other methods to compute a motion: formulations as right-hand sides over [`model::System`], and
-//! two methods with their own steps.
+//! Reference methods to compute a motion: formulations that provide right-hand sides for a
+//! [`model::System`], and two integration methods with their own step control.
 //!
-//! Each method is short, uses dense matrices and has no monitors. The rank is the rank at the start
-//! and is never computed again.
+//! Each method is short, uses dense matrices and has no monitors. The rank of C is computed at the
+//! initial state only.
 //!
 //! | module | content |
 //! | --- | --- |
 //! | [`mod@equations`] | the differential equation, with Baumgarte stabilisation or projection |
 //! | `kept_rows`, `null_space`, `minimum_norm`, `proximal` | accelerations from the saddle equations |
 //! | `stepping` | the loop of steps for `gbs` and `generalized_alpha` |
-//! | `way` | the combination of formulation, method, and treatment of drift |
-//! | `run` | from a prepared mechanism to rows at given times |
+//! | `way` | combinations of formulation, method, and treatment of drift |
+//! | `run` | runs of a prepared mechanism, with output rows at given times |
 
 pub mod equations;
 mod gbs;
@@ -48,7 +48,7 @@ pub struct Saddle<'a> {
     pub gamma: &'a [f64],
 }
 
-/// A solver of these equations for a matrix C with dependent rows.
+/// A solver of the saddle-point equations for a matrix C with dependent rows.
 pub trait Solver {
     /// Writes accelerations (n) and multipliers of all rows (m).
     ///
@@ -57,20 +57,20 @@ pub trait Solver {
     fn solve(&mut self, at: &Saddle<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Fault>;
 }
 
-/// The reason why a comparator stops.
+/// The reason why a reference method stops.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Fault {
     /// The equations of the independent rows have no solution.
     #[error(transparent)]
     Saddle(#[from] SaddleError),
-    /// Rows that were independent at the start became dependent.
+    /// Rows that were independent at the initial state became dependent.
     #[error("the constraints have lost their rank {rank} of the start")]
     RankLost {
-        /// The rank at the start.
+        /// The rank at the initial state.
         rank: usize,
     },
-    /// A motion that the constraints allow moves no mass.
+    /// The constraints allow a motion that moves no mass.
     #[error("a motion that the constraints allow moves no mass")]
     Massless,
     /// Corrections of the position do not converge.
@@ -79,10 +79,10 @@ pub enum Fault {
         /// Time (s).
         time: f64,
     },
-    /// A force has no derivatives, which the method needs.
+    /// The method needs derivatives of the forces, but a force has no derivatives.
     #[error(transparent)]
     Called(#[from] CalledForce),
-    /// Newton's iterations of an implicit step do not converge.
+    /// Newton's method does not converge in an implicit step.
     #[error("the equations of a step cannot be solved")]
     Newton,
     /// The steps became too short.

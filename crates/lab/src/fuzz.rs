@@ -1,10 +1,10 @@
 //! Tests random and damaged scenes, each with check, analyze and a short simulate. For any text,
-//! the required result is a consistent answer or an error with a message: no panic, no endless
-//! loop, no growth of memory, no contradicting numbers.
+//! the required result is a consistent answer or an error with a message. A panic, an endless loop,
+//! growing memory, or contradicting values are failures.
 //!
 //! An input is a function of the seed and its number, so no input needs to be stored. Child
-//! processes test the inputs, and their parent supervises them: stack overflows, exhausted memory
-//! and endless loops are found as well as panics.
+//! processes test the inputs under the supervision of a parent process. Therefore stack overflows,
+//! exhausted memory and endless loops are detected, as well as panics.
 //!
 //! | module | content |
 //! | --- | --- |
@@ -18,7 +18,7 @@
 //! | [`passages`] | parallelograms at their singular configurations, compared with closed forms |
 //! | [`forms`] | common zeros of quadratic forms, compared with a decision in integers |
 //! | [`mod@exact`] | degenerate scenes, compared with exact arithmetic |
-//! | [`numbers`] | random motions: whether determined numbers are the same in all solutions |
+//! | [`numbers`] | random motions: whether determined values are the same in all solutions |
 //! | [`space`] | mechanisms in space with planted redundancy, compared with exact arithmetic |
 
 pub mod campaign;

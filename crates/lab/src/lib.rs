@@ -5,7 +5,7 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`comparators`] | other formulations of redundancy and other methods, for comparison with pfaff |
-//! | [`mod@work_precision`] | the comparators in the table of the methods of pfaff, and the cases of the suite |
+//! | [`mod@work_precision`] | error and run time of the reference methods and of pfaff |
 //! | [`fuzz`] | random, damaged and degenerate scenes, tested for consistency and by exact arithmetic |
 //! | [`stress`] | stiff and extreme cases, each with its known answer |
 //! | [`mechanisms`] | mechanisms that cases and tests use |

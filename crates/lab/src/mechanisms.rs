@@ -1,4 +1,4 @@
-//! Mechanisms that cases and tests use, built with the library only, without scene files.
+//! Mechanisms for cases and tests, built with the library only, without scene files.
 
 pub mod cranks;
 pub mod robot;
@@ -8,7 +8,7 @@ pub mod space;
 use joints::{Pose, Revolute};
 use model::{Body, BodyRef, Joint};
 
-/// Returns the pose of a body or the ground at the described start.
+/// Returns the pose of a body or the ground at the described initial state.
 fn pose(bodies: &[Body], body: BodyRef) -> Pose {
     match body {
         BodyRef::Ground => Pose::GROUND,
@@ -16,7 +16,7 @@ fn pose(bodies: &[Body], body: BodyRef) -> Pose {
     }
 }
 
-/// Returns a revolute joint at a global point of the described start.
+/// Returns a revolute joint at a global point of the described initial state.
 pub fn revolute(name: &str, bodies: &[Body], pair: [BodyRef; 2], at: [f64; 2]) -> Joint {
     let [s_i, s_j] = pair.map(|b| pose(bodies, b).to_local(at));
     Joint::new(name, &pair, Revolute { s_i, s_j })

@@ -1,6 +1,6 @@
-//! Stiff and extreme cases, each with its known answer: a bound with its source, or the error that
-//! must occur. The known answers come from closed forms, published values, another derivation or
-//! exact arithmetic, never from the code under test.
+//! Stiff and extreme cases, each with its known answer: an error bound with its source, or the
+//! error message that must occur. The known answers come from closed forms, published values,
+//! another derivation or exact arithmetic, never from the code under test.
 //!
 //! ```
 //! use std::num::NonZeroUsize;
@@ -12,12 +12,12 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`mod@case`] | a case with its known answer; a family of cases |
+//! | [`mod@case`] | a case with its known answer, and families of cases |
 //! | [`mod@judge`] | whether an outcome is correct |
-//! | [`mod@run`] | many cases on some threads, each with a time limit |
-//! | [`motion`] | runs of scenes up to the last row of their motion, by every method |
+//! | [`mod@run`] | runs of many cases on several threads, each case with a time limit |
+//! | [`motion`] | runs of scenes up to the last output row, by every method |
 //! | [`mod@families`] | the list of families, each in a separate file |
-//! | [`document`], `table`, `figure`, `page` | the outcomes, for readers and scripts |
+//! | [`document`], `table`, `figure`, `page` | output of the outcomes, for readers and scripts |
 
 pub mod case;
 pub mod document;

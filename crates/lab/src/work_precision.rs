@@ -1,5 +1,5 @@
-//! Compares error and run time: the comparators as rivals of the methods of pfaff, and cases of the
-//! suite as scenes with a known motion.
+//! Compares error and run time of the reference methods and of the methods of pfaff. Cases of the
+//! suite are scenes with a known motion.
 
 use std::time::Duration;
 
@@ -14,8 +14,9 @@ use suite::{Case, Quantity};
 
 use crate::comparators::{Comparator, Drift, Fault, Formulation, Method, run_within};
 
-/// Returns the combinations that are compared with those of pfaff: every method on independent rows
-/// with projection, and with one of the methods every formulation and every treatment of drift.
+/// Returns the combinations that are compared with the methods of pfaff: every method with
+/// independent rows and projection, and one method with every formulation and every treatment of
+/// drift.
 #[must_use]
 pub fn ways() -> Vec<Comparator> {
     let way = |formulation, method, drift| Comparator {
@@ -27,7 +28,7 @@ pub fn ways() -> Vec<Comparator> {
     let own = [Method::Gbs, Method::GeneralizedAlpha].map(|m| way(kept, m, projected));
     let others = Formulation::ALL.map(|f| way(f, Method::Dop853, projected));
     let pulled = way(kept, Method::Dop853, Drift::BAUMGARTE);
-    // Independent rows with the same method are already a curve of pfaff.
+    // The curve for independent rows with the same method already exists for pfaff.
     let others = others.into_iter().filter(|w| w.formulation != kept);
     own.into_iter().chain(others).chain([pulled]).collect()
 }

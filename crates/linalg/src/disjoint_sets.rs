@@ -1,6 +1,6 @@
-//! Disjoint sets of numbers, which can be merged in pairs.
+//! Disjoint sets of indices, which can be merged in pairs.
 
-/// The numbers below `n` in disjoint sets. Initially, each number is a separate set.
+/// The indices below `n` in disjoint sets. Initially, each index is a separate set.
 ///
 /// ```
 /// use pfaff_linalg::DisjointSets;
@@ -11,15 +11,15 @@
 /// ```
 ///
 /// Source: R. Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22 (1975)
-/// 215–225; here the paths are halved, and the smaller number is the representative.
+/// 215–225; here the paths are halved, and the smallest index of a set is its representative.
 #[derive(Clone, Debug)]
 pub struct DisjointSets {
-    /// A smaller number of the same set, or the number itself if it is the first of its set.
+    /// A smaller index of the same set, or the index itself if it is the first of its set.
     leader: Vec<usize>,
 }
 
 impl DisjointSets {
-    /// Creates as many sets as numbers.
+    /// Creates n sets of one index each.
     #[must_use]
     pub fn new(n: usize) -> Self {
         Self {
@@ -27,16 +27,16 @@ impl DisjointSets {
         }
     }
 
-    /// Merges the sets of two numbers.
+    /// Merges the sets of two indices.
     ///
     /// # Panics
-    /// Panics if one of them is not below `n`.
+    /// Panics if an index is not below `n`.
     pub fn join(&mut self, a: usize, b: usize) {
         let [a, b] = [a, b].map(|k| self.first(k));
         self.leader[a.max(b)] = a.min(b);
     }
 
-    /// Returns the first number of the set of `k`, and shortens the path to it.
+    /// Returns the first index of the set of `k`, and shortens the path to it.
     pub(crate) fn first(&mut self, mut k: usize) -> usize {
         while self.leader[k] != k {
             self.leader[k] = self.leader[self.leader[k]];
@@ -45,7 +45,7 @@ impl DisjointSets {
         k
     }
 
-    /// Returns the sets, each ascending, ordered by their first numbers.
+    /// Returns the sets, each in ascending order, sorted by their first indices.
     #[must_use]
     pub fn sets(mut self) -> Vec<Vec<usize>> {
         let mut sets = vec![Vec::new(); self.leader.len()];
@@ -61,7 +61,7 @@ impl DisjointSets {
 mod tests {
     use super::*;
 
-    /// Compares with reachability in the graph of the joined pairs, vertex by vertex.
+    /// Compares the sets with reachability in the graph of the joined pairs, vertex by vertex.
     #[test]
     fn sets_are_what_is_reachable() {
         const N: usize = 60;

@@ -1,9 +1,9 @@
 //! Double-double numbers: an unevaluated sum `hi + lo` of two `f64`, about 32 digits.
 //!
-//! The format is used for residuals and certificates. A singular value that is exactly zero
-//! decreases from 1e-16 to 1e-32 if it is recomputed in this format. A small nonzero singular value
-//! does not change. This is not a general number type: it has no transcendental functions, and no
-//! formatting of all digits.
+//! The format is used for residuals and certificates. The computed value of a singular value that
+//! is exactly zero decreases from 1e-16 to 1e-32 if it is recomputed in this format. A small
+//! nonzero singular value does not change. This is not a general numeric type: it has no
+//! transcendental functions, and no formatting of all digits.
 //!
 //! Products are split after Dekker instead of using `f64::mul_add`. Both are exact, so both give
 //! the same bits on every platform. However, on x86-64 without the FMA target feature `mul_add` is
@@ -113,7 +113,7 @@ impl Dd {
         if self.hi <= 0.0 || !self.hi.is_finite() {
             return Self::from(self.hi.sqrt());
         }
-        // One Newton step from the rounded root doubles its digits.
+        // One Newton step doubles the number of correct digits of the rounded root.
         let root = self.hi.sqrt();
         let left = self - Self::from_product(root, root);
         Self::from_pair(fast_two_sum(root, left.hi / (2.0 * root)))

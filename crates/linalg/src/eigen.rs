@@ -16,7 +16,7 @@ use vectors::Complex;
 use crate::limits::{BALANCED, BALANCINGS};
 use crate::{Matrix, PivotedQr, powers};
 
-/// An eigenvalue and its eigenvector; complex numbers as real and imaginary parts.
+/// An eigenvalue and its eigenvector. Complex values are stored as real and imaginary parts.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Eigenpair {
@@ -26,9 +26,9 @@ pub struct Eigenpair {
     pub vector: Vec<[f64; 2]>,
 }
 
-/// Returns all eigenvalues of a square matrix with finite entries, repeated by their multiplicity.
-/// They are sorted by real parts, the largest first, then by imaginary parts. Returns `None` if the
-/// iteration does not converge, or if an entry is not finite.
+/// Returns all eigenvalues of a square matrix with finite entries, each repeated by its
+/// multiplicity. They are sorted by real parts, the largest first, then by imaginary parts. Returns
+/// `None` if the iteration does not converge, or if an entry is not finite.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, eigenpairs};
@@ -119,7 +119,7 @@ pub fn zero_eigenvalue(a: &Matrix, tolerance: f64) -> ZeroEigenvalue {
     while rest.nrows() > 0 {
         let n = rest.nrows();
         let rows = PivotedQr::of_rows(rest.clone());
-        // NaN does not count for the rank.
+        // A pivot that is NaN does not count towards the rank.
         let rank = rows
             .r_diagonal()
             .take_while(|r| r.abs() > tolerance)
@@ -129,7 +129,7 @@ pub fn zero_eigenvalue(a: &Matrix, tolerance: f64) -> ZeroEigenvalue {
         }
         zero.multiplicity += n - rank;
         zero.index += 1;
-        // The rows span the complement of the null space: Qᵀ·A·Q has the other eigenvalues.
+        // The rows span the complement of the null space, so Qᵀ·A·Q has the remaining eigenvalues.
         let q = rows.q_columns(0..rank);
         rest = q.transpose().product(&rest.product(&q));
     }

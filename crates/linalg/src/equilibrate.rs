@@ -1,9 +1,10 @@
 //! Row and column equilibration by powers of two.
 //!
-//! Rank decisions compare singular values, which depend on units: metres and radians, 1e-8 m and
-//! 1e8 m. Equilibration replaces C by `D_r·C·D_c` with all row and column maxima near one. The
-//! factors are powers of two, so scaling is exact and the rank does not change. It is not intended
-//! for solving linear systems: the condition number is not considered.
+//! Rank decisions compare singular values, which depend on units, for example of lengths and
+//! angles, or of lengths of 1e-8 m and 1e8 m. Equilibration replaces C by `D_r·C·D_c` with all row
+//! and column maxima near one. The factors are powers of two, so scaling is exact and the rank does
+//! not change. It is not intended for solving linear systems: the condition number is not
+//! considered.
 //!
 //! Source of the iteration: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms
 //! in matrices, RAL-TR-2001-034 (2001), with the maximum norm.
@@ -40,9 +41,9 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
     ruiz((m, n), dense_exponents(c))
 }
 
-/// Works like [`equilibrate`], with one factor for each block of rows and each block of columns:
-/// the choice of axes of a body or of a joint must not affect the scaling of its components.
-/// `row_blocks` and `col_blocks` number the block of each row and column from 0.
+/// Works like [`equilibrate`], but with one factor for each block of rows and each block of
+/// columns, because the choice of axes of a body or of a joint must not affect the scaling of its
+/// components. `row_blocks` and `col_blocks` contain the index of the block of each row and column.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, equilibrate_blocks};
@@ -53,7 +54,7 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
 /// ```
 ///
 /// # Panics
-/// Panics if the number of blocks differs from that of rows or columns.
+/// Panics if the length of `row_blocks` or `col_blocks` is not the number of rows or columns.
 pub fn equilibrate_blocks(c: &Matrix, row_blocks: &[usize], col_blocks: &[usize]) -> Scaling {
     assert_eq!(
         (c.nrows(), c.ncols()),
@@ -112,8 +113,8 @@ fn ruiz((m, n): (usize, usize), entries: impl Iterator<Item = (usize, usize, i32
     scaling
 }
 
-/// Subtracts half of each largest exponent, rounded towards zero; returns `false` if nothing
-/// changed.
+/// Subtracts from each exponent half of the largest one in its row or column, rounded towards zero;
+/// returns `false` if nothing changed.
 fn half_step(exponents: &mut [i32], top: &[Option<i32>]) -> bool {
     let mut moved = false;
     for (e, top) in exponents.iter_mut().zip(top) {
@@ -195,7 +196,7 @@ impl Scaling {
 mod tests {
     use super::*;
 
-    /// Factors outside the range of numbers are applied in parts.
+    /// Factors outside the range of `f64` are applied in several parts.
     #[test]
     fn factors_beyond_the_range_of_numbers() {
         let scaling = Scaling {

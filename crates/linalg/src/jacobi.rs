@@ -1,6 +1,6 @@
-//! Singular vectors of small matrices by one-sided Jacobi rotations. The matrices are blocks
-//! between null spaces, with a few rows and columns. The results are not used as evidence for
-//! ranks; `singular_values` computes this evidence.
+//! Singular vectors of small matrices by one-sided Jacobi rotations. They are used for blocks
+//! between two null spaces, which have a few rows and columns. The results are not used as evidence
+//! for ranks; `singular_values` computes this evidence.
 //!
 //! Source: M. R. Hestenes, Inversion of matrices by biorthogonalization and related results, J.
 //! SIAM 6 (1958) 51–90.
@@ -75,7 +75,7 @@ pub struct SymmetricEigen {
 }
 
 /// Returns eigenvalues and eigenvectors of a small symmetric matrix A of finite entries, from the
-/// singular values of `A + ‖A‖·I`. They are accurate to roundings of ‖A‖.
+/// singular values of `A + ‖A‖·I`. Their errors are a few roundings of ‖A‖.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, symmetric_eigen};
@@ -140,7 +140,7 @@ mod tests {
         }
     }
 
-    /// An indefinite and singular matrix: A·W = W·diag(λ), WᵀW = I.
+    /// For an indefinite and singular matrix, A·W = W·diag(λ) and WᵀW = I.
     #[test]
     fn eigenvectors_of_symmetric_matrices_are_put_back() {
         let given = [5.0, 1e-3, 0.0, 0.0, -2.0];

@@ -1,8 +1,8 @@
 //! Singular values of large matrices with faer. No other file uses faer.
 //!
 //! faer is used only for this purpose. Up to about 150 rows our own pivoted QR is as fast. Saddle
-//! solves of that size are called for every evaluation and must not allocate memory, and row
-//! choices should not depend on a feature. Singular values are only compared with limits well above
+//! solves of that size are called for every evaluation and must not allocate memory, and the choice
+//! of rows should not depend on a feature. Singular values are only compared with limits well above
 //! the rounding error of both routines (tested below), so decisions are the same with and without
 //! faer. The functions are deliberately not generic: faer is compiled here only.
 
@@ -23,7 +23,8 @@ mod tests {
     use super::*;
     use crate::singular_values::own as by_rotations;
 
-    /// Decisions must be the same with both routines: they agree far below the smallest tolerance τ
+    /// Decisions must be the same with both routines. Their results agree far below the smallest
+    /// tolerance τ = 10·eps·√(m·n) ≈ 2e-13 of this size.
     /// = 10·eps·√(m·n) ≈ 2e-13 of this size.
     #[test]
     fn agrees_with_our_own_kernel() {

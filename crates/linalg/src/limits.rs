@@ -1,6 +1,6 @@
-//! Table of limits: all numbers of this crate that its authors chose. Each comment states the
-//! meaning, the unit, what breaks if the number is wrong (if it is too small, or too large), and
-//! the test that fails then. `none, work only` means that only time or memory would change; `none`
+//! Table of limits: all values in this crate that its authors chose. Each comment states the
+//! meaning, the unit, what breaks if the value is wrong (if it is too small, or too large), and the
+//! test that fails then. `none, work only` means that only time or memory would change; `none`
 //! means that there is no test yet. The test file `tests/all/limits.rs` reads this table.
 
 // Singular values and scaling.
@@ -60,11 +60,11 @@ pub(crate) const BALANCED: f64 = 0.95;
 
 #[cfg(feature = "faer")]
 /// Smaller dimension of a matrix above which faer computes singular values. Up to about 200 our own
-/// kernel is faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by `cargo run
-/// --release -p bench --features faer --example timings`). Our own kernel gives the same bits on
-/// every processor; faer does not, because it chooses instructions at run time. Unit: rows or
-/// columns. Too small: the last bits differ between processors. Too large: the computation takes
-/// longer. Test: none, work only.
+/// kernel is faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by
+/// `cargo run --release -p bench --features faer --example timings`). Our own kernel computes the
+/// same bits on every processor; faer does not, because it chooses instructions at run time. Unit:
+/// rows or columns. Too small: the last bits differ between processors. Too large: the computation
+/// takes longer. Test: none, work only.
 pub(crate) const FAER_FROM: usize = 256;
 
 /// An updated norm is recomputed if cancellation has removed half of its digits: √eps. Unit: share
@@ -72,12 +72,12 @@ pub(crate) const FAER_FROM: usize = 256;
 /// longer. Test: `graded_columns_downdate_safely`.
 pub(crate) const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
 
-/// Squares of numbers above this limit do not lose digits in sums. Unit: 1. Too small: norms of
+/// Squares of entries above this limit do not lose digits in sums. Unit: 1. Too small: norms of
 /// small vectors underflow. Too large: the computation takes longer. Test:
 /// `norm_survives_the_ends_of_the_range`.
 pub(crate) const SQUARE_MIN: f64 = 1e-140;
 
-// Kept rows, solved in their null space.
+// Equations with independent rows, solved in the null space of the rows.
 
 /// Masses count as graded above this spread, see [`mass_spread`](crate::mass_spread). Below it,
 /// plain solutions keep about ten digits, and normally twelve. Unit: heaviest by lightest mass. Too
@@ -92,9 +92,9 @@ pub const GRADED_MASSES: f64 = 1e6;
 /// `masses_are_graded_from_their_spread_on`.
 pub(crate) const GRADED_BESIDE_MASSLESS: f64 = 1e3;
 
-/// If elimination reduces a mass to less than this share, it loses as many digits. Unit: share of
-/// the mass. Too small: digits are lost. Too large: refinement takes time. Test:
-/// `refinement_is_wanted_where_digits_are_lost`.
+/// If elimination reduces a mass to less than this share, the result loses the corresponding number
+/// of digits. Unit: share of the mass. Too small: digits are lost. Too large: refinement takes
+/// time. Test: `refinement_is_wanted_where_digits_are_lost`.
 pub(crate) const CANCELLED: f64 = 1e-3;
 
 /// A pivot below this share of its row is rounding noise at any configuration. Unit: share of the
@@ -108,10 +108,10 @@ pub(crate) const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 /// Test: `graded_masses_choose_among_the_large_entries`.
 pub(crate) const CANDIDATE: f64 = 0.1;
 
-/// After the elimination of a row, the remaining rows in its coordinates are examined again if
-/// there are at least this many. Few of the other rows need much less work than before. Unit: rows.
-/// Too small: other rows would have needed less work. Too large: the ordering takes longer. Test:
-/// none, work only.
+/// After the elimination of a row, the work for the other rows in one of its coordinates is
+/// computed again if at most this many rows remain there. If more rows remain, the work for each of
+/// them hardly changes. Unit: rows. Too small: the row with the least work is not found. Too large:
+/// the ordering takes longer. Test: none, work only.
 pub(crate) const REVISED: usize = 4;
 
 /// The order of elimination is planned for entries above this share of the largest one of a row, so
@@ -120,10 +120,11 @@ pub(crate) const REVISED: usize = 4;
 /// entries. Test: none, work only.
 pub(crate) const PIVOT_PLANNED: f64 = 0.5;
 
-/// The pivot of a row is an entry above this share of the largest one, in a coordinate in which few
-/// later rows have entries. The multipliers of the elimination stay below the inverse of this
-/// share. Unit: share of the largest entry. Too small: the elimination amplifies errors. Too large:
-/// the factors have more entries. Test: `a_row_is_solved_for_what_few_later_rows_have_entries_in`.
+/// The pivot of a row is an entry above this share of the largest one, in the coordinate in which
+/// the fewest later rows have entries. The multipliers of the elimination stay below the inverse of
+/// this share. Unit: share of the largest entry. Too small: the elimination amplifies errors. Too
+/// large: the factors have more entries. Test:
+/// `a_row_is_solved_for_what_few_later_rows_have_entries_in`.
 pub(crate) const PIVOT_CHOSEN: f64 = 0.1;
 
 /// A row keeps the pivot coordinate of the previous factorisation as long as its entry is above
@@ -165,12 +166,12 @@ pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
 /// zero delay the others. Too large: small unknowns are not refined. Test: none.
 pub(crate) const REFINEMENT_NOISE: f64 = 1.262_177_448_353_619e-29;
 
-// Kept rows, solved through the Schur complement of the masses.
+// Equations with independent rows, solved through the Schur complement of the masses.
 
-/// A row with a smaller independent share, in the metric of the inverse masses, is rounding noise,
-/// because the Schur complement contains the square of this share. Unit: share of the row. Too
-/// small: the elimination divides by noise. Too large: rows near a singular configuration are lost.
-/// Test: `a_row_of_which_little_is_left_is_lost`.
+/// If the independent share of a row in the metric of the inverse masses is below this limit, the
+/// row is rounding noise, because the Schur complement contains the square of this share. Unit:
+/// share of the row. Too small: the elimination divides by noise. Too large: rows near a singular
+/// configuration are lost. Test: `a_row_of_which_little_is_left_is_lost`.
 pub(crate) const SCHUR_NOISE: f64 = 1e-7;
 
 /// A row with a larger independent share counts as fully independent. Pivots are compared with this

@@ -47,7 +47,7 @@ impl Determinant {
         log: f64::NEG_INFINITY,
     };
 
-    /// Returns the value as a number.
+    /// Returns the value as an `f64`, which may overflow or underflow.
     pub fn value(self) -> f64 {
         self.sign * self.log.exp()
     }
@@ -60,7 +60,7 @@ impl Determinant {
 pub struct SingularPivot {
     /// The column.
     pub column: usize,
-    /// The largest remaining entry in it.
+    /// The largest remaining entry of the column.
     pub pivot: f64,
 }
 

@@ -1,4 +1,4 @@
-//! Powers of two, by which scaling is exact.
+//! Powers of two, which are exact scale factors.
 
 use crate::kernels;
 
@@ -30,7 +30,7 @@ pub fn scale(x: f64, e: i32) -> f64 {
     x * power(e.clamp(-STEP, STEP))
 }
 
-/// Returns the exponent e of `2^e ≤ |x| < 2^(e+1)`; `None` for zero and non-finite numbers.
+/// Returns the exponent e with `2^e ≤ |x| < 2^(e+1)`; `None` for zero and non-finite values.
 #[must_use]
 pub fn exponent(x: f64) -> Option<i32> {
     const BIAS: i32 = 1023;
@@ -45,7 +45,8 @@ pub fn exponent(x: f64) -> Option<i32> {
     }
 }
 
-/// Returns the power-of-two exponent that scales the largest entry of `x` into [1, 2); 0 for zeros.
+/// Returns the power-of-two exponent that scales the largest entry of `x` into [1, 2); 0 if all
+/// entries are zero.
 #[must_use]
 pub fn unit_exponent(x: &[f64]) -> i32 {
     exponent(kernels::max_abs(x)).map_or(0, |e| -e)

@@ -1,9 +1,9 @@
 //! Computes a damped least-squares correction towards `res + J·dq = 0`, for rows that may be
 //! redundant or contradict each other.
 //!
-//! It is only for the assembly of a start far from the constraint manifold, where the rank is not
-//! known. On the manifold, use the kept rows and `KeptRowSaddle`, which preserves the order of the
-//! integrator.
+//! The correction is intended only for the assembly of an initial configuration far from the
+//! constraint manifold, where the rank is not known. On the manifold, use independent rows and
+//! `KeptRowSaddle`, which preserves the order of the integrator.
 
 use crate::{Matrix, PivotedQr, powers};
 
@@ -62,9 +62,9 @@ pub enum StepError {
 /// memory.
 ///
 /// S is the power-of-two row scaling that brings the largest entry of each row of `J·√W` into [1,
-/// 2), so μ is relative to numbers near one for all units of the rows. dq minimises
-/// `μ·dqᵀ·W⁻¹·dq + ‖S·(J·dq + res)‖²`. Corrections are small, and contradictions are distributed
-/// among the rows.
+/// 2), so μ is compared with entries near one, whatever the units of the rows. The correction dq
+/// minimises `μ·dqᵀ·W⁻¹·dq + ‖S·(J·dq + res)‖²`. Corrections are small, and contradictions are
+/// distributed among the rows.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
@@ -97,7 +97,7 @@ pub fn least_squares_step(
     DampedRows::new(j, weights, mu)?.step(residual)
 }
 
-/// The factors of [`least_squares_step`], for any number of residuals.
+/// Factors for [`least_squares_step`], which can be used for any number of residuals.
 #[derive(Debug, Clone)]
 pub struct DampedRows {
     /// Factors of `[S·J·√W, √μ·I]ᵀ`; without damping, only J is factored.

@@ -13,13 +13,13 @@
 //!
 //! The solver runs for every evaluation of a right-hand side. The first factorisation plans the
 //! order of elimination. After that, `factor` and `solve` do not allocate memory once storage for
-//! the entries of the factors exists. The rows must not be redundant: choose the kept rows with
+//! the entries of the factors exists. The rows must be independent: choose the rows to keep with
 //! `decide` first (crate `rank`). This module decides no rank.
 //!
 //! Masses that differ by many powers of ten are called graded. For graded masses, the pivot is the
 //! entry of the lightest coordinate among the entries that are not much smaller than the largest.
-//! Therefore the heavy coordinates are free, `Nᵀ·M·N` contains mainly their masses, and λ comes
-//! from the equations of light bodies, in which no large inertia cancels.
+//! Therefore the heavy coordinates are free, `Nᵀ·M·N` contains mainly their masses, and λ is
+//! computed from the equations of light bodies, in which no large inertia forces cancel.
 //! [`KeptRowSaddle::solve_refined`] removes the remaining rounding.
 //!
 //! The algebra, with `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower trapezoidal and y = P·a:
@@ -133,8 +133,8 @@ impl KeptRowSaddle {
         })
     }
 
-    /// Sets the spread of the masses. It replaces the spread of the given numbers, which depends on
-    /// units.
+    /// Sets the spread of the masses. The solver then does not use the spread of the given masses,
+    /// which depends on units.
     #[must_use]
     pub fn graded_by(self, mass_spread: f64) -> Self {
         Self {
@@ -143,8 +143,8 @@ impl KeptRowSaddle {
         }
     }
 
-    /// Returns the memory of a solver for these rows (bytes), in the order that their values plan,
-    /// for any choice of coordinates.
+    /// Returns the memory (bytes) that a solver for these rows needs at most, for any choice of
+    /// pivot coordinates. The order of the rows is planned from their values.
     #[must_use]
     pub fn bytes(c: &SparseMatrix) -> usize {
         let k = c.ncols().saturating_sub(c.nrows());
@@ -197,9 +197,9 @@ impl KeptRowSaddle {
 
     /// Returns the smallest share of a row that is independent of the previous rows in the last
     /// factorisation. It is the largest remaining entry divided by the largest initial entry,
-    /// including skipped rows, and infinite for r = 0. It indicates near-singular configurations.
-    /// Along a motion it changes smoothly, except when the pivot order changes, and approaches zero
-    /// as the kept rows become dependent.
+    /// including skipped rows, and infinite for r = 0. The share indicates near-singular
+    /// configurations. Along a motion it changes smoothly, except when the pivot order changes, and
+    /// approaches zero as the rows become dependent.
     pub fn pivot_ratio(&self) -> f64 {
         self.lu.pivot_ratio
     }

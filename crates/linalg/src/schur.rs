@@ -12,9 +12,9 @@
 //! width of the graph of bodies: linearly for chains and ladders, and as n^1.5 for lattices.
 //!
 //! The method has two disadvantages: S has the square of the condition number of C, and masses must
-//! not vanish. Therefore every solution is checked with the rows, and residuals are corrected with
-//! the same factors. Rows that are dependent for an instant are skipped. For small systems, zero
-//! masses, and masses that differ by many powers of ten, use
+//! not vanish. Therefore the residuals of the rows are computed for every solution and corrected
+//! with the same factors. Rows that are dependent for an instant are skipped. For small systems,
+//! zero masses, and masses that differ by many powers of ten, use
 //! [`KeptRowSaddle`](crate::KeptRowSaddle).
 //!
 //! Sources: range space method, M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle
@@ -80,7 +80,7 @@ struct LdlFactors {
 /// C by elements, and buffers of a factorisation.
 #[derive(Clone, Debug)]
 struct Assembly {
-    /// Values of C, element by element. Values without an entry stay zero.
+    /// Values of C, element by element. Places without an entry of C stay zero.
     values: Vec<Lane>,
     /// The present front.
     front: Vec<Tile>,

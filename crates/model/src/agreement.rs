@@ -1,15 +1,16 @@
-//! Defines when rows are violated, with one criterion for positions, velocities and accelerations.
+//! Defines when rows count as violated; the criterion is the same for positions, velocities and
+//! accelerations.
 //!
 //! Let z be a dependency of rows, `zᵀ·C = 0`, between one dropped row and the kept rows that imply
-//! it. For the intended mechanism, the sum of their residuals `zᵀ·Φ`, `zᵀ·(C·v − b)`,
-//! `zᵀ·(C·a − Γ)` is zero. For the stored mechanism, the accuracy of this sum has two limits. One
-//! is the rounding of the terms that are added in these rows, for any direction of the axes
-//! ([`Scales::terms`]). The other is the change by data within a stated tolerance
-//! ([`crate::explained`]). A larger sum is a violation.
+//! it. For the intended mechanism, the sums of the residuals, `zᵀ·Φ`, `zᵀ·(C·v − b)` and
+//! `zᵀ·(C·a − Γ)`, are zero. For the stored mechanism, the accuracy of such a sum has two limits.
+//! The first limit is the rounding error of the terms of these rows, for any direction of the axes
+//! ([`Scales::terms`]). The second limit is the change of the sum if data change within a stated
+//! tolerance ([`crate::explained`]). A larger sum is a violation.
 //!
-//! The terms are not only the nonzero terms of the current state. A body that moves along a row has
-//! no velocity across it. However, the direction of the row has a rounding error, and so has the
-//! velocity across it.
+//! Terms that are zero at the current state are included, too. For example, the velocity of a body
+//! that moves along a row is zero across the row. However, the direction of the row has a rounding
+//! error, and therefore this velocity has a rounding error, too.
 
 use crate::data::{Data, DataBlock, explained};
 use crate::mechanism::Mechanism;
@@ -29,7 +30,7 @@ pub enum ConstraintLevel {
 }
 
 impl ConstraintLevel {
-    /// Returns the unit of a row, for lengths or for angles.
+    /// Returns the unit of the residual of a row; `angular` means that the row restricts an angle.
     #[must_use]
     pub fn unit(self, angular: bool) -> &'static str {
         match (self, angular) {
@@ -53,7 +54,7 @@ impl std::fmt::Display for ConstraintLevel {
     }
 }
 
-/// A level, and the motion at the compared state.
+/// The level of a comparison, with the motion at the compared state.
 #[derive(Clone, Copy, Debug)]
 pub struct Level<'a> {
     /// The level.
@@ -62,17 +63,18 @@ pub struct Level<'a> {
     v: &'a [f64],
     /// Accelerations (n_v), if they are known.
     a: Option<&'a [f64]>,
-    /// The fastest rate in the mechanism (1/s): rotations, and translations divided by its size.
+    /// The largest rate in the mechanism (1/s): angular velocities, and velocities divided by the
+    /// size of the mechanism.
     rate: f64,
-    /// The largest acceleration (1/s²): angular accelerations, and translations divided by the
-    /// size.
+    /// The largest acceleration (1/s²): angular accelerations, and accelerations of points divided
+    /// by the size.
     acceleration: f64,
     /// Size of the mechanism (m).
     size: f64,
 }
 
-/// Rates up to this value (1/s) count as rest: bodies move by less than a hundred roundings of
-/// their positions in a second.
+/// Rates up to this value (1/s) count as rest: in one second, they move bodies by less than 100
+/// times the rounding error of the positions.
 const REST: f64 = 100.0 * f64::EPSILON;
 
 impl<'a> Level<'a> {
@@ -89,7 +91,7 @@ impl<'a> Level<'a> {
         }
     }
 
-    /// Creates the level of velocities v (n_v), for a mechanism of this size (m).
+    /// Creates the level of velocities for v (n_v); `size` is the size of the mechanism (m).
     #[must_use]
     pub fn velocities(mechanism: &Mechanism, size: f64, v: &'a [f64]) -> Self {
         Self {
@@ -102,8 +104,8 @@ impl<'a> Level<'a> {
         }
     }
 
-    /// Accelerations a at velocities v (n_v each); without a, only the right-hand sides Γ are
-    /// compared.
+    /// Creates the level of accelerations for a and v (n_v each); without a, only the right-hand
+    /// sides Γ are compared.
     #[must_use]
     pub fn accelerations(
         mechanism: &Mechanism,
@@ -122,15 +124,15 @@ impl<'a> Level<'a> {
     }
 }
 
-/// Returns whether velocities v (n_v) of a mechanism of this size (m) count as rest. Bodies at rest
-/// move by less than a hundred roundings of their positions in a second. Such velocities have no
-/// direction.
+/// Returns whether the velocities v (n_v) count as rest; `size` is the size of the mechanism (m).
+/// In one second, bodies at rest move by less than 100 times the rounding error of their positions.
+/// The direction of these velocities is only rounding.
 #[must_use]
 pub fn is_at_rest(mechanism: &Mechanism, size: f64, v: &[f64]) -> bool {
     fastest(mechanism, size, v) <= REST
 }
 
-/// Returns the largest |v_j|, translations divided by the size.
+/// Returns the largest |v_j|; translations are divided by the size.
 fn fastest(mechanism: &Mechanism, size: f64, v: &[f64]) -> f64 {
     let space = mechanism.space();
     let rates = v.iter().enumerate();
@@ -139,7 +141,7 @@ fn fastest(mechanism: &Mechanism, size: f64, v: &[f64]) -> f64 {
 
 impl Scales<'_> {
     /// Returns the size of the terms that are added in row `i` at a level, for any orientation of
-    /// the bodies. The accuracy of the residual of the row is the rounding of these terms.
+    /// the bodies. The residual of the row is accurate to the rounding error of these terms.
     ///
     /// | level | terms |
     /// | --- | --- |
@@ -147,12 +149,12 @@ impl Scales<'_> {
     /// | velocity | `ω·Σ c_ij·l_j + \|b_i\|`, and the prescribed values |
     /// | acceleration | `(α + ω_i·ω)·Σ c_ij·l_j + \|Γ_i\|`, and the prescribed values |
     ///
-    /// c_ij are the bounds of [`Scales::entry_bounds`]. Coordinates count at least as in
-    /// [`Scales::position`]. ω and α are the fastest rate and the largest acceleration of the
-    /// mechanism. ω_i is the fastest rate of the bodies of the row, and l_j is the size of the
+    /// c_ij are the bounds of [`Scales::entry_bounds`]. The sizes of coordinates have the lower
+    /// limits of [`Scales::position`]. ω and α are the largest rate and the largest acceleration of
+    /// the mechanism. ω_i is the largest rate of the bodies of the row, and l_j is the size of the
     /// mechanism for translations and 1 for rotations. All velocities are computed together, so
-    /// each has the rounding error of the fastest. The scratch must contain C at its configuration,
-    /// b for velocities, and Γ for accelerations.
+    /// each velocity has the rounding error of the largest one. The work space must contain C at
+    /// its configuration, b for velocities, and Γ for accelerations.
     #[must_use]
     pub fn terms(self, i: usize, level: &Level<'_>) -> f64 {
         let given = match level.of {
@@ -167,8 +169,8 @@ impl Scales<'_> {
         rate * self.extent(i, level.size) + given.abs() + self.prescribed(i)
     }
 
-    /// Returns the residual of row `i` at a level that counts as rest: the rounding of velocities
-    /// that are zero.
+    /// Returns the residual of row `i` below which the row counts as at rest. This residual is the
+    /// rounding error of velocities that are zero.
     #[must_use]
     pub fn rest(self, i: usize, level: &Level<'_>) -> f64 {
         let rate = match level.of {
@@ -179,7 +181,7 @@ impl Scales<'_> {
         rate * self.bounded_position(i)
     }
 
-    /// Returns the fastest rate of the bodies of row `i` (1/s).
+    /// Returns the largest rate of the bodies of row `i` (1/s).
     fn rate(self, i: usize, level: &Level<'_>) -> f64 {
         let space = self.mechanism.space();
         let columns = self.mechanism.layout().row(self.s, i);
@@ -188,7 +190,8 @@ impl Scales<'_> {
         })
     }
 
-    /// Returns the change of row `i` if the mechanism moves by its size (m) in any direction.
+    /// Returns the change of row `i` if all bodies move by the size of the mechanism (m) in any
+    /// direction.
     #[must_use]
     pub fn extent(self, i: usize, size: f64) -> f64 {
         let space = self.mechanism.space();
@@ -206,12 +209,12 @@ impl Scales<'_> {
 }
 
 impl Data<'_> {
-    /// Returns the part of the weighted sum of row residuals at a level that data within their
-    /// stated tolerances explain. The weights are z (m + h). The result is [`explained`] of the
-    /// gradient of this sum, which is written to `gradient` ([`Data::count`] values). It is zero if
-    /// no tolerance is stated, and infinite for accelerations that are not known. `blocks` are
-    /// those of [`Data::blocks`]. The scratch must contain the configuration, and for accelerations
-    /// also the velocities.
+    /// Sums the residuals of the rows at a level with weights, and returns the part of this sum
+    /// that data within their stated tolerances explain. The weights are z (m + h). The result is
+    /// [`explained`] of the gradient of this sum, which is written to `gradient` ([`Data::count`]
+    /// values). It is zero if no tolerance is stated, and infinite for accelerations that are not
+    /// known. `blocks` are the result of [`Data::blocks`]. The work space must contain the
+    /// configuration, and for accelerations also the velocities.
     #[must_use]
     pub fn explained(
         self,

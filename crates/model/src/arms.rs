@@ -1,6 +1,6 @@
-//! The arms of bodies: the distances of their joints from their centres of mass. Positions are
+//! The arm of a joint is its distance from the centre of mass of the body. Positions are
 //! differences of rounded numbers, so an arm that is shorter than the accuracy of the positions
-//! counts as zero. Otherwise this arm would be the unit of length of its body.
+//! counts as zero. Otherwise this arm would be the length unit of the body.
 
 use crate::element::PlacedConstraint;
 use crate::group::ConstraintId;
@@ -10,10 +10,10 @@ use crate::size::size_of;
 use crate::space::{difference, norm};
 use crate::system::{Scratch, System};
 
-/// Returns the longest arm of each body at the configuration of the scratch (m), never zero. A body
-/// with all joints at its centre takes the arms of its neighbours. If these have no arms, either
-/// (for example shafts with gears), the function uses the size of the mechanism. The scratch must
-/// contain C.
+/// Returns the longest arm of each body (m), never zero, at the configuration in the work space.
+/// For a body with all joints at its centre, the function uses the arms of the neighbouring bodies.
+/// If these arms are zero, too (for example shafts with gears), the function uses the size of the
+/// mechanism. The work space must contain C.
 pub(crate) fn longest_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let own = own_arms(mechanism, s);
     let mut of_neighbours = vec![0.0_f64; own.len()];
@@ -35,8 +35,8 @@ pub(crate) fn longest_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
         .collect()
 }
 
-/// Returns the distance of the farthest joint of any kind from the centre of each body at the
-/// configuration of the scratch (m). It is zero if all joints are at the centre.
+/// Returns for each body the largest distance of a joint of any kind from its centre of mass (m),
+/// at the configuration in the work space. The distance is zero if all joints are at the centre.
 pub(crate) fn farthest_joints(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let mut arms = vec![0.0_f64; mechanism.bodies().len()];
     for (k, constraint) in mechanism.elements.constraints.iter().enumerate() {
@@ -52,7 +52,7 @@ pub(crate) fn farthest_joints(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     arms
 }
 
-/// Returns the longest arm of each body; zero if its joints are at its centre.
+/// Returns the longest arm of each body; it is zero if all joints are at the centre of mass.
 fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     let layout = mechanism.layout();
     let mut arms = vec![0.0_f64; mechanism.bodies().len()];
@@ -68,8 +68,8 @@ fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
                 arms[body] = arms[body].max(arm);
             }
         };
-        // At this configuration, a row along a slot is independent of the arm of a pin that moves
-        // along the slot.
+        // For a pin in a slot, the row along the slot does not depend on the arm of the pin at this
+        // configuration.
         let place = mechanism.reactions(s).place(ConstraintId(k));
         for body in constraint.site.moving() {
             let each = place.iter().zip(s.bodies.origin(body));
@@ -84,9 +84,9 @@ fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
     arms
 }
 
-/// Returns the largest length that is added or subtracted to compute the reference point of a joint
-/// (m): its points in its bodies, the positions of these bodies, and the positions of their centres
-/// of mass in their frames.
+/// Returns the largest length (m) in the sum that gives the reference point of a joint. The sum
+/// contains the points of the joint in its bodies, the positions of these bodies, and the positions
+/// of the centres of mass in the body frames.
 fn farthest(mechanism: &Mechanism, s: &Scratch, c: &PlacedConstraint) -> f64 {
     let points = c.kernels().points().into_iter().map(|point| norm(&point));
     let of_body = |k: usize| {

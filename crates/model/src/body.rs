@@ -1,8 +1,9 @@
-//! Descriptions of bodies in the plane and in space, and references of joints to them.
+//! Descriptions of bodies in the plane and in space, and the references with which joints select
+//! bodies.
 
 use crate::principal::Principal;
 
-/// A rigid body with its state at the start. The origin of its frame is its centre of mass, unless
+/// A rigid body with its initial state. The origin of the body frame is the centre of mass, unless
 /// `centre` specifies another point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Body {
@@ -12,26 +13,27 @@ pub struct Body {
     pub mass: f64,
     /// Moment of inertia about the centre of mass (kg·m²), ≥ 0.
     pub inertia: f64,
-    /// The centre of mass in its frame (m). Points of joints and forces are relative to the centre
-    /// of mass: see [`Body::from_centre`] and [`crate::Description::local`].
+    /// The centre of mass in the body frame (m). Points of joints and forces are relative to the
+    /// centre of mass: see [`Body::from_centre`] and [`crate::Description::local`].
     pub centre: [f64; 2],
     /// Position of the origin of the body frame (m).
     pub position: [f64; 2],
-    /// Angle (rad).
+    /// Angle of the body frame (rad).
     pub angle: f64,
-    /// Velocity of the origin of the body frame (m/s). If it is `None`, it follows from the given
-    /// velocities and the prescribed motions, with the least kinetic energy.
+    /// Velocity of the origin of the body frame (m/s). `None` means that the velocity follows from
+    /// the given velocities and the prescribed motions, with the smallest kinetic energy.
     pub velocity: Option<[f64; 2]>,
-    /// Angular velocity (rad/s). If it is `None`, it is determined like the velocity.
+    /// Angular velocity (rad/s). `None` means that it is computed like the velocity.
     pub angular_velocity: Option<f64>,
-    /// Tolerance of points and directions in its frame (m). For directions, it is divided by the
-    /// size of the mechanism. It takes precedence over the tolerance of the scene.
+    /// Tolerance of points and directions in the body frame (m). For directions, the tolerance is
+    /// divided by the size of the mechanism. This tolerance takes precedence over the tolerance of
+    /// the scene.
     pub tolerance: Option<f64>,
 }
 
 impl Body {
-    /// Returns a body with this mass (kg) and moment of inertia about the centre of mass (kg·m²),
-    /// at the origin, with unspecified velocities.
+    /// Returns a body with this mass (kg) and moment of inertia about the centre of mass (kg·m²).
+    /// The body is at the origin, and its velocities are not specified.
     #[must_use]
     pub fn new(name: &str, mass: f64, inertia: f64) -> Self {
         Self {
@@ -43,7 +45,7 @@ impl Body {
     }
 }
 
-/// A rigid body in space with its state at the start. The origin of its frame is its centre of
+/// A rigid body in space with its initial state. The origin of the body frame is the centre of
 /// mass, unless `centre` specifies another point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpatialBody {
@@ -51,30 +53,33 @@ pub struct SpatialBody {
     pub name: String,
     /// Mass (kg), ≥ 0.
     pub mass: f64,
-    /// Inertia about the centre of mass in the axes of its frame (kg·m²), symmetric. The
-    /// off-diagonal entries are those of the matrix, −∫xy dm.
+    /// Inertia about the centre of mass in the axes of the body frame (kg·m²), symmetric. The
+    /// off-diagonal entries are the entries of the matrix, for example −∫xy dm.
     pub inertia: [[f64; 3]; 3],
-    /// The centre of mass in its frame (m). Points of joints and forces are relative to it.
+    /// The centre of mass in the body frame (m). Points of joints and forces are relative to the
+    /// centre of mass.
     pub centre: [f64; 3],
     /// Position of the origin of the body frame (m).
     pub position: [f64; 3],
-    /// Orientation of its frame from body to ground: a quaternion (w, x, y, z) of any nonzero
+    /// Orientation of the body frame, from body to ground: a quaternion (w, x, y, z) of any nonzero
     /// length.
     pub orientation: [f64; 4],
-    /// Velocity of the origin of its frame (m/s), in ground axes. If it is `None`, it follows from
-    /// the given velocities and the prescribed motions, with the least kinetic energy.
+    /// Velocity of the origin of the body frame (m/s), in ground axes. `None` means that the
+    /// velocity follows from the given velocities and the prescribed motions, with the smallest
+    /// kinetic energy.
     pub velocity: Option<[f64; 3]>,
-    /// Angular velocity (rad/s), in ground axes. If it is `None`, it is determined like the
+    /// Angular velocity (rad/s), in ground axes. `None` means that it is computed like the
     /// velocity.
     pub angular_velocity: Option<[f64; 3]>,
-    /// Tolerance of points and directions in its frame (m). For directions, it is divided by the
-    /// size of the mechanism. It takes precedence over the tolerance of the scene.
+    /// Tolerance of points and directions in the body frame (m). For directions, the tolerance is
+    /// divided by the size of the mechanism. This tolerance takes precedence over the tolerance of
+    /// the scene.
     pub tolerance: Option<f64>,
 }
 
 impl SpatialBody {
-    /// Returns a body with this mass (kg) and inertia about the centre of mass (kg·m²), at the
-    /// origin, not rotated, with unspecified velocities.
+    /// Returns a body with this mass (kg) and inertia about the centre of mass (kg·m²). The body is
+    /// at the origin, not rotated, and its velocities are not specified.
     #[must_use]
     pub fn new(name: &str, mass: f64, inertia: impl Into<[[f64; 3]; 3]>) -> Self {
         Self {
@@ -100,7 +105,7 @@ pub struct BodyRecord {
     pub mass: f64,
     /// Tolerance of points and directions in the body frame (m), if stated.
     pub tolerance: Option<f64>,
-    /// Further properties, which depend on the space.
+    /// Properties that differ between plane and space.
     pub described: DescribedBody,
     /// Principal axes of the body, if they differ from the axes of its frame.
     pub principal: Option<Principal>,
@@ -168,13 +173,13 @@ impl From<DescribedBody> for BodyRecord {
 }
 
 impl BodyRecord {
-    /// Returns whether the origin of its frame is its centre of mass.
+    /// Returns whether the origin of the body frame is the centre of mass.
     #[must_use]
     pub fn is_centred(&self) -> bool {
         self.centre() == [0.0; 3]
     }
 
-    /// Returns the centre of mass in its frame (m).
+    /// Returns the centre of mass in the body frame (m).
     #[must_use]
     pub fn centre(&self) -> [f64; 3] {
         match &self.described {
@@ -183,8 +188,9 @@ impl BodyRecord {
         }
     }
 
-    /// Returns a point of its frame relative to its centre of mass (m), in the axes of its
-    /// coordinates. These are the axes of its frame, or its principal axes.
+    /// Converts a point of the body frame to a point relative to the centre of mass (m), in the
+    /// axes of the coordinates of the body. These axes are the axes of the body frame, or the
+    /// principal axes if the two differ.
     #[must_use]
     pub fn from_centre(&self, point: [f64; 3]) -> [f64; 3] {
         let centre = self.centre();
@@ -192,7 +198,7 @@ impl BodyRecord {
         self.principal.as_ref().map_or(arm, |own| own.own(arm))
     }
 
-    /// Returns the numbers of a field, by its name in messages.
+    /// Returns the components of the field with this name; the name is the one in error messages.
     #[must_use]
     pub fn numbers(&self, field: &str) -> Vec<f64> {
         match (field, &self.described) {
@@ -213,7 +219,7 @@ impl BodyRecord {
         }
     }
 
-    /// Returns the body with another position of its frame; `None` for a pose of another space.
+    /// Returns the body with its frame at another pose; `None` for a pose of another space.
     #[must_use]
     pub fn at(&self, frame: &FramePose) -> Option<Self> {
         let described = match (&self.described, *frame) {
@@ -243,7 +249,7 @@ impl BodyRecord {
         })
     }
 
-    /// Returns whether the description gives a velocity of its frame.
+    /// Returns whether the description gives a velocity for the body.
     #[must_use]
     pub fn has_velocity(&self) -> bool {
         match &self.described {
@@ -253,7 +259,7 @@ impl BodyRecord {
     }
 }
 
-/// A body of the mechanism, by its index in the list, or the ground.
+/// A reference to the ground, or to a body by its index in the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum BodyRef {
@@ -264,7 +270,7 @@ pub enum BodyRef {
 }
 
 impl BodyRef {
-    /// Returns the index in the list; `None` for the ground.
+    /// Returns the index of the body in the list; `None` for the ground.
     #[must_use]
     pub fn moving(self) -> Option<usize> {
         match self {
@@ -275,13 +281,13 @@ impl BodyRef {
 }
 
 impl Body {
-    /// Returns whether the origin of its frame is its centre of mass.
+    /// Returns whether the origin of the body frame is the centre of mass.
     #[must_use]
     pub fn is_centred(&self) -> bool {
         self.centre == [0.0; 2]
     }
 
-    /// Converts a point of its frame to a point relative to its centre of mass (m), which joints
+    /// Converts a point of the body frame to a point relative to the centre of mass (m), as joints
     /// and forces require.
     ///
     /// ```

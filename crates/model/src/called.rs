@@ -1,15 +1,16 @@
-//! Forces that call a function of the caller: laws of drives, and wrenches on bodies. The function
-//! returns only values, so methods that need derivatives do not support these forces.
+//! Forces that are computed by a callback function of the caller: force laws of drives, and
+//! wrenches on bodies. The function returns only values, so methods that need derivatives do not
+//! support these forces.
 //!
-//! The derivatives of a mechanism with such a force cannot be computed, so each user of derivatives
-//! must return an error or leave its result undecided. Differences of function values are not used,
-//! because a controller may have corners, noise or an internal state, and differences of such
-//! values are wrong without a warning.
+//! The derivatives of a mechanism with such a force cannot be computed. Each method that needs
+//! derivatives must return an error or leave its result undecided. Finite differences of the
+//! callback are not used: a controller may have corners, noise or an internal state, and then the
+//! differences are wrong without a warning.
 //!
-//! A plan does not split such a mechanism and uses an explicit method, because the functions belong
-//! to the thread and the time of the caller. If a function does not return a finite value, the
-//! simulation ends at the stage that called it. A shorter step does not help, and the function may
-//! have raised an exception.
+//! A plan does not split such a mechanism and uses an explicit method, because callbacks must be
+//! called in the thread of the caller and in the order of time. If a callback does not return a
+//! finite value, the simulation ends at the stage that called it. A shorter step would not help,
+//! and the callback may have raised an exception.
 
 mod kernels;
 
@@ -19,7 +20,7 @@ use std::sync::Arc;
 
 use crate::law::UndefinedValue;
 
-/// Reason why a called function has no value; its message is the error of the simulation.
+/// Reason why a callback has no value; its message becomes the error of the simulation.
 pub type CallError = Box<dyn Error + Send + Sync>;
 
 /// Arguments of the force of a drive.
@@ -34,7 +35,7 @@ pub struct DriveState {
     pub rate: f64,
 }
 
-/// The state of the centre of mass of a body, in ground axes.
+/// State of the centre of mass of a body, in ground axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BodyState {
@@ -42,9 +43,9 @@ pub struct BodyState {
     pub time: f64,
     /// Position of the centre of mass (m).
     pub position: [f64; 3],
-    /// Rotation matrix from the frame of the body to ground axes, by rows.
+    /// Rotation matrix from the body frame to ground axes, by rows.
     pub rotation: [[f64; 3]; 3],
-    /// Angle in the plane (rad), not reduced to one revolution; 0 in space.
+    /// Angle in the plane (rad), including full revolutions; 0 in space.
     pub angle: f64,
     /// Velocity of the centre of mass (m/s).
     pub velocity: [f64; 3],
@@ -62,7 +63,7 @@ pub struct Wrench {
     pub torque: [f64; 3],
 }
 
-/// A callback function. It is equal only to its own copies.
+/// A callback function. Two callbacks are equal only if one is a copy of the other.
 pub(crate) struct CalledFunction<I, O>(Arc<Callback<I, O>>);
 
 type Callback<I, O> = dyn Fn(&I) -> Result<O, CallError> + Send + Sync;
@@ -120,7 +121,7 @@ impl CalledFunction<DriveState, f64> {
 pub struct CalledWrench(CalledFunction<BodyState, Wrench>);
 
 impl CalledWrench {
-    /// Creates a wrench from a function, under the conditions of [`crate::Law::called`].
+    /// Creates a wrench from a function that satisfies the conditions of [`crate::Law::called`].
     pub fn new(
         function: impl Fn(&BodyState) -> Result<Wrench, CallError> + Send + Sync + 'static,
     ) -> Self {

@@ -1,11 +1,11 @@
 //! Stable codes of errors and warnings and their meanings. They are defined on one page,
-//! `codes/codes.md`, which the command `pfaff explain` and the book print. A code is never reused
-//! for another meaning. Each enum of errors gives its codes in `code()`, by a `match` over all
+//! `codes/codes.md`; the command `pfaff explain` and the book print this page. A code is never
+//! reused for another meaning. Each error enum returns its codes in `code()`, by a `match` over all
 //! variants.
 //!
 //! Codes below 100 concern the command and its files. Codes from 100 concern the text of a scene,
-//! from 200 its start and its rank, from 300 requests, from 400 simulations, from 500 sweeps, and
-//! from 600 imported files.
+//! from 200 its initial state and its rank, from 300 requests, from 400 simulations, from 500
+//! sweeps, and from 600 imported files.
 
 mod entry;
 
@@ -15,10 +15,10 @@ use serde::{Serialize, Serializer};
 
 pub use entry::{Entry, Example, entries};
 
-/// The page with all codes, in the form that the book uses.
+/// The page with all codes, as printed in the book.
 pub const PAGE: &str = include_str!("codes/codes.md");
 
-/// Whether a number has a heading on the page, as in `## P0123`.
+/// Whether the page has a heading with this code number, for example `## P0123`.
 const IS_CODE: [bool; 1000] = {
     const fn digit(byte: u8) -> usize {
         (byte - b'0') as usize
@@ -41,8 +41,8 @@ const IS_CODE: [bool; 1000] = {
 pub struct Code(u16);
 
 impl Code {
-    /// Returns a code of the page. In a `const` block, a code that is missing on the page does not
-    /// compile.
+    /// Returns the code with this number. In a `const` block, a number without a heading on the
+    /// page is a compilation error.
     ///
     /// # Panics
     /// Panics if the page has no such code.
@@ -55,7 +55,7 @@ impl Code {
         Self(number)
     }
 
-    /// Returns the entry of a text such as `P0123` or `123`.
+    /// Returns the page entry for a text such as `P0123` or `123`.
     #[must_use]
     pub fn find(text: &str) -> Option<&'static Entry> {
         let digits = text.trim_start_matches(['P', 'p']);

@@ -1,17 +1,18 @@
 //! Couplings: a coordinate of one joint is a polynomial of a coordinate of another joint. Examples
 //! are the wheels of a gear train, a rack, or a cam with few terms.
 //!
-//! The row of a drive is coordinate − initial coordinate − motion. For an angle in space, it is the
-//! sine of the remaining angle ([`joints::spec::ConstraintSpec::turning`]). A coupling has the
-//! kernels of two drives and the row `y − (ratio·x + c₂·x² + …) = 0`, where x and y are the joint
-//! coordinates since the start.
+//! The row of a drive is coordinate − initial coordinate − prescribed change. For an angle in
+//! space, the row is the sine of the remaining angle ([`joints::spec::ConstraintSpec::turning`]). A
+//! coupling has the kernels of two drives and the row `y − (ratio·x + c₂·x² + …) = 0`, where x and
+//! y are the joint coordinates since the start.
 //!
-//! Its multiplier is its load: the force or torque along y, like the load of a drive of y. Its
-//! reaction is that of this drive: on the first body of the joint of y, at the reference point of
-//! that joint. It is not the total load on a body. On a body that both joints share, the load along
-//! x acts as well, and the two loads may cancel.
+//! The multiplier of a coupling is its load: the force or torque along y, like the load of a drive
+//! of y. The reaction of a coupling is the reaction of this drive: it acts on the first body of the
+//! joint of y, at the reference point of this joint. This reaction is not the total load on the
+//! body. On a body that belongs to both joints, the load along x acts as well, and the two loads
+//! may cancel.
 //!
-//! A coupling uses the kernels of these two drives, so it needs no definition of its own.
+//! A coupling uses the kernels of these two drives, so it does not need its own definition.
 
 mod element;
 mod error;
@@ -33,23 +34,24 @@ use side::Side;
 pub use crate::element::{AttachedConstraint, AttachedMeasure};
 pub use error::CouplingError;
 
-/// Name of the datum with the initial value of a joint coordinate that has its own row.
+/// Name of the datum with the initial value of a joint coordinate, if the drive has a separate row
+/// for the coordinate.
 const OF_ROW: &str = "measure_0";
 
 /// A coupling of two joint coordinates.
 #[derive(Clone)]
 struct Coupling<S: BodySpace> {
-    /// The coordinate x, and the coordinate y that follows it.
+    /// The coordinate x, and the coordinate y, which is a polynomial of x.
     sides: [Side<S>; 2],
     law: Polynomial,
     facts: &'static facts::CouplingFacts,
-    /// Operation lists of its rows for everything that does not move, recorded on the first
+    /// Operation lists of the rows for evaluations in which nothing moves, recorded at the first
     /// request.
     programs: OnceLock<Arc<Programs>>,
 }
 
-/// Returns the constraint by which the second joint coordinate follows the first: their changes
-/// since the start satisfy `y = Σ coefficients[k]·xᵏ⁺¹`.
+/// Returns the constraint that makes the second joint coordinate a function of the first. Their
+/// changes since the start satisfy `y = Σ coefficients[k]·xᵏ⁺¹`.
 ///
 /// # Errors
 /// - [`CouplingError::Measure`]: a joint coordinate does not have its own row.
@@ -60,14 +62,14 @@ pub(crate) fn couple<S: Kinematics>(
     coefficients: &[f64],
 ) -> Result<AttachedConstraint<S>, CouplingError> {
     let law = Polynomial::new(coefficients).ok_or(CouplingError::Coefficients)?;
-    // The first body is that of the joint of y, where the load of the coupling acts.
+    // The load of the coupling acts on the first body of the joint of y, so this body comes first.
     let mut bodies: Vec<BodyRef> = measures[1].0.clone();
     bodies.dedup();
     let mut slots = Vec::new();
     for (own, drive) in &measures {
         let spec = drive.spec();
-        // A kept coordinate has no separate initial value, because its drive has the rows of the
-        // joint.
+        // Without a separate row, there is no separate initial value: the rows of the drive are
+        // those of the joint.
         let has_own_row = spec.data.iter().any(|datum| datum.name == OF_ROW);
         let is_single = has_own_row && spec.rows.len() == 1 && own.len() == 2;
         if !is_single || spec.common.slots.len() != 2 || spec.common.functions().count() != 1 {

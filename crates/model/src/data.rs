@@ -1,5 +1,5 @@
-//! The numbers that constraints store, as points, directions and single numbers, and the
-//! derivatives of rows with respect to them.
+//! The values stored by constraints (points, directions and scalars), and the derivatives of rows
+//! with respect to them.
 //!
 //! The crate `solvability` computes how a configuration follows a change of the data, and the
 //! effect of a change on a rank.
@@ -23,28 +23,29 @@ use crate::tolerance::Tolerance;
 pub use gradients::DataGradients;
 pub use slopes::DataSlopes;
 
-/// A point, a direction or a single number of a constraint. Its components change together.
+/// A point, a direction or a scalar of a constraint. The components of a block change together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DataBlock {
-    /// The joint or drive, as index of the groups of the layout.
+    /// Index of the joint or drive in the groups of the layout.
     pub group: usize,
-    /// Name of the parameter, or of the value kept from the start.
+    /// Name of the parameter, or of the stored initial value.
     pub name: &'static str,
-    /// Indices of its numbers among all numbers of the mechanism. A point or a direction has as
-    /// many numbers as a vector has components, axes have three, and other data have one.
+    /// Indices of its components among all stored values of the mechanism. A point or a direction
+    /// has as many components as the space has dimensions, a set of axes has three, and other data
+    /// have one.
     pub numbers: Range<usize>,
     /// Unit of changes of this block.
     pub unit: DataUnit,
-    /// Constraint on the changes, if the block is a direction.
+    /// Constraint on the changes, if the block is a direction of constant length.
     across: Option<Across>,
-    /// The largest number with which it is combined (in its unit); its rounding is proportional to
-    /// this number.
+    /// The largest value that is added to the block (in its unit); the rounding error of the block
+    /// is proportional to this value.
     pub scale: f64,
-    /// The tolerance stated for it (in its unit) by its joint, its body or the scene.
+    /// The tolerance of the block (in its unit), as stated by the joint, the body or the scene.
     pub tolerance: Option<f64>,
 }
 
-/// The changes of a direction that keep its length.
+/// The changes of a direction that do not change its length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Across {
     /// Changes in the plane, along this unit vector.
@@ -69,13 +70,13 @@ impl Across {
 pub enum DataUnit {
     /// Metre.
     Length,
-    /// Radian; also for ratios of angles.
+    /// Radian; also used for ratios of angles.
     Angle,
 }
 
 impl DataBlock {
-    /// Returns the part of a gradient with respect to all numbers that belongs to this block, as a
-    /// vector; unused components are zero.
+    /// Returns the components of a gradient that belong to this block. The gradient is with respect
+    /// to all stored values; unused components are zero.
     #[must_use]
     pub fn part(&self, gradient: &[f64]) -> [f64; 3] {
         let own = &gradient[self.numbers.clone()];
@@ -92,33 +93,35 @@ impl DataBlock {
         }
     }
 
-    /// Returns the largest change of a value with this gradient, if the datum moves by `moved`.
+    /// Returns the largest change of a quantity with this gradient, if the block changes by
+    /// `moved`.
     #[must_use]
     pub fn change(&self, gradient: &[f64], moved: f64) -> f64 {
         let [x, y, z] = self.part(gradient);
         x.hypot(y).hypot(z) * moved
     }
 
-    /// Returns the uncertainty of the block: the stated tolerance, or its rounding.
+    /// Returns the uncertainty of the block: the stated tolerance, or otherwise the rounding error.
     #[must_use]
     pub fn known_to(&self) -> f64 {
         self.tolerance.unwrap_or(ROUNDING * self.scale)
     }
 }
 
-/// Returns the part of a value with this gradient that data within their stated tolerances explain:
-/// [`SHARED`] times the sum of the largest changes. The gradient is with respect to all numbers.
+/// Returns the part of a quantity with this gradient that changes of the data within their stated
+/// tolerances explain: [`SHARED`] times the sum of the largest changes. The gradient is with
+/// respect to all stored values.
 #[must_use]
 pub fn explained(blocks: &[DataBlock], gradient: &[f64]) -> f64 {
     let change = |b: &DataBlock| b.change(gradient, b.tolerance.unwrap_or(0.0));
     SHARED * blocks.iter().map(change).sum::<f64>()
 }
 
-/// Rows that contradict each other within a stated tolerance have residuals of at most this
-/// multiple of the effect of their own data, because a residual is distributed among several rows.
+/// A contradiction within the stated tolerances is distributed among several rows. Therefore a
+/// residual may be at most this multiple of the effect of the data of its own row.
 pub const SHARED: f64 = 3.0;
 
-/// The numbers that the constraints of a mechanism store.
+/// The values that the constraints of a mechanism store.
 #[derive(Clone, Copy)]
 pub struct Data<'m>(&'m Mechanism);
 
@@ -139,7 +142,7 @@ impl ForceDerivatives {
 }
 
 impl Mechanism {
-    /// Returns the numbers stored by its constraints.
+    /// Returns the values that the constraints of the mechanism store.
     #[must_use]
     pub fn data(&self) -> Data<'_> {
         Data(self)
@@ -147,7 +150,7 @@ impl Mechanism {
 }
 
 impl<'m> Data<'m> {
-    /// Returns the constraints, each with the indices of its numbers among all numbers.
+    /// Returns the constraints, each with the indices of its values among all stored values.
     fn numbered(self) -> impl Iterator<Item = (&'m PlacedConstraint, Range<usize>)> {
         let mut first = 0;
         self.0.elements.constraints.iter().map(move |c| {
@@ -157,7 +160,7 @@ impl<'m> Data<'m> {
         })
     }
 
-    /// Returns whether a tolerance is stated for any number.
+    /// Returns whether a tolerance is stated for any of these values.
     pub(crate) fn has_tolerances(self) -> bool {
         self.0.has_tolerances()
     }
@@ -168,8 +171,8 @@ impl<'m> Data<'m> {
         self.numbered().last().map_or(0, |(_, numbers)| numbers.end)
     }
 
-    /// Returns all points, directions and numbers of the constraints, at the configuration of the
-    /// scratch. The function allocates memory.
+    /// Returns all points, directions and scalars of the constraints, at the configuration in the
+    /// work space. The function allocates memory.
     #[must_use]
     pub fn blocks(self, s: &Scratch) -> Vec<DataBlock> {
         let mut blocks = Vec::new();
@@ -233,8 +236,8 @@ impl<'m> Data<'m> {
         blocks
     }
 
-    /// Returns the largest change of `λᵀ·Φ` if each datum moves by the value that `moved` returns;
-    /// `lambda` has at least m values.
+    /// Returns the largest change of `λᵀ·Φ` if each block changes by the value that `moved`
+    /// returns; `lambda` has at least m values.
     #[must_use]
     pub fn phi_change(
         self,
@@ -249,14 +252,14 @@ impl<'m> Data<'m> {
         changes.sum()
     }
 
-    /// Adds the gradient of `λᵀ·C·v` with respect to the pose, n_v values along velocity
-    /// directions, to `out`.
+    /// Adds the gradient of `λᵀ·C·v` with respect to the pose to `out`: n_v values, one for each
+    /// velocity component.
     pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
         self.each_force_derivative(s, lambda, |i, j, d| out[j] += d * v[i]);
     }
 
-    /// Returns the derivatives of the forces `Cᵀ·λ` with respect to the pose, for `λᵀ·C·v` at many
-    /// velocities.
+    /// Returns the derivatives of the forces `Cᵀ·λ` with respect to the pose; with them, `λᵀ·C·v`
+    /// can be differentiated for many velocities.
     #[must_use]
     pub fn force_derivatives(self, s: &Scratch, lambda: &[f64]) -> ForceDerivatives {
         let mut all = Vec::new();
@@ -268,7 +271,8 @@ impl<'m> Data<'m> {
         ForceDerivatives(all)
     }
 
-    /// Calls `take` for each derivative of `(Cᵀ·λ)_i` with respect to the pose along velocity j.
+    /// Calls `take` for each derivative of `(Cᵀ·λ)_i` with respect to the pose coordinate of
+    /// velocity component j.
     fn each_force_derivative(
         self,
         s: &Scratch,
@@ -293,8 +297,8 @@ impl<'m> Data<'m> {
         }
     }
 
-    /// Returns the largest length with which the points of a constraint are combined (m): their own
-    /// coordinates, the arms of its bodies, and the positions of these bodies.
+    /// Returns the largest length (m) that is added to the points of a constraint: their own
+    /// coordinates, the arms of the bodies, and the positions of the bodies.
     fn length_scale(self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
         let points = c.spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];
@@ -318,10 +322,11 @@ impl<'m> Data<'m> {
     }
 }
 
-/// Returns the uncertainty of data of this shape in a constraint, in their unit, in a mechanism of
-/// this size (m). The length tolerance is that of the constraint, or otherwise that of a marker at
-/// the point, of the body in whose frame the data are, or of the scene. The angle tolerance is that
-/// of the scene, or otherwise the length tolerance divided by the size.
+/// Returns the uncertainty of data of this shape in a constraint, in the unit of the data; `size`
+/// is the size of the mechanism (m). The length tolerance is that of the constraint. If it is not
+/// stated, the function uses that of a marker at the point, of the body in whose frame the data
+/// are, or of the scene, in this order. The angle tolerance is that of the scene; if it is not
+/// stated, the length tolerance divided by the size.
 fn tolerance_of(
     mechanism: &Mechanism,
     c: &PlacedConstraint,

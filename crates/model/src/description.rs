@@ -1,4 +1,4 @@
-//! A mechanism as plain data: the result of reading a scene, or created directly by a program. This
+//! A mechanism as plain data. The data are read from a scene or created directly by a program. This
 //! module checks nothing; [`crate::Mechanism::build`] checks everything once.
 
 use joints::spec::{ConstraintSpec, Unit};
@@ -41,15 +41,15 @@ pub struct MechanismDescription<S: BodySpace> {
     pub name: String,
     /// Acceleration due to gravity (m/s²).
     pub gravity: S::Vector<f64>,
-    /// Bodies; their order is that of the coordinates.
+    /// Bodies; their order defines the order of the coordinates.
     pub bodies: Vec<S::Body>,
-    /// Joints; their order is that of the rows.
+    /// Joints; their order defines the order of the rows.
     pub joints: Vec<Joint<S>>,
-    /// Drives; their rows follow the holonomic rows of the joints.
+    /// Drives; their rows come after the holonomic rows of the joints.
     pub drives: Vec<Drive<S>>,
     /// Forces.
     pub forces: Vec<Force<S>>,
-    /// Tolerance of the data, unless a tolerance is stated for their joint or body.
+    /// Tolerance of the data for which neither the joint nor the body states a tolerance.
     pub tolerance: Tolerance,
     /// Markers and measures.
     pub observed: Observables,
@@ -111,7 +111,7 @@ impl<S: BodySpace> MechanismDescription<S> {
     }
 
     /// Adds a joint, with points in the frames of its bodies. If the joint depends on time, the
-    /// caller must add its functions to the result.
+    /// caller must add the functions of time to the result.
     pub fn joint(
         &mut self,
         name: &str,
@@ -121,7 +121,7 @@ impl<S: BodySpace> MechanismDescription<S> {
         self.joints.push_mut(Joint::new(name, bodies, element))
     }
 
-    /// Adds a drive, whose joint coordinate changes by f(t) − f(0).
+    /// Adds a drive, which changes its joint coordinate by f(t) − f(0).
     pub fn drive(
         &mut self,
         name: &str,
@@ -139,7 +139,7 @@ impl<S: BodySpace> MechanismDescription<S> {
     }
 
     /// Adds a force, with points in the frames of its bodies. If the force depends on time, the
-    /// caller must add its functions to the result.
+    /// caller must add the functions of time to the result.
     pub fn force(
         &mut self,
         name: &str,
@@ -154,8 +154,8 @@ impl<S: BodySpace> MechanismDescription<S> {
         })
     }
 
-    /// Adds a drive that applies a force (N) or torque (N·m) along its joint coordinate. A force
-    /// law of the coordinate, its rate and time replaces the prescribed motion.
+    /// Adds a drive that applies a force (N) or torque (N·m) along its joint coordinate. The force
+    /// law, a function of the coordinate, its rate and time, replaces the prescribed motion.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -226,7 +226,7 @@ impl<S: BodySpace> MechanismDescription<S> {
         });
     }
 
-    /// Replaces the force law of a drive; the joint coordinate does not change.
+    /// Replaces the force law of a drive and keeps the joint coordinate.
     ///
     /// # Errors
     /// Returns an error if no drive of this name has a force law.
@@ -254,16 +254,16 @@ impl<S: BodySpace> MechanismDescription<S> {
         })
     }
 
-    /// Returns the bodies in the form that a mechanism stores.
+    /// Returns the bodies in the form stored by a mechanism.
     #[must_use]
     pub fn records(&self) -> Vec<BodyRecord> {
         let described = self.bodies.iter().cloned().map(Into::<DescribedBody>::into);
         described.map(BodyRecord::from).collect()
     }
 
-    /// Returns a global point (m) relative to the centre of mass of a body in its described pose,
-    /// which joints and forces require. For the ground, and for a body that does not exist, it
-    /// returns the point itself.
+    /// Converts a point in ground axes (m) to a point relative to the centre of mass of a body in
+    /// its described pose, as joints and forces require. For the ground, and for a body that does
+    /// not exist, the result is the point itself.
     #[must_use]
     pub fn local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| self.bodies.get(at));
@@ -278,7 +278,7 @@ pub enum SetLawError {
     /// The drive does not exist.
     #[error("there is no drive `{name}`")]
     Unknown {
-        /// The name.
+        /// The unknown name.
         name: String,
     },
     /// The drive prescribes a motion.
@@ -292,7 +292,7 @@ pub enum SetLawError {
         /// "force" or "torque".
         load: &'static str,
     },
-    /// The name belongs to a force of another kind.
+    /// The name is that of a force that is not a drive.
     #[error("`{name}` is a force, not a drive by a law")]
     Force {
         /// Name of the force.
@@ -336,7 +336,7 @@ impl From<SpatialDescription> for AnyDescription {
     }
 }
 
-/// Evaluates an expression for the description of either space.
+/// Evaluates the same expression for a description of either space.
 macro_rules! either {
     ($any:expr, $d:ident => $body:expr) => {
         match $any {
@@ -362,13 +362,14 @@ impl AnyDescription {
         either!(self, d => &d.name)
     }
 
-    /// Returns the tolerance of the data, unless a tolerance is stated for their joint or body.
+    /// Returns the tolerance of the data for which neither the joint nor the body states a
+    /// tolerance.
     #[must_use]
     pub fn tolerance(&self) -> Tolerance {
         either!(self, d => d.tolerance)
     }
 
-    /// Replaces this tolerance.
+    /// Replaces the tolerance of these data.
     pub fn set_tolerance(&mut self, tolerance: Tolerance) {
         either!(self, d => d.tolerance = tolerance);
     }
@@ -425,7 +426,7 @@ impl AnyDescription {
         named.into_iter()
     }
 
-    /// Replaces the force law of a drive; the joint coordinate does not change.
+    /// Replaces the force law of a drive and keeps the joint coordinate.
     ///
     /// # Errors
     /// Returns an error if no drive of this name has a force law.
@@ -487,7 +488,7 @@ pub struct Motion<'d> {
     pub bodies: &'d [BodyRef],
     /// The definition of the drive.
     pub spec: &'static ConstraintSpec,
-    /// The change of the joint coordinate.
+    /// The prescribed joint coordinate as a function of time.
     pub of_time: &'d Function,
 }
 
@@ -496,15 +497,15 @@ pub struct Motion<'d> {
 pub struct Joint<S: BodySpace = Plane> {
     /// Name of the joint.
     pub name: String,
-    /// One body for each slot of the definition.
+    /// The bodies, in the order of the definition.
     pub bodies: Vec<BodyRef>,
     /// Definition of the joint with parameters.
     pub element: Box<dyn ConstraintKernels<S>>,
     /// Functions of time, in the order of the definition.
     pub functions: Vec<Function>,
-    /// Tolerance of the points, directions and numbers of the joint (m). For angles, it is
-    /// divided by the size of the mechanism. It takes precedence over the tolerances of the bodies
-    /// and of the scene.
+    /// Tolerance of the points, directions and scalars of the joint (m). For angles, the tolerance
+    /// is divided by the size of the mechanism. This tolerance takes precedence over the tolerances
+    /// of the bodies and of the scene.
     pub tolerance: Option<f64>,
 }
 
@@ -530,13 +531,14 @@ impl<S: BodySpace> Joint<S> {
 pub struct Drive<S: BodySpace = Plane> {
     /// Name of the drive.
     pub name: String,
-    /// One body for each slot of the joint's definition.
+    /// The bodies, in the order of the definition of the joint.
     pub bodies: Vec<BodyRef>,
     /// The element that drives one coordinate of the joint, with the parameters of the joint.
     pub element: Box<dyn ConstraintKernels<S>>,
     /// The function f.
     pub motion: Function,
-    /// Tolerance of its points, directions and numbers (m), equal to that of the driven joint.
+    /// Tolerance of the points, directions and scalars (m), equal to the tolerance of the driven
+    /// joint.
     pub tolerance: Option<f64>,
 }
 
@@ -545,7 +547,7 @@ pub struct Drive<S: BodySpace = Plane> {
 pub struct Force<S: BodySpace = Plane> {
     /// Name of the force.
     pub name: String,
-    /// One body for each slot of the definition.
+    /// The bodies, in the order of the definition.
     pub bodies: Vec<BodyRef>,
     /// Definition of the force with parameters.
     pub element: Box<dyn ForceKernels<S>>,

@@ -1,9 +1,10 @@
-//! Elements in a mechanism: the kernels of joints, drives and forces with the poses and velocities
-//! of their bodies.
+//! Elements in a mechanism: the kernels of joints, drives and forces, together with the poses and
+//! velocities of their bodies.
 //!
-//! Only this module depends on the form in which kernels take poses and velocities. The rest of the
-//! crate evaluates a [`PlacedConstraint`] or a [`PlacedForce`] with [`Slots`], and reads poses of
-//! bodies from [`Bodies`]. Elements with kernels of another form must be added in this module.
+//! Only this module depends on the data types in which kernels receive poses and velocities. The
+//! rest of the crate evaluates a [`PlacedConstraint`] or a [`PlacedForce`] with [`Slots`], and
+//! reads poses of bodies from [`Bodies`]. Elements whose kernels need other data types must be
+//! added in this module.
 
 mod bodies;
 mod constraint;

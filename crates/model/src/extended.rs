@@ -1,11 +1,12 @@
-//! Constraints in double-double at a configuration that is refined beyond `f64`. They are used for
-//! a certificate of the rank.
+//! Constraints in double-double at a configuration that is refined beyond `f64`. A certificate of
+//! the rank uses these constraints.
 //!
-//! At a configuration stored in `f64`, a singular value that is exactly zero is computed as about
-//! 1e-16, like one that is only very small. This module reduces Φ to 1e-32 in the kept rows. An
-//! exact zero then decreases to 1e-32 as well, but a misalignment of the data does not change. The
-//! method is not suitable for simulations: it allocates memory and is a hundred times slower than
-//! the kernels in `f64`.
+//! At a configuration stored in `f64`, the computed value of an exactly zero singular value is
+//! about 1e-16. It cannot be distinguished from a very small singular value. This module reduces Φ
+//! to 1e-32 in the independent rows. The computed value of an exact zero then decreases to about
+//! 1e-32, too, but a singular value that is due to a misalignment in the data does not change. The
+//! method is not suitable for simulations: it allocates memory and is 100 times slower than the
+//! kernels in `f64`.
 
 use linalg::{DampedRows, Dd, DdMatrix, StepError};
 
@@ -15,40 +16,41 @@ use crate::size::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
 
-/// A configuration that satisfies the kept holonomic rows to double-double, with the residuals of
-/// the other rows.
+/// A configuration that satisfies the independent holonomic rows to double-double, with the
+/// residuals of the other rows.
 #[derive(Clone, Debug)]
 pub struct PolishedConfiguration {
     /// Time (s).
     pub t: f64,
     /// Coordinates, n_q.
     pub q: Vec<Dd>,
-    /// Φ, m values: rounding in the kept rows, and in the others the residuals that the data
-    /// permit.
+    /// Φ, m values: rounding errors in the independent rows, and residuals due to the data in the
+    /// other rows.
     pub phi: Vec<Dd>,
     /// C, (m+h) × n_v.
     pub c: DdMatrix,
 }
 
-/// Largest number of corrections. Each correction gains the digits of a factorisation in `f64`, or
-/// fewer near a singular configuration.
+/// Largest number of corrections. Each correction adds as many correct digits as a factorisation in
+/// `f64` has, or fewer near a singular configuration.
 const CORRECTIONS: usize = 6;
 
-/// A residual below this many roundings of double-double needs no further correction.
+/// A residual below this multiple of the rounding error of double-double needs no further
+/// correction.
 const ROUNDINGS: f64 = 16.0;
 
 impl PolishedConfiguration {
-    /// Refines the coordinates q, which satisfy Φ = 0 to `f64`, in the independent rows `kept` of
-    /// Φ. Each correction is the smallest possible one. The iteration ends when corrections no
-    /// longer become smaller, or would move a body farther than a stated tolerance allows.
+    /// Refines the coordinates q, which satisfy Φ = 0 to `f64`; `kept` are the independent rows of
+    /// Φ. Each correction has the smallest possible norm. The iteration ends when corrections no
+    /// longer decrease, or when the next one would move a body by more than a stated tolerance.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
-    /// | `q` | n_q | coordinates on the constraints |
-    /// | `kept` | ≤ m | independent holonomic rows, from 0; rows that do not exist are ignored |
+    /// | `q` | n_q | coordinates that satisfy the constraints to `f64` |
+    /// | `kept` | ≤ m | independent holonomic rows (0-based); rows that do not exist are ignored |
     ///
     /// # Errors
-    /// Returns an error if the kept rows are dependent or an entry is not finite.
+    /// Returns an error if the rows `kept` are dependent or an entry is not finite.
     pub fn at(mechanism: &Mechanism, t: f64, q: &[f64], kept: &[usize]) -> Result<Self, StepError> {
         let m = mechanism.layout().m;
         let kept: Vec<usize> = kept.iter().copied().filter(|&i| i < m).collect();
@@ -60,8 +62,8 @@ impl PolishedConfiguration {
             .iter()
             .map(|&i| mechanism.scales(&s).position(i))
             .collect();
-        // Corrections are small relative to the mechanism. If rotations had the unit radian only,
-        // large bodies would be rotated first.
+        // The weights make corrections small relative to the size of the mechanism. With the radian
+        // as the unit of all rotations, the solver would first rotate large bodies.
         let rotation = scene_size(mechanism, q).powi(-2);
         let weights: Vec<f64> = (0..mechanism.layout().n_v)
             .map(|j| {
@@ -140,7 +142,7 @@ fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
     dense
 }
 
-/// Returns the poses of the bodies, and values of the functions of time.
+/// Returns the poses of the bodies and the values of the functions of time.
 fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> ExtendedSlots {
     let given = mechanism.elements.given.iter();
     let jet = |given: &KernelInput| given.function().map(|f| f.extended_jet(t));
@@ -152,8 +154,8 @@ fn arguments(mechanism: &Mechanism, t: f64, q: &[Dd]) -> ExtendedSlots {
     }
 }
 
-/// Sets the unwrapped angles of the kernels to those of the rounded coordinates, whose cosine and
-/// sine are known to all digits. Kernels add the remaining part of the angle.
+/// Sets the unwrapped angles of the kernels to the rounded coordinates, whose cosine and sine are
+/// accurate to all digits. The kernels add the remaining part of each angle.
 fn counted_angles(mechanism: &Mechanism, t: f64, q: &[Dd], jets: &mut [[Dd; 3]]) {
     if mechanism.layout().turns == 0 {
         return;
@@ -177,7 +179,7 @@ mod tests {
     use super::*;
     use crate::{Body, BodyRef, Description, Joint};
 
-    /// Two bars in a row on one pivot, at angles that `f64` cannot represent.
+    /// Two bars in series with one pivot on the ground, at angles that `f64` cannot represent.
     fn chain() -> Mechanism {
         let bar = |name: &str| Body {
             name: name.into(),
@@ -230,8 +232,8 @@ mod tests {
         for (p, q) in polished.q.iter().zip(q) {
             assert!((p.to_f64() - q).abs() < 1e-15);
         }
-        // C compared with the kernels in f64, and its entry −(R·s)_y = 0.7·sin a of the first row
-        // with more digits than f64.
+        // Compares C with the kernels in `f64`, and the entry −(R·s)_y = 0.7·sin a of the first row
+        // with a value that has more digits than `f64`.
         let mut s = mechanism.scratch();
         mechanism.pose(0.0, &q, &mut s);
         mechanism.c(&mut s);

@@ -1,9 +1,9 @@
-//! Frames of bodies whose origin is not the centre of mass. Only this module converts positions and
-//! velocities of a description to those of the equations, and back.
+//! Body frames whose origin is not the centre of mass. Only this module converts between the
+//! positions and velocities of a description and those of the equations.
 //!
-//! The equations use centres of mass: q = (r, φ), and points of joints relative to them.
-//! Descriptions and outputs use the origin o of the body frame, with c = [`Body::centre`]:
-//! `r = o + R·c`, `ṙ = ȯ + ω × R·c`.
+//! The equations use centres of mass: q = (r, φ), and points of joints are relative to the centre
+//! of mass. Descriptions and outputs use the origin o of the body frame. With c = [`Body::centre`],
+//! `r = o + R·c` and `ṙ = ȯ + ω × R·c`.
 
 use crate::body::{Body, BodyRecord, BodyRef, DescribedBody};
 use crate::element::{Bodies, angle_at, axes_at, turned_at};
@@ -12,14 +12,14 @@ use crate::observed::{Marker, Measure, MeasureKind, Observables};
 use crate::space::{SpaceKind, cross, difference, norm, normalised, quaternion_product};
 use crate::system::System;
 
-/// Position and velocity of a point of a body, or of its frame, in ground axes.
+/// Position and velocity, in ground axes, of a point of a body or of the origin of its frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameState {
     /// The space of the mechanism.
     pub space: SpaceKind,
     /// Position (m).
     pub place: [f64; 3],
-    /// Angle of the axes in the plane (rad), not reduced to one revolution.
+    /// Angle of the axes in the plane (rad), including full revolutions.
     pub angle: f64,
     /// Velocity (m/s).
     pub velocity: [f64; 3],
@@ -39,7 +39,7 @@ impl FrameState {
         }
     }
 
-    /// Returns a vector of the ground in the axes of the frame.
+    /// Transforms a vector from ground axes to the axes of the frame.
     fn own(&self, d: [f64; 3]) -> [f64; 3] {
         let [x, y, z] = d;
         if self.space == SpaceKind::Space3 {
@@ -51,7 +51,7 @@ impl FrameState {
         [cos * x + sin * y, cos * y - sin * x, z]
     }
 
-    /// Returns the distance of another state (m), and the angle of its axes relative to the axes of
+    /// Returns the distance to another state (m), and the angle between its axes and the axes of
     /// this state (rad). In the plane the angle includes full revolutions; in space it is at most
     /// half a revolution.
     ///
@@ -89,7 +89,7 @@ impl FrameState {
         [cos, 0.0, 0.0, sin]
     }
 
-    /// Returns the numbers, in the order of [`SpaceKind::columns`].
+    /// Returns the values of the state, in the order of [`SpaceKind::columns`].
     pub fn numbers(&self) -> impl Iterator<Item = f64> + use<> {
         let ([x, y, z], [vx, vy, vz]) = (self.place, self.velocity);
         let ([w, e1, e2, e3], [wx, wy, wz]) = (self.quaternion, self.omega);
@@ -105,14 +105,14 @@ impl FrameState {
 }
 
 impl Mechanism {
-    /// Returns the frames of its bodies, its markers and its measures.
+    /// Returns the frames of the bodies, the markers and the measures of the mechanism.
     #[must_use]
     pub fn frames(&self) -> Frames<'_> {
         Frames(self)
     }
 
-    /// Returns the coordinates and velocities as described, without correction. Velocities that are
-    /// not given are zero.
+    /// Returns the coordinates and velocities given in the description, without correction.
+    /// Velocities that are not given are zero.
     #[must_use]
     pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
         let mut q = vec![0.0; self.layout().n_q];
@@ -126,22 +126,22 @@ impl Mechanism {
     }
 }
 
-/// Conversion between a mechanism, whose equations use centres of mass, and the description and
-/// output of bodies and points.
+/// Converts between the equations of a mechanism, which use centres of mass, and descriptions and
+/// outputs, which use body frames and points.
 #[derive(Clone, Copy)]
 pub struct Frames<'m>(&'m Mechanism);
 
 impl<'m> Frames<'m> {
-    /// Returns the markers and measures. A part of a mechanism contains only its markers with a
-    /// tolerance.
+    /// Returns the markers and measures. A part of a mechanism contains only the markers for which
+    /// a tolerance is stated.
     #[must_use]
     pub fn observed(self) -> &'m Observables {
         &self.0.observed
     }
 
-    /// Transforms a vector from the axes of the coordinates of a body, such as its points in
-    /// [`Mechanism::points`] and [`Bodies::to_local`], to the axes of its frame. The two systems
-    /// are equal unless the body has products of inertia: then its coordinates refer to its
+    /// Transforms a vector from the axes of the coordinates of a body to the axes of the body
+    /// frame. Examples are the points in [`Mechanism::points`] and in [`Bodies::to_local`]. The two
+    /// systems are equal unless the body has products of inertia: then the coordinates refer to the
     /// principal axes.
     ///
     /// # Panics
@@ -153,8 +153,8 @@ impl<'m> Frames<'m> {
         principal.map_or(own, |of| of.to_frame(own))
     }
 
-    /// Returns the poses of all bodies at q: the positions of their centres of mass, with the axes
-    /// of their frames.
+    /// Returns the poses of all bodies at q: the positions of the centres of mass, with the axes of
+    /// the body frames.
     ///
     /// # Panics
     /// Panics if q has the wrong length.
@@ -172,8 +172,8 @@ impl<'m> Frames<'m> {
         Bodies::at(space, &told)
     }
 
-    /// Returns the origin and the axes of the frame of a body at q and v, as they are written to
-    /// outputs. For a body whose frame is at its centre of mass, these equal its coordinates and
+    /// Returns the origin and the axes of a body frame at q and v, in the form written to outputs.
+    /// If the frame of the body is at its centre of mass, the result equals the coordinates and
     /// velocities bit for bit.
     ///
     /// ```
@@ -195,7 +195,7 @@ impl<'m> Frames<'m> {
         self.point(body, [0.0; 3], q, v)
     }
 
-    /// Returns the state of a point of the frame of a body at q and v.
+    /// Returns the state of a point at q and v; the point is given in the body frame.
     ///
     /// # Panics
     /// Panics under the same conditions as [`Self::body`].
@@ -209,7 +209,7 @@ impl<'m> Frames<'m> {
             angle: angle_at(space, own),
             ..FrameState::default()
         };
-        // Positions come first in the coordinates of every space.
+        // In the coordinates of both spaces, the position comes first.
         state.place[space.forces()].copy_from_slice(&own[space.forces()]);
         let v = &v[space.columns_of(body)];
         state.velocity[space.forces()].copy_from_slice(&v[space.forces()]);
@@ -233,9 +233,9 @@ impl<'m> Frames<'m> {
         state
     }
 
-    /// Returns the velocities that the description gives, n_v values, at the configuration q. They
-    /// refer to the centres of mass and follow from the given velocities of frames and the given
-    /// angular velocity.
+    /// Returns the velocities given in the description, n_v values, at the configuration q. The
+    /// velocity of a centre of mass is computed from the given velocity of the body frame and the
+    /// given angular velocity.
     #[must_use]
     pub fn given_velocities(self, q: &[f64]) -> Vec<Option<f64>> {
         let space = self.0.space();
@@ -254,13 +254,14 @@ impl<'m> Frames<'m> {
             DescribedBody::Plane(b) => of_plane(k, b),
             DescribedBody::Space3(b) => {
                 let own = &q[space.coordinates(k)];
-                // The origin is at the arm −c from the centre of mass.
+                // The vector from the centre of mass to the origin is −c.
                 let arm = turned_at(space, own, record.from_centre([0.0; 3])).map(|x| 0.0 - x);
                 let carried = |v: [f64; 3], omega: [f64; 3]| -> [f64; 3] {
                     let turned = cross(omega, arm);
                     std::array::from_fn(|k| v[k] + turned[k])
                 };
-                // Without a rotation, the frame is at the centre of mass: the build ensures this.
+                // Without a given angular velocity, the frame is at the centre of mass; the build
+                // checks this.
                 let velocity = b.velocity.map(|v| match b.angular_velocity {
                     Some(omega) if arm != [0.0; 3] => carried(v, omega),
                     _ => v,
@@ -276,7 +277,7 @@ impl<'m> Frames<'m> {
         self.0.bodies().iter().enumerate().flat_map(of).collect()
     }
 
-    /// Returns the state of a marker at q and v. Its angle, or its orientation, is that of its
+    /// Returns the state of a marker at q and v; the angle or orientation is that of the marker
     /// axes.
     ///
     /// # Panics

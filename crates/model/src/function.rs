@@ -1,5 +1,5 @@
 //! Functions of time, with their first two derivatives and the times at which a derivative jumps.
-//! In the crates, only these functions depend explicitly on time.
+//! Only these functions depend explicitly on time; nothing else in the crates does.
 
 mod lines;
 mod parts;
@@ -56,18 +56,18 @@ struct Step {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FunctionError {
-    /// A number is NaN, infinite or above [`LARGEST`].
+    /// A value is NaN, infinite or above [`LARGEST`].
     #[error("`{name}` is {value:?}, need finite numbers up to {LARGEST:e}")]
     NotFinite {
-        /// Name of the number.
+        /// Name of the value.
         name: &'static str,
-        /// The number.
+        /// The value.
         value: f64,
     },
     /// The end time of a step is not after its start time.
     #[error("step {step} runs from t = {from} to t = {to}; `to` must be later than `from`")]
     EmptyStep {
-        /// Number of the step, from 1.
+        /// Number of the step (1-based).
         step: usize,
         /// Start time of the step.
         from: f64,
@@ -80,7 +80,7 @@ pub enum FunctionError {
         /// Number of points.
         found: usize,
     },
-    /// The numbers of times and of values differ.
+    /// The times and the values of a table differ in number.
     #[error("{times} times and {values} values; a table needs as many of both")]
     Uneven {
         /// Number of times.
@@ -91,11 +91,11 @@ pub enum FunctionError {
     /// The times are not increasing.
     #[error("times must grow: times[{index}] = {later} follows {earlier}")]
     NotIncreasing {
-        /// Index of the later time, from 0.
+        /// Index of the later time (0-based).
         index: usize,
         /// The time before it.
         earlier: f64,
-        /// The time that is not larger.
+        /// The later time, which is not larger than the earlier one.
         later: f64,
     },
 }
@@ -121,13 +121,13 @@ impl Function {
         Self::polynomial(&[value])
     }
 
-    /// Returns the time itself, as an argument for laws of drives.
+    /// Returns the function f(t) = t, an argument of drive laws.
     #[must_use]
     pub fn time() -> Self {
         Self(TimeLaw::Polynomial(vec![0.0, 1.0]))
     }
 
-    /// Returns Returns `rate·t`..
+    /// Returns `rate·t`.
     ///
     /// # Errors
     /// Returns an error if the rate is not finite, or above [`LARGEST`].
@@ -136,7 +136,7 @@ impl Function {
         Self::polynomial(&[0.0, rate])
     }
 
-    /// Returns Returns `Σ coefficients[k]·tᵏ`..
+    /// Returns `Σ coefficients[k]·tᵏ`.
     ///
     /// # Errors
     /// Returns an error if a coefficient is not finite, or above [`LARGEST`].
@@ -145,10 +145,10 @@ impl Function {
         Ok(Self(TimeLaw::Polynomial(coefficients.to_vec())))
     }
 
-    /// Returns Returns `amplitude·sin(omega·t + phase) + offset`..
+    /// Returns `amplitude·sin(omega·t + phase) + offset`.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite, or above [`LARGEST`].
+    /// Returns an error if an argument is not finite, or above [`LARGEST`].
     pub fn harmonic(
         amplitude: f64,
         omega: f64,
@@ -167,11 +167,12 @@ impl Function {
         }))
     }
 
-    /// Returns the value `start`, followed by smooth steps `[from, to, by]`. Between its two times,
-    /// each step adds `by·(10s³ − 15s⁴ + 6s⁵)`.
+    /// Returns the function that starts at the value `start` and adds smooth steps
+    /// `[from, to, by]`. Between the times `from` and `to`, each step adds
+    /// `by·(10s³ − 15s⁴ + 6s⁵)`.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite or above [`LARGEST`], or if a step has no
+    /// Returns an error if an argument is not finite or above [`LARGEST`], or if a step has no
     /// duration.
     pub fn steps(start: f64, steps: &[[f64; 3]]) -> Result<Self, FunctionError> {
         usable("start", &[start])?;
@@ -194,20 +195,20 @@ impl Function {
         Ok(Self(TimeLaw::Steps { start, steps }))
     }
 
-    /// Returns the natural cubic spline through a table, which continues as a straight line on both
-    /// sides.
+    /// Returns the natural cubic spline through a table; outside the table, it continues as a
+    /// straight line.
     ///
     /// # Errors
-    /// Returns an error if there are fewer than two points, if times are not increasing, or if a
-    /// number is not finite or above [`LARGEST`].
+    /// Returns an error if there are fewer than two points, if times are not increasing, or if an
+    /// entry is not finite or above [`LARGEST`].
     pub fn table(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later > earlier)?;
         Ok(Self(TimeLaw::Table(Spline::natural(times, values))))
     }
 
-    /// Returns the piecewise linear function through a table. The outer lines continue on both
-    /// sides. If two points have the same time, the value jumps there; at other points the rate
-    /// jumps.
+    /// Returns the piecewise linear function through a table. Outside the table, the first and the
+    /// last line continue. If two points have the same time, the value jumps there; at other points
+    /// the rate jumps.
     ///
     /// ```
     /// use pfaff_model::Function;
@@ -219,8 +220,8 @@ impl Function {
     ///
     /// # Errors
     /// Returns an error if there are fewer than two points, if times decrease, or if more than two
-    /// times are equal. It also returns an error if the first or last two times are equal, or if a
-    /// number is not finite or above [`LARGEST`].
+    /// times are equal. It also returns an error if the first two or the last two times are equal,
+    /// or if an entry is not finite or above [`LARGEST`].
     pub fn lines(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later >= earlier)?;
         let last = times.len() - 1;
@@ -269,7 +270,7 @@ impl Function {
         }
     }
 
-    /// Returns whether it has the same value at all times.
+    /// Returns whether the function has the same value at all times.
     ///
     /// ```
     /// use pfaff_model::Function;
@@ -289,12 +290,12 @@ impl Function {
         }
     }
 
-    /// Returns the constant function with its value at t.
+    /// Returns the constant function with the value f(t).
     pub(crate) fn held_at(&self, t: f64) -> Self {
         Self(TimeLaw::Polynomial(vec![self.jet(t)[0]]))
     }
 
-    /// Times at which the function or a derivative jumps, in ascending order.
+    /// Returns the times at which the function or one of its derivatives jumps, in ascending order.
     #[must_use]
     pub fn break_times(&self) -> Vec<f64> {
         let mut times = match &self.0 {
@@ -328,7 +329,7 @@ impl Step {
     }
 }
 
-/// Returns the points of a table, checked for the order of their times.
+/// Returns the points of a table after a check of the order of the times.
 fn points(
     times: &[f64],
     values: &[f64],
@@ -366,8 +367,8 @@ fn usable(name: &'static str, values: &[f64]) -> Result<(), FunctionError> {
 mod tests {
     use super::*;
 
-    /// Limit for central differences of a smooth function with step 1e-4, whose error is about 1e-8
-    /// of the third derivative.
+    /// Limit for central differences of a smooth function with step 1e-4; their error is about 1e-8
+    /// times the third derivative.
     const DIFFERENCE: f64 = 1e-6;
 
     #[test]

@@ -1,4 +1,5 @@
-//! Joints and drives with their rows: names, sizes, and the components of their reactions.
+//! Joints and drives with their rows. A group contains names, sizes, and the components of the
+//! reaction.
 
 use joints::spec::{ConstraintSpec, Datum, DatumShape, Entry};
 
@@ -30,7 +31,7 @@ pub struct ConstraintGroup {
     pub name: String,
     /// Joint or drive.
     pub kind: ConstraintKind,
-    /// Description of the definition.
+    /// Description of the constraint type.
     pub spec: &'static ConstraintSpec,
     /// Bodies of the joint or drive.
     pub bodies: Vec<BodyRef>,
@@ -39,15 +40,15 @@ pub struct ConstraintGroup {
 }
 
 impl ConstraintGroup {
-    /// Returns whether the constraint only prescribes a motion: a drive, which is listed separately
-    /// from the joints.
+    /// Returns whether the constraint is a drive, which only prescribes a motion and is listed
+    /// separately from the joints.
     #[must_use]
     pub fn is_drive(&self) -> bool {
         self.kind == ConstraintKind::Drive
     }
 
-    /// Returns the slot of the body that contains a point of its data, if it is the only point
-    /// there.
+    /// Returns the index (in the list of bodies) of the body that contains the point `name`, if
+    /// this body contains no other point of the constraint.
     #[must_use]
     pub fn slot_of_point(&self, name: &str) -> Option<usize> {
         let slot_of = |datum: &Datum| match datum.shape {
@@ -70,16 +71,17 @@ impl ConstraintGroup {
             .collect()
     }
 
-    /// Returns the named component that is reported in addition to force and torque: the load of a
-    /// coupling. It acts on up to four bodies, and force and torque are those on one of them.
+    /// Returns the named component that is reported in addition to force and torque, namely the
+    /// load of a coupling. This load acts on up to four bodies, and the reported force and torque
+    /// are those on one of them.
     #[must_use]
     pub fn own_load(&self) -> Option<&'static str> {
         let named = self.spec.component;
         named.filter(|_| self.spec.common.scene_type == coupling::TYPE)
     }
 
-    /// Returns the names of its reported components: those that are not identically zero, and the
-    /// named component if they do not contain it.
+    /// Returns the names of the reported components: the components that are not identically zero,
+    /// and the named component if it is not one of them.
     pub fn component_names(&self) -> impl Iterator<Item = &'static str> + use<> {
         let names = self.space.components();
         let own = self.components().into_iter().map(|c| names[c]);
@@ -104,7 +106,7 @@ impl ConstraintGroup {
         entries
     }
 
-    /// Returns whether a row of this joint or drive has a force in its reaction.
+    /// Returns whether a row of this joint or drive has a force in its reaction, not only a torque.
     #[must_use]
     pub fn pushes(&self, row: usize) -> bool {
         let entries = self.wrench_entries();
@@ -113,7 +115,7 @@ impl ConstraintGroup {
             .any(|[component, at]| *at == row && self.space.forces().contains(component))
     }
 
-    /// Returns whether the first body also occupies other slots.
+    /// Returns whether the first body occurs again in the list of bodies.
     pub(crate) fn repeats_first_body(&self) -> bool {
         let [first, others @ ..] = &self.bodies[..] else {
             return false;
@@ -121,8 +123,8 @@ impl ConstraintGroup {
         others.contains(first)
     }
 
-    /// Returns the entries of the block of C, with their indices in it, for other slots that the
-    /// first body occupies.
+    /// Returns the entries of the block of C, with their indices in it, for the other positions of
+    /// the first body in the list of bodies.
     pub(crate) fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
         let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
         self.spec

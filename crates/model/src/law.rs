@@ -1,8 +1,8 @@
 //! Force laws of drives: a force or torque as a function of a joint coordinate, its rate and time.
-//! A law is either a small program, evaluated with its derivatives and without allocation, or a
-//! function of the caller, which returns only values.
+//! A law is either a list of operations or a callback. The list is evaluated with its derivatives
+//! and without allocation; a callback returns only values.
 //!
-//! This module does not define the syntax and the units of a law in a scene.
+//! The syntax and the units of laws in scenes are defined elsewhere.
 
 mod drive;
 mod error;
@@ -24,9 +24,9 @@ use program::Program;
 
 /// A force or torque as a function of a joint coordinate, its rate and time.
 ///
-/// A law of [operations](Law::new) has derivatives. A [called](Law::called) function returns only
-/// values. Methods that need derivatives (implicit methods, linearisation, search for an
-/// equilibrium) therefore reject it with an error that names it.
+/// A law made of [operations](Law::new) has derivatives. A [called](Law::called) function returns
+/// only values. Therefore, methods that need derivatives (implicit methods, linearisation, search
+/// for an equilibrium) reject a called law with an error that names the drive.
 ///
 /// ```
 /// use pfaff_model::law::{Join, Law, Operation};
@@ -45,7 +45,7 @@ use program::Program;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
     form: Form,
-    /// Whether the joint coordinate is counted from the start.
+    /// Whether the law uses the change of the joint coordinate since the start.
     pub(crate) since_start: bool,
 }
 
@@ -56,15 +56,15 @@ enum Form {
     Called(CalledFunction<DriveState, f64>),
 }
 
-/// The force of a force-law drive, and its arguments.
+/// The force of a drive with a force law, and the arguments of the law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DriveForce {
     /// The joint coordinate (m or rad).
     pub measure: f64,
     /// Rate of the joint coordinate (m/s or rad/s).
     pub rate: f64,
-    /// Force (N) or torque (N·m) along the joint coordinate: it acts on the second body, and its
-    /// opposite on the first.
+    /// Force (N) or torque (N·m) along the joint coordinate. It acts on the second body, and the
+    /// opposite load acts on the first body.
     pub force: Result<f64, UndefinedValue>,
 }
 
@@ -73,8 +73,8 @@ impl Law {
     /// operation.
     ///
     /// # Errors
-    /// Returns an error if the operations do not produce exactly one number, or need more than 64
-    /// numbers at a time.
+    /// Returns an error if the operations do not produce exactly one value, or need more than 64
+    /// values at a time.
     pub fn new(operations: &[Operation]) -> Result<Self, LawError> {
         Ok(Self {
             form: Form::Program(Program::new(operations)?),
@@ -82,13 +82,12 @@ impl Law {
         })
     }
 
-    /// Creates a law that calls a function, which returns the force (N) or torque (N·m), or an
-    /// error.
+    /// Creates a law from a callback that returns the force (N) or torque (N·m), or an error.
     ///
-    /// The function is called at stages of an integrator, at rows of output, and again if a step is
+    /// The callback is called at stages of an integrator, at output rows, and again if a step is
     /// repeated. The calls are not in chronological order, and there may be several calls for one
-    /// instant. The function must return the same value for the same state. A value that is not
-    /// finite, or an error, ends the simulation with an error that names the force.
+    /// instant. For the same arguments, the callback must return the same value. A value that is
+    /// not finite, or an error, ends the simulation with an error that names the force.
     ///
     /// ```
     /// use pfaff_model::Law;
@@ -107,13 +106,14 @@ impl Law {
         }
     }
 
-    /// Returns whether it calls a function.
+    /// Returns whether the law calls a callback.
     #[must_use]
     pub fn is_called(&self) -> bool {
         matches!(self.form, Form::Called(_))
     }
 
-    /// Returns the law of the change of the joint coordinate since the assembled start.
+    /// Returns the same law with another argument: the change of the joint coordinate since the
+    /// assembled start.
     #[must_use]
     pub fn since_start(self) -> Self {
         Self {
@@ -122,8 +122,8 @@ impl Law {
         }
     }
 
-    /// Returns the force (N) or torque (N·m). It does not allocate memory, unless a called function
-    /// does.
+    /// Returns the force (N) or torque (N·m). The function does not allocate memory, unless a
+    /// callback does.
     ///
     /// # Errors
     /// Returns an error if the force has no finite value.
@@ -132,12 +132,12 @@ impl Law {
     }
 
     /// Returns the force or torque with its derivatives with respect to the joint coordinate and
-    /// its rate. It does not allocate memory. A derivative without a finite value is returned as 0,
-    /// because it only guides implicit methods.
+    /// its rate. The function does not allocate memory. If a derivative is not finite, the function
+    /// returns 0 for it, because derivatives only speed up the iterations of implicit methods.
     ///
     /// # Errors
-    /// Returns an error if the force has no finite value, and [`UndefinedValue::ValueAlone`] if the
-    /// law calls a function.
+    /// Returns an error if the force is not finite, and [`UndefinedValue::ValueAlone`] if the law
+    /// calls a callback.
     pub fn slopes(&self, measure: f64, rate: f64, t: f64) -> Result<[f64; 3], UndefinedValue> {
         let Slope { value, by } = self.slope([measure, rate, t])?;
         Ok([value, by[0], by[1]])

@@ -4,14 +4,14 @@
 //!
 //! | doc | code | meaning | shape |
 //! | --- | --- | --- | --- |
-//! | q, q̇ | `q`, `rate` | coordinates, body by body (x, y, φ), and their rates | n_q |
-//! | v, v̇ | `v`, `a` | velocities and accelerations, body by body; in the plane v = q̇ | n_v |
+//! | q, q̇ | `q`, `rate` | coordinates in the order of the bodies (x, y, φ), and their rates | n_q |
+//! | v, v̇ | `v`, `a` | velocities and accelerations in the order of the bodies; in the plane v = q̇ | n_v |
 //! | Φ | `phi` | holonomic constraints | m |
 //! | Ψ, ψ | `psi` | Pfaffian rows, Ψ·v + ψ = 0 | h × n_v |
 //! | C, b | `c`, `b` | all rows stacked, C = \[Φq; Ψ\], C·v = b = \[−Φt; −ψ\] | (m+h) × n_v |
 //! | Γ | `gamma` | right-hand side of C·v̇ = Γ | m+h |
 //! | M | `mass` | diagonal of the mass matrix | n_v |
-//! | Q | `force` | applied forces, weight included | n_v |
+//! | Q | `force` | applied forces, including gravity | n_v |
 //! | λ | `lambda` | multipliers in M·v̇ + Cᵀ·λ = Q; the reaction of the joint X is −C_Xᵀ·λ_X | m+h |
 //!
 //! # Code map, in the order of the data
@@ -19,28 +19,28 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`function`] | functions of time with their derivatives and break times |
-//! | [`registry`] | definitions of joints and forces, indexed by their scene type |
+//! | [`registry`] | definitions of joints and forces, found by their type in scenes |
 //! | [`description`] | bodies, joints, drives and forces as plain data |
-//! | [`frame`] | frames whose origin is not the centre of mass, and states of points |
-//! | `data` | points, directions and numbers of constraints, and derivatives of rows |
+//! | [`frame`] | body frames whose origin is not the centre of mass, and states of points |
+//! | `data` | points, directions and scalars stored by constraints, and derivatives of rows |
 //! | [`coupling`] | couplings between joint coordinates |
 //! | [`law`] | force laws: forces of drives as functions of a joint coordinate and its rate |
 //! | [`mechanism`] | the assembled equations |
 //! | `element` | kernels with the poses and velocities of their bodies |
 //! | [`system`] | the interface of the equations for solvers |
-//! | [`extended`] | constraints in double-double, for certificates |
+//! | [`extended`] | constraints in double-double, for certificates of the rank |
 //! | [`record`] | the equations as operation lists, for code generators |
 //! | `group` | joints and drives with their rows |
 //! | `size` | the length scale of a mechanism |
 //! | `scale` | reference sizes for residuals |
 //! | `tolerance` | stated tolerances of the data |
 //! | `uncertainty` | the uncertainty of the entries of C |
-//! | [`space`] | coordinates of bodies, and motion of a configuration along velocities |
+//! | [`space`] | coordinates of bodies, and displacements of a configuration along velocities |
 //! | [`start`] | consistent initial coordinates and velocities |
 //! | `principal` | principal axes of bodies with products of inertia |
 //! | `observed` | markers, and measures between them |
 //! | `vectors` | poses, vectors and tensors of `nalgebra` for bodies in space |
-//! | `called` | forces that call a function of the caller |
+//! | `called` | forces that are computed by a callback of the caller |
 //! | [`reaction`] | forces and torques of reactions, computed from multipliers |
 
 mod agreement;

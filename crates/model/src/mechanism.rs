@@ -1,5 +1,5 @@
-//! The assembled mechanism: a list of elements, each with its bodies, rows and entries. The build
-//! checks everything that can be wrong, so a built mechanism has no invalid state.
+//! The assembled mechanism: a list of elements, each with its bodies, its rows and its entries in
+//! the matrices. The build checks for all errors, so a built mechanism is always valid.
 
 mod build;
 mod build_error;
@@ -36,7 +36,7 @@ pub use part::{Part, Places};
 pub use time_function::{FunctionForm, TimeFunction};
 pub use work::Work;
 
-/// A mechanism: bodies, constraints, forces, and the equations that follow from them.
+/// A mechanism: bodies, constraints, forces, and the equations of motion.
 ///
 /// ```
 /// use joints::Revolute;
@@ -78,16 +78,16 @@ pub struct Mechanism {
     tolerance: Tolerance,
     /// Longest arm of each body in the initial configuration (m).
     reach: Vec<f64>,
-    /// Whether rows of angles keep the angle of each body constant.
+    /// For each body, whether rows that restrict angles keep its angle constant.
     held: Vec<bool>,
     pub(crate) observed: Observables,
     layout: Layout,
 }
 
 impl Mechanism {
-    /// Returns the mechanism with functions of time that keep their values at t. Drives are locked
-    /// at these values, and prescribed forces are constant. Force laws of drives may still depend
-    /// on time.
+    /// Returns the mechanism with all functions of time replaced by their values at t. Drives are
+    /// then locked, and prescribed forces are constant. Force laws of drives may still depend on
+    /// time.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -120,8 +120,9 @@ impl Mechanism {
 }
 
 impl Mechanism {
-    /// Returns whether functions of time in the rows of a joint or drive prescribe a motion. A
-    /// drive with a constant function is a lock, and so is a rate that is always zero.
+    /// Returns whether a function of time in the rows of a joint or drive prescribes a motion. A
+    /// drive with a constant function is a lock; the same applies to a prescribed rate that is
+    /// always zero.
     ///
     /// # Panics
     /// Panics if the joint or drive does not exist.
@@ -147,8 +148,8 @@ impl Mechanism {
         self.layout.space
     }
 
-    /// Returns the mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), before
-    /// its start is assembled.
+    /// Returns the mechanism with planar coordinates (x, y, cos φ, sin φ); the start is not yet
+    /// assembled.
     #[cfg(feature = "unit-circle")]
     #[must_use]
     pub fn on_unit_circle(mut self) -> Self {
@@ -157,7 +158,8 @@ impl Mechanism {
         self
     }
 
-    /// Returns the tolerance of the data, unless a tolerance is stated for their joint or body.
+    /// Returns the tolerance of the data for which neither the joint nor the body states a
+    /// tolerance.
     #[must_use]
     pub fn tolerance(&self) -> Tolerance {
         self.tolerance
@@ -169,13 +171,13 @@ impl Mechanism {
         &self.bodies
     }
 
-    /// Returns the coordinates of the bodies in those of a configuration: all except the unwrapped
-    /// angles.
+    /// Returns the coordinates of the bodies in a configuration, which are all coordinates except
+    /// the unwrapped angles.
     pub fn of_bodies<'q, T>(&self, q: &'q [T]) -> &'q [T] {
         &q[..self.layout.angles().start.min(q.len())]
     }
 
-    /// Returns the coordinates of the bodies as a mutable slice.
+    /// Returns the coordinates of the bodies in a configuration as a mutable slice.
     pub fn of_bodies_mut<'q, T>(&self, q: &'q mut [T]) -> &'q mut [T] {
         let n = self.layout.angles().start.min(q.len());
         &mut q[..n]
@@ -190,16 +192,16 @@ impl Mechanism {
         d
     }
 
-    /// Copies the freedoms of these columns of C from another configuration exactly, and all
-    /// unwrapped angles.
+    /// Copies the coordinates of these columns of C from another configuration exactly, and also
+    /// all unwrapped angles.
     pub fn take(&self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         self.space().take(q, from, columns);
         let first = self.layout.angles().start;
         q[first..].copy_from_slice(&from[first..]);
     }
 
-    /// Returns the column of C along which two configurations differ most, and the difference:
-    /// lengths as a fraction of `size`, angles in radians.
+    /// Returns the column of C in which two configurations differ most, and the difference: lengths
+    /// as a fraction of `size`, angles in radians.
     #[must_use]
     pub fn largest_difference(&self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let space = self.space();
@@ -212,16 +214,17 @@ impl Mechanism {
         self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
     }
 
-    /// Returns the rate of the kinetic energy and the potential energy of the weight at velocities
-    /// v and accelerations a (W): `vᵀ·(M·a − weight)`. If the constraints are satisfied, it is the
-    /// power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and `C·v = b`.
+    /// Returns the rate of the sum of the kinetic energy and the potential energy of gravity (W),
+    /// for velocities v and accelerations a: `vᵀ·(M·a − weight)`. If the constraints are satisfied,
+    /// this rate is the power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and
+    /// `C·v = b`.
     #[must_use]
     pub fn energy_rate(&self, v: &[f64], a: &[f64]) -> f64 {
         let terms = self.mass.iter().zip(a).zip(self.weight.iter().zip(v));
         terms.map(|((m, a), (w, v))| (m * a - w) * v).sum()
     }
 
-    /// Returns the names of the body and of its coordinate that change with a column of C.
+    /// Returns the names of the body and of its coordinate that belong to a column of C.
     #[must_use]
     pub fn coordinate(&self, column: usize) -> (&str, &'static str) {
         let (space, body) = (self.space(), self.space().body_of(column));
@@ -229,7 +232,7 @@ impl Mechanism {
         (&self.bodies[body].name, direction)
     }
 
-    /// Returns the names of the body and of the coordinate for an entry of q.
+    /// Returns the names of the body and of its coordinate that belong to an entry of q.
     #[must_use]
     pub fn coordinate_name(&self, k: usize) -> (&str, &'static str) {
         let n = self.space().n_q();
@@ -249,7 +252,7 @@ impl Mechanism {
         &self.weight
     }
 
-    /// Returns the potential energy of the weight (J).
+    /// Returns the potential energy of gravity (J).
     #[must_use]
     pub fn potential_energy(&self, q: &[f64]) -> f64 {
         let space = self.space();
@@ -263,14 +266,14 @@ impl Mechanism {
     }
 
     /// Returns the longest arm of a body in the initial configuration (m). The position of the body
-    /// is accurate to about the rounding of this arm, even near the origin.
+    /// is accurate to about the rounding error of this arm, even near the origin.
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
     }
 
-    /// Returns whether a length in a body (m), such as the distance of a joint from its centre,
-    /// exceeds the rounding of the longest arm.
+    /// Returns whether a length in a body (m), for example the distance of a joint from the centre
+    /// of mass, exceeds the rounding error of the longest arm.
     #[must_use]
     pub fn is_length(&self, body: usize, length: f64) -> bool {
         are_apart(length, self.reach(body))

@@ -1,5 +1,5 @@
-//! Markers and measures: named points, and quantities between them, for the output of a motion.
-//! They do not constrain the mechanism, and [`crate::frame`] evaluates them on request.
+//! Markers (named points) and measures (quantities between markers) for the output of a motion.
+//! They do not constrain the mechanism; [`crate::frame`] evaluates them on request.
 
 use crate::body::{BodyRecord, BodyRef};
 use crate::space::SpaceKind;
@@ -11,21 +11,21 @@ pub struct Marker {
     pub name: String,
     /// Body of the marker.
     pub body: BodyRef,
-    /// Position in the frame of the body (m); in the plane z = 0.
+    /// Position in the body frame (m); in the plane z = 0.
     pub point: [f64; 3],
-    /// In the plane, the angle of its axes in the frame of the body (rad). `None` means that its
-    /// axes are those of the body, and its angle is not used.
+    /// In the plane, the angle of the marker axes in the body frame (rad). `None` means that the
+    /// marker has the axes of the body, and that its angle is not used.
     pub angle: Option<f64>,
-    /// In space, the orientation of its axes in the frame of the body: a quaternion (w, x, y, z) of
-    /// any nonzero length. `None` means that its axes are those of the body.
+    /// In space, the orientation of the marker axes in the body frame: a quaternion (w, x, y, z) of
+    /// any nonzero length. `None` means that the marker has the axes of the body.
     pub orientation: Option<[f64; 4]>,
-    /// Tolerance of its point (m), also if joints use this point. It takes precedence over the
-    /// tolerances of its body and of the scene.
+    /// Tolerance of the point (m). It also applies to joints at this point. This tolerance takes
+    /// precedence over the tolerances of the body and of the scene.
     pub tolerance: Option<f64>,
 }
 
 impl Marker {
-    /// Returns the axes x, y and z in the frame of its body.
+    /// Returns the marker axes x, y and z in the body frame.
     ///
     /// ```
     /// use pfaff_model::{BodyRef, Marker};
@@ -42,7 +42,7 @@ impl Marker {
         [0, 1, 2].map(|axis| pose.direction_to_global(unit(axis)))
     }
 
-    /// Returns a marker with the axes of its body, at this point of its frame (m).
+    /// Returns a marker at this point of the body frame (m), with the axes of the body.
     #[must_use]
     pub fn new(name: &str, body: BodyRef, point: [f64; 3]) -> Self {
         Self {
@@ -55,8 +55,8 @@ impl Marker {
         }
     }
 
-    /// Returns the position relative to the centre of mass of its body, one of `bodies` (m), which
-    /// joints and forces require.
+    /// Returns the position relative to the centre of mass (m), as joints and forces require;
+    /// `bodies` contains the body of the marker.
     #[must_use]
     pub fn from_centre(&self, bodies: &[BodyRecord]) -> [f64; 3] {
         let own = self.body.moving().and_then(|at| bodies.get(at));
@@ -64,7 +64,7 @@ impl Marker {
     }
 }
 
-/// A quantity between two markers, the second relative to the first.
+/// A quantity of the second marker relative to the first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Measure {
     /// Name of the measure.
@@ -81,7 +81,7 @@ pub struct Measure {
 pub enum MeasureKind {
     /// Distance |p| (m).
     Distance,
-    /// Angle θ₂ − θ₁ (rad), not reduced to one revolution; in the plane.
+    /// Angle θ₂ − θ₁ (rad), including full revolutions; in the plane.
     Angle,
     /// Component p_x (m).
     X,
@@ -107,7 +107,7 @@ impl MeasureKind {
         Self::AngularVelocity,
     ];
 
-    /// Returns whether this measure exists in a space.
+    /// Returns whether this kind of measure exists in a space.
     #[must_use]
     pub fn exists_in(self, space: SpaceKind) -> bool {
         match self {
@@ -117,7 +117,7 @@ impl MeasureKind {
         }
     }
 
-    /// Returns the name in scenes.
+    /// Returns the name used in scenes.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -131,7 +131,7 @@ impl MeasureKind {
         }
     }
 
-    /// Returns the unit.
+    /// Returns the unit of the measure.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
@@ -157,8 +157,8 @@ impl Observables {
         self.markers.iter().any(|marker| marker.tolerance.is_some())
     }
 
-    /// Returns the stated tolerance of a point of a body, given relative to its centre of mass, if
-    /// a marker with a tolerance is at this point.
+    /// Returns the stated tolerance of a marker at this point of a body, or `None`. The point is
+    /// relative to the centre of mass.
     pub(crate) fn tolerance_at(
         &self,
         bodies: &[BodyRecord],
@@ -173,8 +173,9 @@ impl Observables {
         here.next()?.tolerance
     }
 
-    /// Returns the markers with a tolerance on some bodies, with the references that `here`
-    /// returns, and without measures. The other markers have no influence on the equations.
+    /// Returns the markers with a tolerance whose bodies have a reference in `here`, with these
+    /// references, and without measures. Markers without a tolerance have no influence on the
+    /// equations.
     pub(crate) fn stated_for(&self, here: impl Fn(&BodyRef) -> Option<BodyRef>) -> Self {
         let stated = self.markers.iter().filter(|m| m.tolerance.is_some());
         let own = stated.filter_map(|marker| {

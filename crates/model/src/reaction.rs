@@ -1,9 +1,9 @@
-//! Computes reactions from multipliers: force and torque on the first body of the joint, at the
-//! reference point of the joint.
+//! Computes reactions from multipliers. A reaction consists of the force and the torque on the
+//! first body of the joint, at the reference point of the joint.
 //!
-//! The reaction is the total effect of the joint on that body, so that M·a − Q of the body is the
-//! sum of its reactions. If the first body occupies several slots, for example if the ground is
-//! also the carrier of a gear, the loads of these slots are added.
+//! The reaction is the total effect of the joint on this body: M·a − Q of the body is the sum of
+//! its reactions. If the first body occurs more than once in the list of bodies (for example, the
+//! ground is also the carrier of a gear), these loads are added.
 
 use joints::Direction;
 use linalg::Matrix;
@@ -17,13 +17,13 @@ use crate::system::{Layout, Scratch, System};
 
 pub use crate::group::{ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind};
 
-/// A row counts as vanishing on rigid motions below this fraction of its terms, which allows for
-/// the rounding of common points far from the origin. Rows above it are assumed to act against the
-/// ground, which is the safe assumption.
+/// The value of a row on rigid motions counts as zero below this fraction of the terms of the row.
+/// The fraction allows for the rounding of common points far from the origin. Rows with larger
+/// values are assumed to act against the ground, which is the safe assumption.
 const ROUNDING: f64 = 1e-10;
 
-/// The axes of the ground. The second is that of a body with rotation angle zero, including the
-/// sign of its zero.
+/// The axes of the ground, computed like the axes of a body. The second axis has the values of a
+/// body with rotation angle zero, including the sign of the zero.
 const GROUND_AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [-0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// A reaction on the first body: force, and torque about the reference point, in ground axes. In
@@ -34,7 +34,8 @@ pub struct Reaction {
     pub force: [f64; 3],
     /// Torque (N·m).
     pub torque: [f64; 3],
-    /// The named component of the definition: `N` of a knife edge, `drive` of a drive.
+    /// The component named by the definition, for example `N` of a knife edge or `drive` of a
+    /// drive.
     pub component: Option<f64>,
 }
 
@@ -61,7 +62,7 @@ impl Reaction {
         }
     }
 
-    /// Returns the components, in the order of [`SpaceKind::components`].
+    /// Returns the components of force and torque, in the order of [`SpaceKind::components`].
     ///
     /// ```
     /// use pfaff_model::{Reaction, SpaceKind};
@@ -75,7 +76,7 @@ impl Reaction {
     }
 }
 
-/// Unit vectors of axes in ground components; their number is the dimension of the space.
+/// Unit vectors of axes in ground components; there are as many as the space has dimensions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Axes {
@@ -91,18 +92,18 @@ impl std::ops::Deref for Axes {
     }
 }
 
-/// Computes the reactions of a mechanism at the configuration of a scratch.
+/// Computes the reactions of a mechanism at the configuration in a work space.
 ///
 /// Methods panic if the joint or drive does not exist.
 #[derive(Clone, Copy)]
 pub struct Reactions<'a> {
     mechanism: &'a Mechanism,
     s: &'a Scratch,
-    /// A constraint that replaces the one of the mechanism.
+    /// A constraint that replaces the corresponding constraint of the mechanism.
     other: Option<&'a ConstraintCopy>,
 }
 
-/// A joint or drive of a mechanism that may store other numbers.
+/// A copy of a joint or drive of a mechanism; its stored values may differ.
 #[derive(Clone)]
 pub struct ConstraintCopy {
     id: ConstraintId,
@@ -110,19 +111,19 @@ pub struct ConstraintCopy {
 }
 
 impl ConstraintCopy {
-    /// Changes its numbers, in the order of [`crate::data::Data::numbers`], including the numbers
-    /// that it has taken from the start. Axes rotate from their current position by their rotation
+    /// Replaces the stored values, in the order of [`crate::data::Data::numbers`], including the
+    /// stored initial values. Axes are rotated from their current orientation by the given rotation
     /// vector.
     ///
     /// # Panics
-    /// Panics if there are fewer numbers than the constraint stores.
+    /// Panics if there are fewer values than the constraint stores.
     pub fn set_numbers(&mut self, own: &[f64]) {
         self.placed.set_data(own);
     }
 }
 
 impl Mechanism {
-    /// Returns the reactions at the configuration of the scratch.
+    /// Returns the reactions at the configuration in the work space.
     #[must_use]
     pub fn reactions<'a>(&'a self, s: &'a Scratch) -> Reactions<'a> {
         Reactions {
@@ -159,7 +160,8 @@ impl<'a> Reactions<'a> {
         }
     }
 
-    /// Returns the reactions after a joint or drive of the mechanism is replaced by a copy.
+    /// Returns the reactions of the mechanism with this copy in place of the original joint or
+    /// drive.
     #[must_use]
     pub fn with(self, other: &'a ConstraintCopy) -> Self {
         Self {
@@ -192,7 +194,8 @@ impl<'a> Reactions<'a> {
         map
     }
 
-    /// Visits the terms of this map: component, row and value. `block` is a buffer.
+    /// Calls a function for each term of this map, with component, row and value. `block` is a
+    /// buffer.
     fn visit_wrench(
         self,
         id: ConstraintId,
@@ -209,8 +212,8 @@ impl<'a> Reactions<'a> {
         if !group.repeats_first_body() {
             return;
         }
-        // Adds −Cᵀ of the other slots that the first body occupies, transferred from its origin to
-        // the reference point.
+        // Adds −Cᵀ for the other positions of the first body in the list of bodies, transferred
+        // from its origin to the reference point.
         block.clear();
         block.resize(group.spec.c.len(), 0.0);
         c.kernels().c_constant(block);
@@ -246,8 +249,8 @@ impl<'a> Reactions<'a> {
 
     /// Returns the map (components × m + h) from all multipliers to the total of the reactions on
     /// one body, `−Cᵀ·λ`: force, and torque about a point (m, ground axes). Returns `None` if the
-    /// body does not exist. The scratch must contain C at its configuration. The function allocates
-    /// memory.
+    /// body does not exist. The work space must contain C at its configuration. The function
+    /// allocates memory.
     #[must_use]
     pub fn body_wrench_map(self, body: usize, about: [f64; 3]) -> Option<Matrix> {
         if body >= self.s.bodies.len() {
@@ -267,8 +270,9 @@ impl<'a> Reactions<'a> {
         Some(map)
     }
 
-    /// Visits the components of force and torque in ground axes for a column of C, with the share
-    /// of the column in each. The rotations of a spatial body are about its own axes.
+    /// For a column of C, calls `visit` with each component of force and torque in ground axes and
+    /// the share of the column in this component. The rotations of a spatial body are about its own
+    /// axes.
     fn visit_ground(self, column: usize, mut visit: impl FnMut(usize, f64)) {
         let space = self.layout().space;
         let dof = space.dof_of(column);
@@ -282,8 +286,8 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns the axes in which a reaction is expressed. The first axis of [`Frame::Edge`] has the
-    /// sign for which the named component of the definition, or otherwise the multiplier, is
-    /// positive. Returns `None` if the reaction has no such frame.
+    /// sign for which the component named by the definition is positive. Without a named component,
+    /// the multiplier is positive. Returns `None` if the reaction has no frame of this kind.
     #[must_use]
     pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<Axes> {
         let axes = match (frame, self.group(id).bodies.first()) {
@@ -306,7 +310,7 @@ impl<'a> Reactions<'a> {
         Some(Axes { axes, count })
     }
 
-    /// Returns the axes of the frame of a body, in ground axes.
+    /// Returns the axes of a body frame, in ground axes.
     fn frame_axes(self, body: BodyRef) -> [[f64; 3]; 3] {
         let Some(k) = body.moving() else {
             return GROUND_AXES;
@@ -316,9 +320,9 @@ impl<'a> Reactions<'a> {
         principal.map_or(own, |of| of.framed(own))
     }
 
-    /// Returns the direction in the plane of the only row of a joint or drive with a force. In
-    /// space, a direction does not define a unique perpendicular direction, so the result is
-    /// `None`.
+    /// Returns the direction, in the plane, of the force of a joint or drive, if exactly one row
+    /// has a force. In space, the result is `None`, because one direction does not define a unique
+    /// perpendicular direction.
     fn push(self, id: ConstraintId) -> Option<[f64; 2]> {
         let group = self.group(id);
         if group.space.n_translations() > 2 {
@@ -333,13 +337,13 @@ impl<'a> Reactions<'a> {
             .and_then(|name| self.component_coefficients(id, name));
         let sign = named.map_or(1.0, |coefficients| coefficients[row].signum());
         let push = Direction::new([map[(0, row)], map[(1, row)]])?.xy();
-        // The addition removes the sign of zero.
+        // Adding zero removes the sign of a negative zero.
         Some(push.map(|x| sign * x + 0.0))
     }
 
     /// Returns the coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of
-    /// the joint or drive. The component is one of [`SpaceKind::components`], or the named
-    /// component of its definition. Returns `None` if the component does not exist. The function
+    /// the joint or drive. The component is one of [`SpaceKind::components`], or the component
+    /// named by the definition. Returns `None` if the component does not exist. The function
     /// allocates memory.
     #[must_use]
     pub fn component_coefficients(self, id: ConstraintId, name: &str) -> Option<Vec<f64>> {
@@ -372,7 +376,7 @@ impl<'a> Reactions<'a> {
             Some(lambda) => *lambda,
             None => late[own - early.len()],
         };
-        // If multipliers are not known (NaN), the components are not known, either.
+        // If a multiplier is not known (NaN), the components are not known, either.
         let nothing = |lambda: &[f64]| lambda.iter().map(|l| l * 0.0).sum::<f64>();
         let none = nothing(early) + nothing(late) + 0.0;
         let space = group.space;
@@ -391,15 +395,15 @@ impl<'a> Reactions<'a> {
         wrench
     }
 
-    /// Returns whether a joint or drive acts against the ground: one of its rows does not vanish if
-    /// all bodies move as one rigid body. The list of its bodies does not show this, because an
-    /// absolute velocity refers to the ground without listing it. The scratch must contain C at its
-    /// configuration.
+    /// Returns whether a joint or drive acts against the ground. This is the case if one of its
+    /// rows is not zero when all bodies move together as one rigid body. The list of bodies is not
+    /// sufficient for this decision, because an absolute velocity refers to the ground without
+    /// listing it. The work space must contain C at its configuration.
     #[must_use]
     pub fn acts_on_ground(self, id: ConstraintId) -> bool {
         let (space, place) = (self.layout().space, self.place(id));
-        // The velocity along a column of C in one of the rigid motions: along the axes, and about
-        // the axes through the reference point of the joint.
+        // The velocity component of a column of C in one of the rigid motions: translations along
+        // the axes, and rotations about the axes through the reference point of the joint.
         let velocity = |motion: usize, column: usize| {
             let dof = space.dof_of(column);
             if space.torques().contains(&motion) && space.forces().contains(&dof) {
@@ -428,7 +432,7 @@ impl<'a> Reactions<'a> {
     }
 }
 
-/// Moves the torque of a column of a map by an arm: `T + arm × F`.
+/// Transfers the torque in a column of a map by an arm: `T + arm × F`.
 fn add_moment(space: SpaceKind, map: &mut Matrix, column: usize, arm: [f64; 3]) {
     let mut force = [0.0; 3];
     for k in space.forces() {

@@ -1,11 +1,10 @@
-//! The equations of a mechanism as operation lists. Every kernel runs once on numbers that record
-//! their operations. The result is valid only for this mechanism with its parameters and initial
-//! values. Code generators for one scene use it as input.
+//! The equations of a mechanism as operation lists. Every kernel runs once on a number type that
+//! records its operations. The result is valid only for this mechanism with its parameters and
+//! initial values. Code generators for one scene use it as input.
 //!
-//! Every number of the mechanism has its own index in the recording, even if another number is
-//! equal to it. Two mechanisms of the same [shape](RecordedEquations::shape) have the same
-//! operations in the same order. They differ only in some numbers, and corresponding numbers have
-//! the same index.
+//! Every stored value of the mechanism has its own index in the recording, even if two values are
+//! equal. Two mechanisms with the same [shape](RecordedEquations::shape) have the same operations
+//! in the same order. Only some stored values differ, and corresponding values have the same index.
 
 mod shape;
 
@@ -21,14 +20,15 @@ use crate::system::System;
 /// The equations of one mechanism as operations on inputs.
 #[derive(Clone, Debug)]
 pub struct RecordedEquations {
-    /// All operations, then the numbers in addition to the equations. Results are indices of this
-    /// list.
+    /// All operations, followed by the values that are not part of the equations. The results below
+    /// are indices of this list.
     pub tape: Vec<Operation>,
     /// Meaning of each input.
     pub inputs: Vec<Input>,
     /// Φ, m values.
     pub phi: Vec<RecordedNumber>,
-    /// C by rows, m + h: column and value. Entries at the same position must be added.
+    /// The rows of C, m + h; each entry has a column and a value. Entries with the same row and
+    /// column must be added.
     pub c: Vec<Vec<(usize, RecordedNumber)>>,
     /// b, m + h values.
     pub b: Vec<RecordedNumber>,
@@ -38,28 +38,29 @@ pub struct RecordedEquations {
     pub force: Vec<RecordedNumber>,
     /// q̇ = T(q)·v, n_q values.
     pub rate: Vec<RecordedNumber>,
-    /// The generalised forces of gravity that are the first terms of Q, n_v numbers.
+    /// The generalised forces of gravity, n_v values, which are the first terms of Q.
     pub weight: Vec<RecordedNumber>,
-    /// The numbers in addition to the equations.
+    /// The values that are not part of the equations.
     pub beside: Beside,
-    /// Form and kind of each function of time.
+    /// The form and the kind of each function of time.
     kinds: Vec<(FunctionForm, &'static str)>,
-    /// The joints, drives and forces, each with the index of its first operation, ascending.
+    /// The joints, drives and forces, each with the index of its first operation, in ascending
+    /// order.
     pub owners: Vec<(usize, String)>,
 }
 
-/// The numbers of a mechanism in addition to its equations: masses, principal axes, functions of
-/// time.
+/// The values of a mechanism that are not part of its equations: masses, principal axes, functions
+/// of time.
 #[derive(Clone, Debug)]
 pub struct Beside {
-    /// The index of the first of these numbers in the recording.
+    /// The index of the first of these values in the recording.
     pub first: usize,
-    /// The diagonal of M, n_v numbers.
+    /// The diagonal of M, n_v values.
     pub mass: Vec<RecordedNumber>,
-    /// In space: the quaternion (w, x, y, z) from the principal axes of each body to the axes of
-    /// its frame, if they differ.
+    /// In space, for each body: the quaternion (w, x, y, z) from the principal axes to the axes of
+    /// the body frame, if the two differ.
     pub principal: Vec<Option<[RecordedNumber; 4]>>,
-    /// The numbers of each function of time, in the order of [`TimeFunction::numbers`].
+    /// The values of each function of time, in the order of [`TimeFunction::numbers`].
     pub functions: Vec<Vec<RecordedNumber>>,
 }
 
@@ -76,8 +77,8 @@ struct Results {
 }
 
 impl Mechanism {
-    /// Returns the functions of time of its joints, drives and forces, in the form that its kernels
-    /// use.
+    /// Returns the functions of time of the joints, drives and forces, in the form used by the
+    /// kernels.
     pub fn functions(&self) -> impl Iterator<Item = &TimeFunction> {
         self.elements.functions()
     }
@@ -147,7 +148,7 @@ impl RecordedEquations {
         }
     }
 
-    /// Returns the number at an index, if the operation at this index is a number.
+    /// Returns the value at an index, if the operation at this index is a constant.
     #[must_use]
     pub fn number(&self, place: usize) -> Option<f64> {
         match self.tape.get(place) {

@@ -1,5 +1,5 @@
-//! Definitions by their scene type. With them, a reader of scenes can build joints and forces
-//! without a dependency on their types.
+//! Definitions of joints and forces, found by their type in scenes. With the registry, a reader of
+//! scenes can build joints and forces without a dependency on their Rust types.
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
 use joints::{Argument, ArgumentError, Constraint, Force, Plane, Space3, Visitor, space3};
@@ -24,7 +24,7 @@ pub struct ConstraintDefinition<S: BodySpace = Plane> {
     pub spec: &'static ConstraintSpec,
     /// Constructor of the constraint.
     pub build: BuildConstraint<S>,
-    /// The drives of its joint coordinates, in the same order.
+    /// The drives of the joint coordinates, in the order of the coordinates.
     pub drives: Vec<DriveDefinition<S>>,
 }
 
@@ -35,7 +35,7 @@ pub struct DriveDefinition<S: BodySpace = Plane> {
     pub spec: &'static ConstraintSpec,
     /// Constructor of the drive.
     pub build: BuildConstraint<S>,
-    /// Constructor of a force law in place of the motion: a force with one function, the time.
+    /// Constructor of a force law that replaces the motion: a force with one function, the time.
     pub law: BuildLaw<S>,
 }
 
@@ -65,8 +65,8 @@ impl<S: BodySpace> Default for Definitions<S> {
 }
 
 impl<S: BodySpace> Definitions<S> {
-    /// Constraints of a scene type. Several definitions may share a type and differ in a key or in
-    /// the number of bodies.
+    /// Returns the constraints of a type in scenes. Several definitions may have the same type;
+    /// they differ in a key or in the number of bodies.
     pub fn constraints<'a>(
         &'a self,
         scene_type: &'a str,
@@ -76,7 +76,7 @@ impl<S: BodySpace> Definitions<S> {
             .filter(move |d| d.spec.common.scene_type == scene_type)
     }
 
-    /// Returns the forces of a scene type.
+    /// Returns the forces of a type in scenes.
     pub fn forces<'a>(
         &'a self,
         scene_type: &'a str,
@@ -97,7 +97,7 @@ impl<S: BodySpace> Definitions<S> {
     }
 }
 
-/// All definitions to which a scene may refer, in the plane and in space.
+/// All definitions that a scene may use, in the plane and in space.
 ///
 /// ```
 /// use pfaff_model::Registry;
@@ -144,7 +144,7 @@ impl Registry {
         &self.space
     }
 
-    /// Adds a constraint definition of the plane with the drives of its joint coordinates.
+    /// Adds a constraint definition of the plane, with the drives of the joint coordinates.
     pub fn add_constraint<K: Constraint>(&mut self) {
         self.plane.constraint::<K>();
     }
@@ -154,7 +154,7 @@ impl Registry {
         self.plane.force::<K>();
     }
 
-    /// Adds a constraint definition of space with the drives of its joint coordinates.
+    /// Adds a constraint definition of space, with the drives of the joint coordinates.
     pub fn add_spatial_constraint<K: Constraint<Space3>>(&mut self) {
         self.space.constraint::<K>();
     }
@@ -191,7 +191,7 @@ impl<S: BodySpace> Visitor<S> for Definitions<S> {
         });
     }
 
-    /// The drives are added together with their constraint.
+    /// The drives are added together with the constraint, so nothing is done here.
     fn drive<K: Constraint<S>>(&mut self) {}
 
     fn force<K: Force<S>>(&mut self) {

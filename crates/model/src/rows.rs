@@ -1,12 +1,12 @@
-//! Rows of C of one joint or drive. Some are among the holonomic rows, which come first, and some
-//! among the nonholonomic rows. Values of its rows in the order of its definition are the values of
-//! these two ranges, one after the other.
+//! Rows of C of one joint or drive. The holonomic rows of C come first; a joint may have rows among
+//! them and among the nonholonomic rows. The values of the rows of a joint, in the order of its
+//! definition, are the values of these two ranges in sequence.
 
 use std::fmt;
 use std::iter::Chain;
 use std::ops::Range;
 
-/// Rows of C of one joint or drive, ascending.
+/// Rows of C that belong to one joint or drive, in ascending order.
 ///
 /// ```
 /// use pfaff_model::RowRanges;
@@ -37,7 +37,7 @@ impl RowRanges {
         self.holonomic.is_empty() && self.nonholonomic.is_empty()
     }
 
-    /// Returns the rows, ascending.
+    /// Returns the rows, in ascending order.
     #[inline]
     pub fn iter(&self) -> Chain<Range<usize>, Range<usize>> {
         self.holonomic.clone().chain(self.nonholonomic.clone())
@@ -49,7 +49,7 @@ impl RowRanges {
         self.holonomic.contains(&row) || self.nonholonomic.contains(&row)
     }
 
-    /// Returns the row of C for row `own` of the definition.
+    /// Converts the index `own` of a row in the definition to the row of C.
     #[inline]
     #[must_use]
     pub fn row(&self, own: usize) -> usize {
@@ -59,8 +59,8 @@ impl RowRanges {
         }
     }
 
-    /// Returns the row of the definition for this row of C; `None` if it does not belong to these
-    /// rows.
+    /// Converts a row of C to the index of the row in the definition; `None` if the row does not
+    /// belong to this joint or drive.
     #[must_use]
     pub fn own(&self, row: usize) -> Option<usize> {
         if self.holonomic.contains(&row) {
@@ -71,7 +71,7 @@ impl RowRanges {
         }
     }
 
-    /// Returns the rows as one range, if they follow each other in C.
+    /// Returns the rows as one range, if they are consecutive in C.
     #[inline]
     fn adjacent(&self) -> Option<Range<usize>> {
         if self.nonholonomic.is_empty() {
@@ -84,8 +84,8 @@ impl RowRanges {
         }
     }
 
-    /// Returns the values of these rows, selected from the values of all rows of C. They are copied
-    /// to `storage` only if the rows are not adjacent.
+    /// Selects the values of these rows from the values of all rows of C. The values are copied to
+    /// `storage` only if the rows are not consecutive.
     ///
     /// # Panics
     /// Panics if `all` is too short.
@@ -101,7 +101,8 @@ impl RowRanges {
         }
     }
 
-    /// Calls `write` to write the values of these rows, in place if the rows are adjacent.
+    /// Calls `write` to write the values of these rows; they are written in place if the rows are
+    /// consecutive.
     ///
     /// # Panics
     /// Panics if `all` is too short.
@@ -126,7 +127,7 @@ impl RowRanges {
     }
 }
 
-/// The rows counted from 1: `18`, `1–5`, or `6, 25–26`.
+/// Prints the rows (1-based), for example `18`, `1–5`, or `6, 25–26`.
 impl fmt::Display for RowRanges {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut between = "";

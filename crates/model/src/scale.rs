@@ -1,6 +1,6 @@
 //! Reference sizes for residuals. Each row has its own size, computed from the terms that cancel in
-//! it. The comparison therefore does not depend on units, on the size of a mechanism or on its
-//! position.
+//! the row. The comparison therefore depends neither on units nor on the size or the position of a
+//! mechanism.
 
 use std::ops::Range;
 
@@ -11,8 +11,8 @@ use crate::mechanism::Mechanism;
 use crate::space::norm;
 use crate::system::{Scratch, System};
 
-/// Reference sizes for residuals of a mechanism, at the configuration of a scratch. The scratch
-/// must contain C for positions, C and b for velocities, and C and Γ for accelerations.
+/// Reference sizes for residuals of a mechanism, at the configuration in a work space. The work
+/// space must contain C for positions, C and b for velocities, and C and Γ for accelerations.
 #[derive(Clone, Copy)]
 pub struct Scales<'a> {
     pub(crate) mechanism: &'a Mechanism,
@@ -20,7 +20,7 @@ pub struct Scales<'a> {
 }
 
 impl Mechanism {
-    /// Returns the reference sizes for its residuals at the configuration of the scratch.
+    /// Returns the reference sizes for residuals at the configuration in the work space.
     #[must_use]
     pub fn scales<'a>(&'a self, s: &'a Scratch) -> Scales<'a> {
         Scales { mechanism: self, s }
@@ -28,10 +28,10 @@ impl Mechanism {
 }
 
 impl Scales<'_> {
-    /// Returns the size of the terms of row `i` of Φ at the configuration of the scratch:
-    /// `Σ |C_ij|·|q_j|`. An angle counts as at least one radian, because arms rotate with it. A
-    /// position counts as at least the longest arm of its body, because it is accurate to the
-    /// rounding of the arms. The scratch must contain C.
+    /// Returns the size of the terms of row `i` of Φ at the configuration in the work space:
+    /// `Σ |C_ij|·|q_j|`. An angle counts as at least one radian, because the angle rotates the
+    /// arms. A position counts as at least the longest arm of the body, because the position is
+    /// accurate to the rounding error of the arms. The work space must contain C.
     #[must_use]
     pub fn position(self, i: usize) -> f64 {
         let counted = self.counted(i);
@@ -49,8 +49,8 @@ impl Scales<'_> {
         if at > least { at } else { least }
     }
 
-    /// Returns the largest unwrapped angle of the joint or drive of a row (rad): its rounding is
-    /// that of all revolutions.
+    /// Returns the largest unwrapped angle (rad) of the joint or drive of a row; its rounding error
+    /// grows with the number of revolutions.
     pub(crate) fn counted(self, i: usize) -> f64 {
         let owner = self.mechanism.layout().owners.get(i);
         let of_row = owner.map(|id| &self.mechanism.elements.constraints[id.0]);
@@ -63,9 +63,9 @@ impl Scales<'_> {
     }
 
     /// Returns bounds on the entries of row `i` of C for any orientation of the bodies: column and
-    /// bound. A force on a body has the same size in all directions, and an arm is no longer than
-    /// the longest arm of the body. The scratch must contain C at its configuration. The function
-    /// allocates memory.
+    /// bound. A force on a body counts with the same size in all directions, and the arm of a force
+    /// is at most the longest arm of the body. The work space must contain C at its configuration.
+    /// The function allocates memory.
     #[must_use]
     pub fn entry_bounds(self, i: usize) -> Vec<(usize, f64)> {
         let mut bounds = Vec::new();
@@ -98,9 +98,9 @@ impl Scales<'_> {
         }
     }
 
-    /// Writes the size of the coordinate of each column of C, n_v values. Together with
-    /// [`Scales::entry_bounds`] of a row, it gives the size of the terms of this row of Φ, as in
-    /// [`Scales::position`].
+    /// Writes the sizes of the coordinates of the columns of C, n_v values. With these sizes and the
+    /// [`Scales::entry_bounds`] of a row, the caller can compute the size of the terms of this row
+    /// of Φ, as in [`Scales::position`].
     pub fn of_coordinates(mechanism: &Mechanism, q: &[f64], sizes: &mut [f64]) {
         let space = mechanism.space();
         for (j, size) in sizes.iter_mut().enumerate() {
@@ -108,8 +108,8 @@ impl Scales<'_> {
         }
     }
 
-    /// Returns the size of the terms of row `i` of `C·v − b`. The scratch must contain C and b at
-    /// its configuration.
+    /// Returns the size of the terms of row `i` of `C·v − b`. The work space must contain C and b
+    /// at its configuration.
     #[must_use]
     pub fn velocity(self, i: usize, v: &[f64]) -> f64 {
         let terms = self
@@ -121,19 +121,19 @@ impl Scales<'_> {
     }
 
     /// Returns the size of the terms of row `i` of `C·v − b` for any orientation of the bodies. A
-    /// row that is perpendicular to the motion at this instant is accurate to the rounding of these
-    /// terms, and not of its present terms. The scratch must contain C and b at its configuration.
-    /// The function allocates memory.
+    /// row that is perpendicular to the motion at this instant is accurate to the rounding error of
+    /// these terms, although its present terms are smaller. The work space must contain C and b at
+    /// its configuration. The function allocates memory.
     #[must_use]
     pub fn bounded_velocity(self, i: usize, v: &[f64]) -> f64 {
         let bounds = self.entry_bounds(i).into_iter();
         bounds.map(|(j, c)| c * v[j].abs()).sum::<f64>() + self.s.b[i].abs()
     }
 
-    /// Returns the size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and the
-    /// contributions of the centripetal terms of its bodies. These are `|C_ij|·(|v_j|·ω + size·ω²)`
-    /// for translations and `|C_ij|·ω²` for rotations, with the largest |ω| of the row. The scratch
-    /// must contain C and Γ.
+    /// Returns the size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` plus the
+    /// contributions of the centripetal terms of the bodies. These are `|C_ij|·(|v_j|·ω + size·ω²)`
+    /// for translations and `|C_ij|·ω²` for rotations, with the largest |ω| of the row. The work
+    /// space must contain C and Γ.
     #[must_use]
     pub fn acceleration(self, i: usize, v: &[f64], size: f64) -> f64 {
         let row = || self.mechanism.layout().row(self.s, i);
@@ -151,9 +151,9 @@ impl Scales<'_> {
         row().map(term).sum::<f64>() + self.s.gamma[i].abs()
     }
 
-    /// Returns the size of the values that functions of time prescribe in row `i` at the time of
-    /// the scratch: the sum of `|f| + |ḟ| + |f̈|`. A rate that is rounding relative to this size
-    /// counts as zero.
+    /// Returns the size of the values that functions of time prescribe in row `i` at the time in
+    /// the work space: the sum of `|f| + |ḟ| + |f̈|`. A rate counts as zero if it is less than the
+    /// rounding error of this size.
     #[must_use]
     pub fn prescribed(self, i: usize) -> f64 {
         let mechanism = self.mechanism;
@@ -164,9 +164,10 @@ impl Scales<'_> {
     }
 
     /// Returns the scaling of the columns of a dimensionless C by the arms of the bodies. There is
-    /// one unit for all lengths. For the rotation of each body it is the distance of its farthest
-    /// joint, if this distance exceeds rounding. Unlike an equilibration, the scaling does not
-    /// depend on the directions of joints. The scratch must contain the configuration.
+    /// one unit for all lengths. The unit of the rotation of a body is the distance of the farthest
+    /// joint of the body, if this distance exceeds its rounding error. Unlike an equilibration,
+    /// this scaling does not depend on the directions of joints. The work space must contain the
+    /// configuration.
     #[must_use]
     pub fn felt_scaling(self, size: f64) -> Scaling {
         let layout = self.mechanism.layout();
@@ -182,9 +183,9 @@ impl Scales<'_> {
     }
 
     /// Returns a bound on the error of the entries of a dimensionless C at a configuration: the
-    /// largest
-    /// |Φ_i| of these rows, and at least the rounding of its terms, relative to the change of row
-    /// `i` if the mechanism moves by its own size. The scratch must contain Φ and C.
+    /// largest ratio, for these rows, of |Φ_i| to the change of row `i` if the mechanism moves by
+    /// its own size. If |Φ_i| is less than the rounding error of its terms, the function uses this
+    /// rounding error. The work space must contain Φ and C.
     #[must_use]
     pub fn relative_residual(self, size: f64, rows: impl IntoIterator<Item = usize>) -> f64 {
         let of_row = |i: usize| {
@@ -194,8 +195,8 @@ impl Scales<'_> {
         rows.into_iter().map(of_row).fold(0.0, f64::max)
     }
 
-    /// Returns the value `x` relative to the change of row `i` if the mechanism moves by its own
-    /// size. The scratch must contain C.
+    /// Returns the ratio of `x` to the change of row `i` if the mechanism moves by its own size.
+    /// The work space must contain C.
     #[must_use]
     pub fn relative_to_reach(self, i: usize, size: f64, x: f64) -> f64 {
         let space = self.mechanism.space();
@@ -205,7 +206,7 @@ impl Scales<'_> {
     }
 }
 
-/// Returns the smallest size of a coordinate in the terms of a row.
+/// Returns the lower limit for the size of a coordinate in the terms of a row.
 fn least(mechanism: &Mechanism, j: usize) -> f64 {
     let space = mechanism.space();
     if space.is_rotation(j) {

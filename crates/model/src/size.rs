@@ -5,8 +5,9 @@ use crate::rounding::are_apart;
 use crate::space::norm;
 use crate::system::{Scratch, System};
 
-/// Returns the diagonal of the box around all bodies and joints. If these coincide, it is the
-/// diagonal of the box around all points of the joints, or 1 m if these coincide as well.
+/// Returns the diagonal of the smallest box that contains the positions of all bodies and joints.
+/// If these positions coincide, the function uses the points of the joints; if these coincide as
+/// well, it returns 1 m.
 #[must_use]
 pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     let mut s = mechanism.scratch();
@@ -14,7 +15,7 @@ pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     size_of(mechanism, &s)
 }
 
-/// Works like [`scene_size`], at the configuration of the scratch.
+/// Works like [`scene_size`], at the configuration in the work space.
 pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
     let bodies = s.bodies.origins();
     let places = mechanism
@@ -39,7 +40,8 @@ pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
     diagonal(&points).unwrap_or(1.0)
 }
 
-/// Returns the diagonal of the box around points. Returns `None` if they coincide.
+/// Returns the diagonal of the smallest box that contains the points. Returns `None` if the points
+/// coincide.
 fn diagonal(points: &[[f64; 3]]) -> Option<f64> {
     let span = |k: usize| {
         let low = points.iter().fold(f64::INFINITY, |a, p| a.min(p[k]));

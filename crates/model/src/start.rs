@@ -1,20 +1,22 @@
-//! Finds a consistent start: the configuration closest to the described one, in the mass metric,
-//! that satisfies the constraints, with axes that point as described. Rows that store an initial
-//! value do not restrict it, because any start satisfies them.
+//! Finds a consistent initial configuration. It satisfies the constraints, is the closest one to
+//! the described configuration in the mass metric, and its axes point in the described directions.
+//! Rows that store an initial value do not restrict it, because every initial configuration
+//! satisfies these rows.
 //!
-//! If the iteration does not converge, or converges to axes with the opposite direction, the
-//! constraints are first approached in the metric of lengths. The iteration then restarts from the
-//! configuration that is found.
+//! If the iteration does not converge, or converges to axes with the opposite direction, an
+//! approximate solution is first computed in the metric of lengths. The iteration then restarts
+//! from this solution.
 //!
-//! This module decides no rank: at a configuration that violates the constraints, a redundant row
-//! is still independent. The correction is the regularised least-squares step of `linalg`, repeated
-//! to rounding.
+//! This module does not determine ranks: at a configuration that violates the constraints, a
+//! redundant row is still independent. The correction is the regularised least-squares step of
+//! `linalg`, repeated until only rounding errors remain.
 //!
-//! A start may differ from the description ([`StartOptions::poses`]). Initial values are those of
-//! the described start, and the bodies are moved on the constraints that these values define.
+//! The initial poses may differ from the description ([`StartOptions::poses`]). In this case,
+//! initial values are still taken from the described configuration; then the bodies are moved so
+//! that the constraints with these values remain satisfied.
 //!
-//! A search for an equilibrium writes only such poses, so the points, phases and free lengths of
-//! the scene text do not change.
+//! A search for an equilibrium returns such poses, so the points, phases and free lengths in the
+//! text of the scene do not change.
 
 mod approach;
 mod blame;
@@ -45,41 +47,43 @@ pub use velocity::{StartVelocity, consistent_velocity};
 /// An assembled configuration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assembly {
-    /// Coordinates on the constraints.
+    /// Coordinates that satisfy the constraints.
     pub q: Vec<f64>,
-    /// Displacement from the described coordinates, or from the poses of the start, n_v.
+    /// Displacement from the coordinates given in the scene, or from the initial poses (n_v
+    /// values).
     pub correction: Vec<f64>,
     /// Largest |Φ|.
     pub residual: f64,
-    /// Size of the mechanism, the unit of positions (m).
+    /// Size of the mechanism, used as the unit of positions (m).
     pub size: f64,
 }
 
-/// Largest number of iterations of the assembly; convergence is linear, with a rate that depends on
-/// the size of the correction.
+/// Largest number of iterations of the assembly; convergence is linear, and its rate depends on the
+/// size of the correction.
 const ITERATIONS: usize = 60;
 
-/// If an iteration gains no digit within this many steps, it does not converge within
-/// [`ITERATIONS`]: an iteration that converges to rounding within them is faster.
+/// The iteration ends if the residual has not decreased by a factor of ten in this number of steps,
+/// because it would not converge to rounding within [`ITERATIONS`].
 const PATIENCE: usize = 12;
 
-/// Finds a consistent configuration and takes the initial values of joints, drives and forces from
-/// it.
+/// Finds a consistent configuration and sets the initial values of joints, drives and forces to
+/// their values there.
 ///
 /// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0. Coordinates without mass or
-/// inertia have the weight of the smallest one with mass or inertia. Kept coordinates do not move.
+/// inertia have the weight of the smallest one with mass or inertia. Coordinates that `options`
+/// keep do not change.
 ///
-/// With [`StartOptions::poses`] this is the described start, which defines the initial values, and
-/// the bodies start at the configuration on the same constraints that is closest to the poses.
+/// With [`StartOptions::poses`], the initial values are taken from this configuration. The bodies
+/// then start at the configuration that satisfies the same constraints and is closest to the poses.
 ///
 /// # Errors
-/// - [`StartError::NoAssembly`]: the constraints contradict each other or the start is too far
-///   away.
+/// - [`StartError::NoAssembly`]: the constraints contradict each other or the given configuration
+///   is too far away.
 /// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
 /// - [`StartError::TooLarge`]: the correction needs a matrix that is too large for the memory.
 /// - [`StartError::Requirement`]: a requirement of a definition is not satisfied.
-/// - [`StartError::NoCoordinate`], [`StartError::NoPose`]: a coordinate that `options` keep, or a
-///   body that they place, does not exist.
+/// - [`StartError::NoCoordinate`], [`StartError::NoPose`]: `options` refer to a coordinate or a
+///   body that does not exist.
 pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Assembly, StartError> {
     let (described, _) = mechanism.described_state();
     initialise(mechanism, &described);
@@ -98,14 +102,14 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     }
     if !options.poses.is_empty() {
         let posed = posed(mechanism, &options.poses, &q)?;
-        // All rows restrict this start, including rows of initial values.
+        // Here all rows restrict the configuration, including rows of initial values.
         let rows: Vec<usize> = (0..mechanism.layout().m).collect();
         q = closest(mechanism, &mut s, (&rows, &weights), &posed, size)?;
         let first = mechanism.layout().angles().start;
         mechanism.elements.settle_angles(first, &mut q);
         requirement(mechanism, &q)?;
         correction = mechanism.difference_of(&q, &posed);
-        // A body without its own pose follows the others.
+        // Only bodies with a given pose have a weight; the other bodies follow.
         let columns = |pose: &StartPose| mechanism.space().columns_of(pose.body);
         let given: Vec<usize> = options.poses.iter().flat_map(columns).collect();
         for (j, moved) in correction.iter_mut().enumerate() {
@@ -130,7 +134,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     })
 }
 
-/// Returns the coordinates q after some body frames are placed elsewhere.
+/// Returns the coordinates q after the frames of some bodies are set to other poses.
 fn posed(mechanism: &Mechanism, poses: &[StartPose], q: &[f64]) -> Result<Vec<f64>, StartError> {
     let space = mechanism.space();
     let mut posed = q.to_vec();
@@ -157,8 +161,8 @@ pub fn requirement(mechanism: &Mechanism, q: &[f64]) -> Result<(), StartError> {
     }
 }
 
-/// Returns the configuration closest to a described one that satisfies the rows, with axes that
-/// point as described.
+/// Returns the configuration closest to a described one that satisfies the rows and whose axes
+/// point in the described directions.
 fn closest(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -184,7 +188,7 @@ fn closest(
         }
         Ok(_) | Err(StartError::NoAssembly { .. }) => {
             let meant = approached(mechanism, s, start, restricting, described, size);
-            // A violated requirement is reported below.
+            // A violated requirement is reported in a later check.
             match (q, meant) {
                 (Ok(q), Err(_)) if !unmet_rows(mechanism, &q).is_empty() => Ok(q),
                 (_, meant) => meant,
@@ -192,17 +196,18 @@ fn closest(
         }
         Err(other) => Err(other),
     };
-    // A violated requirement of a definition explains more than the rows that are violated because
-    // of it.
+    // A violated requirement of a definition is reported in place of the rows that are violated
+    // because of it.
     q.map_err(|error| match unmet_requirement(mechanism, described) {
         Some((name, requirement)) => StartError::Requirement { name, requirement },
         None => error,
     })
 }
 
-/// Returns the configuration closest to the described one, starting from a configuration that
-/// satisfies the constraints in the metric of lengths. If it is not found, the function returns the
-/// configuration closest to that one.
+/// Returns the configuration closest to the described one. The iteration starts from a
+/// configuration that satisfies the constraints and is closest in the metric of lengths. If this
+/// iteration fails, the function returns the configuration closest to the one in the metric of
+/// lengths.
 fn approached(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -212,8 +217,8 @@ fn approached(
     size: f64,
 ) -> Result<Vec<f64>, StartError> {
     let mut there = approach::approach(mechanism, s, restricting, described, size)?;
-    // If a wheel is described below its plane, its own row would be satisfied from below. Therefore
-    // the other rows are satisfied first.
+    // If a wheel is described below its plane, the iteration would satisfy the row of the wheel
+    // from below. Therefore the other rows are satisfied first.
     let (rows, weights) = restricting;
     let unmet = unmet_rows(mechanism, &there);
     if !unmet.is_empty() {
@@ -232,12 +237,12 @@ fn approached(
 /// Metric that defines the closest configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Metric<'a> {
-    /// Masses and inertias, the metric of the start.
+    /// Masses and inertias, the metric for the initial configuration.
     Mass,
-    /// Masses and inertias; coordinates that these options keep do not move.
+    /// Masses and inertias; coordinates that these options keep do not change.
     Start(&'a StartOptions),
-    /// Lengths, with angles times the size of the mechanism. Masses do not determine the possible
-    /// configurations of a mechanism. With a light body of large size, the mass metric would prefer
+    /// Lengths, with angles times the size of the mechanism. The configurations that a mechanism
+    /// can reach do not depend on its masses. With a large light body, the mass metric would prefer
     /// a large rotation of this body to a small motion of its heavy neighbour.
     Length,
 }
@@ -246,7 +251,7 @@ pub enum Metric<'a> {
 /// memory.
 ///
 /// # Errors
-/// - [`StartError::NoAssembly`]: there is no such configuration near q.
+/// - [`StartError::NoAssembly`]: no configuration near q satisfies the rows.
 pub fn nearest_configuration(
     mechanism: &Mechanism,
     t: f64,
@@ -264,7 +269,7 @@ pub fn nearest_configuration(
     nearest(mechanism, &mut s, (t, false), (rows, &weights), q, q)
 }
 
-/// Returns the rows of Φ that restrict the start.
+/// Returns the rows of Φ that restrict the initial configuration.
 fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
     layout
@@ -276,7 +281,8 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
         .collect()
 }
 
-/// Returns the inverse weights of the coordinates in the mass metric; zero for kept coordinates.
+/// Returns the inverse weights of the coordinates in the mass metric; they are zero for coordinates
+/// that are kept.
 fn position_weights(
     mechanism: &Mechanism,
     options: &StartOptions,
@@ -289,9 +295,9 @@ fn position_weights(
     Ok(weights)
 }
 
-/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, from a given one, until Φ
-/// is zero to rounding. If rows contradict each other, the sum of squares of Φ is minimised, and
-/// the result is accepted if it is `within` the stated tolerances.
+/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to
+/// rounding. The first q is given. If rows contradict each other, the sum of squares of Φ is
+/// minimised. The result is accepted if `within` finds it within the stated tolerances.
 fn nearest(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -303,14 +309,14 @@ fn nearest(
     let mut q = from.to_vec();
     let mut best = f64::INFINITY;
     let mut stalled = 0;
-    // The smallest residual when it last decreased by a digit, and the iteration of this decrease.
+    // The residual at its last decrease by a factor of ten, and the iteration of this decrease.
     let mut digit = (f64::INFINITY, 0);
     for iteration in 0..=ITERATIONS {
         mechanism.pose(t, &q, s);
         mechanism.phi(s);
         mechanism.c(s);
         let ratio = |r: usize| s.phi[r].abs() / mechanism.scales(s).position(r);
-        // A row without terms is either satisfied or not a number.
+        // A row without terms is either satisfied or NaN.
         let misses = |r: usize| if s.phi[r] == 0.0 { 0.0 } else { ratio(r) };
         let (_, residual) = largest(rows.iter().map(|&r| (r, misses(r))));
         let tolerance = ROUNDINGS * f64::EPSILON;
@@ -320,8 +326,8 @@ fn nearest(
             digit = (best, iteration);
         }
         let is_last = iteration == ITERATIONS || iteration >= digit.1 + PATIENCE;
-        // Rounding may leave slightly more than the tolerance: an iteration that stalls near it has
-        // converged.
+        // Rounding errors may be slightly larger than the tolerance: an iteration that stalls near
+        // the tolerance has converged.
         if residual <= tolerance || (stalled > 1 && residual <= ROUNDINGS * tolerance) {
             return Ok(q);
         }
@@ -329,8 +335,8 @@ fn nearest(
         if within && is_at_rest && residual.is_finite() && within::is_within(mechanism, s, rows) {
             return Ok(q);
         }
-        // The accuracy of rows is the rounding of all possible terms, including terms that vanish
-        // at this orientation.
+        // Rows are accurate to the rounding error of all possible terms, including terms that are
+        // zero at this orientation.
         if is_last && rows.iter().all(|&r| is_rounding(mechanism, s, r)) {
             return Ok(q);
         }
@@ -351,7 +357,7 @@ fn nearest(
             .collect();
         let damped = DampedRows::new(&c, weights, DAMPING)?;
         let mut step = damped.step(&misfit)?;
-        // Damping leaves a small residual; one more step removes it if the rows are consistent.
+        // Damping leaves a small residual; another step removes it if the rows are consistent.
         let left = c.times(&step);
         let misfit: Vec<f64> = misfit.iter().zip(&left).map(|(a, b)| a + b).collect();
         for (a, b) in step.iter_mut().zip(damped.step(&misfit)?) {
@@ -362,13 +368,14 @@ fn nearest(
     unreachable!("the last iteration returns")
 }
 
-/// Returns whether the residual of a row of Φ is the rounding of its terms at any orientation.
+/// Returns whether the residual of a row of Φ is at most the rounding error of its terms at any
+/// orientation.
 fn is_rounding(mechanism: &Mechanism, s: &Scratch, row: usize) -> bool {
     let terms = mechanism.scales(s).terms(row, &Level::positions());
     s.phi[row].abs() <= ROUNDINGS * ROUNDINGS * f64::EPSILON * terms
 }
 
-/// Returns the joints and drives that are violated at coordinates q, the worst first.
+/// Returns the joints and drives that are violated at coordinates q, the largest violation first.
 fn missing(mechanism: &Mechanism, q: &[f64], rows: &[usize]) -> Vec<Misfit> {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);

@@ -1,11 +1,12 @@
-//! The stated uncertainty of the numbers of a scene. If no tolerance is stated, the uncertainty is
-//! their rounding.
+//! The stated uncertainty of the values in a scene. If no tolerance is stated, the uncertainty is
+//! the rounding error.
 //!
 //! The crate `solvability` computes the effect of a tolerance on a rank.
 
 use std::fmt;
 
-/// The tolerances of a scene. They are valid unless a tolerance is stated for a joint or body.
+/// The tolerances of a scene. They apply to data for which neither the joint nor the body states a
+/// tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Tolerance {
@@ -17,7 +18,7 @@ pub struct Tolerance {
 
 impl Tolerance {
     /// Returns the tolerance of angles in a mechanism of this size (m): the stated one, or the
-    /// length tolerance divided by the size. Returns `None` if neither is stated.
+    /// length tolerance divided by the size. Returns `None` if neither tolerance is stated.
     ///
     /// ```
     /// use pfaff_model::Tolerance;
@@ -32,7 +33,7 @@ impl Tolerance {
             .or_else(|| self.length.map(|length| length / size))
     }
 
-    /// Returns these tolerances, completed by `other` for values that are not stated.
+    /// Returns these tolerances; tolerances that are not stated are taken from `other`.
     #[must_use]
     pub fn or(self, other: Self) -> Self {
         Self {

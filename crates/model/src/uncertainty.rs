@@ -1,5 +1,5 @@
-//! The uncertainty of the entries of C. Data are rounded to `f64`: an entry of 1e-17 that is a sum
-//! of terms of size one may be zero, while an entry of 1e-9 that is a sum of terms of size 1e-8 is
+//! The uncertainty of the entries of C. Data are rounded to `f64`. An entry of 1e-17 that is a sum
+//! of terms of size one may be zero, but an entry of 1e-9 that is a sum of terms of size 1e-8 is
 //! significant.
 
 use std::ops::Range;
@@ -13,21 +13,22 @@ use crate::scale::Scales;
 use crate::space::norm;
 use crate::system::{Layout, System};
 
-/// Number of roundings to which an assembled start satisfies the constraints.
+/// An assembled initial configuration satisfies the constraints to this multiple of the rounding
+/// error.
 const CLOSED: f64 = 10.0;
 
-/// Accuracy of a configuration along the motions that the constraints leave free.
+/// Accuracy of a configuration along the motions that the constraints permit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConfigurationAccuracy {
     /// The configuration is exact as stored.
     AsStored,
-    /// The accuracy is this fraction of a radian and of the lengths of the mechanism: the result of
-    /// an integrator with about this tolerance.
+    /// The accuracy is this fraction of a radian and of the lengths of the mechanism, as in the
+    /// result of an integrator with about this tolerance.
     To(f64),
 }
 
 impl ConfigurationAccuracy {
-    /// Returns the angle by which bodies may be rotated beyond rounding (rad).
+    /// Returns the uncertainty of the angles of bodies in addition to rounding errors (rad).
     fn turned(self) -> f64 {
         match self {
             Self::AsStored => 0.0,
@@ -37,7 +38,7 @@ impl ConfigurationAccuracy {
 }
 
 impl Mechanism {
-    /// Returns whether a tolerance is stated for any number.
+    /// Returns whether a tolerance is stated for any value.
     #[must_use]
     pub fn has_tolerances(&self) -> bool {
         self.tolerance().is_stated()
@@ -52,18 +53,18 @@ impl Mechanism {
 }
 
 impl Scales<'_> {
-    /// Returns a bound on the distance of each entry of C from that of the intended mechanism,
-    /// (m+h) × n_v, in the units of C. The function allocates memory.
+    /// Returns a bound on the difference of each entry of C from the entry of the intended
+    /// mechanism, (m+h) × n_v, in the units of C. The function allocates memory.
     ///
-    /// The uncertainty of a number is the relative error of the data times the size of the terms
-    /// that are added, which its kernel on magnitudes computes. It is never determined for single
-    /// entries: all components of a force, or of the position of a point, have the same
-    /// uncertainty. This holds for every direction of the axes, and no zero is exact. The
-    /// uncertainty of a lever is the rounding of the longest arm of its body and of the positions
-    /// of its bodies, plus the residual |Φ_i| of the constraints. If a tolerance is stated, only
-    /// rounding is added in place of the residual, because residuals of contradicting rows within
-    /// the tolerance are not an error of the entries. `size` is the size of the mechanism. The
-    /// scratch must contain Φ and C at its configuration.
+    /// The uncertainty of an entry is the relative error of the data times the size of the terms of
+    /// this entry; the kernels compute this size from absolute values. The uncertainty is not
+    /// determined for single entries: all components of a force, or of the position of a point,
+    /// have the same uncertainty. This is true for every direction of the axes, so a zero entry is
+    /// not exact, either. The uncertainty of a lever is the rounding error of the longest arm of
+    /// the body and of the positions of the bodies, plus the residual |Φ_i| of the constraints. If
+    /// a tolerance is stated, only a rounding error is added in place of the residual, because
+    /// residuals within the tolerance are not an error of the entries. `size` is the size of the
+    /// mechanism. The work space must contain Φ and C at its configuration.
     #[must_use]
     pub fn uncertainty(self, size: f64, known: ConfigurationAccuracy) -> Matrix {
         let layout = self.mechanism.layout();
@@ -77,14 +78,15 @@ impl Scales<'_> {
         u
     }
 
-    /// Works like [`Self::uncertainty`], for each entry of the pattern of C, in its order.
+    /// Works like [`Self::uncertainty`], but returns one value for each entry in the pattern of C,
+    /// in the order of the pattern.
     #[must_use]
     pub fn uncertainty_of_entries(self, size: f64, known: ConfigurationAccuracy) -> Vec<f64> {
         let layout = self.mechanism.layout();
         let pattern = &layout.pattern;
         let magnitudes = self.magnitudes();
-        // Angle by which bodies may be rotated; a mechanism far from the origin is rotated about
-        // itself.
+        // The uncertainty of the angles of bodies; for a mechanism far from the origin, the
+        // rotation is about the mechanism itself.
         let has_tolerances = self.mechanism.has_tolerances();
         let opening = |i: usize| {
             let missed = self.s.phi.get(i).map_or(0.0, |phi| phi.abs());
@@ -109,12 +111,13 @@ impl Scales<'_> {
                 let body = layout.space.body_of(column);
                 let of_body = forces.iter().find(|(other, ..)| *other == body);
                 let (_, force, magnitude) = of_body.copied().unwrap_or_default();
-                // A force that is the rounding of its terms counts as zero, for any direction of
-                // the axes.
+                // A force that is not larger than the rounding error of its terms counts as zero,
+                // for any direction of the axes.
                 let has_force = force > ROUNDING * magnitude;
                 u.push(if layout.space.is_rotation(column) {
                     let lever = force * self.mechanism.reach(body);
-                    // A rotation without a force, like that of a rolling wheel, has no lever.
+                    // A rotation without a force, for example that of a rolling wheel, has no
+                    // lever.
                     let moved = if has_force || forces.is_empty() {
                         shift
                     } else {
@@ -131,8 +134,8 @@ impl Scales<'_> {
         u
     }
 
-    /// Returns, for each body on which this row of the pattern exerts a force: the body, the size
-    /// of the force, and the size of the terms that are added in it.
+    /// For each body on which this row of the pattern exerts a force, returns the body, the size of
+    /// the force, and the size of the terms of the force.
     fn forces_of_row(self, magnitudes: &[Magnitude], row: Range<usize>) -> Vec<(usize, f64, f64)> {
         let Layout { space, pattern, .. } = self.mechanism.layout();
         let mut forces: Vec<(usize, [f64; 3], [f64; 3])> = Vec::new();

@@ -1,4 +1,5 @@
-//! Poses, vectors and tensors of `nalgebra` for bodies in space, their frames and reactions.
+//! Conversions to the `nalgebra` types of poses, vectors and tensors, for bodies in space, their
+//! frames and reactions.
 
 use nalgebra::{Isometry3, Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
@@ -39,8 +40,8 @@ impl SpatialBody {
         }
     }
 
-    /// Returns the body with this velocity of the origin of its frame (m/s) and angular velocity
-    /// (rad/s), both in ground axes.
+    /// Returns the body with this velocity of the origin of the body frame (m/s) and this angular
+    /// velocity (rad/s), both in ground axes.
     #[must_use]
     pub fn moving(self, velocity: &Vector3<f64>, omega: &Vector3<f64>) -> Self {
         Self {
@@ -50,13 +51,13 @@ impl SpatialBody {
         }
     }
 
-    /// Returns the pose of its frame, from body to ground.
+    /// Returns the pose of the body frame, from body to ground.
     #[must_use]
     pub fn isometry(&self) -> Isometry3<f64> {
         isometry(self.position, self.orientation)
     }
 
-    /// Returns the inertia about the centre of mass, in the axes of its frame (kg·m²).
+    /// Returns the inertia about the centre of mass, in the axes of the body frame (kg·m²).
     #[must_use]
     pub fn tensor(&self) -> Matrix3<f64> {
         Matrix3::from_row_slice(self.inertia.as_flattened())
@@ -81,7 +82,7 @@ impl Reaction {
         self.force.into()
     }
 
-    /// Returns the moment about the reference point (N·m), in ground axes.
+    /// Returns the torque about the reference point (N·m), in ground axes.
     #[must_use]
     pub fn torque_vector(&self) -> Vector3<f64> {
         self.torque.into()

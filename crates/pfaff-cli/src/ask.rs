@@ -197,7 +197,7 @@ pub struct Asking<'a> {
     pub is_json: bool,
     /// Whether details are printed, too.
     pub is_verbose: bool,
-    /// Whether numbers of tables are printed in SI units without prefixes.
+    /// Whether values in tables are printed in SI units without prefixes.
     pub is_si: bool,
     /// Number of threads.
     pub threads: Option<NonZeroUsize>,

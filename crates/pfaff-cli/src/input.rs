@@ -27,7 +27,7 @@ pub(crate) struct Source<'r> {
 }
 
 impl<'r> Source<'r> {
-    /// Reads a file, or standard input for `-`, and replaces numbers in it.
+    /// Reads a file, or standard input for `-`, and replaces values in the text.
     pub(crate) fn read(
         path: &Path,
         settings: &Settings,
@@ -42,7 +42,7 @@ impl<'r> Source<'r> {
         })
     }
 
-    /// Returns the same scene with this accuracy of its numbers.
+    /// Returns the same scene with this accuracy of its data.
     pub(crate) fn known(self, known: &SceneOptions) -> Self {
         Self {
             tolerance: known.into(),
@@ -78,8 +78,8 @@ pub(crate) fn text_of(path: &Path) -> Result<(String, String), Failure> {
     Ok(source::of_file(path)?)
 }
 
-/// Returns the text of a scene with other numbers in it. A text that is not TOML remains unchanged,
-/// because the reader of scenes reports its errors.
+/// Returns the text of a scene in which these values replace its own. A text that is not TOML
+/// remains unchanged, because the reader of scenes reports its errors.
 fn with_settings(text: String, Settings { list }: &Settings) -> Result<String, Failure> {
     if list.is_empty() {
         return Ok(text);

@@ -14,11 +14,11 @@ use rank::Limits;
 use scene::Scene;
 use solvability::{
     Analysis, Choice, ChoiceError, Continuation, Contradiction, DeletableRows, Distribution,
-    EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, GroupVerdict,
-    MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions, ReactionNumber,
-    ReactionValues, ReactionVerdict, Rows, Sensitivities, Sensitivity, Solution, State,
-    analyse_decided, analyse_dropping, analyse_with_progress, generic, generic_with_verdicts,
-    is_locked, no_finite_reactions, second_order, solution,
+    EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, Group,
+    GroupVerdict, MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions,
+    ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Rows, Sensitivities,
+    Sensitivity, Solution, State, analyse_decided, analyse_dropping, analyse_with_progress,
+    generic, generic_with_verdicts, is_locked, no_finite_reactions, second_order, solution,
 };
 
 use crate::error::StudyError;
@@ -477,6 +477,26 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(found)
     }
 
+    /// Returns bounds of the reactions for joints of any stiffness, from one solution; the listed
+    /// joints and drives do not give way.
+    pub fn bounds<'s>(
+        &'s self,
+        solution: &'s Solution,
+        rigid: &[ConstraintId],
+    ) -> ReactionBounds<'s, 'a> {
+        self.questions.bounds(solution, rigid)
+    }
+
+    /// Returns the groups of the scene and these combinations, with their names.
+    pub(crate) fn requested(&self, combine: &[String]) -> Result<Vec<(String, Group)>, StudyError> {
+        requests::groups(self.scene, self.mechanism, combine)
+    }
+
+    /// Returns the reference point of a joint or drive (m).
+    pub(crate) fn reference_point(&self, id: ConstraintId) -> Result<[f64; 3], StudyError> {
+        Ok(self.questions.reference_point(id)?)
+    }
+
     /// Returns a choice with its name, after a check that the choice is possible at this
     /// configuration.
     ///
@@ -518,7 +538,10 @@ impl<'a> ConfigurationAnalysis<'a> {
     }
 
     /// Computes one solution of the equations of motion.
-    fn solution(&self) -> Result<Solution, StudyError> {
+    ///
+    /// # Errors
+    /// [`StudyError::Choice`]: the rank is undecided.
+    pub fn solution(&self) -> Result<Solution, StudyError> {
         let decision = &self.analysis.decision;
         if let rank::RankStatus::Undecided(doubt) = decision.status {
             return Err(ChoiceError::Undecided(doubt).into());

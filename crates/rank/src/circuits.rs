@@ -1,5 +1,5 @@
-//! Circuits: minimal sets of rows that depend on each other. They explain a redundancy by its
-//! smallest parts.
+//! Circuits: minimal sets of rows that depend on each other. They show which smallest sets of rows
+//! cause a redundancy.
 //!
 //! Redundancy is a property of circuits, not of single rows. The p fundamental circuits (one for
 //! each dropped row) depend on which rows were dropped and may be long. Every circuit is the
@@ -30,9 +30,9 @@ pub struct Circuit {
 
 /// Returns the fundamental circuit of each dropped row, in the order of `dropped`.
 ///
-/// The support is decided on equilibrated coefficients relative to the largest of the circuit,
-/// against the noise of their rows ([`RankDecision::row_noise`]); a row with margin zero belongs to
-/// no circuit. A row of zeros is a circuit of one row.
+/// To decide which rows belong to a circuit, the equilibrated coefficients are divided by the
+/// largest one and compared with the noise of their rows ([`RankDecision::row_noise`]); a row with
+/// margin zero belongs to no circuit. A row of zeros is a circuit of one row.
 #[must_use]
 pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
     fundamental(decision)
@@ -92,14 +92,14 @@ fn by_length(a: &Sparse, b: &Sparse) -> Ordering {
     a.len().cmp(&b.len()).then_with(|| rows(a).cmp(&rows(b)))
 }
 
-/// Returns whether each of these rows has a coefficient.
+/// Returns whether each of these rows belongs to one of the circuits.
 fn covers(circuits: &[Sparse], rows: &[usize]) -> bool {
     let is_in = |row: usize| circuits.iter().flatten().any(|&(other, _)| other == row);
     rows.iter().all(|&row| is_in(row))
 }
 
 /// Returns the shortest independent circuits of one component by a greedy search, which is optimal
-/// in a matroid. Returns `None` if they are too many or too noisy.
+/// in a matroid. Returns `None` if there are too many circuits, or if noise hides them.
 fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
     let p = dual.dimension();
     let classes = dual.parallel_classes().ok()?;
@@ -202,7 +202,7 @@ fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
 fn circuit(decision: &RankDecision, z: &Sparse) -> Circuit {
     let exponents = &decision.scaling.rows;
     // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative to one
-    // of the rows keep the numbers in range.
+    // of the rows keep the coefficients in range.
     let reference = z.last().map_or(0, |&(row, _)| exponents[row]);
     let scaled: Vec<f64> = z
         .iter()

@@ -231,7 +231,7 @@ impl Reading {
         }
     }
 
-    /// Returns these singular values for a given rank.
+    /// Returns the result for the same singular values if the rank is given.
     fn of_rank(self, rank: usize) -> Self {
         let rank = rank.min(self.evidence.singular_values.len());
         let [sigma_r, sigma_next] = around(&self.evidence.singular_values, rank);

@@ -5,8 +5,8 @@
 //! `Z_D` of a left null space basis is nonsingular. Deleting D sets its multipliers to zero, and
 //! all other multipliers become unique. If fewer rows are deleted, some multipliers become unique:
 //! a combination `ℓᵀ·λ` becomes unique iff `ℓᵀ·Z` is in the row space of `Z_D`. All tests use the
-//! clear gap of rank decisions, on the coefficients of the decision. If a number is in the gap, the
-//! result is an error that states this.
+//! clear gap of rank decisions, on the coefficients of the decision. If a value lies in the gap,
+//! the result is an error that contains the value.
 //!
 //! The caller decides which rows are candidates for deletion.
 
@@ -29,13 +29,13 @@ pub enum DeletionError {
     /// The rank itself is undecided.
     #[error("the rank is undecided, so no deletion can be analysed: {0}")]
     Rank(Doubt),
-    /// Whether some rows may be deleted together depends on a number that is neither certainly zero
+    /// Whether some rows may be deleted together depends on a value that is neither certainly zero
     /// nor certainly nonzero.
     #[error(
         "whether rows can be deleted together depends on a coefficient {value:.1e}, and coefficients are accurate only to {noise:.1e}: use more accurate data or a smaller tolerance"
     )]
     Unclear {
-        /// The number.
+        /// The value.
         value: f64,
         /// Accuracy of the coefficients of the dependencies.
         noise: f64,

@@ -2,29 +2,30 @@
 //!
 //! Row i of Z̃ (m×p, of the equilibrated rows) is the vector of constraint i. A set D of
 //! constraints may be deleted without a change of motion iff its vectors are independent. Rows with
-//! parallel vectors can replace each other. The rows where `Z̃·y` vanishes and those where it does
-//! not are a hyperplane of the dual and a circuit of the rows.
+//! parallel vectors can replace each other. If `Z̃·y` vanishes on a hyperplane of the dual, the
+//! other rows form a circuit.
 //!
 //! Every test is a rank of a few vectors, computed by elimination with complete pivoting. The
-//! multipliers are at most one, so the noise of all entries stays that of the decision. An entry
-//! between "zero" and "certainly not zero" is reported as an error.
+//! multipliers of the elimination are at most one, so the noise of all entries stays that of the
+//! decision. An entry between "zero" and "certainly not zero" is reported as an error.
 
 use crate::decision::{CoefficientReading, Readings, Size, size};
 use crate::null_space::Support;
 use crate::{RankDecision, support_tolerance};
 
-/// A rank depends on a number between "zero" and "certainly not zero".
+/// A rank depends on a value between "zero" and "certainly not zero".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Unclear {
     pub(crate) value: f64,
     pub(crate) noise: f64,
 }
 
-/// The accuracy of numbers, and the criterion for nonzero numbers.
+/// The accuracy of values, and the criterion for nonzero values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Noise {
     pub(crate) value: f64,
-    /// The rules of a stated tolerance, which also apply to verdicts; `None` for rounding.
+    /// The rules of a stated tolerance, which are also used for verdicts on reactions; `None` for
+    /// rounding.
     stated: Option<Readings>,
 }
 
@@ -36,7 +37,7 @@ impl Noise {
         }
     }
 
-    /// Returns the noise of numbers with this multiple of the uncertainty.
+    /// Returns the noise of values with this multiple of the uncertainty.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             value: factor * self.value,
@@ -233,8 +234,8 @@ mod tests {
         assert!(rank(vectors(1e-10), noise).is_err());
     }
 
-    /// If the data are accurate to a thousandth of the size, they show whether a coefficient of one
-    /// is zero.
+    /// If the data are accurate to a thousandth of the size, they are accurate enough to
+    /// distinguish a coefficient of one from zero.
     #[test]
     fn within_a_tolerance_a_pivot_clears_what_the_data_move_it_by() {
         let rules = Readings {

@@ -1,6 +1,6 @@
-//! Table of limits: all numbers of this crate that its authors chose. Each comment states the
-//! meaning, the unit, what breaks if the number is wrong (if it is too small, or too large), and
-//! the test that fails then. `none, work only` means that only time or memory would change; `none`
+//! Table of limits: all values in this crate that its authors chose. Each comment states the
+//! meaning, the unit, what breaks if the value is wrong (if it is too small, or too large), and the
+//! test that fails then. `none, work only` means that only time or memory would change; `none`
 //! means that there is no test yet. The test file `tests/all/limits.rs` reads this table.
 
 // Dense ranks.
@@ -8,7 +8,7 @@
 /// Factor between the noise estimate and the tolerance τ. The rounding of an equilibrated matrix
 /// and the residual of the refined configuration were each measured; they differ at most by a
 /// factor of 4 from the singular value that they cause. Unit: 1. Too small: rounding counts as
-/// rank. Too large: exact redundancy hides small numbers. Test:
+/// rank. Too large: exact redundancy hides small singular values. Test:
 /// `a_singular_value_clears_the_data_by_four`.
 pub const NOISE_FACTOR: f64 = 10.0;
 
@@ -49,9 +49,9 @@ pub const NEARLY_REDUNDANT: f64 = 1e-3;
 /// large: bounds are less sharp. Test: `bounds_are_below_and_near_the_truth`.
 pub(crate) const BOUND_SLACK: f64 = 1e-6;
 
-/// Larger noise hides significant numbers, so that no number counts as zero relative to it. Unit:
-/// singular value of a matrix of size one. Too small: no rank of coarse data is certified. Too
-/// large: significant numbers count as zero. Test:
+/// Larger noise hides significant values, so that no value counts as zero relative to such noise.
+/// Unit: singular value of a matrix of size one. Too small: no rank of coarse data is certified.
+/// Too large: significant values count as zero. Test:
 /// `a_number_counts_a_thousand_times_above_its_noise`.
 pub(crate) const NOISE_MAX: f64 = 1e-4;
 
@@ -69,9 +69,9 @@ pub const SIGNIFICANT: f64 = 1e5;
 /// more levels. Test: `exact_redundancy_falls_with_the_precision_and_misalignment_stays`.
 pub(crate) const LEVEL_SPREAD: f64 = 1e-6;
 
-/// Maximum number of corrections of T by double-double residuals. Each correction gains at least
-/// eight digits. Unit: corrections. Too small: coefficients are not accurate to double-double. Too
-/// large: the decision takes longer. Test: `planted_ranks_in_double_double`.
+/// Maximum number of corrections of T by double-double residuals. Each correction adds at least
+/// eight correct digits. Unit: corrections. Too small: coefficients are not accurate to
+/// double-double. Too large: the decision takes longer. Test: `planted_ranks_in_double_double`.
 pub(crate) const CORRECTIONS_MAX: usize = 5;
 
 /// Number of primes of the zero tests. A minor of thousands of bits is divisible by fewer than 2¹⁰
@@ -107,9 +107,10 @@ pub(crate) const EXCHANGE_ROUNDS: usize = 8;
 /// Test: `equal_rows_cancel`.
 pub(crate) const DIRECTION_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Number of inverse iterations. Each iteration gains the square of the ratio of the two smallest
-/// singular values. Unit: iterations. Too small: the weakest combination is mixed with the second
-/// weakest. Too large: the decision takes longer. Test: `equal_rows_cancel`.
+/// Number of inverse iterations. Each iteration multiplies the error by the square of the ratio of
+/// the smallest to the second smallest singular value. Unit: iterations. Too small: the weakest
+/// combination is mixed with the second weakest. Too large: the decision takes longer. Test:
+/// `equal_rows_cancel`.
 pub(crate) const INVERSE_ITERATIONS: usize = 3;
 
 // Coefficients of dependencies.
@@ -152,14 +153,14 @@ pub(crate) const TOLERANCE_MAX: f64 = 1e-5;
 pub(crate) const STATED_MAX: f64 = 0.1;
 
 /// A coefficient above this limit does not count as zero within a stated tolerance. Data within the
-/// tolerance could make it zero, but need not do so, and a number that is reported as zero must be
+/// tolerance could make it zero, but need not do so, and a value that is reported as zero must be
 /// insignificant. Unit: coefficient of the equilibrated dependencies. Too small: no coefficient is
 /// zero within coarse tolerances. Too large: significant reactions count as zero. Test:
 /// `within_a_tolerance_only_what_is_small_is_zero`.
 pub const STATED_ZERO: f64 = 1e-3;
 
-/// Within a stated tolerance, a coefficient above its change by this factor is certainly not zero.
-/// All data together would have to be wrong by as many tolerances, as for ranks. Unit: 1. Too
+/// Within a stated tolerance, a coefficient that exceeds its change by this factor is certainly not
+/// zero. All data together would have to be wrong by as many tolerances, as for ranks. Unit: 1. Too
 /// small: the accuracy of data is overestimated. Too large: more coefficients are undecided. Test:
 /// `within_a_tolerance_only_what_is_small_is_zero`.
 pub const BEYOND_DOUBT: f64 = 3.0;
@@ -175,11 +176,11 @@ pub(crate) const VANISHED: f64 = 1e-13;
 /// undecided. Test: `what_vanishes_is_zero_and_what_is_near_the_smallest_is_not`.
 pub(crate) const COMBINATION_SPREAD: f64 = 1e4;
 
-/// Amplification of data errors. Data change entries directly and through the configuration that
-/// follows them; links that are ten times shorter than others amplify this change. The result is at
-/// most the uncertainty of all entries together, divided by σ_r. Unit: 1. Too small: short links
-/// change entries more than permitted. Too large: small coefficients are undecided. Test:
-/// `parallel_cylinders_are_one_mechanism_with_any_digits`.
+/// Amplification of data errors. Changes of the data change entries directly, and also through the
+/// configuration that depends on the data. Links that are ten times shorter than others amplify
+/// this change. The result is at most the uncertainty of all entries together, divided by σ_r.
+/// Unit: 1. Too small: short links change entries more than permitted. Too large: small
+/// coefficients are undecided. Test: `parallel_cylinders_are_one_mechanism_with_any_digits`.
 pub(crate) const POSE_FACTOR: f64 = 10.0;
 
 /// Coefficients below this limit are rounding, for any stated tolerance. Unit: coefficient of the

@@ -2,8 +2,8 @@
 //! that it couples (components). The module `circuits` computes minimal dependent sets.
 //!
 //! Columns z with `Cᵀ·z = 0` are the self-stresses: if multipliers change by a self-stress, the
-//! force on every body does not change. Verdicts on joints and reactions need the grouping of rows;
-//! other modules compute them.
+//! force on every body does not change. Other modules use the groups of rows for verdicts on joints
+//! and reactions.
 
 use crate::limits::COEFFICIENT_ROUNDING;
 use crate::{CoefficientReading, RankDecision};

@@ -2,8 +2,8 @@
 //!
 //! A determinant that is not zero modulo one prime is not zero. A determinant that is zero modulo
 //! primes whose product exceeds Hadamard's bound is zero. Every finite `f64` is an integer times a
-//! power of two, and a power of two is a unit modulo an odd prime, so constraint matrices are
-//! mapped without error. The module `pfaff_rank::modular` chooses rows and minors.
+//! power of two, and a power of two is a unit modulo an odd prime, so the entries of constraint
+//! matrices are mapped without error. The module `pfaff_rank::modular` chooses rows and minors.
 //!
 //! The primes have 62 bits and are drawn from a fixed pseudo-random stream. Primes of a special
 //! form are not suitable: modulo the convenient 2⁶¹ − 1 the determinant of [[1, 1], [1, 2⁶¹]]
@@ -26,7 +26,8 @@ pub(crate) struct PrimeField {
     r_squared: u64,
 }
 
-/// An element x of a field, stored as `x·2⁶⁴ mod p`, so that equality is equality of the elements.
+/// An element x of a field, stored as `x·2⁶⁴ mod p`, so that equal representations mean equal
+/// elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Residue(u64);
 
@@ -89,7 +90,7 @@ impl PrimeField {
         Residue(self.reduce(u128::from(x.0) * u128::from(y.0)))
     }
 
-    /// Returns x·y of a residue and a plain number below 2⁶²; the result is plain, in `0..p`.
+    /// Returns x·y of a residue and an integer below 2⁶²; the result is an integer in `0..p`.
     pub(crate) fn times_plain(self, x: Residue, y: u64) -> u64 {
         self.reduce(u128::from(x.0) * u128::from(y))
     }

@@ -112,7 +112,7 @@ pub(crate) fn coefficients(qr: &PivotedQr, y: &mut [f64], t: &mut [f64]) -> f64 
     kernels::norm(outside)
 }
 
-/// Returns all numbers of `0..m` that are not in the ascending list `rows`.
+/// Returns all indices in `0..m` that are not in the ascending list `rows`.
 pub(crate) fn complement(m: usize, rows: &[usize]) -> Vec<usize> {
     (0..m).filter(|i| rows.binary_search(i).is_err()).collect()
 }

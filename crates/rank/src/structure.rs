@@ -2,18 +2,17 @@
 //! matrix: rows that belong to no dependency because of the bodies on which they act, and parts
 //! that are independent of each other.
 //!
-//! Columns form blocks (bodies), rows form groups (joints). Three facts are used. Each fact is
-//! exact in one direction: the rows that it settles are settled, and the other rows need numerical
-//! values.
+//! Columns form blocks (bodies), rows form groups (joints). Three facts are used. A row that one of
+//! them settles needs no further analysis, and all other rows need numerical values.
 //!
 //! - **Parts.** Groups that share no block, directly or through other groups, are independent
 //!   problems. The ground is not a block.
 //! - **Peeling.** `Cᵀ·z = 0` on the columns of one block involves only the rows that touch it. If
 //!   these rows, restricted to the block, are independent, then z vanishes on all of them, and they
 //!   are removed together with the block.
-//! - **Bridges.** In the graph of blocks and ground a group that alone joins a set S of blocks to
-//!   the rest has `C_Xᵀ·z_X = 0`: the equilibrium of S. This needs mechanics, see
-//!   [`RowGroup::ground`].
+//! - **Bridges.** If a group X is the only connection of a set S of blocks to the rest of the graph
+//!   of blocks and ground, then `C_Xᵀ·z_X = 0`, because S is in equilibrium. This conclusion uses
+//!   mechanics, see [`RowGroup::ground`].
 //!
 //! The ranks in this module are those of a few rows of the equilibrated matrix, by the rule of
 //! `rank`. Uncertain results stay open. Names of joints, and verdicts from ranks, are not used
@@ -47,7 +46,7 @@ pub enum StructureVerdict {
     Peeled,
     /// The group is the only connection between two sides, so `C_Xᵀ·λ_X` is unique.
     Bridge,
-    /// The group is not settled; the number is that of its part in [`Structure::open`].
+    /// The group is not settled. The value is the index of its part in [`Structure::open`].
     Open(usize),
 }
 

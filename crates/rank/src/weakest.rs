@@ -1,5 +1,5 @@
-//! Computes the combination of rows that is closest to zero: which rows are nearly dependent, and
-//! by how much.
+//! Computes the combination of rows that is closest to zero. It shows which rows are nearly
+//! dependent, and by how much.
 
 use crate::limits::{DIRECTION_ROUNDING, INVERSE_ITERATIONS};
 use linalg::{Matrix, PivotedQr, kernels};
@@ -31,7 +31,7 @@ pub fn weakest_combination(rows: &Matrix) -> Option<WeakestCombination> {
     by_inverse_iteration(rows).or_else(|| by_inverse_iteration(&beside_rounding(rows)))
 }
 
-/// Appends the rounding to the rows: `[C, δ·I]`.
+/// Appends δ·I, where δ is the rounding, to the rows: `[C, δ·I]`.
 fn beside_rounding(rows: &Matrix) -> Matrix {
     let (r, n) = (rows.nrows(), rows.ncols());
     let largest = (0..r).map(|i| kernels::norm(rows.row(i)));
@@ -49,7 +49,7 @@ fn by_inverse_iteration(rows: &Matrix) -> Option<WeakestCombination> {
     if r == 0 || r > qr.steps() || qr.r_diagonal().any(|d| d == 0.0) {
         return None;
     }
-    // Practically any start has a component along the weakest combination.
+    // Practically any initial vector has a component along the weakest combination.
     let mut y: Vec<f64> = (0..r).map(|i| 1.0 + i as f64 / 7.0).collect();
     let mut growth = 0.0;
     for _ in 0..INVERSE_ITERATIONS {

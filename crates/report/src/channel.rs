@@ -1,5 +1,5 @@
-//! Curves as short text: values are rounded to a fraction of the range of the curve, and each value
-//! is written as the difference from the previous one.
+//! Writes curves as short text. The values are rounded to a fraction of the range of the curve, and
+//! each value is written as the difference from the previous value.
 
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
@@ -7,7 +7,7 @@ use serde::ser::{SerializeSeq, Serializer};
 /// Number of levels in the range of a curve; the rounding error is half a level.
 pub const LEVELS: f64 = 100_000.0;
 
-/// Number of digits of a single number.
+/// Number of significant digits of a value that is written without rounding to a level.
 const DIGITS: usize = 6;
 
 /// A curve over the frames.
@@ -16,10 +16,10 @@ const DIGITS: usize = 6;
 pub enum Channel {
     /// The same value at all frames.
     Constant(FewDigits),
-    /// The value at level 0, the height of a level, and the differences between levels; `null` is a
-    /// gap.
+    /// The value at level 0, the height of a level, and the differences between the levels of
+    /// consecutive values; `null` is a gap.
     Varying {
-        /// Level 0.
+        /// The value at level 0.
         o: f64,
         /// Height of a level.
         s: FewDigits,
@@ -32,12 +32,12 @@ pub enum Channel {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FewDigits(pub f64);
 
-/// Differences between levels; `None` is a gap.
+/// Differences between the levels of consecutive values; `None` is a gap.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Steps(pub Vec<Option<i64>>);
 
 impl Channel {
-    /// The levels of these numbers.
+    /// Creates the curve of these values.
     #[must_use]
     pub fn new(values: impl Iterator<Item = f64> + Clone) -> Self {
         Self::above(0.0, values)
@@ -54,7 +54,8 @@ impl Channel {
         }
     }
 
-    /// The levels of these numbers; numbers with an absolute value up to `noise` count as zero.
+    /// Creates the curve of these values. Values with an absolute value up to `noise` count as
+    /// zero.
     pub fn above(noise: f64, values: impl Iterator<Item = f64> + Clone) -> Self {
         let values = values.map(|x| if x.abs() <= noise { 0.0 } else { x });
         let finite = values.clone().filter(|x| x.is_finite());
@@ -66,7 +67,7 @@ impl Channel {
         if low > high {
             return Self::Constant(FewDigits(f64::NAN));
         }
-        // A change below the rounding error of the numbers counts as no change.
+        // A change below the rounding error of the values counts as no change.
         let flat = height <= f64::EPSILON * low.abs().max(high.abs());
         if flat && !has_gaps {
             return Self::Constant(FewDigits(low));
@@ -103,7 +104,7 @@ impl FewDigits {
 impl Serialize for FewDigits {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let value = self.value();
-        // −0 and 3.0 would need more characters.
+        // The texts −0 and 3.0 would need more characters than 0 and 3.
         if value == value.trunc() && value.abs() < 1e9 {
             serializer.serialize_i64(value as i64)
         } else {
@@ -149,8 +150,8 @@ mod tests {
             .collect();
         let channel = Channel::new(values.iter().copied());
         for (a, b) in values.iter().zip(decoded(&channel, values.len())) {
-            // Half a level, and the rounding error of the height of a level to six digits, summed
-            // over all levels.
+            // The error is at most half a level plus the rounding error of the level height, which
+            // has six digits, summed over all levels.
             assert!((a - b).abs() <= 6.0 * (0.5 / LEVELS + 5e-7), "{a} {b}");
         }
     }

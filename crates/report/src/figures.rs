@@ -7,8 +7,8 @@
 //! | [`history()`], [`histories`] | quantities over time |
 //! | [`paths()`] | paths in the plane, with equal axes |
 //! | [`work_precision()`] | error against run time, scene by scene |
-//! | [`ranges()`], [`cloud()`] | numbers and positions over samples |
-//! | [`extremes()`] | error over an extreme number, panel by panel |
+//! | [`ranges()`], [`cloud()`] | distributions of values and of positions over samples |
+//! | [`extremes()`] | error over an extreme parameter value, panel by panel |
 //!
 //! The function [`png()`] converts any of these figures to a PNG file (feature `png`).
 //!

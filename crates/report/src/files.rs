@@ -1,13 +1,12 @@
-//! Files of an output directory. Each file is written next to its final path as `<name>.part` and
-//! renamed when it is finished, so a file with its final name is always complete. An unfinished
-//! file is removed when its value is dropped; a directory that was created for files and contains
-//! no file is also removed. If writing fails, this file and the other unfinished files are cut off
-//! after the last complete line and keep the name `.part`. An older file with the final name does
-//! not change.
+//! Files of an output directory. Each file is written as `<name>.part` and renamed when it is
+//! finished, so that a file with its final name is always complete. When the value of an unfinished
+//! file is dropped, the file is removed. A directory that was created for files and contains no
+//! file is also removed. If writing fails, all unfinished files are truncated after the last
+//! complete line and are still named `.part`. An older file with the final name does not change.
 //!
 //! A result of several files is replaced in one step, as far as the system allows this. All files
-//! are written next to their final paths, then all are renamed. Finally, files are removed that an
-//! earlier result of the same [`Family`] has left and the new result does not contain.
+//! are written as `.part` files, then all are renamed. Finally, files of an earlier result of the
+//! same [`Family`] are removed if the new result does not contain them.
 //!
 //! No content is written through a symbolic link: a link at the path of a file is replaced by the
 //! file, and the target of the link does not change. Files are not removed through links, either.
@@ -48,7 +47,7 @@ pub enum FileError {
         /// The error of the operating system.
         source: io::Error,
     },
-    /// A name that is not a plain file name, so that the file would be outside the directory.
+    /// The name is not a plain file name, so that the file would be outside the directory.
     #[error("`{name}` is not the name of a file inside `{}`: leave out directories", directory.display())]
     Name {
         /// The name.
@@ -68,7 +67,7 @@ pub enum FileError {
         /// The file.
         path: PathBuf,
     },
-    /// The path of a file leads to something else: a directory, a device, a pipe, a link.
+    /// The path of a file is the path of a directory, a device, a pipe or a link.
     #[error("`{}` is a directory, a device or a link, not a file; choose another path", path.display())]
     NoFile {
         /// The path.
@@ -108,8 +107,8 @@ impl FileError {
         }
     }
 
-    /// Whether the path is wrong: no file can be created there, or an existing file must not be
-    /// replaced. Otherwise writing has failed.
+    /// Whether the path is the cause of the error: no file can be created there, or an existing
+    /// file must not be replaced. Otherwise writing has failed.
     #[must_use]
     pub fn is_place(&self) -> bool {
         match self {
@@ -148,7 +147,7 @@ pub struct OutputDirectory {
     _lock: Option<Arc<File>>,
     /// The directories that were created for the output directory.
     made: Arc<NewDirectories>,
-    /// Whether a file could not be written: then unfinished files are kept.
+    /// Whether a file could not be written. In this case, unfinished files are not removed.
     has_failed: Arc<AtomicBool>,
 }
 
@@ -166,7 +165,7 @@ pub enum Replaces {
 /// Names of unfinished files.
 #[derive(Clone, Copy, Debug)]
 enum Parts {
-    /// `<name>.part`: the next run replaces the file that an earlier run has left.
+    /// `<name>.part`. The next run replaces an unfinished file of an earlier run.
     Plain,
     /// Names that only this process uses.
     Own,
@@ -175,7 +174,7 @@ enum Parts {
 /// Treatment of unfinished files after a failure, or when the process is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum FailurePolicy {
-    /// The complete lines are kept.
+    /// The complete lines remain in the file.
     Kept,
     Removed,
 }
@@ -209,8 +208,8 @@ const PATIENCE: Duration = Duration::from_millis(100);
 const PAUSE: Duration = Duration::from_millis(5);
 
 impl OutputDirectory {
-    /// Opens a directory, and creates it if it does not exist. A directory that was created here
-    /// and has no file is removed with the last clone of this value.
+    /// Opens a directory, and creates it if it does not exist. A new directory that contains no
+    /// file is removed when the last clone of this value is dropped.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: the directory cannot be created, for example because a file has
@@ -244,14 +243,13 @@ impl OutputDirectory {
         })
     }
 
-    /// The directory of a single file, for writing this file next to its path; the directory must
-    /// exist.
+    /// Opens the directory in which a single file will be written. The directory must exist.
     ///
     /// # Errors
     /// - [`FileError::Exists`], [`FileError::Foreign`]: the existing file must not be replaced.
     /// - [`FileError::NoFile`]: the path is a directory, a device, a pipe or a link. A link is
-    ///   neither replaced nor followed, because only its author can decide which of both files is
-    ///   meant.
+    ///   neither replaced nor followed, because only the user can decide whether the link or its
+    ///   target is meant.
     /// - [`FileError::Refused`]: the directory does not exist.
     pub fn around(file: &Path, replaces: Replaces) -> Result<Self, FileError> {
         let path = file.to_owned();
@@ -277,8 +275,8 @@ impl OutputDirectory {
         Ok(Self::create(parent)?.with_own_parts().whole())
     }
 
-    /// For files that are only useful if they are complete: unfinished files are removed, also
-    /// after a failure.
+    /// Removes unfinished files also after a failure. This is for files that are only useful if
+    /// they are complete.
     #[must_use]
     pub fn whole(mut self) -> Self {
         self.unfinished = FailurePolicy::Removed;
@@ -358,8 +356,8 @@ impl OutputDirectory {
         Ok(file)
     }
 
-    /// Starts a file that is only read again, by [`OutputFile::written`], and never gets its final
-    /// name: it is removed when it is dropped.
+    /// Starts a temporary file, which is read again with [`OutputFile::written`] and removed when
+    /// it is dropped.
     ///
     /// # Errors
     /// Returns the same errors as [`OutputDirectory::file`].
@@ -384,9 +382,9 @@ impl OutputDirectory {
         file.finish()
     }
 
-    /// Finishes these files, and removes the files of this family that an earlier result has left:
-    /// see [`Self::keep`]. All files are written before the first one is renamed, so that the
-    /// earlier result remains if the disk is full.
+    /// Finishes these files, and removes other files of this family that belong to an earlier
+    /// result: see [`Self::keep`]. All files are written before the first one is renamed, so that
+    /// the earlier result remains if the disk is full.
     ///
     /// # Errors
     /// Returns the same errors as [`OutputFile::finish`] and [`Self::keep`].
@@ -404,8 +402,9 @@ impl OutputDirectory {
     }
 
     /// Removes the files of this family that are not in `files`, including those with the name
-    /// `.part`. They belong to an earlier result and could be mistaken for a part of this one. A
-    /// file that pfaff has not written is kept. Returns the names of the removed files.
+    /// `.part`. They belong to an earlier result and could be mistaken for a part of the new
+    /// result. A file that pfaff has not written is not removed. Returns the names of the removed
+    /// files.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: a file cannot be removed.
@@ -438,9 +437,9 @@ impl OutputDirectory {
         Ok(removed)
     }
 
-    /// Ends all writing because the process will end: open tables get their final names, cut off
-    /// after the last complete line. No file can be written afterwards. Returns false if no file
-    /// had been started.
+    /// Ends all writing because the process will end. Open tables are truncated after the last
+    /// complete line and get their final names. No file can be written afterwards. Returns false if
+    /// no file had been started.
     pub fn abandon(&self) -> bool {
         self.abandon_with(|_| ())
     }
@@ -519,8 +518,8 @@ impl OutputDirectory {
     }
 }
 
-/// A new file; any existing item with this name, including a link, is removed before. The file is
-/// also readable, so that the last complete line can be found.
+/// Creates a file; any existing item with this name, including a link, is removed first. The file
+/// is also readable, so that the last complete line can be found.
 fn new_file(path: &Path) -> io::Result<File> {
     match fs::remove_file(path) {
         Err(e) if e.kind() != ErrorKind::NotFound => return Err(e),
@@ -530,7 +529,7 @@ fn new_file(path: &Path) -> io::Result<File> {
     options.read(true).write(true).create_new(true).open(path)
 }
 
-/// The name of an unfinished file, which no other process or thread on any machine uses.
+/// A name for an unfinished file that is different for each process and thread on every machine.
 pub(crate) fn own_part(path: &Path) -> PathBuf {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -539,7 +538,7 @@ pub(crate) fn own_part(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// The value of a mutex, if it becomes free within a short time.
+/// Locks a mutex, if it becomes free within a short time.
 fn patiently<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     let mut waited = Duration::ZERO;
     loop {
@@ -555,8 +554,8 @@ fn patiently<T>(mutex: &Mutex<T>) -> Option<MutexGuard<'_, T>> {
     }
 }
 
-/// A file that is being written, buffered. Errors of writing contain its path. If it is dropped
-/// before it is finished, it is removed.
+/// A file that is being written, buffered. Errors of writing contain its path. The file is removed
+/// if this value is dropped before the file is finished.
 #[derive(Debug)]
 pub struct OutputFile {
     content: Arc<Mutex<Content>>,
@@ -565,12 +564,13 @@ pub struct OutputFile {
 /// The buffer of a file and its names.
 #[derive(Debug)]
 struct Content {
-    /// The first error of the operating system, if any: later writes would leave a gap.
+    /// The buffer, or the first error of the operating system. After an error no data are written,
+    /// because the file would have a gap.
     buffer: Result<BufWriter<File>, io::Error>,
     part: PathBuf,
     path: PathBuf,
     unfinished: FailurePolicy,
-    /// The flag of the directory.
+    /// The flag `has_failed` of the directory.
     has_failed: Arc<AtomicBool>,
 }
 
@@ -601,8 +601,8 @@ impl OutputFile {
         flushed.map_err(FileError::refused("write", &content.part))
     }
 
-    /// Like [`Self::finish`], for a run that stopped early: the written part gets the final name,
-    /// up to the last complete line if the rest could not be written. The summary of the run states
+    /// Like [`Self::finish`], for a run that stopped early. The written part gets the final name.
+    /// If a write failed, the file ends after the last complete line. The summary of the run states
     /// that it is partial.
     ///
     /// # Errors
@@ -649,8 +649,8 @@ impl OutputFile {
 }
 
 impl Drop for Content {
-    /// No other file refers to an unfinished file that is dropped. After a failure or a panic, the
-    /// file is kept if a part of it is useful.
+    /// An unfinished file that is dropped is removed. After a failure or a panic it is not removed
+    /// if a part of it is useful.
     fn drop(&mut self) {
         let fails = self.has_failed.load(Ordering::Relaxed) || std::thread::panicking();
         if fails && self.unfinished == FailurePolicy::Kept && self.with(Write::flush).is_ok() {
@@ -667,7 +667,7 @@ impl Content {
         let is_open = mem::replace(&mut self.buffer, gone).map(BufWriter::into_parts);
         if is_open.is_ok() || self.unfinished == FailurePolicy::Removed {
             drop(is_open);
-            // A file that cannot be removed has the name `.part`.
+            // A file that cannot be removed is still named `.part`.
             let _ = fs::remove_file(&self.part);
         }
     }
@@ -683,14 +683,14 @@ impl Content {
         Ok(self.path.clone())
     }
 
-    /// Keeps the complete lines under the final name, if the file is still being written and a part
-    /// of it is useful.
+    /// Gives the complete lines the final name, if the file is still being written and a part of it
+    /// is useful.
     fn abandon(&mut self) {
         if self.unfinished == FailurePolicy::Removed {
             self.remove();
         } else if self.with(Write::flush).is_ok() {
             self.close(ErrorKind::BrokenPipe.into());
-            // If this fails, the name `.part` is sufficient.
+            // If this fails, the file is still named `.part`, which is sufficient.
             let _ = fs::rename(&self.part, &self.path);
         }
     }
@@ -715,11 +715,11 @@ impl Content {
         done
     }
 
-    /// Removes the incomplete line that a failed write has left, and writes no more data.
+    /// Removes the incomplete line after a failed write; no more data are written afterwards.
     fn close(&mut self, refusal: io::Error) {
         if let Ok(buffer) = mem::replace(&mut self.buffer, Err(refusal)) {
             let (mut file, _) = buffer.into_parts();
-            // If this fails too, the name `.part` is sufficient.
+            // If this fails too, the file is still named `.part`, which is sufficient.
             let _ = end_of_last_line(&mut file).and_then(|end| file.set_len(end));
         }
     }

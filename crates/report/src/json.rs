@@ -1,4 +1,4 @@
-//! Documents as JSON: their header, and objects whose keys are names.
+//! Writes documents as JSON with a header, and objects whose keys are names.
 
 use std::io::{self, Write};
 
@@ -6,7 +6,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde::ser::{SerializeMap, Serializer};
 
-/// Version of the document format: it increases when an entry changes its meaning or is removed.
+/// Version of the document format. The version increases when the meaning of an entry changes or an
+/// entry is removed.
 pub const FORMAT: u32 = 2;
 
 /// A document with its header.
@@ -32,8 +33,8 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
         document,
     };
     let text = serde_json::to_string_pretty(&headed)?;
-    // Such characters occur only in strings. They may be written as escape codes, which a terminal
-    // does not interpret.
+    // Control characters and characters that change the direction of text occur only in strings.
+    // They are written as escape codes, which a terminal does not interpret.
     let is_obeyed = |c: char| matches!(c, '\u{7f}'..='\u{9f}' | '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     let mut written = 0;
     for (at, c) in text.char_indices().filter(|(_, c)| is_obeyed(*c)) {

@@ -5,7 +5,7 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`tables`] | `trajectory.csv` and `reactions.csv`, row by row |
-//! | [`json`] | documents as JSON: their header, and objects whose keys are names |
+//! | [`json`] | documents as JSON with a header, and objects whose keys are names |
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG, PNG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
 //! | [`mod@sweep`] | many runs: shards and journals that survive interruptions, CSV and Parquet |

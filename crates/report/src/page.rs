@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::figures::escape;
 use crate::work_precision::Provenance;
 
-/// Colours follow the colour scheme of the reader, like the colours of the figure.
+/// The colours depend on the colour scheme of the reader, like the colours of the figure.
 const STYLE: &str = "
 :root { color-scheme: light dark; --ink: #222; --grey: #5f6870; --line: #d5d9dd; --page: #fff; --best: #e3f2e8; }
 @media (prefers-color-scheme: dark) {

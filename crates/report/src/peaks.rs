@@ -1,5 +1,6 @@
-//! The largest values of reactions over a run, of determined cells only. The determined cells are
-//! known when the run has ended; therefore a peak is stored for each interval between boundaries.
+//! The largest values of reactions over a run. Only cells of the table with determined values
+//! count. These cells are known only after the run, so a peak is stored for each interval between
+//! two boundaries.
 
 use solvability::{Stretches, Value};
 
@@ -12,24 +13,25 @@ pub struct Peak {
     pub value: Value,
     /// The first time at which the value occurs (s).
     pub time: f64,
-    /// The intervals on which the number is determined (s).
+    /// The intervals on which the value is determined (s).
     pub over: Vec<[f64; 2]>,
 }
 
 /// Records the peaks of columns while rows are added.
 #[derive(Clone, Debug, Default)]
 pub struct PeakRecorder {
-    /// Times at which other verdicts may start, ascending.
+    /// Times at which the verdicts may change, ascending.
     cuts: Vec<f64>,
-    /// Number of these times up to the last row.
+    /// Number of these times that are not after the last row.
     passed: usize,
-    /// For each column, its largest value between two boundaries, with its time, in the order of
-    /// time.
+    /// For each column and each interval between two boundaries, the time and the largest value, in
+    /// the order of time.
     columns: Vec<Vec<[f64; 2]>>,
 }
 
 impl PeakRecorder {
-    /// Peaks of this number of columns, with boundaries that are known in advance.
+    /// Creates a recorder for this number of columns, with the boundaries that are known in
+    /// advance.
     #[must_use]
     pub fn new(columns: usize, cuts: &[f64]) -> Self {
         Self {
@@ -39,8 +41,8 @@ impl PeakRecorder {
         }
     }
 
-    /// Adds a boundary, which may be before the last row: then values on both sides are compared
-    /// separately from the next row on.
+    /// Adds a boundary. If it is before the last row, the values on both sides are separated only
+    /// from the next row on.
     pub fn cut(&mut self, t: f64) {
         let place = self.cuts.partition_point(|cut| *cut < t);
         if self.cuts.get(place) != Some(&t) {
@@ -78,7 +80,7 @@ impl PeakRecorder {
                 let number = value(number, t).determined();
                 Some([number.filter(|number| number.is_finite())?, t])
             };
-            // The first one of equal values.
+            // If several values are equal, the first one is returned.
             let largest = peaks.iter().filter_map(determined).reduce(|best, peak| {
                 if peak[0].abs() > best[0].abs() {
                     peak
@@ -104,8 +106,8 @@ mod tests {
     use super::*;
     use crate::tables::{Column, Quantity};
 
-    /// The largest value may belong to a choice of multipliers: the peak is the largest value of
-    /// the determined interval.
+    /// The largest value may be in an interval in which the value depends on the selected solution
+    /// for the multipliers. The peak is the largest value in the determined interval.
     #[test]
     fn a_peak_is_one_of_determined_cells() {
         let column = ReactionColumn {

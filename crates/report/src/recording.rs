@@ -9,7 +9,7 @@ const FRAMES_MAX: usize = 1000;
 /// Largest number of stored values, over all rows.
 const NUMBERS_MAX: usize = 4_000_000;
 
-/// Smallest number of stored rows for any mechanism, if the run has as many rows.
+/// Smallest number of stored rows for any mechanism, if the run has at least this number of rows.
 const FRAMES_MIN: usize = 24;
 
 /// An output row.
@@ -25,9 +25,9 @@ pub struct Frame {
     pub work: f64,
     /// Reactions of all joints and drives; empty if no reactions are requested.
     pub reactions: Vec<Reaction>,
-    /// Multipliers of all rows; empty if no choices are compared.
+    /// Multipliers of all rows; empty if no other solutions for the multipliers are requested.
     pub multipliers: Vec<f64>,
-    /// Multipliers of all rows for each requested choice.
+    /// Multipliers of all rows, for each requested solution.
     pub chosen: Vec<Vec<f64>>,
 }
 
@@ -52,20 +52,20 @@ impl Frame {
 pub struct Recording {
     /// The stored rows, in the order of time.
     pub frames: Vec<Frame>,
-    /// One row in this number is stored, and also the row at the end.
+    /// Of each group of this number of rows, one row is stored. The row at the end is also stored.
     pub stride: usize,
     seen: usize,
     t_end: f64,
 }
 
 impl Recording {
-    /// A recording of a run with about this number of rows up to `t_end`, each with about this
-    /// number of values.
+    /// Creates a recording for a run with about `rows` rows up to `t_end` and about `numbers`
+    /// values in each row.
     #[must_use]
     pub fn new(t_end: f64, rows: f64, numbers: usize) -> Self {
         let affordable = NUMBERS_MAX / numbers.max(1);
         let most = affordable.clamp(FRAMES_MIN, FRAMES_MAX);
-        // The calculation saturates for extremely large numbers of rows.
+        // For extremely large numbers of rows the conversion gives the largest integer.
         let stride = (rows / most as f64).ceil().max(1.0) as usize;
         Self {
             frames: Vec::new(),

@@ -1,9 +1,9 @@
-//! Many runs of one scene with different numbers: a row for each run, a journal during the runs,
-//! tables at the end.
+//! Files of many runs of one scene with different parameter values: a journal during the runs, and
+//! tables with a row for each run at the end.
 //!
-//! During the sweep, each finished run is a line in a journal to which lines are only appended.
-//! When all runs of a shard have rows, the rows become one file, and the journals are removed.
-//! Tables are computed from both, completely and in the order of the grid. They do not depend on
+//! During the sweep, a line is appended to a journal for each finished run. When all runs of a
+//! shard have rows, the rows are written into one file, and the journals are removed. Tables are
+//! computed completely from journals and shards, in the order of the grid. They do not depend on
 //! the processes that made the runs or on the time of the runs.
 //!
 //! Only this module reads these files.
@@ -42,7 +42,7 @@ pub use runs::Runs;
 pub use shards::{Shards, end_attempts};
 pub use tables::{FAMILY, write_sweep};
 
-/// Description of a sweep: everything on which its rows depend, and the names in them.
+/// Description of a sweep: all data on which the rows depend, and the names in the rows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SweepPlan {
     /// Name of the scene.
@@ -57,22 +57,22 @@ pub struct SweepPlan {
     pub runs: u64,
     /// Whether each run stores its trajectory.
     pub keep_rows: bool,
-    /// Keys of the varied numbers.
+    /// Keys of the varied values.
     pub keys: Vec<String>,
     /// Names of the bodies, in their order.
     pub bodies: Vec<String>,
-    /// Names of the numbers of the state of a body ([`model::SpaceKind::columns`]).
+    /// Names of the state variables of a body ([`model::SpaceKind::columns`]).
     #[serde(default = "planar")]
     pub state: Vec<String>,
     /// Joints and drives whose reactions are requested, in the order of their rows.
     pub reactions: Vec<String>,
 }
 
-/// The numbers of the plane, which early journals did not contain.
+/// The names of the state variables in the plane. Early journals did not contain these names.
 fn planar() -> Vec<String> {
     let columns = SpaceKind::Plane.columns().iter();
     columns.map(|name| (*name).to_owned()).collect()
 }
 
-/// Cells of finished runs, by the number of the run (from 1).
+/// Cells of finished runs, by the index of the run (from 1).
 pub type SweepRows = BTreeMap<u64, Vec<Cell>>;

@@ -1,6 +1,6 @@
-//! Tables of a run as CSV: one header, then one line per instant, written as they are computed.
-//! Numbers have the shortest text that is read as the same bits; a value that does not exist is
-//! `NaN`.
+//! Tables of a run as CSV: one header, then one line per instant. Lines are written as they are
+//! computed. Numbers are written with the shortest text that is read as the same bits; a value that
+//! does not exist is `NaN`.
 //!
 //! The caller chooses the times and the destination of rows.
 
@@ -32,7 +32,7 @@ pub enum TableError {
         /// The error of the writer.
         source: std::io::Error,
     },
-    /// A row of another mechanism.
+    /// The row belongs to another mechanism.
     #[error("{table}: {found} {what} at t = {t} s, the mechanism has {expected}")]
     Length {
         /// Name of the table.
@@ -71,7 +71,7 @@ impl TableError {
 pub struct Table<W: Write> {
     name: &'static str,
     out: BufWriter<W>,
-    /// One line, reused.
+    /// Buffer for one line, reused.
     line: Vec<u8>,
 }
 
@@ -90,7 +90,7 @@ impl<W: Write> Table<W> {
         Ok(table)
     }
 
-    /// Writes a row of numbers; numbers need no quotes.
+    /// Writes a row of numbers, which need no quotes.
     fn row(&mut self, values: &[f64]) -> Result<(), TableError> {
         self.line.clear();
         let mut text = zmij::Buffer::new();
@@ -122,7 +122,7 @@ impl<W: Write> Table<W> {
         self.checked(written)
     }
 
-    /// Writes a row of any plain values.
+    /// Writes a row of plain values of any type.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
@@ -136,7 +136,7 @@ impl<W: Write> Table<W> {
         self.checked(written)
     }
 
-    /// Passes the buffer to the writer.
+    /// Writes the buffer to the writer.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.

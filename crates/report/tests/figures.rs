@@ -7,8 +7,8 @@ use pfaff_report::{FigureError, Panel, Path, PathRecorder, Series, Style};
 use solvability::{Verdict, analyse};
 use tests::robot::{robot, steering};
 
-/// Parses a document as far as needed to check that it is well-formed: tags nest, attributes are
-/// quoted, no character needs escaping. Returns the texts of the document.
+/// Parses a document to check that it is well-formed: tags are nested, attributes are quoted,
+/// special characters are escaped. Returns the texts of the document.
 fn texts(svg: &str) -> Vec<String> {
     let mut open: Vec<String> = Vec::new();
     let mut found = Vec::new();
@@ -95,7 +95,7 @@ fn the_robot_has_all_names_and_verdicts_without_overlap() {
         .map(|b| b.name.as_str())
         .chain(robot.layout().groups.iter().map(|g| g.name.as_str()))
         .collect();
-    // Labels consist of a name only; tool tips have more words, except those of bodies.
+    // Labels consist of a name only. Tool tips have more words, except the tool tips of bodies.
     let labels: Vec<[f64; 4]> = svg
         .lines()
         .filter(|l| l.starts_with("<text class=\"name"))
@@ -103,7 +103,7 @@ fn the_robot_has_all_names_and_verdicts_without_overlap() {
             let content = &l[l.find('>').expect("ends") + 1..l.rfind("</").expect("closes")];
             assert!(names.contains(&content), "{content}");
             let number = |name| attribute(l, name).parse::<f64>().expect("a number");
-            // The estimate is low, so that every overlap found is real.
+            // The estimated width is too small, so that every overlap found is real.
             let width = content.chars().count() as f64;
             [number("x"), number("y"), 0.25 * SIZE * width, 0.35 * SIZE]
         })

@@ -121,11 +121,11 @@ fn names_do_not_leave_the_directory() {
     }
 }
 
-/// The variable that states that this process may not write any byte into a file.
+/// The environment variable for a process that cannot write any byte into a file.
 #[cfg(target_os = "linux")]
 const FULL: &str = "PFAFF_TEST_FULL";
 
-/// Runs in a separate process with a limit for the size of files: no file accepts a byte.
+/// Runs in a separate process with a limit of zero for the size of files.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_names_the_file() {
@@ -160,7 +160,7 @@ fn on_a_full_disk() {
         .expect_err("more than the buffer takes");
     assert_eq!(error.kind(), FileTooLarge);
     assert!(error.to_string().contains("x.csv.part"), "{error}");
-    // Bytes after a gap would appear to belong to the end.
+    // After a failed write no bytes are accepted, because the file would have a gap.
     let again = file.write_all(b"0").expect_err("it was refused");
     assert_eq!(again.kind(), FileTooLarge);
     let error = file.finish_partial().expect_err("the end is missing");

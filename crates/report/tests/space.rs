@@ -85,7 +85,7 @@ fn a_four_bar_has_its_joints_where_they_are_seen() {
         });
         let drawn = symbols(&svg);
         assert_eq!(drawn.len(), 4, "{svg}");
-        // The page is larger than the picture by one factor, and its y points down.
+        // The page is the picture multiplied by one scale factor, with y downwards.
         let scale = (drawn[2][0] - drawn[0][0]) / (seen[2][0] - seen[0][0]);
         assert!(scale > 100.0, "{scale}");
         for k in 1..4 {
@@ -97,7 +97,7 @@ fn a_four_bar_has_its_joints_where_they_are_seen() {
                 "{turn} {k} {drawn:?}"
             );
         }
-        // Each hinge has a line along its axis, and the corner shows the axes of the ground.
+        // Each hinge has a line along its axis, and the axes of the ground are drawn in the corner.
         assert_eq!(svg.matches("class=\"rail\"").count(), 4);
         for name in ["x", "y", "z"] {
             assert!(svg.contains(&format!(">{name}</text>")), "{name}");

@@ -5,8 +5,8 @@ mod limits;
 use limits::{LEAST_COSINE, SERIES_UP_TO};
 
 /// Returns the derivative of this order of `θ/sin θ` with respect to c = cos θ, for 0 ≤ θ ≤ 3. With
-/// x = (1 − c)/2 it is `(−½)ⁿ·(n!)²/(3/2)ₙ · ₂F₁(n + 1, n + 1; n + 3/2; x)`. The value (order 0) is
-/// 1 at c = 1. The result is NaN beyond θ = 3.
+/// x = (1 − c)/2 it is `(−½)ⁿ·(n!)²/(3/2)ₙ · ₂F₁(n + 1, n + 1; n + 3/2; x)`. At c = 1, the value
+/// (order 0) is 1. The result is NaN beyond θ = 3.
 ///
 /// Source: θ/sin θ = ₂F₁(1, 1; 3/2; sin² ½θ) (NIST DLMF 15.4.13 with 15.8.18), and
 /// `(1 − c²)·f⁽ⁿ⁺¹⁾ = (2n + 1)·c·f⁽ⁿ⁾ + n²·f⁽ⁿ⁻¹⁾` from `(1 − c²)·f′ = c·f − 1`.
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     /// Permitted relative error: a few roundings, except near half a revolution, where the sine
-    /// cancels.
+    /// loses digits by cancellation.
     const ROUNDINGS: f64 = 2e-15;
 
     #[test]
@@ -80,7 +80,7 @@ mod tests {
             );
         }
         assert_eq!(angle_over_sine(1.0, 0), 1.0);
-        // The value c is slightly above 1 because of rounding.
+        // Because of rounding, c is slightly above 1.
         assert!((angle_over_sine(1.0 + 1e-15, 0) - 1.0).abs() < 1e-15);
     }
 

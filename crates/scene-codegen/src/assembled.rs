@@ -5,7 +5,8 @@ use model::Registry;
 
 use crate::error::CodeError;
 
-/// A scene with its name, its joints and the redundant rows that replace those of the scene.
+/// The text of a scene with its name, the registry of joints, and the rows to treat as dependent in
+/// place of those in the scene.
 pub(crate) struct SceneText<'a> {
     pub(crate) name: &'a str,
     pub(crate) text: &'a str,
@@ -13,7 +14,7 @@ pub(crate) struct SceneText<'a> {
     pub(crate) drop: Option<&'a [usize]>,
 }
 
-/// The mechanism of a scene with its independent rows, and the run that the scene requests.
+/// Returns the mechanism of a scene with its independent rows, and the run that the scene requests.
 pub(crate) fn prepared(
     scene: &SceneText<'_>,
 ) -> Result<(PreparedMechanism, Option<MotionOptions>), CodeError> {

@@ -1,12 +1,12 @@
-//! The axes in which velocities of spatial bodies are eliminated. The equations have angular
-//! velocities in principal axes of each body, in which the mass is constant. In these axes, all
-//! entries of C for a rotating hinge may become zero. In the axes of the ground, or of one of the
-//! bodies (for a vehicle), most entries are arms and directions that already exist, zeros, or
-//! constants.
+//! The axes for the components of velocities of spatial bodies in the elimination. In the
+//! equations, angular velocities are in the principal axes of each body, in which the mass matrix
+//! is constant. In these axes, all entries of C for a rotating hinge may become zero at the same
+//! state. In the axes of the ground, or of one body (for a vehicle), most entries are zeros,
+//! constants, or arms and directions that are already computed.
 //!
-//! The columns and the rows of C are rotated, whatever the joints are. The program detects products
-//! that are zero, constant or already known from their values at states that satisfy no constraint,
-//! up to rounding; functions of time have arbitrary values there.
+//! The columns and the rows of C are rotated, for any joints. Products that are zero, constant or
+//! already computed are detected by their values, up to rounding, at states that do not satisfy the
+//! constraints; there, functions of time have arbitrary values.
 
 use model::record::Input;
 use model::{BodyRef, Mechanism, SpaceKind, System};
@@ -19,19 +19,19 @@ use crate::subject::Subject;
 /// A matrix, by rows.
 type Matrix = [[Value; 3]; 3];
 
-/// Axes of the velocities in which rows are eliminated.
+/// Axes for the components of velocities in the elimination of the rows.
 #[derive(Clone, Default)]
 pub(crate) struct Axes {
-    /// Rotation of the velocities of points, if they are not along the axes of the ground.
+    /// Rotation of the velocities of points, if they are not in ground axes.
     points: Option<Matrix>,
-    /// Rotation of the angular velocity of each body, if it is not along its principal axes.
+    /// Rotation of the angular velocity of each body, if it is not in principal axes.
     rotations: Vec<Option<Matrix>>,
-    /// Rows that are x, y and z of one vector.
+    /// Sets of three rows that are the components x, y and z of one vector.
     rows: Vec<[usize; 3]>,
 }
 
 impl Axes {
-    /// The axes of the ground, for velocities of points and of all bodies.
+    /// Returns ground axes for the velocities of points and of all bodies.
     pub(crate) fn of_ground(e: &Equations, subject: &Subject<'_>) -> Option<Self> {
         let bodies = 0..subject.prepared.mechanism.bodies().len();
         let rotations = bodies.map(|body| rotation(e, body).map(Some));
@@ -42,9 +42,9 @@ impl Axes {
         })
     }
 
-    /// For every body, the axes in which the rows of its supporting joint are constant: the axes of
-    /// the first body of this joint. The supporting joints are on the shortest paths from the
-    /// ground.
+    /// Returns for each body axes in which the rows of the joint that supports it are constant: the
+    /// axes of the first body of this joint. The supporting joints are those on the shortest paths
+    /// from the ground.
     pub(crate) fn of_joints(e: &mut Equations, subject: &Subject<'_>) -> Option<Self> {
         let mechanism = &subject.prepared.mechanism;
         let carriers = carriers(mechanism);
@@ -63,7 +63,7 @@ impl Axes {
         })
     }
 
-    /// The axes of a body.
+    /// Returns the axes of one body for all velocities.
     pub(crate) fn of_body(e: &mut Equations, subject: &Subject<'_>, body: usize) -> Option<Self> {
         let mechanism = &subject.prepared.mechanism;
         let own = transposed(rotation(e, body)?);
@@ -88,7 +88,7 @@ impl Axes {
         })
     }
 
-    /// Whether the independent rows contain either all components or no component of each vector.
+    /// Returns whether the independent rows contain for each vector either all components or none.
     pub(crate) fn keeps_vectors(&self, kept: &[usize]) -> bool {
         let all_or_none = |rows: &[usize; 3]| {
             let [first, others @ ..] = rows.map(|i| kept.contains(&i));
@@ -97,7 +97,7 @@ impl Axes {
         self.rows.iter().all(all_or_none)
     }
 
-    /// The rows of C, for velocities along these axes.
+    /// Returns the rows of C for velocities along these axes.
     pub(crate) fn rows_of(&self, code: &mut SampledProgram, c: &[Vec<Value>]) -> Vec<Vec<Value>> {
         let mut c = c.to_vec();
         for row in &mut c {
@@ -139,8 +139,7 @@ impl Axes {
         turned
     }
 
-    /// Converts row quantities from components along the axes of the ground to components along
-    /// these axes.
+    /// Converts quantities of the rows from ground components to components along these axes.
     pub(crate) fn rows_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         if let Some(matrix) = self.points {
@@ -151,8 +150,7 @@ impl Axes {
         turned
     }
 
-    /// Converts row quantities from components along these axes to components along the axes of the
-    /// ground.
+    /// Converts quantities of the rows from components along these axes to ground components.
     pub(crate) fn rows_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         let mut turned = x.to_vec();
         if let Some(matrix) = self.points.map(transposed) {
@@ -163,7 +161,7 @@ impl Axes {
         turned
     }
 
-    /// Groups of three columns of velocities, each with its rotation.
+    /// Returns sets of three velocity components, each with its rotation.
     fn blocks(&self, columns: usize) -> Vec<([usize; 3], Matrix)> {
         let space = SpaceKind::Space3;
         let bodies = 0..columns / space.n_v();
@@ -180,17 +178,17 @@ impl Axes {
     }
 }
 
-/// The body that supports a body.
+/// The body that supports another body.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Carrier {
-    /// No body, or a joint whose directions are fixed in the body itself.
+    /// The body is not supported, or the directions of the joint are fixed in the body itself.
     Itself,
-    /// The first body of a joint, in which its directions are fixed.
+    /// The first body of a joint, in which the directions of the joint are fixed.
     First(BodyRef),
 }
 
-/// The support of each body, on the shortest paths from the ground, or from the first body without
-/// a connection to the ground.
+/// Returns the support of each body on the shortest paths from the ground; for bodies without a
+/// connection to the ground, paths start at the first of them.
 fn carriers(mechanism: &Mechanism) -> Vec<Carrier> {
     let n = mechanism.bodies().len();
     let mut found: Vec<Option<Carrier>> = vec![None; n];
@@ -231,14 +229,14 @@ fn carriers(mechanism: &Mechanism) -> Vec<Carrier> {
         .collect()
 }
 
-/// The rotation from the axes of a body to those of another one.
+/// Returns the rotation from the axes of one body to those of another.
 fn relative(e: &mut Equations, to: usize, from: usize) -> Option<Matrix> {
     let [to, from] = [rotation(e, to)?, rotation(e, from)?].map(transposed);
     let code = &mut e.code;
     Some(to.map(|axis| from.map(|column| code.simplest_sum(&pairs(axis, column)))))
 }
 
-/// The rotation of a body.
+/// Returns the rotation matrix of a body.
 fn rotation(e: &Equations, body: usize) -> Option<Matrix> {
     let mut matrix = Vec::with_capacity(9);
     for row in 0..3 {
@@ -259,7 +257,7 @@ fn pairs(a: [Value; 3], b: [Value; 3]) -> [(Value, Value); 3] {
     [0, 1, 2].map(|k| (a[k], b[k]))
 }
 
-/// Replaces three numbers by the product of a matrix with them.
+/// Replaces three entries by the product of a matrix with them.
 fn turn(code: &mut SampledProgram, x: &mut [Value], at: [usize; 3], matrix: Matrix) {
     let of = at.map(|k| x[k]);
     for (k, row) in at.into_iter().zip(matrix) {

@@ -1,22 +1,23 @@
-//! Elimination of the independent rows as straight-line code. The order of the pivots is chosen
-//! once, for all sampled states. Each pivot has the least fill among those that are large compared
-//! with their row and their column at every state (Markowitz with a threshold).
+//! Elimination of the independent rows as straight-line code. The order of the pivots is determined
+//! once, for all sampled states. A pivot must be large compared with its row and its column at
+//! every state; among these candidates, the one with the least fill is selected (Markowitz strategy
+//! with a threshold).
 //!
-//! Rows are given along axes in which few entries vary ([`crate::axes`]); masses, forces and
-//! results are along the axes of the equations.
+//! Rows are given in axes in which few entries vary ([`crate::axes`]); masses, forces and results
+//! are in the axes of the equations.
 //!
-//! The rows determine r dependent coordinates; the others are free. Every solution uses the null
-//! space: x = x₀ + N·w. Here x₀ satisfies the rows with the free coordinates at zero, and the
-//! columns of N are the motions for unit values of the free coordinates. The vector w minimises the
-//! remainder in the mass metric. Zeros and ones of the mechanism are folded as constants, so that
-//! sparsity needs no bookkeeping.
+//! The rows determine r dependent coordinates; the other coordinates are free. Every solution is
+//! computed in the null space: x = x₀ + N·w. Here x₀ satisfies the rows with the free coordinates
+//! at zero, and the columns of N are the motions for unit values of the free coordinates. The
+//! vector w minimises the remaining residual in the mass metric. Zeros and ones of the mechanism
+//! are constants of the program, so sparse matrices need no special treatment.
 //!
 //! Source of the threshold rule: I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse
 //! Matrices, 2nd ed. (2017), chapters 5 and 7.
 //!
-//! The free coordinates are fixed when the code is generated. This needs a third of the operations
-//! of a sparse LDLᵀ factorisation of the saddle-point matrix. If the pivots become too small, the
-//! run continues with the interpreter.
+//! The free coordinates are determined when the code is generated. This method needs a third of the
+//! operations of a sparse LDLᵀ factorisation of the saddle-point matrix. If a pivot becomes too
+//! small, the run continues with the interpreter.
 
 use std::cmp::Ordering;
 
@@ -27,29 +28,29 @@ use crate::equations::Number;
 use crate::error::CodeError;
 use crate::sampled::SampledProgram;
 
-/// A pivot should be at least this fraction of the largest entry of its row and of its column, at
-/// every state.
+/// Desired lower limit for a pivot at every state, as a fraction of the largest entry of its row
+/// and of its column.
 const THRESHOLD: f64 = 0.1;
 
-/// Smallest acceptable fraction: below it the motion has no fixed order of elimination.
+/// Smallest permitted fraction; below it, no fixed order of elimination is suitable for the motion.
 const SMALLEST: f64 = 1e-3;
 
 /// A free motion is massless if at most this fraction of its mass remains after the elimination of
-/// the others; the remainder is then a rounding error.
+/// the other motions; the remainder is then a rounding error.
 const MASSLESS: f64 = 1e-13;
 
-/// Rows in factored form, and the mass matrix of the remaining free motions.
+/// The factored rows, and the mass matrix of the free motions.
 pub(crate) struct FactoredRows {
     n: usize,
     axes: Axes,
     pivots: Vec<Pivot>,
-    /// Coordinates that the rows do not determine.
+    /// Coordinates that the rows do not determine, which are free.
     free: Vec<usize>,
-    /// N: the motion of all coordinates for each free coordinate, along the axes of the equations.
+    /// N: for each free coordinate, the motion of all coordinates, in the axes of the equations.
     frame: Vec<Vec<Value>>,
     /// Rows of the factor L of NᵀMN = L·D·Lᵀ, and 1/D.
     reduced: Vec<(Vec<Value>, Value)>,
-    /// All divisors.
+    /// All divisors of the code.
     pub(crate) divisors: Vec<Value>,
 }
 
@@ -57,18 +58,17 @@ struct Pivot {
     row: usize,
     column: usize,
     inverse: Value,
-    /// Rows that are eliminated with this pivot, and the multiple of the pivot row that is
-    /// subtracted.
+    /// Rows from which a multiple of the pivot row is subtracted, with this multiple.
     below: Vec<(usize, Value)>,
-    /// The entries of the pivot row in later dependent coordinates.
+    /// The entries of the pivot row in the dependent coordinates of later pivots.
     right: Vec<(usize, Value)>,
-    /// The entries of the pivot row in the free coordinates, in their order.
+    /// The entries of the pivot row in the free coordinates, in the order of these coordinates.
     free: Vec<Value>,
 }
 
 impl FactoredRows {
-    /// Factors `rows` (r × n, zeros as the constant 0) for velocities along `axes` and the masses
-    /// `mass`. Columns are compared after multiplication by `scale`.
+    /// Factors `rows` (r × n; zero entries are the constant 0) for velocities along `axes` and the
+    /// masses `mass`. For the comparison of sizes, columns are multiplied by `scale`.
     pub(crate) fn new(
         code: &mut SampledProgram,
         mut rows: Vec<Vec<Value>>,
@@ -133,8 +133,8 @@ impl FactoredRows {
         Ok(factored)
     }
 
-    /// The x with `rows·x = rhs` that is nearest to M⁻¹·force in the mass metric: for Q and Γ these
-    /// are the accelerations.
+    /// Returns the x with `rows·x = rhs` that is nearest to M⁻¹·force in the mass metric; for Q and
+    /// Γ, x are the accelerations.
     pub(crate) fn solve(
         &self,
         code: &mut SampledProgram,
@@ -166,13 +166,13 @@ impl FactoredRows {
         x
     }
 
-    /// λ with `rowsᵀ·λ = excess` in the dependent coordinates, one multiplier for each of the rows.
+    /// Returns λ with `rowsᵀ·λ = excess` in the dependent coordinates, one multiplier for each row.
     pub(crate) fn multipliers(&self, code: &mut SampledProgram, excess: &[Value]) -> Vec<Value> {
         let mut left = self.axes.forces_in(code, excess);
         let p = &mut code.program;
         let zero = p.number(0.0);
         let mut lambda = vec![zero; self.pivots.len()];
-        // Uᵀ·y = excess, then Lᵀ·λ = y.
+        // Solves Uᵀ·y = excess, then Lᵀ·λ = y.
         for pivot in &self.pivots {
             let y = p.mul(left[pivot.column], pivot.inverse);
             lambda[pivot.row] = y;
@@ -190,7 +190,7 @@ impl FactoredRows {
         lambda
     }
 
-    /// x with `rows·x = rhs` and the free coordinates at zero.
+    /// Returns the x with `rows·x = rhs` for which the free coordinates are zero.
     fn particular(&self, code: &mut SampledProgram, rhs: &[Value]) -> Vec<Value> {
         let p = &mut code.program;
         let mut rhs = rhs.to_vec();
@@ -213,7 +213,7 @@ impl FactoredRows {
         x
     }
 
-    /// The motion of all coordinates for each free coordinate.
+    /// Returns for each free coordinate the motion of all coordinates.
     fn null_frame(&self, code: &mut SampledProgram) -> Vec<Vec<Value>> {
         let p = &mut code.program;
         let (zero, one) = (p.number(0.0), p.number(1.0));
@@ -235,7 +235,7 @@ impl FactoredRows {
         motions.into_iter().map(out).collect()
     }
 
-    /// NᵀMN = L·D·Lᵀ.
+    /// Computes the factors of NᵀMN = L·D·Lᵀ.
     fn reduce_mass(&mut self, code: &mut SampledProgram, mass: &[Number]) -> Result<(), CodeError> {
         let of = |m: &Number| m.value(&mut code.program);
         let masses: Vec<Value> = mass.iter().map(of).collect();
@@ -249,7 +249,7 @@ impl FactoredRows {
             })
             .collect();
         let k = self.free.len();
-        // Row by row; `row` contains the row of L·D.
+        // The factors are computed row by row; `row` contains the row of L·D.
         for i in 0..k {
             let mut row: Vec<Value> = (0..=i)
                 .map(|j| dot(code, &self.frame[i], &heavy[j]))
@@ -278,7 +278,7 @@ impl FactoredRows {
                 });
             }
             let p = &mut code.program;
-            // The remainder of a mass that is an input is compared with this mass.
+            // If a mass is an input, the remainder is compared with this mass.
             let divisor = match varies {
                 true if diagonal == whole => p.number(1.0),
                 true => p.div(diagonal, whole),
@@ -321,8 +321,8 @@ fn dot(code: &mut SampledProgram, a: &[Value], b: &[Value]) -> Value {
     code.sum(&products)
 }
 
-/// The entry with the least fill among those that are large enough at every state; constants are
-/// preferred.
+/// Returns the entry with the least fill among those that are sufficiently large at every state;
+/// constants are preferred.
 fn best_pivot(
     code: &mut SampledProgram,
     rows: &[Vec<Value>],
@@ -382,10 +382,10 @@ fn best_pivot(
 
 /// The criteria by which a pivot is chosen.
 struct Candidate {
-    /// Whether the pivot has the same sign at all states; otherwise the motion reaches a point at
-    /// which it vanishes.
+    /// Whether the pivot has the same sign at all states. Otherwise, the motion passes a point at
+    /// which the pivot is zero.
     keeps_sign: bool,
-    /// Smallest fraction of the largest entry of the row and column.
+    /// Smallest ratio over all states of the pivot to the largest entry of its row and column.
     share: f64,
     /// Upper bound of the number of new entries.
     fill: usize,

@@ -1,9 +1,9 @@
-//! The recorded equations of a mechanism as one program, with the numbers of the mechanism folded
-//! as constants.
+//! The recorded equations of a mechanism as one program; the values stored by the mechanism are
+//! constants of the program.
 //!
-//! Kernels are recorded instead of printed a second time from their definitions. Therefore each
-//! equation has one source, joints of users are included, and zeros and ones of the scene are
-//! folded as numbers.
+//! The kernels are recorded; their equations are not derived a second time from the definitions.
+//! Therefore each equation has only one source, joints outside the library are included, and zeros
+//! and ones of the scene simplify the program.
 
 use std::collections::HashMap;
 
@@ -15,7 +15,7 @@ use symbolic::{Function, Graph, Program, Value};
 use crate::sampled::SampledProgram;
 use crate::subject::{State, Subject};
 
-/// Number of states away from the motion at which equations are compared.
+/// Number of states that do not belong to the motion, at which equations are compared.
 pub(crate) const ANYWHERE: usize = 8;
 
 /// The meaning of an input of the program.
@@ -23,16 +23,16 @@ pub(crate) const ANYWHERE: usize = 8;
 pub(crate) enum Source {
     /// An input of the mechanism.
     Mechanism(Input),
-    /// An entry of a right-hand side, by row.
+    /// An entry of a right-hand side, with the index of its row.
     Rhs(usize),
-    /// A number of the mechanism, by its index among the inputs.
+    /// A stored value of the mechanism, with its index among the inputs.
     Number(usize),
 }
 
-/// A number of the mechanism in a program.
+/// A stored value of the mechanism in a program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Number {
-    /// A constant.
+    /// The value as a constant.
     Known(f64),
     /// An input of the program.
     Input(Value),
@@ -59,10 +59,10 @@ pub(crate) struct Equations {
     pub(crate) sources: Vec<Source>,
     inputs: Vec<Value>,
     pub(crate) recording: RecordedEquations,
-    /// The indices in the recording that are inputs.
+    /// The values that are inputs, by their indices in the recording.
     pub(crate) numbers: HashMap<usize, Value>,
     pub(crate) phi: Vec<Value>,
-    /// Rows of C, dense, zeros as the constant 0.
+    /// The rows of C as dense rows; zero entries are the constant 0.
     pub(crate) c: Vec<Vec<Value>>,
     pub(crate) b: Vec<Value>,
     pub(crate) gamma: Vec<Value>,
@@ -96,7 +96,7 @@ impl Equations {
                 Source::Mechanism(Input::Function { .. }) | Source::Rhs(_) => shift(i, k),
                 Source::Mechanism(input) => subject.input(input, &state),
                 // The value in the described mechanism is used, because a property that is true for
-                // all numbers is also true for this one.
+                // all values is also true for this one.
                 Source::Number(n) => match subject.inputs.list[n].described {
                     0.0 => shift(i, k),
                     x => x * (1.0 + 0.5 * shift(i, k)),
@@ -135,27 +135,27 @@ impl Equations {
         }
     }
 
-    /// The input with this meaning; all inputs exist from the start.
+    /// Returns the input with this meaning; all inputs are created at the beginning.
     pub(crate) fn input(&self, source: Source) -> Option<Value> {
         let at = self.sources.iter().position(|&s| s == source)?;
         self.inputs.get(at).copied()
     }
 
-    /// The diagonal of M.
+    /// Returns the diagonal of M.
     pub(crate) fn mass(&self) -> Vec<Number> {
         let mass = self.recording.beside.mass.iter();
         let mass = mass.map(|r| number(&self.recording, &self.numbers, *r));
         mass.collect()
     }
 
-    /// The generalised force of gravity.
+    /// Returns the generalised force of gravity.
     pub(crate) fn weight(&mut self) -> Vec<Value> {
         let weight = self.recording.weight.iter();
         let weight = weight.map(|r| number(&self.recording, &self.numbers, *r));
         weight.map(|w| w.value(&mut self.code.program)).collect()
     }
 
-    /// `C·x` of a row.
+    /// Returns row `i` of `C·x`.
     pub(crate) fn row_times(&mut self, i: usize, x: &[Value]) -> Value {
         let p = &mut self.code.program;
         let zero = p.number(0.0);
@@ -166,7 +166,7 @@ impl Equations {
     }
 }
 
-/// A state that satisfies no constraint, far from the k-th state of the motion.
+/// Returns a state that does not satisfy the constraints, far from the k-th state of the motion.
 pub(crate) fn anywhere(subject: &Subject<'_>, k: usize) -> State {
     let State { t, mut q, mut v } = subject.states[k % subject.states.len()].clone();
     let mechanism = &subject.prepared.mechanism;
@@ -181,12 +181,12 @@ pub(crate) fn anywhere(subject: &Subject<'_>, k: usize) -> State {
     State { t, q, v }
 }
 
-/// Numbers between −1 and 1; no symmetry of a mechanism corresponds to one of them.
+/// Returns values between −1 and 1 that do not correspond to any symmetry of a mechanism.
 fn shift(i: usize, k: usize) -> f64 {
     (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin()
 }
 
-/// C as dense rows of a replayed recording, and a function that returns its other results.
+/// Returns C of a replayed recording as dense rows, and a function that returns the other results.
 pub(crate) fn results<'v>(
     code: &mut SampledProgram,
     recording: &RecordedEquations,
@@ -208,7 +208,7 @@ pub(crate) fn results<'v>(
     (c, of)
 }
 
-/// A number of a recording.
+/// Returns a value of a recording, as a constant or as an input.
 fn number(
     recording: &RecordedEquations,
     numbers: &HashMap<usize, Value>,
@@ -220,8 +220,8 @@ fn number(
         .map_or_else(known, |v| Number::Input(*v))
 }
 
-/// Repeats the operations of an operation list in a program, which folds known values; the numbers
-/// at some indices are inputs.
+/// Repeats the operations of an operation list in a program, which evaluates operations on
+/// constants; the values at some indices are inputs.
 pub(crate) fn replay(
     code: &mut SampledProgram,
     recording: &RecordedEquations,

@@ -4,7 +4,7 @@ use dynamics::{MotionError, MotionFault};
 use model::CalledForce;
 use scene::{Diagnostic, KeyError};
 
-/// The reason why a module could not be generated.
+/// Reason why a module could not be generated.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodeError {
@@ -26,12 +26,13 @@ pub enum CodeError {
          (at least 1e-3 is needed); run this scene interpreted, or generate code for a shorter motion"
     )]
     NoPivot {
-        /// Smallest share of the best pivot.
+        /// Smallest ratio of the best pivot to the largest entry of its row or column.
         share: f64,
         /// Rows that are not yet eliminated.
         left: usize,
     },
-    /// Force laws of drives stop a run if they have no value, which generated code cannot do.
+    /// A drive has a force law. If a force law has no value, a run must stop, which is not possible
+    /// in generated code.
     #[error(
         "drive `{drive}` has a law, which generated code cannot stop by name; run this scene interpreted"
     )]
@@ -39,21 +40,23 @@ pub enum CodeError {
         /// Name of the drive.
         drive: String,
     },
-    /// A force calls an external function, which cannot be recorded.
+    /// A force uses a callback, which cannot be recorded.
     #[error("{0}, and no code; run this scene interpreted")]
     Called(CalledForce),
-    /// Generated code computes rotations from angles in the plane and from quaternions in space.
+    /// The coordinates of bodies are neither angles (plane) nor quaternions (space); generated code
+    /// supports only these.
     #[error(
         "generated code is for bodies that turn by an angle or by a quaternion only; run this scene interpreted"
     )]
     Coordinates,
-    /// Revolutions are counted from the poses, between calls of kernels.
+    /// A joint or force needs full revolutions, which are counted from the poses between calls of
+    /// kernels.
     #[error(
         "joints and forces that count the turns of angles are not in generated code; run this scene interpreted"
     )]
     Turns,
-    /// Rotation vectors are undefined near half a turn; a run stops there, but generated code does
-    /// not.
+    /// A force depends on a rotation vector, which is undefined near half a revolution. A run stops
+    /// there, but generated code cannot.
     #[error(
         "forces along a rotation vector have no value near half a turn, where generated code cannot stop by name; run this scene interpreted"
     )]
@@ -64,24 +67,24 @@ pub enum CodeError {
         column + 1
     )]
     Massless {
-        /// Index of the velocity, from 0.
+        /// Index of the velocity component (0-based).
         column: usize,
     },
-    /// A key of an input refers to no number of the scene.
+    /// A key of an input does not refer to a number in the scene.
     #[error("an input of code: {0}")]
     Key(#[from] KeyError),
     /// A number of the scene cannot be an input.
     #[error(transparent)]
     Input(#[from] NotAnInput),
-    /// The scene is invalid for other values of its inputs.
+    /// The scene is invalid if its inputs have other values.
     #[error("the scene does not allow other values of {}: {reason}", keys.join(", "))]
     Varied {
         /// The keys of the inputs.
         keys: Vec<String>,
-        /// Error of the first attempt.
+        /// Error of the first attempt, with the largest change of the values.
         reason: String,
     },
-    /// Inputs can be found only in the text of a scene.
+    /// Inputs can only be found in the text of a scene, but there is no text.
     #[error(
         "inputs are keys of the text of a scene, and a subject has none; call `scene_text` with them"
     )]
@@ -91,9 +94,9 @@ pub enum CodeError {
         "the module would have {operations} operations, more than {limit}: compilers take minutes for that; run this scene interpreted"
     )]
     TooLong {
-        /// Operations of the longest function.
+        /// Number of operations of the longest function.
         operations: usize,
-        /// Largest allowed number.
+        /// Largest permitted number of operations.
         limit: usize,
     },
     /// A file cannot be read or written.
@@ -104,11 +107,11 @@ pub enum CodeError {
         /// The reason.
         source: std::io::Error,
     },
-    /// Only one component of a vector is an independent row, so the equations cannot be rotated
-    /// into the frame of a body.
+    /// Only some components of a vector are independent rows, so the equations cannot be rotated to
+    /// the frame of a body.
     #[error("the kept rows have one component of a vector without the other")]
     NoView,
-    /// The given path is not the path of a crate.
+    /// The given text is not the path of a crate.
     #[error(
         "`{path}` is no path of a crate; `--dynamics` wants one as the module sees it, such as `pfaff::dynamics`"
     )]
@@ -124,25 +127,25 @@ pub enum CodeError {
         /// The reason.
         source: std::io::Error,
     },
-    /// Rows are counted from 1.
+    /// A row number is zero, but rows are 1-based.
     #[error("rows to drop are counted from 1, found 0")]
     RowZero,
-    /// A generated file differs from the module of its scene.
+    /// A generated file differs from the module that its scene gives now.
     #[error("{path} does not agree with its scene: generate it again")]
     Stale {
         /// Path of the file.
         path: String,
     },
-    /// The generated text is not valid Rust: a bug in this crate.
+    /// The generated text is not valid Rust, which is a bug in this crate.
     #[error("the generated text is no Rust: {0}")]
     Text(String),
 }
 
-/// Reason why a number of a scene cannot be an input of code.
+/// Reason why a number in a scene cannot be an input of code.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotAnInput {
-    /// The number of one of several keys cannot be an input.
+    /// One of the numbers of several keys cannot be an input.
     #[error("`{key}` cannot be an input of code: {why}")]
     OfKey {
         /// The key of the number.
@@ -150,20 +153,21 @@ pub enum NotAnInput {
         /// The reason.
         why: Box<NotAnInput>,
     },
-    /// The number switches a function on or off.
+    /// The number activates or deactivates an item.
     #[error("it is true or false, not a number; generate code for both scenes")]
     Switch,
-    /// Other values cause other operations.
+    /// Other values of the number lead to other operations.
     #[error(
         "with it the equations have other parts, as where a tensor of inertia gets its first products; describe the scene with them"
     )]
     Structure,
-    /// Break times are constants of a module.
+    /// The number changes a break time, but break times are constants of a module.
     #[error(
         "it moves a time at which a function of time is not smooth, and these times are constants of a module; generate code for each of its values"
     )]
     BreakTimes,
-    /// The independent rows are fixed in a module.
+    /// With other values of the number, the independent rows, which are fixed in a module, become
+    /// dependent.
     #[error(
         "with it the rows that are kept depend on each other; say which rows to drop, with `--drop`"
     )]

@@ -1,12 +1,13 @@
-//! The equations in the frame of one of the bodies. If a mechanism moves freely in the plane, its
-//! accelerations relative to itself do not depend on its orientation. In the frame of a body, the
-//! arms on this body are constants, so there are fewer products, and no pivot becomes small only
-//! because the whole mechanism has rotated.
+//! The equations in the frame of one body. If a mechanism moves freely in the plane, its
+//! accelerations relative to this frame do not depend on its orientation. In the frame of a body,
+//! the arms on this body are constants. Therefore there are fewer products, and a pivot does not
+//! become small only because the whole mechanism has rotated.
 //!
-//! The frame has no velocity; it is rotated by the angle θ of the body. Positions and velocities
-//! are rotated by −θ, and accelerations back by θ. Rows that are components x and y of one vector
-//! are rotated in pairs. The joints of a mechanism do not show whether this is allowed. Therefore
-//! its C, Γ and Q are compared with the rotated ones at states far from any motion, up to rounding.
+//! The frame has no velocity; it is only rotated by the current angle θ of the body. Positions and
+//! velocities are rotated by −θ, and accelerations back by θ. Two rows that are the components x
+//! and y of one vector are rotated together. It is not possible to decide from the joints whether
+//! this rotation is permitted. Therefore C, Γ and Q after the rotation are compared with those of
+//! the rotated mechanism, up to rounding, at states far from any motion.
 
 use model::System;
 use model::record::Input;
@@ -16,18 +17,18 @@ use crate::equations::{ANYWHERE, Equations, Source, anywhere, replay, results};
 use crate::sampled::SampledProgram;
 use crate::subject::Subject;
 
-/// Largest difference between the rotated equations and those in the frame, as a fraction of their
-/// largest number.
+/// Largest difference between the rotated equations and those in the frame, as a fraction of the
+/// largest entry.
 const SAME: f64 = 1e-10;
 
-/// A frame that is rotated by θ.
+/// A frame that is rotated by the angle θ relative to the ground.
 #[derive(Clone)]
 pub(crate) struct Frame {
     /// cos θ and sin θ.
     turn: Option<[Value; 2]>,
     /// Indices of x and y of each body, in q and in v.
     bodies: Vec<[usize; 2]>,
-    /// Rows that are x and y of one vector.
+    /// Pairs of rows that are the components x and y of one vector.
     rows: Vec<[usize; 2]>,
 }
 
@@ -35,14 +36,14 @@ pub(crate) struct Frame {
 #[derive(Clone)]
 pub(crate) struct FrameEquations {
     pub(crate) frame: Frame,
-    /// Rows of C, dense.
+    /// The rows of C as dense rows.
     pub(crate) c: Vec<Vec<Value>>,
     pub(crate) gamma: Vec<Value>,
     pub(crate) force: Vec<Value>,
 }
 
 impl Frame {
-    /// The frame of the ground, without rotation.
+    /// Returns the frame of the ground, without rotation.
     fn ground() -> Self {
         Self {
             turn: None,
@@ -51,22 +52,22 @@ impl Frame {
         }
     }
 
-    /// Row quantities, converted from ground components to components in the frame.
+    /// Converts quantities of the rows from ground components to components in the frame.
     pub(crate) fn rows_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.rows, false)
     }
 
-    /// Row quantities, converted from the frame to ground components.
+    /// Converts quantities of the rows from components in the frame to ground components.
     pub(crate) fn rows_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.rows, true)
     }
 
-    /// Velocities or accelerations, converted from the frame to ground components.
+    /// Converts velocities or accelerations from components in the frame to ground components.
     pub(crate) fn velocities_out(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.bodies, true)
     }
 
-    /// Velocities or forces, converted from ground components to components in the frame.
+    /// Converts velocities or forces from ground components to components in the frame.
     fn velocities_in(&self, code: &mut SampledProgram, x: &[Value]) -> Vec<Value> {
         self.turned(code, x, &self.bodies, false)
     }
@@ -94,7 +95,7 @@ impl Frame {
 }
 
 impl FrameEquations {
-    /// The equations in the frame of the ground.
+    /// Returns the equations in the frame of the ground.
     pub(crate) fn from_ground(e: &Equations) -> Self {
         Self {
             frame: Frame::ground(),
@@ -104,7 +105,7 @@ impl FrameEquations {
         }
     }
 
-    /// The equations in the frame of the body whose angle has this index in q.
+    /// Returns the equations in the frame of the body whose angle has this index in q.
     pub(crate) fn from_body(
         e: &mut Equations,
         subject: &Subject<'_>,
@@ -137,7 +138,7 @@ impl FrameEquations {
         let values = replay(&mut e.code, &recording, &inputs, &e.numbers);
         let (c, of) = results(&mut e.code, &recording, &values);
         let (gamma, mut force) = (of(&recording.gamma), of(&recording.force));
-        // The weight has a fixed direction in the ground frame, so it is rotated.
+        // Gravity has a fixed direction relative to the ground, so it is rotated.
         let weight = e.weight();
         let seen = frame.velocities_in(&mut e.code, &weight);
         for ((force, weight), seen) in force.iter_mut().zip(weight).zip(seen) {
@@ -152,7 +153,7 @@ impl FrameEquations {
         })
     }
 
-    /// Whether the independent rows contain either both components or no component of each vector.
+    /// Returns whether the independent rows contain for each vector either both components or none.
     pub(crate) fn keeps_pairs(&self, kept: &[usize]) -> bool {
         let pairs = self.frame.rows.iter();
         pairs
@@ -161,7 +162,7 @@ impl FrameEquations {
     }
 }
 
-/// The inputs of the mechanism in the frame of a body.
+/// Returns the inputs of the mechanism in the frame of a body.
 fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value>> {
     let recording = e.recording.clone();
     let all: Vec<Value> = recording
@@ -213,9 +214,9 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
     Some(seen)
 }
 
-/// Whether the equations of a mechanism may be solved in the frame of the body whose angle has this
-/// index: C, Γ and Q in its frame are equal to the rotated ones, at states that violate the
-/// constraints.
+/// Returns whether the equations of a mechanism may be solved in the frame of the body whose angle
+/// has this index. C, Γ and Q in this frame must be equal to the rotated ones, also at states that
+/// violate the constraints.
 pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
     let elsewhere = Subject {
         inputs: subject.inputs.clone(),
@@ -234,7 +235,7 @@ pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
         (frame.rows_in(code, &e.gamma), seen.gamma.clone()),
         (frame.velocities_in(code, &e.force), seen.force.clone()),
     ];
-    // S·C·T: rows in the frame, then columns.
+    // Computes S·C·T: first the rows are rotated, then the columns.
     for j in 0..e.force.len() {
         let column: Vec<Value> = e.c.iter().map(|row| row[j]).collect();
         let column = frame.rows_in(code, &column);

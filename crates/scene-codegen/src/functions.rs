@@ -13,13 +13,14 @@ use crate::error::CodeError;
 use crate::frame::{FrameEquations, may_be_seen_from};
 use crate::subject::Subject;
 
-/// Largest number of operations of a generated function. A compiler takes about a minute for it.
+/// Largest number of operations of a generated function. The compilation of a function of this
+/// length takes about a minute.
 pub(crate) const LIMIT: usize = 60_000;
 
-/// Largest number of bodies whose frames are tried.
+/// Largest number of bodies whose frames are tested.
 const VIEWS: usize = 12;
 
-/// The reference size of a divisor is at least this fraction of its median.
+/// The reference size of a divisor is at least this fraction of its median over the sampled states.
 const OF_MEDIAN: f64 = 0.5;
 
 /// One function: straight-line code from inputs to outputs, and the relative sizes of its divisors.
@@ -27,12 +28,12 @@ pub(crate) struct Function {
     pub(crate) signature: Signature,
     /// Number of outputs.
     pub(crate) n_out: usize,
-    /// Outputs, then relative sizes of divisors.
+    /// The outputs, followed by the relative sizes of the divisors.
     pub(crate) program: Program,
 }
 
-/// Name, arguments and result of a function, which are the same for every mechanism; the lengths of
-/// its arrays are constants of the module.
+/// Name, arguments and result of a function, which are the same for every mechanism. The lengths of
+/// the arrays are constants of the module.
 #[cfg_attr(
     not(feature = "modules"),
     allow(dead_code, reason = "only modules say it")
@@ -40,10 +41,11 @@ pub(crate) struct Function {
 pub(crate) struct Signature {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
-    /// Arguments that follow the time.
+    /// Arguments after the time.
     pub(crate) arguments: &'static [(&'static str, &'static str)],
     pub(crate) out: (&'static str, &'static str),
-    /// Whether the function returns a health, the smallest relative size of its divisors.
+    /// Whether the function also returns a health value, the smallest relative size of the
+    /// divisors.
     pub(crate) divides: bool,
 }
 
@@ -111,16 +113,15 @@ enum View {
     Ground,
     /// In the plane: in the frame of the body whose angle has this index in q.
     Angle(usize),
-    /// In space: with angular velocities along the axes of the ground.
+    /// In space: angular velocities are in ground axes.
     GroundAxes,
-    /// In space: with the angular velocity of each body along the axes of the body that supports
-    /// it.
+    /// In space: the angular velocity of each body is in the axes of the body that supports it.
     JointAxes,
-    /// In space: with all velocities along the axes of this body.
+    /// In space: all velocities are in the axes of this body.
     BodyAxes(usize),
 }
 
-/// The axes as text, with the name of the body.
+/// The axes as text; a body is given by its name.
 #[cfg_attr(
     not(feature = "modules"),
     allow(dead_code, reason = "only modules say it")
@@ -142,13 +143,15 @@ pub(crate) struct Functions {
     pub(crate) list: Vec<Function>,
     /// The axes in which the equations are solved.
     pub(crate) view: NamedView,
-    /// Number of sampled states at which the health of accelerations is below the limit of runs.
+    /// Number of sampled states at which the health of the accelerations is below the limit that
+    /// runs require.
     pub(crate) unhealthy: usize,
 }
 
 impl Functions {
-    /// Generates the functions in the axes in which accelerations need the fewest operations. In
-    /// space, it uses the axes in which the fewest sampled states are beyond the limit of runs.
+    /// Generates the functions in the axes for which the accelerations need the fewest operations.
+    /// In space, it uses the axes for which the fewest sampled states are below the limit that runs
+    /// require.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
         recordable(&subject.prepared.mechanism)?;
         let functions = match subject.prepared.mechanism.space() {
@@ -186,7 +189,8 @@ impl Functions {
         views.min_by_key(Self::cost).map_or(from_ground, Ok)
     }
 
-    /// The axes of bodies are tried only if others are not suitable for all sampled states.
+    /// The axes of single bodies are tested only if the other axes are not suitable for all sampled
+    /// states.
     fn in_space(subject: &Subject<'_>) -> Result<Self, CodeError> {
         let mut best = Self::seen(subject, View::Ground);
         let bodies = 0..subject.prepared.mechanism.bodies().len().min(VIEWS);
@@ -206,12 +210,12 @@ impl Functions {
         best
     }
 
-    /// Operations of accelerations.
+    /// Number of operations for the accelerations.
     fn cost(&self) -> usize {
         self.list[0].program.counts().total()
     }
 
-    /// All functions, with the equations solved in these axes.
+    /// Generates all functions; the equations are solved in these axes.
     fn seen(subject: &Subject<'_>, view: View) -> Result<Self, CodeError> {
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
@@ -331,7 +335,8 @@ impl Functions {
     }
 }
 
-/// Whether the kernels of a mechanism compute the same results with recorded numbers as in a run.
+/// Returns an error if the kernels of a mechanism do not compute the same results with recording
+/// numbers as in a run.
 pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
     if mechanism.layout().turns > 0 {
         return Err(CodeError::Turns);
@@ -350,9 +355,9 @@ pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
     }
 }
 
-/// Each divisor relative to its smallest size over the sampled states, with its sign. If this size
-/// is less than a fraction of its median, the fraction of the median is used, because a motion near
-/// a singular configuration must not define the reference.
+/// Divides each divisor by its smallest size over the sampled states, with its sign. If the
+/// smallest size is less than a fraction of the median, this fraction of the median is used.
+/// Otherwise, a motion near a singular configuration would determine the reference.
 fn shares(e: &mut Equations, factored: &FactoredRows) -> Vec<Value> {
     let share = |&divisor: &Value| {
         let at = e.code.at(divisor);
@@ -360,7 +365,8 @@ fn shares(e: &mut Equations, factored: &FactoredRows) -> Vec<Value> {
         let mut sizes: Vec<f64> = at.iter().map(|d| d.abs()).collect();
         sizes.sort_by(f64::total_cmp);
         let unit = sizes[0].max(OF_MEDIAN * sizes[sizes.len() / 2]);
-        // A power of two, so that the text does not depend on the rounding of the sampled states.
+        // The reference is a power of two, so that the text does not depend on rounding errors in
+        // the sampled states.
         let unit = unit.log2().round().exp2();
         let unit = e.code.program.number(sign / unit);
         e.code.program.mul(divisor, unit)

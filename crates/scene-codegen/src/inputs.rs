@@ -1,16 +1,16 @@
-//! Numbers of a scene that a module takes as inputs.
+//! Finds the values of the equations that a module takes as inputs.
 //!
-//! The scene is built with other values of the keys that its user varies, each key alone and all
-//! together. A key affects the recorded numbers that change: data of joints and forces, values
-//! stored at the start, masses, weights, principal axes, coefficients of functions of time. These
-//! numbers are the inputs; they are identified by their indices, not by their values. Numbers that
-//! are equal in all variants are one input.
+//! The scene is built with other values of the keys that the user wants to vary: each key alone,
+//! and all keys together. A key affects the recorded values that change: data of joints and forces,
+//! stored initial values, masses, gravity, principal axes, parameters of functions of time. These
+//! values are the inputs; they are identified by their indices in the recording. Values that are
+//! equal in all variants become one input.
 //!
-//! Values that are not numbers of the equations cannot be inputs: the choice of independent rows,
-//! the structure, break times. A key that changes them is rejected with an error.
+//! Choices that are not values of the equations cannot be inputs: the independent rows, the
+//! structure, break times. A key that changes them is rejected with an error.
 //!
-//! Indices identify inputs safely, because equal numbers cannot be confused. They also identify
-//! numbers that are computed before the recording, such as principal axes and weights.
+//! Indices identify inputs uniquely, even if values are equal by chance. They also identify values
+//! that are computed before the recording, for example principal axes and the weight.
 
 use std::collections::HashMap;
 
@@ -24,25 +24,25 @@ use crate::functions::recordable;
 use crate::parameters::{Inputs, Parameter, Variant};
 use crate::subject::{State, Subject};
 
-/// Shares by which numbers are varied; the largest share that the scene allows is used. The states
-/// of these motions are also used for the choice of pivots.
+/// Relative changes of the values of keys; the largest change for which the scene is valid is used.
+/// The states of these motions are also used for the choice of pivots.
 const SHARES: [f64; 4] = [0.2, 0.05, 0.01, 1e-3];
 
-/// Numbers that differ by no more than this many roundings are equal.
+/// Values are equal if their difference is at most this multiple of the rounding error.
 const ROUNDINGS: f64 = 4.0;
 
 /// Largest nesting depth of lists whose entries are treated as separate keys.
 const NESTED: usize = 4;
 
-/// A key as named by the user: one number, or a list of numbers.
+/// A key as given by the user, which refers to one number or to a list of numbers.
 struct Key {
     name: String,
-    /// Indices of the numbers of the key among all numbers.
+    /// Indices of the numbers of this key in the list of all numbers.
     numbers: Vec<usize>,
 }
 
-/// The subject with the numbers of these keys as inputs, and with states of motions in which they
-/// have other values.
+/// Adds the inputs for these keys to the subject, and states of motions in which the inputs have
+/// other values.
 pub(crate) fn vary<'a>(
     scene: &SceneText<'_>,
     keys: &[String],
@@ -79,11 +79,12 @@ struct Search<'s> {
     prepared: &'s PreparedMechanism,
     template: Template,
     keys: Vec<Key>,
-    /// For each number, a share between ½ and 1; symmetric entries of a matrix have the same share.
+    /// For each number, the factor of its relative change, between ½ and 1; symmetric entries of a
+    /// matrix have the same factor.
     shares: Vec<f64>,
 }
 
-/// A mechanism with other numbers, and the run that its scene requests.
+/// A mechanism with changed values, and the run that its scene requests.
 struct MechanismVariant {
     prepared: PreparedMechanism,
     options: Option<MotionOptions>,
@@ -110,7 +111,7 @@ impl<'s> Search<'s> {
         let mirrored: Vec<String> = parts.iter().map(|part| sorted(part)).collect();
         let share = |part: &String| {
             let first = mirrored.iter().position(|other| other == part);
-            // Multiples of the golden ratio, so that no two shares are equal.
+            // Multiples of the golden ratio are used, so that no two factors are equal.
             let turns = 0.618_033_988_749_894_8 * (first.unwrap_or(0) + 1) as f64;
             0.5 + 0.5 * turns.fract()
         };
@@ -124,7 +125,7 @@ impl<'s> Search<'s> {
         })
     }
 
-    /// The scene with some numbers changed by their shares.
+    /// Returns the text of the scene with some numbers changed by their factors.
     fn changed(
         &self,
         which: impl Fn(usize) -> bool,
@@ -152,8 +153,8 @@ impl<'s> Search<'s> {
         Ok(MechanismVariant { prepared, options })
     }
 
-    /// A mechanism with the independent rows of the described one, if both differ only in their
-    /// numbers.
+    /// Returns a mechanism with the independent rows of the described one, if the two differ only
+    /// in their values.
     fn compared(
         &self,
         other: &PreparedMechanism,
@@ -171,8 +172,8 @@ impl<'s> Search<'s> {
         }
     }
 
-    /// The recording with one changed key; `None` if the scene does not allow a change of this key
-    /// alone.
+    /// Returns the recording with one changed key; `None` if the scene is not valid when only this
+    /// key changes.
     fn alone(
         &self,
         k: usize,
@@ -203,7 +204,7 @@ impl<'s> Search<'s> {
         Ok(None)
     }
 
-    /// A mechanism with all keys changed, and states of its motion.
+    /// Returns a mechanism with all keys changed, and states of its motion.
     fn together(
         &self,
         sign: f64,
@@ -240,7 +241,7 @@ impl<'s> Search<'s> {
         self.keys.iter().map(|key| key.name.clone()).collect()
     }
 
-    /// The numbers that differ, each with the keys that change it.
+    /// Returns the values that differ, each with the keys that change it.
     fn inputs(
         &self,
         described: &RecordedEquations,
@@ -281,7 +282,7 @@ impl<'s> Search<'s> {
         inputs
     }
 
-    /// Description of the number at an index.
+    /// Returns a description of the value at an index.
     fn described_place(&self, recording: &RecordedEquations, place: usize) -> String {
         let mechanism = &self.prepared.mechanism;
         let space = mechanism.space();
@@ -326,13 +327,13 @@ impl<'s> Search<'s> {
     }
 }
 
-/// Indices at which numbers of recordings of one shape differ.
+/// Returns the indices at which the values of recordings with the same shape differ.
 fn places_apart(all: &[&RecordedEquations]) -> Vec<usize> {
     let places = 0..all[0].tape.len();
     places.filter(|&place| differ(all, place)).collect()
 }
 
-/// Whether the numbers at an index differ by more than their rounding error.
+/// Returns whether the values at an index differ by more than their rounding error.
 fn differ(all: &[&RecordedEquations], place: usize) -> bool {
     let Some(first) = all[0].number(place) else {
         return false;
@@ -345,7 +346,7 @@ fn differ(all: &[&RecordedEquations], place: usize) -> bool {
     })
 }
 
-/// The keys of the numbers of a list, or the key itself.
+/// Returns the keys of the numbers in a list, or the key itself if it is not a list.
 fn opened(text: &str, key: &str, depth: usize) -> Result<Vec<String>, CodeError> {
     match Template::new(text, &[key]) {
         Ok(_) => Ok(vec![key.to_owned()]),
@@ -359,7 +360,7 @@ fn opened(text: &str, key: &str, depth: usize) -> Result<Vec<String>, CodeError>
     }
 }
 
-/// The key of an entry of a matrix with its indices in order: `…[0][1]` for `…[1][0]`.
+/// Sorts the two indices in the key of a matrix entry: `…[1][0]` becomes `…[0][1]`.
 fn sorted(key: &str) -> String {
     let indices = |key: &str| -> Option<(usize, usize, usize)> {
         let (rest, last) = key.strip_suffix(']')?.rsplit_once('[')?;

@@ -36,13 +36,13 @@ use model::Registry;
 
 use assembled::{SceneText, prepared};
 
-/// The module of a scene file, generated for the run that the scene requests, or for its start if
-/// it requests no run. The rows `drop`, counted from 0, are redundant rows instead of those in the
+/// Generates the module of a scene file for the run that the scene requests; without a run, for its
+/// initial state. The rows `drop` (0-based) are treated as dependent, in place of those in the
 /// scene.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read, the scene is wrong, its run stops, or no code can
-/// be generated for it.
+/// Returns an error if the file cannot be read, the scene contains errors, its run stops, or no
+/// code can be generated for it.
 #[cfg(feature = "modules")]
 pub fn scene(
     path: &Path,
@@ -58,8 +58,8 @@ pub fn scene(
     scene_text(&name, &text, registry, drop, choices)
 }
 
-/// Like [`scene()`], but from the text of a scene; `name` is the file's name in messages,
-/// `registry` contains the joints and forces that the scene may use.
+/// Works like [`scene()`], but with the text of a scene; `name` is the name of the file in
+/// messages, and `registry` contains the joints and forces that are permitted in the scene.
 ///
 /// # Errors
 /// Returns the same errors as [`scene()`].
@@ -102,8 +102,8 @@ pub fn scene_tape(
     with_subject(&scene, inputs, Tape::of)
 }
 
-/// Calls a function with the subject of a scene: for the run that it requests, or for its start,
-/// with the numbers of these keys as inputs.
+/// Calls a function with the subject of a scene. The subject contains the states of the run that
+/// the scene requests, or its initial state, and the numbers of these keys as inputs.
 fn with_subject<R>(
     scene: &SceneText<'_>,
     inputs: &[String],

@@ -95,7 +95,7 @@ fn run(arguments: &Arguments) -> Result<String, CodeError> {
     Ok(format!("{} written", out.display()))
 }
 
-/// The command that writes the file.
+/// Returns the command line that writes the file.
 fn command(arguments: &Arguments) -> String {
     let (scene, out) = (arguments.scene.display(), arguments.out.display());
     let mut command = format!("cargo xtask codegen --scene {scene} --out {out}");

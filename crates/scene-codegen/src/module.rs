@@ -1,5 +1,5 @@
 //! The text of a module: constants, functions on arrays, the same functions for several states at
-//! once, and the interface to `dynamics`.
+//! once, and the interface to the crate `dynamics`.
 
 mod docs;
 mod parameters;
@@ -20,16 +20,16 @@ use crate::subject::Subject;
 use crate::support::SUPPORT;
 use crate::time;
 
-/// The content of a module in addition to its functions on arrays.
+/// Options for the content of a module.
 #[derive(Clone, Debug, Default)]
 pub struct Choices {
-    /// The path of the crate `dynamics` in the module: if given, `Code` implements its trait
-    /// `SceneCode`. Otherwise the module imports nothing.
+    /// The path of the crate `dynamics` as seen from the module. If it is given, `Code` implements
+    /// the trait `SceneCode` of this crate. Otherwise, the module has no imports.
     pub dynamics: Option<String>,
     /// Use sines, cosines and roots of the crate `libm` instead of `std`.
     pub libm: bool,
-    /// Keys of numbers of the scene that are varied, as in [`scene::Template`]; a key of a list
-    /// means all of its numbers. The affected numbers of the equations are arguments of the
+    /// Keys of numbers in the scene that will be varied, as in [`scene::Template`]; the key of a
+    /// list refers to all of its numbers. The affected values of the equations are arguments of the
     /// functions of the module.
     pub inputs: Vec<String>,
 }
@@ -39,7 +39,7 @@ pub struct Choices {
 pub struct Module {
     /// Name of the module as an identifier.
     pub name: String,
-    /// Lines of documentation.
+    /// The lines of the documentation.
     docs: Vec<String>,
     items: String,
 }
@@ -50,14 +50,15 @@ const ATTRIBUTES: [&str; 2] = [
 ];
 
 impl Module {
-    /// The same module with another name.
+    /// Returns the same module with another name.
     #[must_use]
     pub fn named(self, name: &str) -> Self {
         let name = identifier(name);
         Self { name, ..self }
     }
 
-    /// The text of a file that contains only the module; `origin` states how it was generated.
+    /// Returns the text of a file that contains only the module; `origin` states how it was
+    /// generated.
     #[must_use]
     pub fn as_file(&self, origin: &str) -> String {
         let origin = one_line(origin);
@@ -72,7 +73,7 @@ impl Module {
         text + "\n" + &self.items
     }
 
-    /// The module as an item, for `include!`.
+    /// Returns the module as an item, for `include!`.
     #[must_use]
     pub fn as_item(&self) -> String {
         let mut text = String::new();
@@ -99,7 +100,7 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
     }
 }
 
-/// The module of a subject with its inputs.
+/// Generates the module of a subject that may have inputs.
 pub(crate) fn of_subject(subject: &Subject<'_>, choices: &Choices) -> Result<Module, CodeError> {
     let functions = Functions::new(subject)?;
     let mechanism = &subject.prepared.mechanism;
@@ -166,12 +167,12 @@ pub(crate) fn of_subject(subject: &Subject<'_>, choices: &Choices) -> Result<Mod
     })
 }
 
-/// Removes line breaks and other control characters, because a line break ends a comment.
+/// Replaces line breaks and other control characters, because a line break would end a comment.
 fn one_line(text: &str) -> String {
     text.replace(|c: char| c.is_control(), " ")
 }
 
-/// Converts a name into a Rust identifier.
+/// Converts a name to a Rust identifier.
 fn identifier(name: &str) -> String {
     let name = name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
     if name.starts_with(|c: char| c.is_ascii_alphabetic()) {
@@ -203,19 +204,19 @@ fn parse(text: &str) -> Result<TokenStream, CodeError> {
     text.parse().map_err(|e| CodeError::Text(format!("{e}")))
 }
 
-/// Data that all functions of a module share.
+/// Properties that all functions of a module have in common.
 struct Shape {
     space: SpaceKind,
-    /// Sources of the rotations that are used: coordinates whose cosine and sine are used; in
-    /// space, bodies.
+    /// In the plane, the coordinates whose cosine or sine is used; in space, the bodies whose
+    /// rotation is used.
     rotations: Vec<usize>,
     n_functions: usize,
-    /// Whether functions take numbers of the scene as arguments.
+    /// Whether the functions have inputs as arguments.
     takes_numbers: bool,
 }
 
 impl Shape {
-    /// Numbers of one rotation: cosine and sine, in space a matrix.
+    /// Number of values for one rotation: cosine and sine, or in space a matrix.
     fn width(&self) -> usize {
         match self.space {
             SpaceKind::Space3 => 9,
@@ -246,7 +247,7 @@ fn inputs(f: &Function) -> impl Iterator<Item = Symbol> + '_ {
     })
 }
 
-/// Sizes and specification.
+/// Generates the constants for sizes and other properties.
 fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
     let prepared = subject.prepared;
     let layout = prepared.mechanism.layout();
@@ -291,7 +292,7 @@ fn operations(functions: &Functions) -> Vec<String> {
         .collect()
 }
 
-/// Functions of time and of angles.
+/// Generates the functions of time and of angles.
 fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
     let (rotations, n_jets) = (&shape.rotations, 3 * shape.n_functions);
     let width = shape.width();
@@ -368,8 +369,8 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
     })
 }
 
-/// A function on arrays: its straight-line core with readers and a writer, the interface for one
-/// state, and the interface for many states.
+/// Generates a function on arrays: its straight-line core with read and write access, the interface
+/// for one state, and the interface for several states.
 fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     let e = &functions.equations;
     let (statements, outputs) = Printer::new(&e.names, &f.program, Scalar::F64, &[]).print();
@@ -462,7 +463,7 @@ fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     }
 }
 
-/// The array from which an input is read, and its index there.
+/// Returns the array from which an input is read, and the index in this array.
 fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
     let turn = |place: usize| {
         let at = shape.rotations.iter().position(|&r| r == place);
@@ -485,10 +486,10 @@ fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
     }
 }
 
-/// `Code`, which implements `dynamics::SceneCode`.
+/// Generates `Code`, which implements `dynamics::SceneCode`.
 fn face(functions: &Functions, path: &syn::Path, shape: &Shape) -> TokenStream {
     let numbers = shape.takes_numbers.then(|| quote!(&self.0,));
-    // A run gets q̇ from the mechanism, not from the code.
+    // A run computes q̇ with the mechanism, not with the code.
     let of_runs = functions
         .list
         .iter()

@@ -1,20 +1,20 @@
-//! The numbers of the equations that a module takes as inputs.
+//! The values of the equations that are inputs of a module.
 
 use std::collections::HashMap;
 
 use model::record::TimeFunction;
 
-/// One number of the equations.
+/// One value of the equations.
 #[derive(Clone, Debug)]
 pub(crate) struct Parameter {
-    /// Description of the number, with the keys that change it.
+    /// Description of the value, with the keys that change it.
     pub(crate) name: String,
     pub(crate) described: f64,
-    /// Indices of the number in the recording.
+    /// Indices of the value in the recording.
     pub(crate) places: Vec<usize>,
 }
 
-/// The numbers that a module takes as inputs, and mechanisms in which they have other values.
+/// The inputs of a module, and mechanisms in which they have other values.
 #[derive(Clone, Default)]
 #[cfg_attr(
     not(feature = "modules"),
@@ -28,7 +28,7 @@ pub(crate) struct Inputs {
     pub(crate) variants: Vec<Variant>,
 }
 
-/// Other values of the inputs, and the functions of time with these values.
+/// Values of the inputs in another mechanism, and its functions of time.
 #[derive(Clone)]
 pub(crate) struct Variant {
     pub(crate) values: Vec<f64>,
@@ -36,7 +36,7 @@ pub(crate) struct Variant {
 }
 
 impl Inputs {
-    /// An empty list of inputs, for equations of this shape and these keys.
+    /// Creates an empty list of inputs, for equations with this shape and for these keys.
     pub(crate) fn new(shape: u64, keys: Vec<String>) -> Self {
         Self {
             shape,
@@ -45,18 +45,18 @@ impl Inputs {
         }
     }
 
-    /// The index of the number at an index of the recording, if it is an input.
+    /// Returns the index of the input with an index in the recording, if this value is an input.
     pub(crate) fn at(&self, place: usize) -> Option<usize> {
         self.of_place.get(&place).copied()
     }
 
-    /// Adds an index in the recording to a number.
+    /// Adds an index in the recording to an input.
     pub(crate) fn add_place(&mut self, parameter: usize, place: usize) {
         self.list[parameter].places.push(place);
         self.of_place.insert(place, parameter);
     }
 
-    /// The values in the described mechanism.
+    /// Returns the values in the described mechanism.
     pub(crate) fn described(&self) -> Vec<f64> {
         self.list.iter().map(|p| p.described).collect()
     }

@@ -1,30 +1,30 @@
-//! A program with its values at sampled states. From the values at states of the motion, an
-//! elimination chooses pivots that are suitable for the whole motion. The values at states away
-//! from any motion show which values are equal.
+//! A program together with its values at sampled states. With the values at states of the motion,
+//! the elimination chooses pivots that are suitable for the whole motion. The values at states that
+//! do not belong to the motion show which values are equal.
 //!
-//! Values are compared instead of rewriting expressions: `Rᵀ·R = 1` is not a rule of polynomials,
-//! and joints of users need no second kernel. Tests and `with_code` compare every result with the
-//! interpreter.
+//! Values are compared because simplification of expressions is not sufficient: `Rᵀ·R = 1` is not a
+//! rule of polynomials. In addition, joints outside the library need no second kernel. The tests
+//! and `with_code` compare every result with that of the interpreter.
 
 use symbolic::{Program, Value};
 
-/// Largest difference of two values that count as equal at all states away from the motion, as a
-/// share of the terms of one of them. Both values have rounding errors.
+/// Two values are equal if their difference is at most this fraction of the terms of one of them,
+/// at all states that do not belong to the motion. Both values have rounding errors.
 const SAME: f64 = 1e-13;
 
 /// Straight-line code and the values of its operations at some states.
 pub(crate) struct SampledProgram {
     pub(crate) program: Program,
     motion: Samples,
-    /// States that satisfy no constraint, with arbitrary values of the functions of time.
+    /// States that do not satisfy the constraints, with arbitrary values of the functions of time.
     anywhere: Samples,
 }
 
 /// Values of a program at some states.
 struct Samples {
-    /// Values of the inputs, state by state.
+    /// Values of the inputs, in the order of the states.
     inputs: Vec<Vec<f64>>,
-    /// Values of the operations evaluated so far, operation by operation.
+    /// Values of the operations that were evaluated, in the order of the operations.
     values: Vec<Vec<f64>>,
 }
 
@@ -36,7 +36,7 @@ impl Samples {
         }
     }
 
-    /// The values of an operation at all states.
+    /// Returns the values of an operation at all states.
     fn at(&mut self, program: &Program, v: Value) -> &[f64] {
         for k in self.values.len()..=v.index() {
             let op = program.op(program.value_at(k));
@@ -55,7 +55,8 @@ impl Samples {
 }
 
 impl SampledProgram {
-    /// An empty program; `motion` and `anywhere` contain the values of all inputs for each state.
+    /// Creates an empty program; `motion` and `anywhere` contain the values of all inputs for each
+    /// state.
     pub(crate) fn new(motion: Vec<Vec<f64>>, anywhere: Vec<Vec<f64>>) -> Self {
         Self {
             program: Program::empty(),
@@ -69,7 +70,7 @@ impl SampledProgram {
         self.motion.inputs.len()
     }
 
-    /// The values of an operation at all states.
+    /// Returns the values of an operation at all states of the motion.
     pub(crate) fn at(&mut self, v: Value) -> &[f64] {
         self.motion.at(&self.program, v)
     }
@@ -84,8 +85,8 @@ impl SampledProgram {
         })
     }
 
-    /// The same sum; or a constant, or an existing value of the program, if it is equal to the sum
-    /// at all states away from the motion.
+    /// Returns the same sum. If it is equal to a constant or to an existing value of the program at
+    /// all states outside the motion, the result is this constant or value.
     pub(crate) fn simplest_sum(&mut self, products: &[(Value, Value)]) -> Value {
         let is_zero = |p: &Program, (a, b): &(Value, Value)| p.is_zero(*a) || p.is_zero(*b);
         if products.iter().all(|pair| is_zero(&self.program, pair)) {
@@ -123,7 +124,8 @@ impl SampledProgram {
     }
 }
 
-/// A number with fifteen digits, because the last digit of a rounded value depends on the machine.
+/// Rounds a number to fifteen digits, because the last digit of a rounded value depends on the
+/// machine.
 fn short(x: f64) -> f64 {
     format!("{x:.14e}").parse().unwrap_or(x)
 }

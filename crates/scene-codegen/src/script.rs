@@ -1,4 +1,4 @@
-//! Functions for build scripts: modules are regenerated when their scenes change.
+//! Functions for build scripts, which generate modules again when scenes change.
 
 use std::path::{Path, PathBuf};
 
@@ -7,9 +7,9 @@ use model::Registry;
 use crate::error::CodeError;
 use crate::module::Choices;
 
-/// Writes the module of a scene file as `NAME.rs` into the directory that cargo provides for build
-/// scripts. The file can be included as an item. Returns the lines that the script must print for
-/// cargo.
+/// Generates the module of a scene file and writes it as `NAME.rs` to the directory that cargo
+/// provides for build scripts. The file can be included as an item. Returns the lines that the
+/// build script must print for cargo.
 ///
 /// ```no_run
 /// // build.rs
@@ -21,7 +21,7 @@ use crate::module::Choices;
 /// ```
 ///
 /// # Errors
-/// Returns the same errors as [`crate::scene()`]; also if the file cannot be written.
+/// Returns the same errors as [`crate::scene()`], and an error if the file cannot be written.
 pub fn to_out_dir(
     scene: &Path,
     name: &str,

@@ -10,7 +10,7 @@ use model::record::Input;
 use crate::error::CodeError;
 use crate::parameters::Inputs;
 
-/// Number of states of a run for the choice of pivots.
+/// Number of states of a run that are used to choose the pivots.
 const STATES: f64 = 48.0;
 
 /// A state of the motion.
@@ -26,18 +26,19 @@ pub struct State {
 
 /// A prepared mechanism, and the states of the motion for which its code is generated.
 pub struct Subject<'a> {
-    /// The mechanism, its start and its independent rows.
+    /// The mechanism with its initial state and its independent rows.
     pub prepared: &'a PreparedMechanism,
-    /// States of the motion; the start is the first one. The states of the described mechanism are
-    /// followed by those of mechanisms in which the inputs have other values.
+    /// States of the motion; the first one is the initial state. The states of the described
+    /// mechanism come first, then those of mechanisms with other values of the inputs.
     pub states: Vec<State>,
-    /// For each state, the index of its mechanism; `None` for the described one.
+    /// For each state, the index of its mechanism in the variants of the inputs; `None` for the
+    /// described mechanism.
     pub(crate) variants: Vec<Option<usize>>,
-    /// The numbers that code takes as inputs.
+    /// The values that are inputs of the code.
     pub(crate) inputs: Inputs,
 }
 
-/// The matrix of the rotation of a body in space; NaN if q is too short.
+/// Returns the rotation matrix of a body in space; NaN if q is too short.
 pub(crate) fn rotation(q: &[f64], body: usize) -> [[f64; 3]; 3] {
     let first = SpaceKind::Space3.coordinates(body).start + 3;
     let e = q.get(first..).and_then(|e| e.first_chunk());
@@ -45,14 +46,14 @@ pub(crate) fn rotation(q: &[f64], body: usize) -> [[f64; 3]; 3] {
 }
 
 impl<'a> Subject<'a> {
-    /// The subject with the start as its only state.
+    /// Returns the subject with the initial state as its only state.
     #[must_use]
     pub fn at_start(prepared: &'a PreparedMechanism) -> Self {
         let (q, v) = (prepared.q.clone(), prepared.v.clone());
         Self::at_states(prepared, vec![State { t: 0.0, q, v }])
     }
 
-    /// The subject with these states and without inputs.
+    /// Returns the subject with these states and without inputs.
     pub(crate) fn at_states(prepared: &'a PreparedMechanism, states: Vec<State>) -> Self {
         Self {
             prepared,
@@ -62,7 +63,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The start and states of a run with these options.
+    /// Returns the subject with the initial state and the states of a run with these options.
     ///
     /// # Errors
     /// Returns an error if the run stops.
@@ -89,8 +90,7 @@ impl<'a> Subject<'a> {
         Ok(Self::at_states(prepared, states))
     }
 
-    /// The value of the input with this index among the numbers of the mechanism, at the state with
-    /// this index.
+    /// Returns the value of the input with index `k` at the state with this index.
     pub(crate) fn number(&self, k: usize, state: usize) -> f64 {
         match self.variants[state] {
             Some(variant) => self.inputs.variants[variant].values[k],
@@ -98,7 +98,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The value of an input at the state with this index.
+    /// Returns the value of an input of the mechanism at the state with this index.
     pub(crate) fn input_at(&self, input: Input, state: usize) -> f64 {
         match (input, self.variants[state]) {
             (
@@ -115,7 +115,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// The value of an input at a state of the described mechanism.
+    /// Returns the value of an input of the mechanism at a state of the described mechanism.
     pub(crate) fn input(&self, input: Input, state: &State) -> f64 {
         match input {
             Input::Coordinate(k) => state.q[k],
@@ -134,7 +134,7 @@ impl<'a> Subject<'a> {
         }
     }
 
-    /// Accelerations of the interpreter at a state.
+    /// Returns the accelerations that the interpreter computes at a state.
     ///
     /// # Errors
     /// Returns an error if the equations have no solution at this state.

@@ -1,6 +1,7 @@
-//! Functions that are copied into generated modules, as text and, for tests, as code.
+//! Functions that are copied into generated modules; they are available as text and, in tests, as
+//! code.
 
-/// Names and texts, in their order in modules.
+/// Names and texts of these functions, in the order in which they appear in modules.
 pub(crate) const SUPPORT: [(&str, &str); 9] = [
     ("cos_sin", include_str!("support/cos_sin.in")),
     ("rotation", include_str!("support/rotation.in")),
@@ -32,7 +33,7 @@ mod tests {
             }
             x *= 1.0003;
         }
-        // Near multiples of π/2 small values are accurate relative to their size.
+        // Near multiples of π/2, small values are accurate relative to their own size.
         for k in 1..200_000 {
             let x = f64::from(k) * core::f64::consts::FRAC_PI_2;
             let ([cos, sin], (s, c)) = (cos_sin(x), x.sin_cos());
@@ -47,7 +48,7 @@ mod tests {
         }
     }
 
-    /// The rotation of the unit quaternion cos ½θ + sin ½θ·n, times any length, by Rodrigues'
+    /// The rotation of the quaternion cos ½θ + sin ½θ·n, times any length, compared with Rodrigues'
     /// formula.
     #[test]
     fn rotations_are_those_of_axes_and_angles() {
@@ -75,7 +76,7 @@ mod tests {
         }
     }
 
-    /// The angle (0.3 − t)² + 0.2·t, whose derivatives are known exactly.
+    /// Tests with the angle (0.3 − t)² + 0.2·t, whose derivatives are known exactly.
     #[test]
     fn cosine_and_sine_of_a_function_have_its_derivatives() {
         let angle = |t: f64| (0.3 - t) * (0.3 - t) + 0.2 * t;

@@ -1,6 +1,7 @@
-//! The same code without a compiler: lists of instructions, executed for one state or for several
-//! states at once, which may belong to runs with different numbers. They are used for scenes that
-//! are read at run time, for sweeps, and for tests of runs with generated code.
+//! The same code without a compiler: lists of instructions that are executed for one state, or for
+//! several states at once. These states may belong to runs with different values of the inputs.
+//! They are used for scenes that are read at run time, for sweeps, and for tests of runs with
+//! generated code.
 
 mod list;
 
@@ -21,7 +22,8 @@ use list::{List, PLACES, Place};
 include!("support/cos_sin.in");
 include!("support/rotation.in");
 
-/// Number of states that are evaluated together (a SIMD batch): they fill one cache line.
+/// Number of states that are evaluated together (a SIMD batch), which is the length of one cache
+/// line.
 pub const LANES: usize = 8;
 
 /// The code of one mechanism as lists of operations.
@@ -47,16 +49,16 @@ pub struct Tape {
     /// Lists in the order of [`CodeFunction::ALL`].
     lists: Arc<[List]>,
     times: Arc<[TimeFunction]>,
-    /// For each number of each function of time, the index of the input that replaces it.
+    /// For each parameter of each function of time, the index of the input that replaces it.
     numbers_of_times: Arc<[Vec<Option<usize>>]>,
-    /// The numbers of the mechanism that are inputs, and their values.
+    /// The values of the mechanism that are inputs, and their current values.
     inputs: Option<Arc<CodeInputs>>,
     values: Arc<[f64]>,
     space: SpaceKind,
 }
 
-/// A call of a function of an operation list with its numbers, for one of several runs; the arrays
-/// are reused by the next call.
+/// A call of a function of an operation list for one of several runs, with the values of its
+/// inputs. The next call uses the same arrays.
 pub struct TapeCall {
     /// The operation list.
     pub tape: Tape,
@@ -64,16 +66,16 @@ pub struct TapeCall {
     pub t: f64,
     /// Coordinates.
     pub q: Vec<f64>,
-    /// Velocities, or residuals, depending on the function.
+    /// Velocities or residuals; this depends on the function.
     pub with: Vec<f64>,
     /// The results.
     pub out: Vec<f64>,
-    /// Health, for functions that have one.
+    /// Smallest relative size of the divisors, for functions with divisions.
     pub health: f64,
 }
 
 impl TapeCall {
-    /// A call of an operation list, without arguments yet.
+    /// Creates a call of an operation list; the arguments are set later.
     #[must_use]
     pub fn new(tape: Tape) -> Self {
         Self {
@@ -98,7 +100,7 @@ impl TapeCall {
     }
 }
 
-/// A state with memory for results.
+/// A state with memory for the results.
 trait Evaluation {
     fn tape(&self) -> &Tape;
     fn t(&self) -> f64;
@@ -130,7 +132,7 @@ impl Evaluation for Box<TapeCall> {
     }
 }
 
-/// A single evaluation with arrays of the caller.
+/// A single evaluation that uses arrays of the caller.
 struct Alone<'a> {
     tape: &'a Tape,
     t: f64,
@@ -163,10 +165,10 @@ impl Evaluation for Alone<'_> {
     }
 }
 
-/// Stored values of a list, for L states. Unused storage places take no memory.
+/// Storage places of a list, for L states. Storage places that are not used need no memory.
 type Places<const L: usize> = Box<[[f64; L]; PLACES]>;
 
-/// Zeros, allocated on the heap from the start.
+/// Allocates zeros directly on the heap.
 fn places<const L: usize>() -> Places<L> {
     let all = vec![[0.0; L]; PLACES].into_boxed_slice();
     all.try_into()
@@ -179,7 +181,7 @@ thread_local! {
 }
 
 impl Tape {
-    /// The code of a subject.
+    /// Generates the code of a subject.
     ///
     /// # Errors
     /// Returns the same errors as [`crate::generate`].
@@ -239,8 +241,8 @@ impl Tape {
         })
     }
 
-    /// The same operation list with these values of its inputs; `None` if the number of values
-    /// differs.
+    /// Returns the same operation list with these values of its inputs; `None` if the number of
+    /// values differs.
     #[must_use]
     pub fn with_values(&self, values: &[f64]) -> Option<Self> {
         if self.values.len() != values.len() {
@@ -262,7 +264,8 @@ impl Tape {
         Some(tape)
     }
 
-    /// The operation list with the numbers of a mechanism; the numbers are then no longer inputs.
+    /// Returns the operation list with the values of a mechanism; these values are then no longer
+    /// inputs.
     ///
     /// # Errors
     /// [`CodeMismatch`]: the mechanism has other equations.
@@ -283,9 +286,10 @@ impl Tape {
         })
     }
 
-    /// Evaluates a function of one operation list for several runs, each with its own numbers; the
-    /// results have the same bits as single evaluations. A call whose operation list is not a clone
-    /// of the first one, except for its values, gets a health of NaN.
+    /// Evaluates a function of one operation list for several runs, each with its own values of the
+    /// inputs; the results have the same bits as those of single evaluations. If the operation list
+    /// of a call is not a clone of the first one (with other values of the inputs), its health is
+    /// NaN.
     pub fn evaluate_all(function: CodeFunction, calls: &mut [Box<TapeCall>]) {
         let Some(lists) = calls.first().map(|call| Arc::clone(&call.tape.lists)) else {
             return;
@@ -307,7 +311,7 @@ impl Tape {
         }
     }
 
-    /// Evaluates one function and returns the health.
+    /// Evaluates one function and returns the smallest relative size of its divisors.
     fn run(
         &self,
         function: CodeFunction,
@@ -330,13 +334,13 @@ impl Tape {
         call.health
     }
 
-    /// Value and derivatives of a function of time; NaN if the function does not exist.
+    /// Returns value and derivatives of a function of time; NaN if the function does not exist.
     fn jet(&self, function: usize, t: f64) -> [f64; 3] {
         self.times.get(function).map_or([f64::NAN; 3], |f| f.jet(t))
     }
 }
 
-/// [`evaluate`] with the vector instructions of the present processor.
+/// Works like [`evaluate`], with the vector instructions of the current processor.
 fn wide(list: &List, places: &mut [[f64; LANES]; PLACES], calls: &mut [Box<TapeCall>]) {
     struct Task<'t> {
         list: &'t List,
@@ -358,8 +362,8 @@ fn wide(list: &List, places: &mut [[f64; LANES]; PLACES], calls: &mut [Box<TapeC
     });
 }
 
-/// Evaluates a list for at most L calls, at least one; unused states of the batch repeat the first
-/// call.
+/// Evaluates a list for at least one and at most L calls; unused places of the batch repeat the
+/// first call.
 #[inline(always)]
 fn evaluate<const L: usize>(
     list: &List,
@@ -428,7 +432,7 @@ fn evaluate<const L: usize>(
     }
 }
 
-/// The smaller number; NaN if one of them is NaN.
+/// Returns the smaller number; NaN if one of the two is NaN.
 fn least(a: f64, b: f64) -> f64 {
     if b < a || b.is_nan() { b } else { a }
 }

@@ -1,5 +1,5 @@
-//! Compares generated code with the interpreter, which solves the same equations by an elimination
-//! in another order.
+//! Compares generated code with the interpreter, which solves the same equations with another order
+//! of elimination.
 
 use dynamics::KeptRowMotion;
 use linalg::KeptRowSaddle;
@@ -15,15 +15,15 @@ use crate::subject::{State, Subject};
 
 mod space;
 
-/// Largest relative difference of two eliminations in `f64`.
+/// Largest relative difference between two eliminations in `f64`.
 const SAME: f64 = 1e-13;
 
-/// Number of states per scene; the robot has a thousand.
+/// Number of states per scene; for the robot it is 1000.
 const STATES: usize = 40;
 
 pub(crate) const ROBOT: &str = include_str!("../../robot-trolley/robot-trolley.toml");
 
-/// Two bodies in space without constraints, connected by a spring.
+/// Two bodies in space without constraints that are connected by a spring.
 const FREE: &str = r#"
 scene = { name = "free", space = "plane", gravity = [0.0, -1.0] }
 body = [
@@ -34,7 +34,7 @@ force = [{ name = "s", type = "spring-damper", bodies = ["a", "b"], points = { a
 simulate = { t_end = 2.0 }
 "#;
 
-/// A crank without a degree of freedom, driven by a table with a kink in the drive's rate.
+/// A crank without a degree of freedom; the table of its drive has a kink in the rate.
 const DRIVEN: &str = r#"
 scene = { name = "driven", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "crank", mass = 1.0, inertia = 0.2, position = [0.5, 0.0] }]
@@ -54,7 +54,7 @@ simulate = { t_end = 2.0 }
 
 pub(crate) fn scenes() -> Vec<(String, String)> {
     let mut scenes: Vec<(String, String)> = suite::all()
-        // The same mechanism as in the shorter scene.
+        // The other scene contains the same mechanism with a shorter run.
         .filter(|case| case.name != "a01-pendulum-2000s")
         .map(|case| (case.name.to_owned(), case.scene.to_owned()))
         .collect();
@@ -75,7 +75,8 @@ pub(crate) fn subject<'a>(study: &'a Study, name: &str) -> Subject<'a> {
     Subject::of_run(&study.prepared, options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// The results and the health of a function of a module at a state; `extra` gives the other inputs.
+/// Returns the results and the health of a function of a module at a state; `extra` contains the
+/// other inputs.
 fn run(
     functions: &Functions,
     subject: &Subject<'_>,
@@ -97,7 +98,7 @@ fn run(
     (values, shares.into_iter().fold(f64::INFINITY, f64::min))
 }
 
-/// States near the motion; every second one violates the constraints.
+/// Returns states near the motion; every second one violates the constraints.
 fn states(study: &Study, subject: &Subject<'_>, n: usize) -> Vec<State> {
     let mut motion = KeptRowMotion::new(&study.prepared).expect("moves");
     let (mechanism, size) = (&study.prepared.mechanism, study.prepared.assembly.size);
@@ -129,8 +130,8 @@ fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// Largest relative difference of accelerations and multipliers, over states at which neither
-/// method is near a singular configuration.
+/// Returns the largest relative difference of accelerations and multipliers, without states at
+/// which one of the methods is near a singular configuration.
 fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
     let study = study(name, text);
     let subject = subject(&study, name);
@@ -148,8 +149,8 @@ fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
             continue;
         }
         compared += 1;
-        // The terms that cancel in an acceleration are as large as the squares of velocities and
-        // the accelerations due to forces.
+        // The terms that cancel in an acceleration have the size of squared velocities and of
+        // accelerations due to forces.
         let size = largest(&expected).max(largest(v).powi(2)).max(1e-3);
         let differences = a.iter().zip(&expected).map(|(a, e)| (a - e).abs() / size);
         let apart = differences.fold(0.0, f64::max);
@@ -205,7 +206,7 @@ fn code_equals_the_interpreter_at_a_thousand_states_of_the_robot() {
     assert!(worst < SAME, "{worst:e}");
 }
 
-/// Corrections compared with the solution of a saddle-point system.
+/// Compares corrections with the solution of a saddle-point system.
 fn corrections_are_exact(name: &str, text: &str) {
     let study = study(name, text);
     let subject = subject(&study, name);
@@ -260,7 +261,8 @@ fn corrections_are_those_of_a_saddle_solve() {
     }
 }
 
-/// Number of operations of the robot: a change that needs more operations must update this test.
+/// Tests the number of operations for the robot; a change that needs more operations must update
+/// this test.
 #[test]
 fn the_robot_needs_no_more_operations_than_it_did() {
     let study = study("robot-trolley", ROBOT);
@@ -283,8 +285,8 @@ fn the_robot_needs_no_more_operations_than_it_did() {
     }
 }
 
-/// A vehicle that has rotated by any angle has the same equations: in the frames of its bodies the
-/// pivots are unchanged.
+/// The equations of a vehicle do not depend on its orientation: in the frames of its bodies, a
+/// rotation by any angle does not change the pivots.
 #[test]
 fn it_does_not_matter_which_way_a_vehicle_points() {
     let study = study("robot-trolley", ROBOT);
@@ -305,7 +307,8 @@ fn it_does_not_matter_which_way_a_vehicle_points() {
     for health in healths {
         assert!((health - healths[0]).abs() < 1e-9, "{healths:?}");
     }
-    // Pins on the ground have the same equations in every frame; a line on the ground does not.
+    // The equations of pins on the ground are the same in every frame; those of a line on the
+    // ground are not.
     let pinned = self::study("driven", DRIVEN);
     assert!(may_be_seen_from(&Subject::at_start(&pinned.prepared), 2));
     let bead = self::study("bead", BEAD);

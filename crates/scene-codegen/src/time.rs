@@ -1,4 +1,4 @@
-//! Functions of time as text.
+//! Functions of time as text of generated code.
 
 use std::fmt::Write;
 
@@ -6,8 +6,9 @@ use model::Function;
 use model::function::Parts;
 use model::record::{FunctionForm, TimeFunction};
 
-/// The expression of the jet of a function at `t`, and the support functions that it needs;
-/// `numbers` contains the texts of its numbers, in the order of [`Parts::numbers`].
+/// Returns the expression for value and derivatives of a function at `t`, and the support functions
+/// that it needs; `numbers` contains the texts of the parameters, in the order of
+/// [`Parts::numbers`].
 pub(crate) fn jet(function: &Function, numbers: &[String]) -> (String, &'static [&'static str]) {
     let list = numbers.join(", ");
     let points = |numbers: &[String], each: usize| {
@@ -28,9 +29,9 @@ pub(crate) fn jet(function: &Function, numbers: &[String]) -> (String, &'static 
     }
 }
 
-/// The body of the function that evaluates all jets, `[f, ḟ, f̈]` in sequence. `input` returns the
-/// text of a number that is an input, by function and index in the order of
-/// [`TimeFunction::numbers`].
+/// Returns the body of the function that evaluates `[f, ḟ, f̈]` of all functions in sequence.
+/// `input` returns the text of a parameter that is an input, for the index of the function and the
+/// index in the order of [`TimeFunction::numbers`].
 pub(crate) fn jets<'f>(
     functions: impl Iterator<Item = &'f TimeFunction>,
     input: impl Fn(usize, usize) -> Option<String>,
@@ -48,7 +49,7 @@ pub(crate) fn jets<'f>(
             format!(" - {last}")
         };
         if f.form() == FunctionForm::Sine {
-            // The sine is evaluated together with the cosine before it.
+            // The sine was evaluated together with the preceding cosine.
             let _ = write!(names, "f{k}, d{k}, dd{k},");
             continue;
         }
@@ -75,7 +76,8 @@ pub(crate) fn jets<'f>(
 mod tests {
     use super::*;
 
-    /// Every number of a function is at its index in the text, whether it is an input or not.
+    /// In the text, every parameter of a function is at its own index, whether it is an input or
+    /// not.
     #[test]
     fn numbers_of_functions_stand_where_they_are_used() {
         let of = |function: Result<Function, model::FunctionError>| {

@@ -1,5 +1,5 @@
 //! Compiles the modules of all scenes: without imports, also without the standard library, for one
-//! state at a time and for several.
+//! state and for several states at once.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -53,8 +53,8 @@ fn study(name: &str, text: &str) -> Study {
         .unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// Returns names and texts of the suite, and of scenes in space except those with the longest
-/// compilation.
+/// Returns names and texts of the scenes of the suite and of the scenes in space, except those with
+/// the longest compilation.
 fn cases() -> Vec<(String, String)> {
     let cases = suite::all().filter(|case| case.name != "a01-pendulum-2000s");
     let cases = cases.map(|case| (case.name.to_owned(), case.scene.to_owned()));
@@ -73,8 +73,8 @@ fn subject<'a>(study: &'a Study, name: &str) -> Subject<'a> {
     Subject::of_run(&study.prepared, options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// Prints the bits of accelerations computed for one state at a time, and asserts that several
-/// states at once give the same bits.
+/// Prints the bits of accelerations that are computed for one state at a time, and asserts that the
+/// results for several states at once have the same bits.
 const HARNESS: &str = "
 macro_rules! run { ($m:ident, $states:expr) => {{
     use $m::*;
@@ -178,8 +178,8 @@ fn modules_compile_without_the_standard_library() {
     rustc(&folder, &emit);
 }
 
-/// The modules in the repository equal those of their scenes: after a change of the generator or of
-/// a scene they must be written again.
+/// The modules in the repository must be equal to those generated from their scenes; after a change
+/// of the generator or of a scene they must be written again.
 #[test]
 fn the_checked_in_modules_agree_with_their_scenes() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -212,7 +212,7 @@ fn the_checked_in_modules_agree_with_their_scenes() {
     }
 }
 
-/// A linkage of four bars has a driven crank: the compiled module runs from its start to its end.
+/// A four-bar linkage with a driven crank: a run with the compiled module reaches the end.
 #[test]
 fn a_compiled_module_in_space_moves_the_linkage() {
     let scenes = space::scenes();
@@ -240,7 +240,7 @@ fn a_compiled_module_in_space_moves_the_linkage() {
     for (found, expected) in found.iter().zip(&expected) {
         assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     }
-    // The crank has rotated by 0.5 rad about z, for any length of its quaternion.
+    // The crank has rotated by 0.5 rad about z; its quaternion may have any length.
     let (w, z) = (found[3], found[6]);
     assert!((2.0 * z.atan2(w) - 0.5).abs() < 1e-9, "{w} {z}");
 }

@@ -1,6 +1,6 @@
-//! Modules with numbers of their scene as inputs. For any values of these numbers they equal the
-//! interpreter of the scene with the same values, and they reject a scene that differs in another
-//! number.
+//! Tests modules whose inputs are numbers in their scenes. For any values of the inputs, a module
+//! gives the results of the interpreter for the scene with these values. It rejects a scene that
+//! differs in another number.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -50,14 +50,14 @@ const KEYS_OF_ARM: [&str; 10] = [
     "drive.motor.motion.amplitude",
 ];
 
-/// Number of states of each of the mechanisms that differ in their inputs.
+/// Number of states for each of the mechanisms with different inputs.
 const STATES: usize = 1000;
 
-/// Largest difference of two solutions of the same equations, as a fraction of the terms that
-/// cancel in their results.
+/// Largest difference between two solutions of the same equations, as a fraction of the terms that
+/// cancel in the results.
 const SAME: f64 = 1e-13;
 
-/// Fractions by which inputs differ from those of the scene, key by key in turn.
+/// Relative changes of the inputs; they are assigned to the keys in turn.
 const SHARES: [[f64; 3]; 4] = [
     [0.0, 0.0, 0.0],
     [0.13, -0.08, 0.11],
@@ -65,7 +65,7 @@ const SHARES: [[f64; 3]; 4] = [
     [0.3, 0.17, -0.12],
 ];
 
-/// Returns the numbers for the keys of a list.
+/// Returns the numbers in the scene for the keys of a list.
 fn numbers(keys: &[&str], text: &str) -> Vec<String> {
     let opened = |key: &&str| match Template::new(text, &[key]) {
         Ok(_) => vec![(*key).to_owned()],
@@ -90,7 +90,8 @@ fn study(text: &str) -> Study {
         .unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Returns the scene on the rows of the code, which may differ from its default rows.
+/// Returns the scene with the independent rows of the code, which may differ from the default rows
+/// of the scene.
 fn on_rows_of(code: &dyn SceneCode, mut study: Study) -> Study {
     let spec = code.spec();
     let moved = study.prepared.on_rows(&spec.kept, &spec.position_kept);
@@ -98,7 +99,7 @@ fn on_rows_of(code: &dyn SceneCode, mut study: Study) -> Study {
     study
 }
 
-/// Returns the code with the numbers of a mechanism.
+/// Returns the code with the values of a mechanism.
 fn of(code: &dyn SceneCode, prepared: &PreparedMechanism) -> Arc<SharedCode> {
     let inputs = code.inputs().expect("it takes numbers");
     let values = inputs.of("code", &prepared.mechanism).expect("its numbers");
@@ -109,7 +110,7 @@ fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// Returns states near the motion, every second one off the constraints.
+/// Returns states near the motion; every second one violates the constraints.
 fn states(study: &Study) -> Vec<State> {
     let options = study.options.as_ref().expect("a run");
     let subject = Subject::of_run(&study.prepared, options).expect("runs");
@@ -140,7 +141,7 @@ fn states(study: &Study) -> Vec<State> {
     found
 }
 
-/// Compares all functions of code with the interpreter of a mechanism.
+/// Compares all functions of the code with the interpreter of a mechanism.
 fn compare(what: &str, code: &dyn SceneCode, study: &Study) {
     let prepared = &study.prepared;
     let mechanism = &prepared.mechanism;
@@ -238,7 +239,7 @@ fn a_module_with_inputs_is_the_interpreter_of_every_scene_with_other_numbers_in_
         let study = on_rows_of(&code, study);
         let own = of(&code, &study.prepared);
         compare(&format!("{shares:?}"), &*own, &study);
-        // The principal axes are those of the mechanism.
+        // The principal axes must be those of the mechanism.
         let inputs = code.inputs().expect("numbers");
         let values = inputs
             .of("arm", &study.prepared.mechanism)
@@ -252,7 +253,7 @@ fn a_module_with_inputs_is_the_interpreter_of_every_scene_with_other_numbers_in_
     }
 }
 
-/// A run reads the numbers from its mechanism automatically.
+/// A run takes the values of the inputs from its mechanism automatically.
 #[test]
 fn runs_take_the_numbers_of_their_scenes() {
     let ends = |prepared: &PreparedMechanism, study: &Study| {
@@ -286,8 +287,8 @@ fn runs_take_the_numbers_of_their_scenes() {
     }
 }
 
-/// The choice of independent rows may depend on any number. Without a choice by the user the rows
-/// are those of the code; rows that the user chose remain.
+/// The independent rows may depend on any number. If the user has not specified rows, the rows of
+/// the code are used; rows that the user specified do not change.
 #[test]
 fn rows_that_nobody_chose_are_those_of_the_code() {
     let code = || -> Arc<SharedCode> { Arc::new(arm::Code(arm::DESCRIBED)) };
@@ -304,7 +305,7 @@ fn rows_that_nobody_chose_are_those_of_the_code() {
     );
 }
 
-/// Far from the described values the code is either correct or rejected because of its pivots.
+/// Far from the described values, the code is either correct or rejected because of its pivots.
 #[test]
 fn far_values_are_served_or_refused() {
     let code = four_bar::Code(four_bar::DESCRIBED);
@@ -339,7 +340,7 @@ fn far_values_are_served_or_refused() {
     );
 }
 
-/// The input is a whole tensor of inertia, in bodies whose frames are not principal.
+/// The inputs are whole tensors of inertia, in bodies whose frames are not along principal axes.
 #[test]
 fn tensors_of_inertia_are_inputs() {
     let text = include_str!("space/tumbling.toml");
@@ -358,8 +359,8 @@ fn tensors_of_inertia_are_inputs() {
     compare("tumbling", &*of(&tape, &study.prepared), &study);
 }
 
-/// The inputs are the values of functions of time of every kind; the break times are constants of
-/// the module.
+/// The inputs are parameters of functions of time of every kind; break times are constants of the
+/// module.
 #[test]
 fn functions_of_time_have_their_coefficients_as_inputs() {
     let text = r#"
@@ -420,7 +421,7 @@ t_end = 0.5
     }
 }
 
-/// Several states are evaluated at once, each with its own numbers.
+/// Several states are evaluated at once, each with its own values of the inputs.
 #[test]
 fn lanes_have_numbers_of_their_own() {
     let states = states(&study(FOUR_BAR));
@@ -467,8 +468,8 @@ fn a_list_of_operations_takes_the_same_numbers_as_a_module() {
     }
 }
 
-/// A number that is not an input is a constant of the code: a scene with another value is rejected,
-/// and the error names a value that shows the difference.
+/// A number that is not an input is a constant of the code. A scene with another value is rejected,
+/// and the error names a value that differs.
 #[test]
 fn a_scene_that_differs_in_another_number_is_refused() {
     let code = || -> Arc<SharedCode> { Arc::new(four_bar::Code(four_bar::DESCRIBED)) };
@@ -499,7 +500,8 @@ fn a_scene_that_differs_in_another_number_is_refused() {
     );
 }
 
-/// Two springs of one stiffness have one input, until a scene gives one of them another stiffness.
+/// Two springs with the same stiffness have one input, until a scene gives one of them another
+/// stiffness.
 #[test]
 fn numbers_that_are_one_input_may_not_differ_in_a_mechanism() {
     let text = r#"
@@ -528,12 +530,13 @@ simulate = { t_end = 0.5 }
         }
         other => panic!("{other:?}"),
     }
-    // The scene is changed as advised.
+    // The scene is changed as the message advises.
     let two = tape(&["force.first.stiffness", "force.second.stiffness"]);
     uneven().with_code(two).expect("its own");
 }
 
-/// A number that cannot be an input is rejected with its key, and the advice is correct.
+/// A number that cannot be an input is rejected with its key, and the advice in the message is
+/// correct.
 #[test]
 fn what_is_no_number_of_the_equations_is_refused_by_name() {
     let refused = |text: &str, key: &str| {
@@ -577,7 +580,8 @@ fn what_is_no_number_of_the_equations_is_refused_by_name() {
         misspelt.contains("body `crank` has no key `mas`"),
         "{misspelt}"
     );
-    // As advised, the tensor with products of inertia can be an input.
+    // As the message advises, the tensor is described with products of inertia and can then be an
+    // input.
     let described = round.replace("k = 0.0", "k = 0.01");
     let choices = Choices {
         inputs: vec!["k".to_owned()],
@@ -593,7 +597,7 @@ fn what_is_no_number_of_the_equations_is_refused_by_name() {
     .expect("an input");
 }
 
-/// The modules in the repository equal those of their scenes.
+/// The modules in the repository must be equal to those generated from their scenes.
 #[test]
 fn the_checked_in_modules_with_inputs_agree_with_their_scenes() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -1,5 +1,5 @@
-//! Runs on generated code for every scene: the motion equals that of the interpreter, also if the
-//! run switches between them.
+//! Runs with generated code for every scene. The motion must be equal to that of the interpreter,
+//! also if the run switches between the two.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -14,17 +14,17 @@ use pfaff_scene_codegen::{Subject, Tape};
 
 mod space;
 
-/// Tolerance of two runs that are compared.
+/// Tolerance of the two runs that are compared.
 const RTOL: f64 = 1e-10;
 
-/// Largest difference as a fraction of the largest coordinate or velocity: in stiff cranks no error
-/// decays during the run.
+/// Largest difference as a fraction of the largest coordinate or velocity; for stiff cranks, errors
+/// do not decay during the run.
 const SAME: f64 = 1e-6;
 
 /// Largest difference in space.
 const SAME_IN_SPACE: f64 = 1e-9;
 
-/// Returns rows [q; v].
+/// Returns the rows [q; v] of a run, and its summary.
 fn run(prepared: &PreparedMechanism, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
     let mut rows = Vec::new();
     let summary = simulate(prepared, options, |row| {
@@ -43,7 +43,7 @@ fn runs_on_code_are_those_of_the_interpreter_on_every_scene() {
     }
 }
 
-/// The chain swings through configurations at which its pivots vanish; the others do not.
+/// The chain swings through configurations at which its pivots are zero; the other scenes do not.
 #[test]
 fn runs_on_code_are_those_of_the_interpreter_in_space() {
     for (name, text) in space::scenes() {
@@ -53,8 +53,8 @@ fn runs_on_code_are_those_of_the_interpreter_in_space() {
     }
 }
 
-/// Returns how often a run on code leaves the code, and its largest difference from the run of the
-/// interpreter.
+/// Returns how often a run with code switches to the interpreter, and its largest difference from a
+/// run with the interpreter.
 fn compare(name: &str, text: &str) -> (usize, f64) {
     let study = AssembledScene::read(name, text, &Registry::standard())
         .and_then(|b| b.prepare(&RunOptions::default()))
@@ -100,7 +100,7 @@ fn largest(x: impl IntoIterator<Item = f64>) -> f64 {
     x.into_iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// Returns the turning cranks without the third one.
+/// Returns the scene of the turning cranks without the third crank.
 fn two_turning_cranks(three: &str) -> String {
     let blocks = three.split("\n\n");
     blocks
@@ -109,9 +109,10 @@ fn two_turning_cranks(three: &str) -> String {
         .join("\n\n")
 }
 
-/// At configurations with collinear cranks, branches of the motion meet. The run leaves the code
-/// before these points, at another point for every tolerance. The interpreter, alone or after the
-/// code, passes all of them and remains on the branch of parallel cranks.
+/// At configurations with collinear cranks, branches of the motion meet. The run switches to the
+/// interpreter before these configurations; the point of the switch depends on the tolerance. The
+/// interpreter, alone or after the code, passes all of these configurations and remains on the
+/// branch of parallel cranks.
 #[test]
 fn passages_do_not_depend_on_tolerances_or_on_who_evaluates() {
     let three = suite::find("turning-cranks").expect("a case").scene;

@@ -1,5 +1,5 @@
-//! `active`: joints, drives, forces and groups that are read and checked, but are not part of the
-//! mechanism.
+//! The key `active`: joints, drives, forces and groups with `active = false` are read and checked,
+//! but they are not part of the mechanism.
 
 use crate::dimension::Dimension;
 use crate::key::{Key, Takes};
@@ -10,9 +10,9 @@ pub(crate) const ACTIVE: Key = Key::optional("active", "true or false", Takes::S
     .doc("Whether it is there; what is not is read and checked only. A number or an expression is false where it is zero")
     .or(|| true.into());
 
-/// Whether the item of a table is part of the mechanism. An unreadable value is reported and counts
-/// as `true`. This function does not mark the key as known, because the key is the last one of its
-/// table.
+/// Returns whether the item of a table is part of the mechanism. An unreadable value is reported
+/// and counts as `true`. This function does not mark the key as known, because the key is the last
+/// one of its table.
 pub(crate) fn read(table: &Table) -> bool {
     let Some(field) = table.field(ACTIVE.name) else {
         return true;

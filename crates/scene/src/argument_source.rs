@@ -14,14 +14,15 @@ use crate::space::SceneSpace;
 pub(crate) enum ArgumentSource<'a> {
     /// All points and directions are in the table of the element.
     Text,
-    /// They are taken from two markers.
+    /// Points and directions are taken from two markers.
     Markers(JointMarkers<'a>),
-    /// They are taken from two joints, except the pitch point and the line of action.
+    /// Points and axes are taken from two joints; only the pitch point and the line of action are
+    /// in the table.
     Bearings(Bearings<'a>),
 }
 
 impl ArgumentSource<'_> {
-    /// Whether the argument of a parameter comes from outside the table of the element.
+    /// Returns whether the argument of a parameter is taken from markers or joints.
     pub(crate) fn gives(&self, spec: &Spec, parameter: usize) -> bool {
         match (self, spec.parameters[parameter].shape) {
             (Self::Text, _) => false,
@@ -38,8 +39,8 @@ impl ArgumentSource<'_> {
         }
     }
 
-    /// The argument of such a parameter, if it could be read, and the position of the markers or
-    /// joints in the text. Returns `None` if the argument is in the table.
+    /// Returns the argument of such a parameter, if it could be read, and the position of the
+    /// markers or joints in the text. Returns `None` if the argument is in the table.
     pub(crate) fn argument<S: SceneSpace>(
         &self,
         spec: &Spec,

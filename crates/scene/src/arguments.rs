@@ -1,4 +1,4 @@
-//! The values of the parameters of a definition, and the element built from them.
+//! The values of the parameters of a definition, and the construction of the element from them.
 
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ use crate::space::SceneSpace;
 use crate::table::Table;
 
 /// Values in the order of the parameters. A value that could not be read is replaced by a valid
-/// one, so that the others are still checked.
+/// one, so that the other values can still be checked.
 pub(crate) struct Arguments {
     pub(crate) values: Vec<Argument>,
     pub(crate) functions: Vec<Function>,
@@ -26,8 +26,8 @@ pub(crate) struct Arguments {
 }
 
 impl Arguments {
-    /// Reads all parameters of a definition except the points, which are read with its reference
-    /// point.
+    /// Reads all parameters of a definition except the points; points are read together with the
+    /// reference point.
     pub(crate) fn read<S: SceneSpace>(
         table: &mut Table,
         spec: &'static Spec,
@@ -105,8 +105,8 @@ impl Arguments {
         self.spans.push(span);
     }
 
-    /// Axes that are parallel to those of another parameter, and the position of the latter in the
-    /// text.
+    /// Returns axes that are parallel to the axes of another parameter, and the position of that
+    /// parameter in the text.
     fn like<S: SceneSpace>(
         &self,
         spec: &Spec,
@@ -120,16 +120,16 @@ impl Arguments {
         (Some(axes), self.spans[other].clone())
     }
 
-    /// Builds the element and reports every fault that its definition finds. Returns `None` if
-    /// there is a fault.
+    /// Builds the element and reports every error that its definition finds. Returns `None` if
+    /// there is an error.
     pub(crate) fn build<S: SceneSpace, E>(
         &mut self,
         table: &Table,
         spec: &'static Spec,
         build: fn(&[Argument]) -> Result<E, ArgumentError>,
     ) -> Option<E> {
-        // A definition reports only its first fault: replace the value by a valid one and try
-        // again.
+        // A definition reports only the first error, so the value is replaced by a valid one and
+        // the construction is repeated.
         for _ in 0..=spec.parameters.len() {
             let error = match build(&self.values) {
                 Ok(element) => return self.complete.then_some(element),
@@ -176,11 +176,11 @@ fn label(error: &ArgumentError) -> &'static str {
     }
 }
 
-/// The value of a parameter that does not depend on time.
+/// Reads the value of a parameter that does not depend on time.
 fn value<S: SceneSpace>(field: &Field, shape: Shape) -> Option<Argument> {
     let expected = shape.words(S::DIM).to_string();
     match shape {
-        // Points, directions and axes have been read before.
+        // Points, directions and axes were read earlier.
         Shape::Point { .. } | Shape::Direction { .. } | Shape::Axes { .. } => None,
         Shape::GroundPlane => plane::<S>(field, &expected),
         Shape::GroundLine => {

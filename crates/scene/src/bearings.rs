@@ -1,5 +1,5 @@
-//! `bearings`: a gear mesh between two wheels that two joints support on one carrier. These joints
-//! define the bodies, the axes and the points on them.
+//! `bearings`: a gear mesh between two wheels that are supported by two joints on one carrier.
+//! These joints define the bodies, the axes and the points on the axes.
 
 mod line;
 
@@ -37,14 +37,14 @@ pub(crate) const PRESSURE_ANGLE: Key =
         .doc("Angle by which the line of action is turned from the normal of the plane of both axes, about the line along which the wheels roll, towards the second wheel; not together with a line of action")
         .or(|| json!(0.0));
 
-/// The slot of the carrier; it comes after the slots of the wheels.
+/// Index of the carrier in the list of bodies; it comes after the wheels.
 pub(crate) const CARRIER: usize = 2;
 
 /// The two joints that support the wheels of a gear mesh.
 pub(crate) struct Bearings<'a> {
     /// Position of the two joint names in the text.
     pub(crate) span: Range<usize>,
-    /// Present if the joints support two wheels on one carrier; otherwise the fault has been
+    /// Two wheels on one carrier; `None` if the joints do not support such wheels, which has been
     /// reported.
     wheels: Option<Wheels<'a>>,
 }
@@ -53,7 +53,7 @@ pub(crate) struct Bearings<'a> {
 struct Wheels<'a> {
     /// The two wheels, followed by the carrier.
     bodies: [BodyRef; 3],
-    /// Points and axes of both bearings, on the wheel and on the carrier.
+    /// Point and axis of both bearings, each on the wheel and on the carrier.
     points: [[&'a Argument; 2]; 2],
     axes: [[&'a Argument; 2]; 2],
 }
@@ -75,7 +75,7 @@ impl<'a> Bearings<'a> {
         }
     }
 
-    /// The bodies of the slots.
+    /// The bodies in the order of the definition.
     pub(crate) fn slots(&self) -> Vec<Option<BodyRef>> {
         let wheels = self.wheels.as_ref();
         wheels.map_or_else(|| vec![None; 3], |own| own.bodies.map(Some).to_vec())
@@ -95,8 +95,8 @@ impl<'a> Bearings<'a> {
         Some(argument.clone())
     }
 
-    /// The line of action and its position in the text. It is written in the text and read by
-    /// `direction`, or it follows from the pressure angle.
+    /// Returns the line of action and its position in the text. The line is given in the text and
+    /// read with `direction`, or it is computed from the pressure angle.
     pub(crate) fn line(
         &self,
         table: &mut Table,
@@ -158,8 +158,9 @@ fn xyz(argument: &Argument) -> Option<[f64; 3]> {
 }
 
 impl<'a> Wheels<'a> {
-    /// The two wheels; their joints connect each of them to the carrier, the only body that both
-    /// joints have in common. Returns `None` and reports if there are no such wheels.
+    /// Finds the two wheels. Their joints connect each wheel to the carrier, the only body that
+    /// both joints have in common. If there are no such wheels, the function reports this and
+    /// returns `None`.
     fn of<S: SceneSpace>(
         field: &Field,
         named: [&'a JointRead<S>; 2],
@@ -218,7 +219,7 @@ impl<'a> Wheels<'a> {
             return None;
         };
         let read = [first, second];
-        // The slot of the wheel in each bearing.
+        // For each bearing, the index of the wheel in the list of bodies of the joint.
         let wheels = read.map(|(bearing, _)| usize::from(bearing.joint.bodies[0] == carrier));
         let arguments = |which: usize| {
             [0, 1].map(|k| {
@@ -247,8 +248,8 @@ impl<'a> Wheels<'a> {
         Some(Axis { point, along })
     }
 
-    /// The wheel for which a force along this line through the pitch point has no lever arm about
-    /// its axis.
+    /// Returns the wheel for which a force along this line through the pitch point has no lever arm
+    /// about the axis of the wheel.
     fn missed_by(&self, line: &Argument, pitch: &Argument) -> Option<&'static str> {
         let (line, pitch) = (xyz(line)?, xyz(pitch)?);
         let names = ["first", "second"].into_iter().enumerate();
@@ -256,8 +257,8 @@ impl<'a> Wheels<'a> {
         axes.find_map(|(name, axis)| (!axis.has_lever(line, pitch)).then_some(name))
     }
 
-    /// The line of action of wheels that meet at a pitch point of the carrier, if the text gives no
-    /// line.
+    /// Returns the line of action if the text does not give it; the wheels are in contact at a
+    /// pitch point of the carrier.
     fn line(&self, pitch: [f64; 3], pressure_angle: f64) -> Result<[f64; 3], &'static str> {
         match [0, 1].map(|k| self.axis(k)) {
             [Some(first), Some(second)] => line::of_action([first, second], pitch, pressure_angle),
@@ -266,7 +267,7 @@ impl<'a> Wheels<'a> {
     }
 }
 
-/// For a point or an axis: whether the parameter is an axis, and the slot of its body.
+/// For a point or an axis, returns whether the parameter is an axis, and the index of its body.
 fn slot_of(shape: Shape) -> Option<(bool, usize)> {
     match shape {
         Shape::Point { slot } => Some((false, slot)),
@@ -275,8 +276,8 @@ fn slot_of(shape: Shape) -> Option<(bool, usize)> {
     }
 }
 
-/// The parameters for point and axis of each of two bodies, if the definition has one of each and
-/// one angle.
+/// Returns the parameters for point and axis of each of two bodies, if the definition has exactly
+/// one of each and one angle.
 fn parameters<S: SceneSpace>(definition: &ConstraintDefinition<S>) -> Option<[[usize; 2]; 2]> {
     let spec = definition.spec;
     let only = |is_axes: bool, slot: usize| {

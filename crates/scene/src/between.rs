@@ -1,5 +1,6 @@
-//! `markers`: a joint between two oriented markers, z along its axis, x across; the markers define
-//! the points and directions on both bodies.
+//! `markers`: a joint between two oriented markers. The z direction of a marker is the axis of the
+//! joint, and x is perpendicular to it. The markers define the points and directions on both
+//! bodies.
 
 use std::ops::Range;
 
@@ -22,7 +23,8 @@ pub(crate) const MARKERS: &str = "markers";
 /// The expected value of the key.
 const EXPECTED: &str = "two markers [first, second]";
 
-/// Whether a definition connects two bodies at points or along axes, which markers can define.
+/// Returns whether a definition connects two bodies at points or along axes, so that markers can
+/// define it.
 pub(crate) fn takes_markers<S: SceneSpace>(spec: &Spec) -> bool {
     let is_given = |shape: Shape| {
         matches!(
@@ -36,7 +38,7 @@ pub(crate) fn takes_markers<S: SceneSpace>(spec: &Spec) -> bool {
         && spec.parameters.iter().any(|p| is_given(p.shape))
 }
 
-/// Keys that `markers` replaces: the reference point, and parameters and keys of directions.
+/// The keys that `markers` replaces: the reference point, and parameters and keys for directions.
 fn replaced(spec: &'static Spec) -> Vec<&'static str> {
     let mut keys = Vec::new();
     if spec.slots_of_points().next().is_some() {
@@ -47,7 +49,7 @@ fn replaced(spec: &'static Spec) -> Vec<&'static str> {
     keys
 }
 
-/// The parameters of a definition that are written as directions.
+/// The parameters of a definition that are directions.
 fn directions(spec: &'static Spec) -> impl Iterator<Item = &'static str> {
     let is_written = |shape: Shape| {
         matches!(
@@ -68,8 +70,7 @@ pub(crate) struct JointMarkers<'b> {
 }
 
 impl<'b> JointMarkers<'b> {
-    /// Reads `markers` of a definition whose slots contain the bodies `slots`; `None` if the key is
-    /// not written.
+    /// Reads `markers` of a definition with these bodies; `None` if the key is not in the text.
     pub(crate) fn read<S: SceneSpace>(
         table: &mut Table,
         spec: &'static Spec,
@@ -94,8 +95,8 @@ impl<'b> JointMarkers<'b> {
         Some(between)
     }
 
-    /// The argument of a point, or of a parameter along or across the axis: z of the marker of its
-    /// body, and x for the direction `cross`.
+    /// Returns the argument of a point, or of a direction: z of the marker of its body for a
+    /// direction along the axis, x for the direction `cross`.
     pub(crate) fn argument<S: SceneSpace>(
         &self,
         parameter: &Parameter,

@@ -1,5 +1,5 @@
-//! The bodies of the text, with their names and markers: points relative to the centres of mass of
-//! their bodies.
+//! The bodies of the text, with their names and markers. Points are relative to the centres of
+//! mass.
 
 use joints::{Plane, Space3};
 use model::{BodyRef, Marker, StartPose};
@@ -14,7 +14,7 @@ use crate::table::Table;
 /// The bodies of the text.
 pub(crate) struct Bodies<S: SceneSpace> {
     pub(crate) list: Vec<S::Body>,
-    /// Start poses of the bodies that do not start at their described pose.
+    /// Initial poses of the bodies whose initial pose differs from the described pose.
     pub(crate) poses: Vec<StartPose>,
     pub(crate) names: BodyNames,
     /// Markers by name.
@@ -33,7 +33,7 @@ impl<S: SceneSpace> Default for Bodies<S> {
 }
 
 impl<S: SceneSpace> Bodies<S> {
-    /// Reads one body. Unreadable numbers are replaced by zero; they have been reported.
+    /// Reads one body. Values that cannot be read are replaced by zero; they have been reported.
     pub(crate) fn read(&mut self, mut table: Table, name: &str)
     where
         S: SceneBody,
@@ -55,20 +55,21 @@ impl<S: SceneSpace> Bodies<S> {
         table.close();
     }
 
-    /// A point in the frame of a body relative to its centre of mass, as joints and forces need it;
-    /// for the ground, the point itself.
+    /// Converts a point of a body frame to a point relative to the centre of mass, as joints and
+    /// forces require; points of the ground do not change.
     pub(crate) fn about_centre(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| self.list.get(at));
         described.map_or(point, |body| S::from_centre(body, point))
     }
 
-    /// A global point relative to the centre of mass of a body, in the axes of this body.
+    /// Converts a point in ground coordinates to a point relative to the centre of mass of a body,
+    /// in the axes of this body.
     pub(crate) fn to_local(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
         let described = body.moving().and_then(|at| self.list.get(at));
         described.map_or(point, |body| S::to_local(body, point))
     }
 
-    /// Global coordinates of a marker in the described configuration.
+    /// Ground coordinates of a marker in the described configuration.
     pub(crate) fn global(&self, marker: &Marker) -> S::Vector<f64> {
         let point = self.place_of(marker);
         match marker.body {
@@ -82,7 +83,7 @@ impl<S: SceneSpace> Bodies<S> {
         self.about_centre(marker.body, S::vector(marker.point))
     }
 
-    /// Reports a marker of a wrong body if a point of another body is needed.
+    /// Reports that a marker belongs to a wrong body, if a point of the body `needed` is required.
     pub(crate) fn foreign(&self, marker: &Marker, needed: BodyRef, field: &Field) {
         let name = &marker.name;
         let advice = format!(

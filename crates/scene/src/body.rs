@@ -1,4 +1,4 @@
-//! `[[body]]`, and the names of bodies elsewhere in the file.
+//! `[[body]]`, and references to bodies by name in the rest of the file.
 
 mod orientation;
 mod plane;
@@ -21,16 +21,16 @@ use crate::table::Table;
 
 /// A space whose bodies can be read.
 pub(crate) trait SceneBody: SceneSpace {
-    /// Keys of a body in addition to its name.
+    /// Keys of a body, except its name.
     const BODY_KEYS: &'static [Key];
 
-    /// Reads one body; unreadable numbers are replaced by zero.
+    /// Reads one body; values that cannot be read are replaced by zero.
     fn read_body(table: &mut Table, name: &str) -> Self::Body;
 
-    /// The key for the start pose of a body, if it differs from the described pose.
+    /// The key for the initial pose of a body, if it differs from the described pose.
     const START: Key;
 
-    /// Reads the value of this key; coordinates that it omits have their described values.
+    /// Reads the value of this key; coordinates that are not given have their described values.
     fn read_start(start: &mut Table, body: &Self::Body) -> FramePose;
 }
 
@@ -38,12 +38,12 @@ pub(crate) trait SceneBody: SceneSpace {
 #[derive(Default)]
 pub(crate) struct BodyNames {
     pub(crate) entries: Vec<Entry>,
-    /// Indices by name; if a name is used twice, the first body.
+    /// Indices by name; if a name is used twice, the index of the first body.
     by_name: HashMap<String, usize>,
-    /// Number of bodies without a name. The reader assumes that each of them has one of the unknown
-    /// names.
+    /// Number of bodies without a name. The reader assumes that each of these bodies has one of the
+    /// unknown names.
     unnamed: usize,
-    /// The names assumed for bodies without a name.
+    /// The unknown names that are assumed to be names of these bodies.
     theirs: RefCell<BTreeSet<String>>,
 }
 
@@ -59,7 +59,7 @@ impl BodyNames {
         self.entries.push(Entry::of(name, table));
     }
 
-    /// The body whose name this field contains; `ground` is the ground.
+    /// Returns the body with the name in this field; `ground` is the ground.
     pub(crate) fn find(&self, field: &Field) -> Option<BodyRef> {
         let name = field.text("the name of a body")?;
         if name == GROUND {
@@ -77,8 +77,8 @@ impl BodyNames {
         self.by_name.get(name).copied()
     }
 
-    /// Reports a body that does not exist, unless another problem reported for the bodies explains
-    /// it.
+    /// Reports that a body does not exist, unless another reported problem of the bodies explains
+    /// this.
     pub(crate) fn unknown(&self, field: &Field, name: &str) {
         let Field {
             subject, findings, ..
@@ -112,7 +112,7 @@ impl BodyNames {
         self.entries.iter().map(|entry| entry.name.as_str())
     }
 
-    /// Whether an unknown name may be the name of a body without a name.
+    /// Returns whether an unknown name may belong to a body without a name.
     fn is_of_unnamed(&self, name: &str) -> bool {
         let mut theirs = self.theirs.borrow_mut();
         if theirs.len() < self.unnamed {

@@ -1,5 +1,5 @@
-//! Linear combinations of reactions: of components, such as `W3.N + W4.N` or `2*A.Fx - B.T`, or of
-//! whole wrenches, such as `W3 + W4`.
+//! Linear combinations of reactions. They combine either components, such as `W3.N + W4.N` or
+//! `2*A.Fx - B.T`, or whole wrenches, such as `W3 + W4`.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -8,17 +8,17 @@ use joints::{LARGEST, is_usable};
 
 use crate::nearest::{list, nearest};
 
-/// The terms of a sum, at least one.
+/// The terms of a sum, at least one term.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Combination {
-    /// `Σ coefficient·component`: one number.
+    /// `Σ coefficient·component`: a scalar.
     Components(Vec<Term>),
-    /// `Σ coefficient·wrench`: force and torque, the torque about the reference point of the first
-    /// joint or drive.
+    /// `Σ coefficient·wrench`: force and torque; the torque is about the reference point of the
+    /// first joint or drive.
     Wrenches(Vec<WrenchTerm>),
 }
 
-/// One component of the reaction of a joint or drive, times a number.
+/// One component of the reaction of a joint or drive, times a factor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
     /// The factor; 1 if the text has no factor.
@@ -29,7 +29,7 @@ pub struct Term {
     pub component: String,
 }
 
-/// The wrench of the reaction of a joint or drive, times a number.
+/// The wrench of the reaction of a joint or drive, times a factor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrenchTerm {
     /// The factor; 1 if the text has no factor.
@@ -42,26 +42,26 @@ pub struct WrenchTerm {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{problem}")]
 pub struct CombinationError {
-    /// The fault.
+    /// The kind of error.
     pub problem: CombinationProblem,
     /// Position in the expression (bytes).
     pub span: Range<usize>,
 }
 
-/// Fault of a combination.
+/// Kind of error in a combination.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CombinationProblem {
     /// A term is missing.
     #[error("expected a term as `A`, `A.Fx` or `2*A.Fx`")]
     NoTerm,
-    /// Two terms without a sign between them.
+    /// There is no sign between two terms.
     #[error("expected `+` or `-` between terms, found `{found}`")]
     NoSign {
-        /// The character found instead of a sign.
+        /// The character found in place of a sign.
         found: char,
     },
-    /// A whole reaction in a sum of components, or a component in a sum of whole reactions.
+    /// A whole reaction is in a sum of components, or a component is in a sum of whole reactions.
     #[error("`{text}` is {}; write all terms with a component, or none", mixed(.whole))]
     Mixed {
         /// Text of the term.
@@ -69,7 +69,7 @@ pub enum CombinationProblem {
         /// Whether the term is a whole reaction.
         whole: bool,
     },
-    /// A number before a term without `*` between them.
+    /// There is no `*` between a number and a term.
     #[error("a factor is written with `*`: `{factor}*{term}`")]
     NoTimes {
         /// Text of the number.
@@ -91,7 +91,7 @@ pub enum CombinationProblem {
         /// Name of the joint or drive.
         name: String,
     },
-    /// The reaction does not have a component.
+    /// The reaction does not have a component with this name.
     #[error("the reaction of `{reaction}` has no component `{component}`; it has {available}")]
     UnknownComponent {
         /// Name of the joint or drive.
@@ -101,7 +101,7 @@ pub enum CombinationProblem {
         /// Components of the reaction.
         available: String,
     },
-    /// A factor that is too large.
+    /// A factor is too large.
     #[error("the factor `{text}` is not a finite number up to {LARGEST:e}")]
     NotFinite {
         /// Text of the factor.
@@ -127,10 +127,10 @@ pub(crate) struct ReactionNames<'a> {
     pub(crate) components: Option<Vec<&'static str>>,
 }
 
-/// All joints and drives, with a search by name.
+/// All joints and drives, which can be found by name.
 pub(crate) struct Reactions<'a> {
     list: Vec<ReactionNames<'a>>,
-    /// Indices by name; if a name is used twice, the first one.
+    /// Indices by name; if a name is used twice, the index of the first.
     by_name: HashMap<&'a str, usize>,
     /// Length of the longest name (bytes).
     longest: usize,
@@ -174,12 +174,12 @@ impl<'a> Reactions<'a> {
         self.by_name.get(name).map(|&at| &self.list[at])
     }
 
-    /// The joint or drive with the longest name at the start of a text, if a term may end after the
-    /// name.
+    /// Returns the joint or drive with the longest name at the start of a text, if a term may end
+    /// after this name.
     fn longest_at(&self, text: &str) -> Option<&ReactionNames<'a>> {
         let reach = text.floor_char_boundary(self.longest);
         let end = (reach == text.len()).then_some(reach);
-        // The search includes one letter after the longest name.
+        // The search includes one more character after the longest name.
         let ends = text[reach..]
             .chars()
             .next()
@@ -235,8 +235,8 @@ impl Combination {
         }
     }
 
-    /// Adds a term of the same kind; for a term of the other kind, returns whether it was a whole
-    /// wrench.
+    /// Adds a term of the same kind; for a term of the other kind, the error is whether that term
+    /// is a whole wrench.
     fn push(&mut self, term: ParsedTerm) -> Result<(), bool> {
         match (self, term) {
             (Self::Components(terms), ParsedTerm::Component(term)) => terms.push(term),
@@ -311,7 +311,7 @@ impl<'a> Scanner<'a> {
         }))
     }
 
-    /// A number before `*`, with its own sign if there is one; 1 without a number.
+    /// Reads a number before `*`, with its sign if there is one; the result is 1 without a number.
     fn factor(&mut self) -> Result<f64, CombinationError> {
         let rest = self.rest();
         let in_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c) || c.is_whitespace();
@@ -337,7 +337,7 @@ impl<'a> Scanner<'a> {
         Ok(value)
     }
 
-    /// A number and the term after it, if only `*` is missing between them.
+    /// Returns a number and the term after it, if only `*` is missing between them.
     fn factor_without_times(&self, all: &Reactions) -> Option<(&'a str, &'a str)> {
         let rest = self.rest();
         let in_number = |c: char| c.is_ascii_digit() || c == '.';

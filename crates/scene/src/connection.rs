@@ -1,5 +1,6 @@
-//! The bodies that a joint or force connects: `body`, `bodies`, and keys of further slots. The
-//! number of bodies and the key of a variant select one of the definitions that share a scene type.
+//! The bodies that a joint or force connects: `body`, `bodies`, and the keys of further bodies. The
+//! number of bodies and the key of a variant select one of the definitions that have the same type
+//! in scenes.
 
 use joints::spec::Spec;
 use model::BodyRef;
@@ -16,16 +17,16 @@ pub(crate) const BODY: &str = "body";
 /// Key for two bodies.
 pub(crate) const BODIES: &str = "bodies";
 
-/// Number of slots that `body` or `bodies` defines; each further slot has its own key.
+/// Number of bodies that `body` or `bodies` contains; each further body has its own key.
 pub(crate) fn listed(spec: &Spec) -> usize {
     spec.slots.len().min(2)
 }
 
-/// The bodies of the slots `body` or `bodies`, as far as they could be read.
+/// The bodies in `body` or `bodies`; `None` for a body that could not be read.
 pub(crate) type NamedBodies = Vec<Option<BodyRef>>;
 
-/// Reads `body` or `bodies`. Returns `None` and reports if the key is missing or if no definition
-/// accepts its bodies.
+/// Reads `body` or `bodies`. If the key is missing or no definition accepts this number of bodies,
+/// the function reports this and returns `None`.
 pub(crate) fn named(
     table: &mut Table,
     specs: &[&'static Spec],
@@ -38,7 +39,7 @@ pub(crate) fn named(
         _ => "`bodies = [first, second]`",
     };
     // A key that no definition accepts is read only if the text contains it; otherwise it would
-    // count as a key of the table.
+    // count as a known key of the table.
     let mut read = |key, is_taken| {
         let asked = is_taken || table.has(key);
         asked.then(|| table.optional(key)).flatten()
@@ -91,7 +92,7 @@ pub(crate) fn named(
     }
 }
 
-/// Checks only that the bodies exist, if the definition is unknown.
+/// If the definition is unknown, checks only that the bodies exist.
 pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames) {
     if let Some(one) = table.optional(BODY) {
         bodies.find(&one);
@@ -106,8 +107,8 @@ pub(crate) fn check_names(table: &mut Table, bodies: &BodyNames) {
     }
 }
 
-/// The bodies of all slots of the definition: the listed bodies, followed by one key for each
-/// further slot; its default is the ground.
+/// Returns all bodies of the definition: the listed bodies, followed by the bodies with their own
+/// keys; their default is the ground.
 pub(crate) fn slots(
     table: &mut Table,
     spec: &'static Spec,
@@ -123,13 +124,15 @@ pub(crate) fn slots(
     named
 }
 
-/// Index in `specs` of the definition selected by the number of bodies and the key of the variant.
+/// Selects a definition by the number of bodies and the key of the variant; returns its index in
+/// `specs`.
 pub(crate) fn choose(table: &mut Table, specs: &[&'static Spec], n_named: usize) -> Option<usize> {
     let fitting: Vec<usize> = (0..specs.len())
         .filter(|&k| listed(specs[k]) == n_named)
         .collect();
     if let [only] = fitting[..] {
-        // A variant without an alternative needs no selection, but the text may contain its key.
+        // If there is only one variant, no selection is necessary, but the text may contain the
+        // key.
         if specs[only].variant.is_none() {
             return Some(only);
         }
@@ -177,7 +180,7 @@ pub(crate) fn choose(table: &mut Table, specs: &[&'static Spec], n_named: usize)
     chosen.map(|(k, _)| k)
 }
 
-/// Marks keys as known that depend on a selection which was not possible.
+/// Marks the keys of definitions as known, because the definition could not be selected.
 pub(crate) fn forgive(table: &mut Table, specs: &[&'static Spec]) {
     for key in PLACE_KEYS {
         table.optional(key);

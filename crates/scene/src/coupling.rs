@@ -21,7 +21,7 @@ const COEFFICIENTS: Key = Key::optional("coefficients", "a list of numbers", Tak
     "Coefficients of the square, the cube, … of the change of the first measure, which are added",
 );
 
-/// Keys of a coupling in addition to its name and its type.
+/// Keys of a coupling, except its name and its type.
 pub(crate) const KEYS: [Key; 3] = [MEASURES, RATIO, COEFFICIENTS];
 
 /// Reads one coupling; `None` if it could not be read.

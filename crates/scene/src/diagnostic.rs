@@ -16,9 +16,9 @@ use crate::text::SourceText;
 pub enum Severity {
     /// The program cannot use the scene.
     Error,
-    /// The program can use the scene, but the scene is probably not what the author intended.
+    /// The scene is valid, but it is probably not what the author intended.
     Warning,
-    /// A message about other problems: the number of further problems.
+    /// A message about other problems: it gives the number of problems that are not listed.
     Note,
 }
 
@@ -28,9 +28,9 @@ pub enum Severity {
 pub struct Label {
     /// Range in the text (bytes).
     pub span: Range<usize>,
-    /// Line of the start, from 1.
+    /// Line of the start (1-based).
     pub line: usize,
-    /// Column of the start, from 1, in characters.
+    /// Column of the start in characters (1-based).
     pub column: usize,
     /// Text shown at the mark.
     pub text: String,
@@ -38,8 +38,8 @@ pub struct Label {
 
 /// One problem with its positions in the text.
 ///
-/// `Display` writes the problem in one line, `file:line:column: error: message`, in the format of
-/// compilers.
+/// `Display` writes the problem in one line, `file:line:column: error: message`, which is the usual
+/// format of compilers.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Diagnostic {
@@ -51,7 +51,7 @@ pub struct Diagnostic {
     pub file: String,
     /// The error, with the actual and the expected entry.
     pub message: String,
-    /// Position of the fault.
+    /// Position of the error.
     pub primary: Label,
     /// Other relevant positions, for example the first use of a name.
     pub secondary: Vec<Label>,
@@ -60,7 +60,7 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    /// An error with one position.
+    /// Creates an error with one position.
     #[must_use]
     pub fn error(
         code: impl Into<Code>,
@@ -80,8 +80,8 @@ impl Diagnostic {
         }
     }
 
-    /// The problem as one sentence with its line and advice, for reports without the text of the
-    /// scene.
+    /// Returns the problem as one sentence with its line and advice, for reports that do not
+    /// contain the text of the scene.
     #[must_use]
     pub fn sentence(&self) -> String {
         let help = self.help.as_ref().map(|help| format!("; {help}"));

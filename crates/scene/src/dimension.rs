@@ -1,12 +1,12 @@
-//! Dimensions of numbers: the dimension of a suffix, the dimension that a key requires, and whether
-//! both agree.
+//! Dimensions of quantities: the dimension of a unit, the dimension that a key requires, and
+//! whether the two agree.
 
 use std::fmt;
 
 use joints::spec::Unit;
 
 /// Exponents of kg, N, m, s and rad. Force has its own exponent, so that bare numbers in mm can
-/// mean N/mm and N·mm, as in drawings; comparisons use kg·m/s².
+/// mean N/mm and N·mm, as on drawings; comparisons use kg·m/s².
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Dimension([i8; 5]);
 
@@ -26,12 +26,11 @@ impl Dimension {
     pub(crate) const ANGULAR_VELOCITY: Self = Self([0, 0, 0, -1, 1]);
     pub(crate) const PER_TIME: Self = Self([0, 0, 0, -1, 0]);
 
-    /// The dimension of a value whose context is wrong, so that its dimension is unknown: every
-    /// dimension agrees with it.
+    /// The unknown dimension of a value in a wrong context; it agrees with every dimension.
     pub(crate) const UNKNOWN: Self = Self([i8::MIN; 5]);
 
-    /// The dimension of a product with a power of another dimension. Exponents that no physical
-    /// quantity has are limited to the ends of their range.
+    /// Returns the dimension of the product with a power of another dimension. Exponents that do
+    /// not occur in physical quantities are limited to the ends of their range.
     pub(crate) fn times(self, other: Self, power: i8) -> Self {
         if self == Self::UNKNOWN {
             return self;
@@ -43,13 +42,14 @@ impl Dimension {
         Self(product)
     }
 
-    /// The dimension of a square root, if it exists.
+    /// Returns the dimension of a square root, if it exists.
     pub(crate) fn root(self) -> Option<Self> {
         let is_even = self.0.iter().all(|e| e % 2 == 0);
         is_even.then(|| Self(self.0.map(|e| e / 2)))
     }
 
-    /// Exponents of length and of angle, the two quantities whose units a scene may choose.
+    /// Returns the exponents of length and angle, the two quantities whose units a scene may
+    /// choose.
     pub(crate) fn chosen(self) -> [i8; 2] {
         if self == Self::UNKNOWN {
             return [0; 2];
@@ -57,8 +57,9 @@ impl Dimension {
         [self.0[2], self.0[4]]
     }
 
-    /// Whether a value of this dimension is allowed if `expected` is required. An angle is a number
-    /// of radians: r·ω is a velocity and s/r an angle, but a single angle is not a ratio.
+    /// Returns whether a value of this dimension is permitted if `expected` is required. Radians
+    /// count as dimensionless in products: r·ω is a velocity and s/r an angle. However, a single
+    /// angle is not a ratio.
     pub(crate) fn fits(self, expected: Self) -> bool {
         let mechanical = |Self([kg, n, m, s, _]): Self| {
             let [kg, n, m, s] = [kg, n, m, s].map(i32::from);
@@ -70,7 +71,7 @@ impl Dimension {
         is_unknown || same && (angle == of || angle == 0 || mechanical(self) != [0; 3])
     }
 
-    /// Name of the quantity, with its unit.
+    /// Name of the quantity with its unit.
     pub(crate) fn words(self) -> String {
         let name = match self {
             Self::NONE => return "a number without a unit".to_owned(),

@@ -1,6 +1,6 @@
-//! Directions and axes of joints and forces. In space they are written in the axes of the first
-//! body, or of the ground (`frame = "global"`), at the described start. Directions that are not
-//! given for another body follow from this start, like a reference point.
+//! Directions and axes of joints and forces. In space they are given in the axes of the first body,
+//! or of the ground (`frame = "global"`), in the described configuration. The directions on the
+//! other body are computed from this configuration, like a reference point.
 
 mod key;
 
@@ -29,11 +29,11 @@ pub(crate) struct Directions<'b, S: SceneSpace> {
     bodies: &'b Bodies<S>,
     slots: &'b [Option<BodyRef>],
     is_global: bool,
-    /// The direction across the axis, as written in the text.
+    /// The direction perpendicular to the axis, as given in the text.
     across: Option<S::Vector<f64>>,
     /// Whether the axis is given for both bodies.
     is_paired: bool,
-    /// The axis in the frames of the bodies of the first two slots, if it could be read.
+    /// The axis in the frames of the first two bodies, if it could be read.
     own: Option<[S::Vector<f64>; 2]>,
     /// Source of the directions.
     pub(crate) source: ArgumentSource<'b>,
@@ -56,12 +56,13 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
             own: None,
             source,
         };
-        // Other keys have already been rejected.
+        // Other keys were rejected earlier.
         if let ArgumentSource::Markers(_) = directions.source {
             return directions;
         }
         if !S::CARRIES {
-            // `axes` is more likely a misspelt `axis`.
+            // `axes` is not in this list, because in the plane it is more likely a misspelling of
+            // `axis`.
             table.spaces(
                 [FRAME, CROSS, MARKERS]
                     .map(|key| (key, Space3::NAME))
@@ -85,7 +86,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         directions
     }
 
-    /// `axes`: one direction for each body, in its own frame.
+    /// Reads `axes`: one direction for each body, in the frame of this body.
     fn both(&self, field: &Field) -> Option<[S::Vector<f64>; 2]> {
         let table = field.table(S::BY_BODY)?;
         let [Some(first), Some(second)] = self.slots.first_chunk()? else {
@@ -126,8 +127,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         }
     }
 
-    /// The argument of a parameter that is not in the table of the element, and its position in the
-    /// text.
+    /// Returns the argument of a parameter that is not in the table of the element, and its
+    /// position in the text.
     pub(crate) fn given(
         &self,
         spec: &Spec,
@@ -136,19 +137,19 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         self.source.argument(spec, parameter, self.bodies)
     }
 
-    /// Whether `axes` already gives the axis.
+    /// Returns whether `axes` already gives the axis.
     pub(crate) fn has_own_axes(&self) -> bool {
         self.is_paired
     }
 
-    /// The body of a slot; `None` for the ground, or if the body is unknown, which has been
-    /// reported.
+    /// Returns the body with this index; `None` for the ground, or if the body is unknown, which
+    /// has been reported.
     fn body(&self, slot: usize) -> Option<&'b S::Body> {
         let at = self.slots.get(slot).copied().flatten()?.moving()?;
         self.bodies.list.get(at)
     }
 
-    /// A direction as written in the text, in the axes of the body in a slot.
+    /// Converts a direction of the text to the axes of the body with the index `slot`.
     fn placed(&self, direction: S::Vector<f64>, slot: usize) -> S::Vector<f64> {
         let home = match self.source {
             ArgumentSource::Bearings(_) => CARRIER,
@@ -162,13 +163,14 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         S::carried(direction, written, self.body(slot))
     }
 
-    /// The direction of a parameter.
+    /// Reads the direction of a parameter.
     pub(crate) fn direction(&self, field: &Field, slot: usize) -> Option<Argument> {
         let direction = direction::<S>(field)?;
         Some(S::argument(self.placed(direction, slot)))
     }
 
-    /// The axis of a parameter; without a field, the axis in `axes`, or the axes of the body.
+    /// Returns the axis of a parameter. Without a field, it is the axis in `axes`, or the axes of
+    /// the body frame.
     pub(crate) fn axis(&self, field: Option<&Field>, slot: usize) -> Option<Argument> {
         let axis = match (field, self.own) {
             (Some(field), _) => self.placed(direction::<S>(field)?, slot),
@@ -180,15 +182,15 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         Some(S::axis(axis, across))
     }
 
-    /// The axes of the body in `slot` that are parallel, at the described start, to given axes of
-    /// another body.
+    /// Returns the axes of the body with the index `slot` that are parallel, in the described
+    /// configuration, to given axes of another body.
     pub(crate) fn like(&self, axes: &Argument, [from, slot]: [usize; 2]) -> Argument {
         let axes = match axes {
             Argument::Axes(axes) => Some(*axes),
             Argument::Axis(axis, across) => Axes::new(*axis, *across),
             _ => None,
         };
-        // An invalid axis is reported at its own key.
+        // An invalid axis is reported for the key in which it is given.
         let axes = axes.unwrap_or(Axes::FRAME);
         let [from, to] = [from, slot].map(|slot| self.body(slot));
         let carried = axes.map(|d| S::point(S::carried(S::vector(d), from, to)));
@@ -196,7 +198,7 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
         let own = self.own.and_then(|own| own.get(slot).copied());
         let given = own.map(|axis| {
             let axis = S::point(axis);
-            // The given axis may be parallel to one of these directions.
+            // One of these directions may be parallel to the given axis.
             let [of_u, of_v] = [u, v].map(|across| dot(across, axis).abs());
             Argument::Axis(axis, Some(if of_u <= of_v { u } else { v }))
         });
@@ -210,7 +212,7 @@ fn direction<S: SceneSpace>(field: &Field) -> Option<S::Vector<f64>> {
     field.vector::<S>(&expected, Dimension::NONE)
 }
 
-/// Whether `frame` states that directions are written in ground axes.
+/// Returns whether `frame` specifies that directions are given in ground axes.
 fn is_global(field: &Field) -> bool {
     let [own, global] = FRAMES;
     let expected = format!("\"{own}\" or \"{global}\"");

@@ -1,5 +1,5 @@
-//! `[[drive]]`: joint coordinates that follow a function of time, and loads along joint coordinates
-//! that follow a force law.
+//! `[[drive]]`: drives prescribe a joint coordinate as a function of time, or apply a load along it
+//! that is given by a force law.
 
 use joints::spec::Unit;
 use model::codes::Code;
@@ -29,18 +29,18 @@ const TORQUE: Key = Key::optional("torque", LAW, Takes::Law).doc(
 );
 const LAW: &str = "a number or an expression of `measure`, `rate` and `t`";
 
-/// Keys of a drive in addition to its name and its type: a motion, or one of the force laws.
+/// Keys of a drive, except its name and its type: a motion, or one of the force laws.
 pub(crate) const DRIVE_KEYS: [Key; 4] = [JOINT, MOTION, FORCE, TORQUE];
 
 /// Description of the value of the type of a drive.
 pub(crate) const MEASURE: &str = "a measure of the joint";
 
-/// A drive of the text, as far as it could be read.
+/// A drive of the text; parts that could not be read are missing.
 pub(crate) struct DriveRead<S: SceneSpace> {
     pub(crate) name: String,
     pub(crate) is_active: bool,
     pub(crate) action: Action<S>,
-    /// The joint that the drive replaces, because the rows of this joint keep the joint coordinate
+    /// The joint that the drive replaces, if the rows of this joint keep the joint coordinate
     /// constant.
     pub(crate) in_place_of: Option<String>,
 }
@@ -71,7 +71,7 @@ pub(crate) enum Action<S: SceneSpace> {
     Law(Option<(Force<S>, Entry)>),
 }
 
-/// Reads one drive. Two drives of one joint coordinate are redundant, but not an error.
+/// Reads one drive. Two drives of the same joint coordinate are redundant, which is not an error.
 pub(crate) fn read<S: SceneSpace>(
     mut table: Table,
     name: &str,
@@ -183,8 +183,8 @@ fn read_law(field: &Field, of: Option<Dimension>) -> Option<Law> {
     field.law(LAW, of, result)
 }
 
-/// Warns of a motion that is a constant other than zero. The author may expect a speed or a
-/// position, but a drive follows f(t) − f(0).
+/// Warns about a motion that is a constant other than zero. The author may expect that the constant
+/// is a speed or a position, but the motion of a drive is f(t) − f(0).
 fn warn_if_held(motion: &Field, function: &Function) {
     let [held, ..] = function.jet(0.0);
     if held == 0.0 {

@@ -1,5 +1,5 @@
-//! Common parts of joints and forces: a type from the registry, bodies, a reference point and
-//! parameters. This module contains no names of individual joints and forces.
+//! Properties that joints and forces have in common: a type in the registry, bodies, a reference
+//! point and parameters. This module contains no names of individual joints and forces.
 
 use joints::ArgumentError;
 use joints::spec::Spec;
@@ -24,14 +24,15 @@ use crate::source_map::Entry;
 use crate::space::{self, SceneSpace};
 use crate::table::{Table, belongs};
 
-/// The type of joints that couple two joint coordinates; it has no definition in the registry.
+/// The type of joints that couple two joint coordinates; the registry does not contain a definition
+/// of this type.
 pub(crate) const COUPLING: &str = "coupling";
 
 /// A definition in the registry.
 pub(crate) trait Definition {
     /// The space of the definition.
     type Space: SceneSpace;
-    /// The type of the element that it builds.
+    /// The type of the constructed element.
     type Element;
     /// The description of the definition.
     fn spec(&self) -> &'static Spec;
@@ -61,23 +62,23 @@ impl<S: SceneSpace> Definition for ForceDefinition<S> {
     }
 }
 
-/// An element with a known definition, complete or not.
+/// An element whose definition is known; its values may be incomplete.
 pub(crate) struct ElementRead<'d, D: Definition> {
     pub(crate) definition: &'d D,
-    /// Bodies and element, if everything could be read.
+    /// Bodies and element, if all values could be read.
     pub(crate) element: Option<(Vec<BodyRef>, D::Element)>,
     pub(crate) arguments: Arguments,
 }
 
-/// Scene types of the registry.
+/// The types that the registry defines for scenes.
 pub(crate) struct Types<'r, S: SceneSpace> {
     /// The definitions of all spaces.
     all: &'r Registry,
     pub(crate) registry: &'r Definitions<S>,
-    /// The kind of element in the section, for messages.
+    /// The word for the elements of this section in messages.
     pub(crate) kind: &'static str,
     pub(crate) known: Vec<&'static str>,
-    /// The other section: its table, its kind of element and its types.
+    /// The other section: its table, the word for its elements, and its types.
     pub(crate) other: (&'static str, &'static str, Vec<&'static str>),
 }
 
@@ -94,7 +95,7 @@ impl<'r, S: SceneSpace> Types<'r, S> {
         }
     }
 
-    /// Scene types without repetitions.
+    /// The types of forces.
     pub(crate) fn of_forces(all: &'r Registry) -> Self {
         let registry = S::definitions(all);
         Self {
@@ -107,7 +108,7 @@ impl<'r, S: SceneSpace> Types<'r, S> {
     }
 }
 
-/// Scene types, each once.
+/// The types of these definitions, without repetitions.
 fn names(specs: impl Iterator<Item = &'static Spec>) -> Vec<&'static str> {
     let mut types: Vec<_> = specs.map(|spec| spec.scene_type).collect();
     types.sort_unstable();
@@ -122,14 +123,15 @@ fn with_coupling(mut types: Vec<&'static str>) -> Vec<&'static str> {
     types
 }
 
-/// The types as a list.
+/// Prints the types as a list.
 impl<S: SceneSpace> std::fmt::Display for Types<'_, S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&list(self.known.iter().copied()))
     }
 }
 
-/// Reads `type`. Returns `None` and reports if it is missing or no definition has this type.
+/// Reads `type`. If the key is missing or no definition has this type, the function reports this
+/// and returns `None`.
 pub(crate) fn scene_type<S: SceneSpace>(
     table: &mut Table,
     types: &Types<S>,
@@ -176,8 +178,8 @@ pub(crate) fn scene_type<S: SceneSpace>(
     None
 }
 
-/// Reads everything that the definitions of one scene type accept. Returns `None` and reports if no
-/// definition fits.
+/// Reads all keys of the definitions of one type. If no definition fits, the function reports this
+/// and returns `None`.
 pub(crate) fn read<'d, D: Definition>(
     table: &mut Table,
     definitions: &[&'d D],
@@ -228,7 +230,7 @@ pub(crate) fn read<'d, D: Definition>(
     })
 }
 
-/// The end of every table of an element; the key `active` has been read before.
+/// Completes the table of an element; the key `active` was read earlier.
 pub(crate) fn end(mut table: Table, name: &str, is_active: bool) -> Entry {
     table.optional(&ACTIVE);
     let entry = Entry::switched(name, &table, is_active);

@@ -1,16 +1,16 @@
-//! Expressions: numbers with units, names, `+ - * / ^`, brackets and functions, from a text to a
-//! number with its dimension.
+//! Expressions: numbers with units, names, `+ - * / ^`, brackets and functions. The value of an
+//! expression is a number with a dimension.
 //!
-//! This crate has its own parser (operator precedence after V. Pratt, 1973), because it must report
-//! all unknown names and all conflicts of units with their positions, and must terminate on any
-//! text. Available expression parsers support neither units nor positions, or are complete
-//! languages.
+//! This crate has its own parser (operator precedence after V. Pratt, 1973) for two reasons. It
+//! must report all unknown names and all conflicting units with their positions, and it must
+//! terminate for any text. Existing parsers for expressions support neither units nor positions, or
+//! they are complete languages.
 //!
-//! This module does not determine the position of a text in a file or the meaning of names.
+//! The position of a text in the file and the meaning of names are determined elsewhere.
 //!
 //! Other parsers were rejected: evalexpr has the AGPL licence, exmex and fasteval support neither
-//! units nor text positions, and numbat is a complete language. Nested input must end with an error
-//! at its position.
+//! units nor text positions, and numbat is a complete language. Deeply nested input must end with
+//! an error at its position.
 
 mod problem;
 mod quantity;
@@ -30,8 +30,8 @@ pub(crate) use unit::{in_units_here, names_of};
 
 use crate::dimension::Dimension;
 
-/// Maximum nesting depth of brackets, signs and powers. A greater depth could overflow the stack,
-/// and people cannot read such expressions.
+/// Maximum nesting depth of brackets, signs and powers. With a greater depth the stack could
+/// overflow, and the expression would not be readable.
 const DEEPEST: usize = 60;
 
 /// Functions and their arguments.
@@ -72,7 +72,8 @@ fn function(name: &str) -> Option<(&'static str, &'static str)> {
     FUNCTIONS.iter().find(|(known, _)| *known == name).copied()
 }
 
-/// The meaning of a name in every expression, if it has one; parameters must have other names.
+/// The meaning of a name that is the same in every expression, if there is one; parameters must
+/// have other names.
 pub(crate) fn reserved(name: &str) -> Option<&'static str> {
     match name {
         PI_NAME => Some("a constant"),
@@ -99,34 +100,34 @@ pub(crate) fn names(text: &str) -> Vec<(&str, Range<usize>)> {
     words.filter_map(name).collect()
 }
 
-/// The meaning of names.
+/// The meaning of names in an expression.
 pub(crate) trait Scope {
-    /// The value of a parameter; the inner value is `None` if the parameter has no value because
-    /// its own text is wrong.
+    /// Returns the value of a parameter; the inner value is `None` if the text of the parameter is
+    /// wrong.
     fn parameter(&self, name: &str) -> Option<Option<Quantity>>;
     /// Units of bare numbers.
     fn bases(&self) -> Bases;
 }
 
-/// The value of an expression, or all of its faults. The list of faults is empty if the only cause
-/// is a wrong parameter in the expression.
+/// Returns the value of an expression, or all of its errors. The list of errors is empty if the
+/// only cause is a parameter with a wrong text.
 pub(crate) fn evaluate(text: &str, scope: &impl Scope) -> Result<Quantity, Vec<Fault>> {
     parse(text, scope, &[])
 }
 
-/// Values from which expressions are computed: numbers, or terms with variables.
+/// Intermediate values of expressions: numbers, or terms with variables.
 trait Value: Clone + From<Quantity> {
     fn negated(self) -> Self;
 
-    /// Result of this and another value for the operator `+ - * / ^` between them.
+    /// Applies the operator `+ - * / ^` to this and another value.
     fn joined(self, sign: u8, other: Self, bases: Bases) -> Result<Self, Problem>;
 
-    /// Applies a function to the number of values that it requires; a problem is returned with a
-    /// flag whether the first argument is at fault.
+    /// Applies a function; the number of values is correct. A problem is returned with a flag that
+    /// is true if it concerns the first argument.
     fn call(name: &'static str, values: &[Self], bases: Bases) -> Result<Self, (bool, Problem)>;
 }
 
-/// The value of an expression that may contain these variables.
+/// Evaluates an expression that may contain these variables.
 fn parse<V: Value>(
     text: &str,
     scope: &impl Scope,
@@ -166,15 +167,15 @@ struct Parser<'s, S, V> {
     at: usize,
     scope: &'s S,
     variables: &'s [(&'static str, V)],
-    /// Faults of names and values; reading continues after such a fault.
+    /// Errors of names and values; parsing continues after such an error.
     faults: Vec<Fault>,
 }
 
-/// A value, `None` after a fault, with its position in the text.
+/// A value with its position in the text; the value is `None` after an error.
 type Part<V> = (Option<V>, Range<usize>);
 
 impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
-    /// The next token with its position; the last token is always the end.
+    /// Returns the next token with its position; the last token is always the end.
     fn peek(&self) -> (Token<'s>, Range<usize>) {
         self.tokens[self.at.min(self.tokens.len() - 1)].clone()
     }
@@ -187,7 +188,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         self.text.get(span.clone()).unwrap_or_default().to_owned()
     }
 
-    /// Stores a fault of names or values.
+    /// Stores an error of names or values.
     fn judge(&mut self, span: Range<usize>, q: Result<V, Problem>) -> Option<V> {
         let keep = |problem| self.faults.push(Fault { span, problem });
         q.map_err(keep).ok()
@@ -206,7 +207,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// The fault of a token that is not the expected operator or end.
+    /// Returns the error for a token in place of an operator or the end.
     fn unexpected(&self, span: Range<usize>) -> Fault {
         let problem = match self.peek().0 {
             Token::Sign(b')') => Problem::Closed,
@@ -218,7 +219,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         Fault { span, problem }
     }
 
-    /// Operands between operators with at least this precedence.
+    /// Parses operands between operators with at least this precedence.
     fn sum(&mut self, least: u8, depth: usize) -> Result<Part<V>, Fault> {
         let (mut left, mut span) = self.operand(depth)?;
         loop {
@@ -255,7 +256,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// A number, a name or a bracket, with the signs before it.
+    /// Parses a number, a name or a bracket, with its signs.
     fn operand(&mut self, depth: usize) -> Result<Part<V>, Fault> {
         let (token, span) = self.peek();
         if depth > DEEPEST {
@@ -286,7 +287,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// A number, with the unit after it if there is one; `2 mm^2` is twice a square of 1 mm.
+    /// Parses a number, with the unit after it if there is one; `2 mm^2` means 2·(1 mm)².
     fn number(&mut self, q: V, span: Range<usize>, depth: usize) -> Result<Part<V>, Fault> {
         match self.peek().0 {
             Token::Name(unit) if is_unit(unit) => {
@@ -300,7 +301,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// The end position of a closing bracket.
+    /// Returns the end position of a closing bracket.
     fn close(&mut self, open: &Range<usize>) -> Result<usize, Fault> {
         let (token, span) = self.peek();
         match token {
@@ -338,7 +339,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         self.judge(span.clone(), Err(problem))
     }
 
-    /// `name(value, …)`
+    /// Parses `name(value, …)`.
     fn call(&mut self, name: &str, span: Range<usize>, depth: usize) -> Result<Part<V>, Fault> {
         let (_, open) = self.peek();
         self.at += 1;
@@ -358,7 +359,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         Ok((q, whole))
     }
 
-    /// The value of a function.
+    /// Returns the value of a function.
     fn apply(
         &mut self,
         name: &'static str,
@@ -416,8 +417,8 @@ impl Value for Quantity {
     }
 
     fn call(name: &'static str, q: &[Self], bases: Bases) -> Result<Self, (bool, Problem)> {
-        // Functions of numbers and angles mark faults at the argument, other functions at the whole
-        // call.
+        // For functions of numbers and angles, errors are marked at the argument; for other
+        // functions, at the whole call.
         let x = match taken(name) {
             Some(of) => q[0].at(of, bases).map_err(|e| (true, e))?,
             None => q[0],
@@ -449,8 +450,8 @@ impl Value for Quantity {
     }
 }
 
-/// Lower limit of 1 − x² near the ends of arcs: the error of x, so that the error of the arc is at
-/// most its square root.
+/// Lower limit of 1 − x² near the ends of inverse sine and cosine. It is the error of x, so the
+/// error of the arc is at most the square root of this error.
 fn x_error(x: Quantity) -> f64 {
     x.error.max(f64::EPSILON)
 }

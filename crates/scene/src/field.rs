@@ -1,5 +1,5 @@
-//! One value of the file, read as the expected type. If the value has another type, the message
-//! contains both types.
+//! One value of the file that is read as the expected type. If the type of the value differs, the
+//! message contains both types.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -31,13 +31,13 @@ const CANCELLED: f64 = 1e-8;
 /// A value with its key.
 #[derive(Clone)]
 pub(crate) struct Field<'t> {
-    /// Description of the table that contains it.
+    /// Description of the table that contains the value.
     pub(crate) subject: Rc<str>,
     /// Key of the value.
     pub(crate) key: Cow<'t, str>,
     /// The value.
     pub(crate) value: &'t Spanned<DeValue<'t>>,
-    /// Meaning of its numbers.
+    /// Meaning of the numbers in the value.
     pub(crate) language: &'t Language,
     /// The list to which problems are added.
     pub(crate) findings: &'t Findings<'t>,
@@ -48,7 +48,7 @@ impl<'t> Field<'t> {
         self.value.span()
     }
 
-    /// Reports an error at the value; the message continues the description of the table.
+    /// Reports an error at the value; the text before the message is the description of the table.
     pub(crate) fn error(
         &self,
         code: impl Into<Code>,
@@ -131,7 +131,7 @@ impl<'t> Field<'t> {
         value
     }
 
-    /// Whether the value may be a number: it is a number or an expression.
+    /// Returns whether the value may be a number, that is, a number or an expression.
     pub(crate) fn may_be_number(&self) -> bool {
         let value = self.value.get_ref();
         as_number(value).is_some() || (self.language.computes && value.is_str())
@@ -142,14 +142,14 @@ impl<'t> Field<'t> {
         self.number_expected("a number", of)
     }
 
-    /// Reads a finite number of this dimension; `expected` describes it in more detail.
+    /// Reads a finite number of this dimension; `expected` is a more detailed description of it.
     pub(crate) fn number_expected(&self, expected: &str, of: Dimension) -> Option<f64> {
         let number = self.judged_later(expected, of)?;
         warn_of_degrees(slice::from_ref(self), &[number]);
         Some(number.value)
     }
 
-    /// Reads a finite number of this dimension without the check of plausibility.
+    /// Reads a finite number of this dimension; the caller must check whether it is plausible.
     fn judged_later(&self, expected: &str, of: Dimension) -> Option<Number> {
         let written = self.quantity(expected, self.language)?;
         let bases = self.language.bases();
@@ -171,7 +171,8 @@ impl<'t> Field<'t> {
         }
     }
 
-    /// Reads a finite number, or the value of an expression; bare numbers have no dimension yet.
+    /// Reads a finite number, or the value of an expression; bare numbers do not have a dimension
+    /// yet.
     pub(crate) fn quantity(&self, expected: &str, language: &Language) -> Option<Quantity> {
         if let Some(text) = self.value.get_ref().as_str().filter(|_| language.computes) {
             let faults = match expression::evaluate(text, language) {
@@ -222,7 +223,7 @@ impl<'t> Field<'t> {
         }
     }
 
-    /// Reports a fault of an expression, at its position.
+    /// Reports an error in an expression, at its position.
     fn report(&self, fault: Fault, language: &Language) {
         let Fault { span, problem } = fault;
         let mut label = problem.label().to_owned();
@@ -244,7 +245,7 @@ impl<'t> Field<'t> {
         );
     }
 
-    /// Warns if digits cancel.
+    /// Warns if a difference of nearly equal numbers loses digits.
     fn warn_if_cancelled(&self, q: Quantity) {
         let value = q.to_f64();
         let share = q.error / value.abs();
@@ -274,7 +275,7 @@ impl<'t> Field<'t> {
         value
     }
 
-    /// The values of a list, under the same key.
+    /// Returns the values of a list; each has the key of the list.
     pub(crate) fn items(&self, expected: &str) -> Option<Vec<Self>> {
         let Some(array) = self.value.get_ref().as_array() else {
             self.mismatch(expected);
@@ -368,8 +369,8 @@ impl<'t> Field<'t> {
         ))
     }
 
-    /// The position of a part of this text in the file; the position of the whole value if the text
-    /// is written with escapes.
+    /// Returns the position in the file of a part of this text. If the text is written with
+    /// escapes, the result is the position of the whole value.
     pub(crate) fn part(&self, part: Range<usize>) -> Range<usize> {
         let whole = self.span();
         let text = self.value.get_ref().as_str().unwrap_or_default();
@@ -392,7 +393,7 @@ fn each(items: &[Field], of: impl Fn(usize) -> Dimension) -> Option<Vec<f64>> {
     Some(numbers.iter().map(|number| number.value).collect())
 }
 
-/// Warns if numbers in these fields look like degrees.
+/// Warns if numbers in these fields look like angles in degrees.
 fn warn_of_degrees(fields: &[Field], numbers: &[Number]) {
     let Some(language) = fields.first().map(|field| field.language) else {
         return;
@@ -409,13 +410,13 @@ fn warn_of_degrees(fields: &[Field], numbers: &[Number]) {
     }
 }
 
-/// Reads all values, even after a value that cannot be read.
+/// Reads all values; a value that cannot be read does not prevent the reading of the others.
 pub(crate) fn all<X, Y>(from: &[X], read: impl FnMut(&X) -> Option<Y>) -> Option<Vec<Y>> {
     let read: Vec<_> = from.iter().map(read).collect();
     read.into_iter().collect()
 }
 
-/// An integer or a float as a float; a value that is too large becomes infinite.
+/// Converts an integer or a float to a float; a value that is too large becomes infinite.
 pub(crate) fn as_number(value: &DeValue) -> Option<f64> {
     match value {
         DeValue::Float(x) => x.as_str().parse().ok(),
@@ -425,7 +426,7 @@ pub(crate) fn as_number(value: &DeValue) -> Option<f64> {
     }
 }
 
-/// An integer with another base, if a float can represent it.
+/// Converts an integer in another base, if a float can represent it.
 fn whole(n: &DeInteger) -> Option<f64> {
     #[expect(
         clippy::cast_precision_loss,

@@ -1,4 +1,4 @@
-//! Problems that are found while a file is read. Reading continues after each of them.
+//! Problems that are found while a file is read. Reading continues after each problem.
 
 use std::cell::{Cell, RefCell};
 use std::collections::hash_map::Entry;
@@ -13,22 +13,22 @@ use crate::mistake::Mistake;
 use crate::nearest::nearest;
 use crate::text::SourceText;
 
-/// Largest number of problems with suggested names. A comparison of every unknown name with all
-/// known names would take minutes if thousands are wrong.
+/// Names are suggested for at most this number of problems. If thousands of names are wrong, a
+/// comparison of each one with all known names would take minutes.
 const SUGGESTIONS: usize = 100;
 
 /// Largest number of names compared for suggestions in one file.
 const COMPARED: usize = 1_000_000;
 
-/// Largest number of problems that are listed; the others are counted. Even if every line contains
-/// the same mistake, this number is enough.
+/// Largest number of problems that are listed; further problems are only counted. This number is
+/// sufficient even if every line contains the same mistake.
 pub(crate) const LISTED: usize = 5000;
 
-/// Largest number of warnings of one kind that are listed; the others are counted.
+/// Largest number of warnings of one kind that are listed; further warnings are only counted.
 const WARNED: usize = 10;
 
-/// The problems of a file, in the order of their detection. Tables and fields refer to this list,
-/// so that each value can report its own faults.
+/// The problems of a file, in the order of their detection. Tables and fields contain a reference
+/// to this list, so that they can report errors.
 pub(crate) struct Findings<'s> {
     /// The text to which positions refer.
     pub(crate) source: &'s SourceText,
@@ -40,16 +40,16 @@ pub(crate) struct Findings<'s> {
 #[derive(Default)]
 struct Lists {
     problems: Vec<Diagnostic>,
-    /// Problems with which a scene can be used, but is probably not what the author intended.
+    /// Warnings: the scene is valid, but it is probably not what the author intended.
     warnings: Vec<Diagnostic>,
-    /// Numbers of warnings of each kind: listed and not listed.
+    /// For each kind of warning, the number of listed warnings and the number of the others.
     warned: BTreeMap<Code, (usize, usize)>,
     /// Codes of warnings that the user suppresses.
     silenced: Vec<Code>,
-    /// Numbers without a unit that are not in SI: their start positions, and the SI value of 1 in
-    /// their unit.
+    /// Bare numbers that are not in SI units because `units` chooses other units: the start
+    /// position of each number, and the size of its unit in SI.
     scales: Vec<(usize, f64)>,
-    /// Indices of problems that another problem explains.
+    /// Indices of problems that are only consequences of other problems.
     explained: Vec<usize>,
     /// Number of problems that are not listed.
     more: usize,
@@ -73,18 +73,18 @@ impl<'s> Findings<'s> {
         }
     }
 
-    /// The index of the next problem, for [`Findings::explain`].
+    /// Returns the index of the next problem, for [`Findings::explain`].
     pub(crate) fn next(&self) -> usize {
         self.lists.borrow().problems.len()
     }
 
-    /// Removes a problem that is a consequence of another one, so that one mistake causes one
+    /// Removes a problem that is only a consequence of another one, so that one mistake causes one
     /// message.
     pub(crate) fn explain(&self, place: usize) {
         self.lists.borrow_mut().explained.push(place);
     }
 
-    /// Whether further problems are only counted, so that their positions are not needed.
+    /// Returns whether further problems are only counted; their positions are then unnecessary.
     pub(crate) fn is_full(&self) -> bool {
         self.next() >= LISTED
     }
@@ -108,7 +108,7 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(code, self.source, span, message, label));
     }
 
-    /// Reports an error with one position and advice.
+    /// Reports an error with one position and with advice.
     pub(crate) fn error_with_help(
         &self,
         code: impl Into<Code>,
@@ -123,7 +123,7 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(code, self.source, span, message, label).help(help));
     }
 
-    /// Records that the unit of a bare number at this position is `scale` in SI.
+    /// Records that the unit of the bare number at this position has the size `scale` in SI.
     pub(crate) fn scaled(&self, at: usize, scale: f64) {
         self.lists.borrow_mut().scales.push((at, scale));
     }
@@ -138,8 +138,8 @@ impl<'s> Findings<'s> {
         self.lists.borrow_mut().silenced.push(code);
     }
 
-    /// Adds a warning; a file with warnings is still valid. The advice of the warning ends with the
-    /// way to suppress it. After [`WARNED`] warnings of one kind the others are counted.
+    /// Adds a warning; a file with warnings is valid. The advice ends with the code that suppresses
+    /// the warning. After [`WARNED`] warnings of one kind, further ones are only counted.
     pub(crate) fn warning(
         &self,
         code: Code,
@@ -162,8 +162,8 @@ impl<'s> Findings<'s> {
         });
     }
 
-    /// The warnings in the order of the file. The last one of a kind contains the number of
-    /// warnings that are not listed.
+    /// Returns the warnings in the order of the file. The last listed warning of a kind contains
+    /// the number of warnings that are not listed.
     pub(crate) fn take_warnings(&self) -> Vec<Diagnostic> {
         let lists = &mut *self.lists.borrow_mut();
         let mut warnings = std::mem::take(&mut lists.warnings);
@@ -178,7 +178,7 @@ impl<'s> Findings<'s> {
         warnings
     }
 
-    /// Reports an error, with the position of the item that it conflicts with.
+    /// Reports an error, with the position of the conflicting item.
     pub(crate) fn collision(
         &self,
         code: impl Into<Code>,
@@ -195,8 +195,8 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(code, self.source, span, message, label).and(first));
     }
 
-    /// Whether this is the first use of something that may be named only once; otherwise reports
-    /// both positions.
+    /// Returns whether this is the first use of a name or entry that may occur only once; otherwise
+    /// reports both positions.
     pub(crate) fn is_first<T: Eq + Hash>(
         &self,
         named: &mut HashMap<T, Range<usize>>,
@@ -225,7 +225,8 @@ impl<'s> Findings<'s> {
         }
     }
 
-    /// The known name that was probably intended; only if there are few problems and few names.
+    /// Returns the known name that was probably intended; only if there are few problems and few
+    /// names.
     pub(crate) fn suggest<'a>(
         &self,
         name: &str,
@@ -241,13 +242,13 @@ impl<'s> Findings<'s> {
         found
     }
 
-    /// The line of an offset, for messages that refer to another position.
+    /// Returns the line of an offset, for messages that refer to another position.
     pub(crate) fn line(&self, offset: usize) -> usize {
         self.source.line(offset)
     }
 
-    /// All problems in the order of the file without repetitions; if there are too many, the last
-    /// one states the number of the others.
+    /// Returns all problems in the order of the file without repetitions; if there are too many,
+    /// the last one states how many are not listed.
     pub(crate) fn sorted(self) -> Vec<Diagnostic> {
         let Lists {
             mut problems,

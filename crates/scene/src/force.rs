@@ -1,4 +1,4 @@
-//! `[[force]]`: applied forces of the registry, and springs on angles of joints in space.
+//! `[[force]]`: applied forces that the registry defines, and springs on angles of joints in space.
 
 use model::Force;
 

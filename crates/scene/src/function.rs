@@ -119,7 +119,7 @@ fn names() -> impl Iterator<Item = &'static str> {
     KINDS.iter().map(|kind| kind.name)
 }
 
-/// The time interval of a table; the run must stay within it.
+/// The time interval of a table; the run must not exceed it.
 pub(crate) struct Domain {
     pub(crate) subject: Rc<str>,
     pub(crate) span: Range<usize>,
@@ -161,7 +161,8 @@ pub(crate) fn read(field: &Field, of: Dimension, domains: &mut Vec<Domain>) -> O
     function
 }
 
-/// The number under a key of a function with values of this dimension, or its default.
+/// Reads the number under a key of a function with values of this dimension; without the key,
+/// returns the default.
 fn number(table: &mut Table, key: &Key, of: Dimension) -> Option<f64> {
     match (table.optional(key), key.default) {
         (Some(field), _) => field.number(key.unit_in(of)),
@@ -179,8 +180,8 @@ fn steps(table: &mut Table, of: Dimension) -> Option<Function> {
     let items = field.items(STEPS.expected)?;
     let read = all(&items, |item| step(item, of));
     let (start, mut steps) = (start?, read?);
-    // The constructor reports only its first fault: report it, replace the step by a valid one and
-    // try again.
+    // The constructor reports only the first error, so the step is replaced by a valid one and the
+    // construction is repeated.
     let mut faultless = true;
     for _ in 0..=items.len() {
         if table.findings.is_full() {

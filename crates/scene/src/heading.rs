@@ -25,7 +25,7 @@ const NAME: Key = Key::required("name", "the name of the scene", Takes::Text)
 const SPACE: Key = Key::required("space", "\"plane\" or \"spatial\"", Takes::OneOf(spaces))
     .doc("The space of the bodies");
 
-/// Keys of `[scene]`, in addition to the keys for gravity and for tolerances.
+/// Keys of `[scene]`, except the keys for gravity and for tolerances.
 pub(crate) const SCENE_KEYS: [Key; 2] = [NAME, SPACE];
 
 /// `[scene]`
@@ -91,9 +91,10 @@ impl<S: SceneSpace> Heading<S> {
     }
 }
 
-/// Whether the bodies of the scene move in space. If the scene gives no space or an unknown one,
-/// the number of components of the first position or point decides, so that one mistake does not
-/// cause many. Without a position or point, the probable meaning of the unknown word decides.
+/// Returns whether the bodies of the scene move in space. If the key is missing or unknown, the
+/// function uses the number of components of the first position or point, so that one mistake does
+/// not cause many messages. If there is no position or point, it uses the name most similar to the
+/// unknown one.
 pub(crate) fn is_spatial(root: &DeTable) -> bool {
     let heading = root.get(section::SCENE.name);
     let space = heading.and_then(|heading| heading.get_ref().get(SPACE.name));

@@ -1,5 +1,5 @@
-//! `[[joint]]`: constraints of the registry, couplings, and gear meshes between wheels. Joints that
-//! refer to other joints are read after these.
+//! `[[joint]]`: constraints that the registry defines, couplings, and gear meshes between wheels.
+//! Joints that refer to other joints are read after those joints.
 
 use model::Joint;
 
@@ -47,7 +47,7 @@ pub(crate) fn read<'r, S: SceneSpace>(
     joints
 }
 
-/// The kind of a joint that refers to other joints.
+/// Returns the kind of a joint that refers to other joints; `None` for other joints.
 fn naming_others<'r, S: SceneSpace>(
     table: &Table,
     types: &Types<'r, S>,

@@ -1,4 +1,5 @@
-//! Joint coordinates: a drive prescribes one, a coupling relates two, a spring acts on an angle.
+//! Joint coordinates, to which tables refer: a drive prescribes one, a coupling relates two, and a
+//! spring acts on an angle.
 
 use joints::Argument;
 use joints::spec::Measure;
@@ -65,8 +66,8 @@ pub(crate) struct JointMeasure<'j, 'r, S: SceneSpace> {
 }
 
 impl<'r, S: SceneSpace> JointRead<'r, S> {
-    /// The joint coordinate with this name, or the first suitable one. Returns `None` and reports
-    /// at a field if there is none.
+    /// Returns the joint coordinate with this name, or the first suitable one. If there is no such
+    /// joint coordinate, the function reports this at a field and returns `None`.
     pub(crate) fn measure(
         &self,
         name: Option<&str>,
@@ -144,12 +145,12 @@ impl<'r, S: SceneSpace> JointRead<'r, S> {
 }
 
 impl<S: SceneSpace> JointMeasure<'_, '_, S> {
-    /// The bodies of the joint, and the arguments of a drive of the joint coordinate, if all could
-    /// be read.
+    /// Returns the bodies of the joint, and the arguments for a drive of the joint coordinate, if
+    /// all could be read.
     fn arguments(&self) -> Option<(Vec<BodyRef>, Vec<Argument>)> {
         let complete = self.joint.complete.as_ref()?;
         let mut arguments = complete.arguments.clone();
-        // The argument for the motion.
+        // The last argument is that of the motion.
         arguments.push(Argument::Absent);
         Some((complete.joint.bodies.clone(), arguments))
     }
@@ -159,8 +160,9 @@ impl<S: SceneSpace> JointMeasure<'_, '_, S> {
         self.joint.complete.as_ref()?.joint.tolerance
     }
 
-    /// The bodies of the joint and the rows that prescribe the joint coordinate. The joint accepted
-    /// these arguments, so only a definition with a wrong registration is reported.
+    /// Returns the bodies of the joint and the kernels of the drive that prescribes the joint
+    /// coordinate. The joint accepted these arguments, so an error can only be due to a wrong
+    /// registration of the definition.
     pub(crate) fn rows(&self, field: &Field) -> Option<AttachedMeasure<S>> {
         let (bodies, arguments) = self.arguments()?;
         let built = (self.drive.build)(&arguments);
@@ -168,7 +170,7 @@ impl<S: SceneSpace> JointMeasure<'_, '_, S> {
         Some((bodies, element.ok()?))
     }
 
-    /// The force that follows a force law along the joint coordinate.
+    /// Returns the force that a force law applies along the joint coordinate.
     pub(crate) fn force(&self, name: &str, law: Law, field: &Field) -> Option<Force<S>> {
         let (bodies, arguments) = self.arguments()?;
         let built = (self.drive.law)(&arguments, law);

@@ -1,5 +1,5 @@
-//! References to joints and their joint coordinates in other tables: one joint, two joints, two
-//! joint coordinates.
+//! References to joints and joint coordinates in other tables: one joint, two joints, two joint
+//! coordinates.
 
 use std::collections::HashMap;
 
@@ -19,10 +19,10 @@ pub(crate) struct References<'a, 'j, 'r, S: SceneSpace> {
     pub(crate) is_active: bool,
 }
 
-/// The joints, with a search by name.
+/// The joints, which can be found by name.
 pub(crate) struct JointNames<'j, 'r, S: SceneSpace> {
     list: &'j [JointRead<'r, S>],
-    /// If a name is used twice, the first joint.
+    /// Joints by name; if a name is used twice, the first joint.
     by_name: HashMap<&'j str, &'j JointRead<'r, S>>,
 }
 
@@ -35,7 +35,7 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         Self { list, by_name }
     }
 
-    /// The joint whose name this field contains. An active table may only refer to active joints.
+    /// Returns the joint with the name in this field. An active table must refer to active joints.
     pub(crate) fn find(
         &self,
         name: &str,
@@ -109,7 +109,8 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         })
     }
 
-    /// Reads two joint coordinates, each written `joint.measure`; names of joints may contain dots.
+    /// Reads two joint coordinates, each in the form `joint.measure`; names of joints may contain
+    /// dots.
     pub(crate) fn two_measures(
         &self,
         field: &Field,
@@ -132,7 +133,7 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
     }
 }
 
-/// Reads both values of a list of two.
+/// Reads both values of a list with two values.
 fn pair<T>(field: &Field, expected: &str, read: impl Fn(&Field) -> Option<T>) -> Option<[T; 2]> {
     let items = field.items(expected)?;
     if items.len() != 2 {

@@ -1,4 +1,4 @@
-//! A joint of the text, as far as it could be read.
+//! A joint of the text; parts that could not be read are missing.
 
 use std::ops::Range;
 
@@ -10,14 +10,14 @@ use crate::source_map::Entry;
 use crate::space::SceneSpace;
 use crate::table::Table;
 
-/// A joint of the text, as far as it could be read.
+/// A joint of the text; parts that could not be read are missing.
 pub(crate) struct JointRead<'r, S: SceneSpace> {
     pub(crate) name: String,
-    /// Position of its name in the text.
+    /// Position of the name in the text.
     pub(crate) span: Range<usize>,
     pub(crate) kind: JointKind<'r, S>,
     pub(crate) is_active: bool,
-    /// Present if the whole joint could be read.
+    /// The complete joint, if all values could be read.
     pub(crate) complete: Option<CompleteJoint<S>>,
 }
 
@@ -40,7 +40,7 @@ pub(crate) struct CompleteJoint<S: SceneSpace> {
 }
 
 impl<'r, S: SceneSpace> JointRead<'r, S> {
-    /// A joint of which only the name and the kind are known.
+    /// Creates a joint of which only the name and the kind are known.
     pub(crate) fn new(name: &str, kind: JointKind<'r, S>, table: &Table) -> Self {
         Self {
             name: name.to_owned(),

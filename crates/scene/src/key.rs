@@ -1,11 +1,11 @@
-//! The keys of the format, used both by the reader and by the schema. The definitions of joints and
-//! forces contain their own keys.
+//! The keys of the format, which are used both by the reader and by the schema. The definitions of
+//! joints and forces contain their own keys.
 
 use serde_json::Value;
 
 use crate::dimension::Dimension;
 
-/// The key that names a definition.
+/// The key for the name of a definition.
 pub(crate) const TYPE: &str = "type";
 
 /// A key of a table.
@@ -17,7 +17,7 @@ pub(crate) struct Key {
     pub(crate) takes: Takes,
     /// Dimension of the numbers.
     pub(crate) unit: Dimension,
-    /// Whether `unit` is multiplied by the dimension of a function's values.
+    /// Whether the dimension is `unit` times the dimension of the values of a function.
     is_of_values: bool,
     /// Meaning of the key.
     pub(crate) doc: &'static str,
@@ -35,39 +35,39 @@ pub(crate) enum Takes {
     Text,
     /// One of these texts.
     OneOf(fn() -> Vec<&'static str>),
-    /// `true` or `false`.
+    /// `true` or `false`, or a number; only the number zero means `false`.
     Flag,
     /// `true` or `false`, or a number, of which only zero means `false`.
     Switch,
     /// An integer in this range.
     Whole(i64, i64),
-    /// Units of bare numbers.
+    /// A table with the units of bare numbers.
     Units,
-    /// Codes of warnings.
+    /// A list of codes of warnings.
     Warnings,
     /// One number.
     Number(Interval),
-    /// A vector of this number of components.
+    /// A vector with this number of components.
     Vector(usize, Interval),
     /// An orientation of a body.
     Orientation,
     /// A table with these keys.
     Table(&'static [Key]),
-    /// Three moments of inertia, or a symmetric tensor.
+    /// A list of at least this number of numbers.
     Tensor,
-    /// At least this number of numbers.
+    /// A list of at least this number of texts.
     Numbers(usize),
     /// At least this number of texts.
     Texts(usize),
-    /// All, none, or the names of some items.
+    /// `true` for all items, `false` for no item, or a list of names.
     Names,
-    /// Rows, counted from 1.
+    /// A list of rows (1-based).
     Rows,
     /// A number or a function of time.
     Function,
-    /// A number or an expression of a measure, its rate and time.
+    /// A number, or an expression of a joint coordinate, its rate and time.
     Law,
-    /// Steps of a function of time, at least one.
+    /// A list of steps of a function of time, at least one.
     Steps,
 }
 
@@ -142,7 +142,7 @@ impl Key {
         Self { unit, ..self }
     }
 
-    /// Sets the dimension of the numbers to the dimension of a function's values times `unit`.
+    /// Sets the dimension of the numbers to `unit` times the dimension of the values of a function.
     pub(crate) const fn of_values(self) -> Self {
         Self {
             is_of_values: true,

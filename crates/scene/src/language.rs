@@ -1,4 +1,4 @@
-//! Meaning of the numbers of a file: its format, the units of bare numbers, and its parameters.
+//! Meaning of the numbers in a file: the format, the units of bare numbers, and the parameters.
 
 pub(crate) mod read;
 
@@ -8,7 +8,7 @@ use model::words::rounded;
 
 use crate::expression::{self, Bases, Quantity, Scope};
 
-/// Meaning of the numbers of a file.
+/// Meaning of the numbers in a file.
 pub(crate) struct Language {
     /// Whether texts may be expressions.
     pub(crate) computes: bool,
@@ -85,7 +85,7 @@ impl Language {
         }
     }
 
-    /// The names that the author of an expression may have intended.
+    /// All names that may be suggested for an unknown name in an expression.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> + '_ {
         self.own_names()
             .chain(expression::reserved_names().map(|name| name as &str))

@@ -7,22 +7,22 @@
 //! | `limits` | largest size of a text |
 //! | `read` | reads the whole file, and checks it with the mechanism |
 //! | `heading`, `parts` | `[scene]`; the parts of the mechanism |
-//! | `section`, `names` | tables of the first level; names that may occur only once |
+//! | `section`, `names` | top-level tables; names that may occur only once |
 //! | `language` | meaning of numbers: format, units, parameters |
-//! | `expression`, `dimension` | computes a number with its dimension from a text; dimensions that a key accepts |
+//! | `expression`, `dimension` | evaluates a text to a number with its dimension; dimensions that a key requires |
 //! | `table`, `field`, `key` | a table and its known keys; a value read as the expected type; the values that a key accepts |
-//! | `space` | names and numbers that differ between plane and space |
-//! | `body`, `marker`, `bodies`, `measure` | a body; points on bodies, and their names elsewhere; all bodies; quantities between points |
-//! | `element` | common parts of joints and forces: type, `connection`, `place`, `direction`, `arguments` |
-//! | `argument_source`, `between`, `bearings` | points and axes from the table itself, from markers, from other joints |
+//! | `space` | the differences between the plane and space |
+//! | `body`, `marker`, `bodies`, `measure` | a body; named points on bodies, and references to them; all bodies; quantities between points |
+//! | `element` | properties that joints and forces have in common: type, `connection`, `place`, `direction`, `arguments` |
+//! | `argument_source`, `between`, `bearings` | points and axes that are taken from the table itself, from markers, or from other joints |
 //! | `joint`, `drive`, `force` | joints, their drives, forces; `coupling` and `spring` are types without a definition |
-//! | `joint_read`, `joint_name`, `joint_measure` | joints as far as they could be read, joint names in other tables, and joint coordinates |
+//! | `joint_read`, `joint_name`, `joint_measure` | joints of the text, references to joints in other tables, and joint coordinates |
 //! | `active` | items that are read but are not part of the mechanism |
 //! | `function` | functions of time |
 //! | `start`, `simulate`, `reactions`, `combination` | requested computations |
 //! | `scene`, `source_map`, `locate` | the resulting scene, positions in the text, and positions of later errors |
-//! | `plausible`, `silence` | numbers that were probably meant otherwise; warnings that the user suppresses |
-//! | `template` | the text with other numbers |
+//! | `plausible`, `silence` | warnings about numbers that are probably wrong; warnings that the author suppresses |
+//! | `template` | the text of a scene with other numbers |
 //! | `schema` | the format as a JSON schema, from the same keys |
 //! | `diagnostic`, `mistake`, `text`, `findings`, `nearest` | problems, their kinds and codes, lines and columns, suggested names |
 

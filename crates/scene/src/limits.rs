@@ -1,26 +1,27 @@
-//! Limits of a text before parsing, because the parser needs memory for every value and very long
-//! lines are not readable. Also the accuracy with which axes of wheels must meet.
+//! Limits of a text that are checked before parsing: the parser needs memory for every value, and
+//! very long lines are not readable. The module also defines how accurately the axes of wheels must
+//! meet.
 
 use std::ops::Range;
 
-/// Longest line (bytes). A table of a hundred thousand values fits.
+/// Longest line (bytes). This is sufficient for a table of 100 000 values.
 pub(crate) const LONGEST_LINE: usize = 4 << 20;
 
-/// Maximum number of the characters `[`, `{`, `,` and `=`. A hundred thousand joints with their
-/// bodies have less than two million; each character costs some 200 bytes of memory while the file
-/// is read.
+/// Maximum number of the characters `[`, `{`, `,` and `=`. The text of 100 000 joints with their
+/// bodies contains less than two million of them. While the file is read, each character needs
+/// about 200 bytes of memory.
 pub(crate) const MOST_SIGNS: usize = 1 << 23;
 
-/// Axes of two wheels are parallel if the sine of the angle between them is below this limit. The
-/// axes meet, and their pitch point is in their plane, if the distance is below this share of two
-/// other distances: those of the bearings and of the pitch point from the apex. A line of action
-/// meets an axis, or is parallel to it, if its moment about the axis is below this share of its
-/// moment about the bearing. Unit: share. Too small: axes written with few digits need a `line`.
+/// Two axes of wheels are parallel if the sine of the angle between them is below this limit. The
+/// axes meet, and the pitch point is in their plane, if the distance is below this fraction of the
+/// largest distance among the bearings, the pitch point and the apex. A line of action meets an
+/// axis, or is parallel to it, if its moment about the axis is below this fraction of its moment
+/// about the bearing. Unit: share. Too small: axes that are given with few digits need a `line`.
 /// Too large: a line of action is not quite normal to the plane of the axes. Test:
 /// `bearings_of_teeth`.
 pub(crate) const MEETING: f64 = 1e-6;
 
-/// A violation of a limit: its position, the message, and the text of the mark.
+/// A violation of a limit: its position, the message, and the text at the mark.
 pub(crate) struct Excess {
     pub(crate) span: Range<usize>,
     pub(crate) message: String,

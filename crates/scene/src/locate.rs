@@ -1,4 +1,4 @@
-//! Positions in the file for errors that name bodies, joints and rows.
+//! Finds the positions in the file for errors that name bodies, joints and rows.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -149,8 +149,8 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// The position of given velocities that are impossible: first the drives, then the velocity, or
-/// the table that contains it.
+/// Returns the positions of given velocities that are impossible: first the drives, then the
+/// velocity, or the table that contains it.
 fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) -> Diagnostic {
     let span = match (conflict.is_kept, conflict.coordinate) {
         (true, _) => map.section("start", "keep"),
@@ -233,15 +233,15 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// The positions of redundant rows that require different motions: the drives among them, or all
-/// rows if there are no drives.
+/// Returns the positions of redundant rows that prescribe different motions: those of the drives,
+/// or of all rows if there are no drives.
 fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
     forcing: &[&str],
     error: &impl CodedError,
 ) -> Diagnostic {
-    // Rows that are violated because of drives are not wrong themselves.
+    // Rows that are violated because of a drive are not wrong themselves.
     let mut spans = forcing
         .iter()
         .take(MARKS)
@@ -259,7 +259,7 @@ fn contradicting(
             let marks = ["requires what the others forbid", "holds it"];
             (rows.collect(), marks)
         }
-        // Joints between drives are not wrong themselves.
+        // Joints that connect the drives are not wrong themselves.
         _ => (drives, ["contradicts the others", "contradicts too"]),
     };
     at_rows(map, rows, error, marks)
@@ -272,8 +272,8 @@ fn at(map: &SourceMap, span: Range<usize>, error: &impl CodedError, label: &str)
     Diagnostic::error(error.code(), &map.text, span, error.to_string(), label)
 }
 
-/// An error that involves several rows, marked once at each of their joints and drives. The first
-/// mark is for the first row.
+/// Creates an error that concerns several rows, with one mark for each of their joints and drives.
+/// The first mark belongs to the first row.
 fn at_rows<'a>(
     map: &SourceMap,
     labels: impl IntoIterator<Item = &'a RowLabel>,
@@ -284,7 +284,7 @@ fn at_rows<'a>(
     at_joints(map, joints, error, marks)
 }
 
-/// An error that involves several joints and drives, marked once at each of them.
+/// Creates an error that concerns several joints and drives, with one mark for each.
 fn at_joints<'a>(
     map: &SourceMap,
     names: impl IntoIterator<Item = &'a str>,
@@ -305,13 +305,15 @@ fn row(map: &SourceMap, label: &RowLabel) -> Range<usize> {
     element_key(map, &label.joint, &[])
 }
 
-/// The position of the first of these keys that a joint, drive or force has, or of its name.
+/// Returns the position of the first of these keys that a joint, drive or force has, or otherwise
+/// of its name.
 fn element_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     let entry = map.element(name);
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
 }
 
-/// The position of the first of these keys that a body, marker or measure has, or of its name.
+/// Returns the position of the first of these keys that a body, marker or measure has, or otherwise
+/// of its name.
 fn place_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
     let entry = map.places().find(|entry| entry.name == name);
     entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
@@ -327,7 +329,7 @@ fn uses(map: &SourceMap, name: &str) -> [Vec<Range<usize>>; 2] {
     [of(&mut map.places()), of(&mut map.elements())]
 }
 
-/// One diagnostic for each use of a name after the first, in the order of the file.
+/// Creates one diagnostic for each use of a name after the first use, in the order of the file.
 pub(crate) fn duplicates(
     map: &SourceMap,
     uses: &[Range<usize>],
@@ -361,8 +363,8 @@ fn body_key(
     found.map_or(0..0, |(_, entry)| entry.span(&key))
 }
 
-/// The position of the wrong bodies of the element with this name. A drive has the bodies of its
-/// joint.
+/// Returns the position of the wrong bodies of the element with this name. The bodies of a drive
+/// are those of its joint.
 fn connection(
     map: &SourceMap,
     d: &AnyDescription,

@@ -1,4 +1,4 @@
-//! `[[marker]]`: named points of bodies, and references to these names elsewhere in the file.
+//! `[[marker]]`: named points of bodies, and references to these names in the rest of the file.
 
 use std::collections::HashMap;
 
@@ -41,7 +41,7 @@ const ORIENTATION: Key = Key::optional(
 const TOLERANCE: Key =
     tolerance::length("Tolerance of its point [default: tolerance of its body or of the scene]");
 
-/// Keys of a marker in addition to its name.
+/// Keys of a marker, except its name.
 pub(crate) fn keys(space: SpaceKind) -> &'static [Key] {
     match space {
         SpaceKind::Space3 => &[BODY, SPATIAL_POINT, ORIENTATION, TOLERANCE],
@@ -57,7 +57,7 @@ fn all_keys() -> impl Iterator<Item = (&'static str, &'static str)> {
     of::<Plane>().chain(of::<Space3>())
 }
 
-/// Description of a marker in messages that expect another value.
+/// The expected value in messages, if it may be a marker.
 const NAME: &str = "the name of a marker";
 
 /// The markers of the text, with their indices.
@@ -65,12 +65,13 @@ const NAME: &str = "the name of a marker";
 pub(crate) struct Markers {
     pub(crate) list: Vec<Marker>,
     pub(crate) entries: Vec<Entry>,
-    /// Indices by name, `None` if a marker could not be read; if a name is used twice, the first.
+    /// Indices by name; `None` if a marker could not be read. If a name is used twice, the index of
+    /// the first marker.
     by_name: HashMap<String, Option<usize>>,
 }
 
 impl Markers {
-    /// Reads one marker of bodies with these names.
+    /// Reads one marker; its body must have one of these names.
     pub(crate) fn read<S: SceneSpace>(&mut self, mut table: Table, name: &str, bodies: &BodyNames) {
         let body = table.of_key(&BODY).and_then(|field| bodies.find(&field));
         let point = table.needed(POINT.name, S::POINT);
@@ -105,8 +106,9 @@ impl Markers {
         }
     }
 
-    /// Whether a field for a point contains the name of a marker: its value is a text, and it is
-    /// not a number with a unit in a scene without markers.
+    /// Returns whether a field for a point contains the name of a marker. The value must be the
+    /// name of a known marker, or, in a scene with markers, a text that is not a number with a
+    /// unit.
     pub(crate) fn may_be(&self, field: &Field) -> bool {
         let text = field.value.get_ref().as_str();
         text.is_some_and(|text| {
@@ -115,8 +117,9 @@ impl Markers {
         })
     }
 
-    /// The index of the marker with the name in this field. Returns `None` if the name is unknown,
-    /// which is reported here, or if the marker could not be read, which has been reported before.
+    /// Returns the index of the marker with the name in this field. Returns `None` if the name is
+    /// unknown, which this function reports, or if the marker could not be read, which was reported
+    /// earlier.
     pub(crate) fn index(&self, field: &Field) -> Option<usize> {
         let name = field.text(NAME)?;
         if let Some(found) = self.by_name.get(name) {
@@ -138,7 +141,7 @@ impl Markers {
         None
     }
 
-    /// Like [`Self::index`], but returns the marker itself.
+    /// Works like [`Self::index`], but returns the marker itself.
     pub(crate) fn find(&self, field: &Field) -> Option<&Marker> {
         self.index(field).map(|at| &self.list[at])
     }

@@ -22,7 +22,7 @@ const MARKERS: Key = Key::required(
 )
 .doc("Two markers, or one and `ground`; one alone is measured from the ground");
 
-/// Keys of a measure in addition to its name.
+/// Keys of a measure, except its name.
 pub(crate) fn keys(space: SpaceKind) -> [Key; 2] {
     let kind = match space {
         SpaceKind::Space3 => SPATIAL_KIND,
@@ -83,7 +83,7 @@ fn kind(table: &mut Table, space: SpaceKind) -> Option<MeasureKind> {
     found
 }
 
-/// Indices of the markers; `None` is the ground.
+/// Reads the indices of the two markers; `None` stands for the ground.
 fn between(table: &mut Table, markers: &Markers) -> Option<[Option<usize>; 2]> {
     let field = table.required(&MARKERS)?;
     let items = field.items(MARKERS.expected)?;

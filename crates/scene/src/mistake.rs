@@ -1,5 +1,5 @@
-//! The kinds of mistakes in the text of a scene, each with its code. Mistakes of the described
-//! mechanism, of its start and of its runs have the codes of their own errors.
+//! The kinds of mistakes in the text of a scene, each with its code. Errors of the described
+//! mechanism, of its initial state and of its runs have the codes of their own error types.
 
 use joints::ArgumentError;
 use model::codes::Code;
@@ -12,21 +12,21 @@ use crate::expression::Problem;
 pub(crate) enum Mistake {
     /// The text is not valid TOML.
     NotToml,
-    /// A table has no such key.
+    /// A table does not have a key with this name.
     UnknownKey,
     /// A key is missing in a table, or a table is missing in the scene.
     Missing,
-    /// A name or an entry is given twice.
+    /// A name or a key is given twice.
     Twice,
-    /// The kind of a value differs from the kind that its key requires.
+    /// The value has another type than its key requires.
     Type,
     /// A text is not an expression.
     Syntax,
-    /// More problems than are listed.
+    /// There are more problems than the list contains.
     More,
-    /// A name that cannot be used anywhere.
+    /// A name that is not permitted for any item.
     UnfitName,
-    /// A name that already means something else.
+    /// A name that already has another meaning.
     ReservedName,
     /// A number outside of its range.
     OutOfRange,
@@ -38,13 +38,13 @@ pub(crate) enum Mistake {
     TooLarge,
     /// A text that is not one of the allowed values of a key.
     UnknownChoice,
-    /// Keys of one table that exclude each other.
+    /// Keys of one table that must not be given together.
     Exclusive,
     /// An unknown type of a joint, force, function or measure.
     UnknownType,
-    /// A table of a function that does not cover the run.
+    /// The times of a table do not cover the whole run.
     Uncovered,
-    /// The wrong number of bodies.
+    /// The number of bodies is wrong.
     BodyCount,
     /// A body that does not exist.
     UnknownBody,
@@ -56,7 +56,7 @@ pub(crate) enum Mistake {
     UnknownMeasure,
     /// A force along an angle, or a torque along a length.
     OtherLoad,
-    /// A reference to something that is not active.
+    /// A reference to an item that is not active.
     Inactive,
     /// A marker that belongs to a wrong body.
     ForeignMarker,
@@ -66,15 +66,15 @@ pub(crate) enum Mistake {
     TooManyRows,
     /// An entry that needs `format = 2`.
     NeedsFormat,
-    /// Parameters that depend on each other.
+    /// Parameters that depend on each other in a cycle.
     Circle,
     /// An unknown name in an expression.
     UnknownInExpression,
-    /// Units that do not fit.
+    /// Units that do not agree.
     Units,
     /// An expression without a finite value.
     NoValue,
-    /// Definitions of joints whose registration does not meet the requirements of the reader.
+    /// Definitions of joints whose registration does not satisfy the requirements of the reader.
     Registry,
     /// A list without entries.
     EmptyList,
@@ -148,7 +148,7 @@ impl From<&ArgumentError> for Mistake {
             ArgumentError::NotFinite { .. } => Self::NotFinite,
             ArgumentError::Negative { .. } => Self::OutOfRange,
             ArgumentError::NoDirection { .. } => Self::NoDirection,
-            // Further faults that definitions may report are faults of a value.
+            // Other errors that definitions may report concern a value.
             _ => Self::OutOfRange,
         }
     }

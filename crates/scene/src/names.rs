@@ -1,5 +1,5 @@
-//! Names of bodies, markers and measures, of joints, drives and forces, and of groups: each name
-//! may occur only once in each of these name spaces.
+//! Names of items. There are three name spaces: bodies, markers and measures; joints, drives and
+//! forces; and groups. In each of them, a name may occur only once.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
@@ -13,14 +13,14 @@ use crate::mistake::Mistake;
 use crate::source_map::SourceMap;
 use crate::table::Table;
 
-/// All names in their name spaces, including those of incomplete tables.
+/// All names in their name spaces, including the names in incomplete tables.
 pub(crate) struct Names {
-    /// Bodies, markers and measures, which share the columns of one table.
+    /// Bodies, markers and measures; they share the columns of one output table.
     pub(crate) bodies: Vec<NameUse>,
     pub(crate) measures: Vec<NameUse>,
     pub(crate) elements: Vec<NameUse>,
     pub(crate) groups: Vec<NameUse>,
-    /// The space of the scene, with the names of its columns.
+    /// The space of the scene, which determines the names of its columns.
     pub(crate) space: SpaceKind,
 }
 
@@ -53,7 +53,7 @@ impl Names {
         }
     }
 
-    /// Reports measures with the name of another column of the trajectory.
+    /// Reports measures whose name is also the name of another column of the trajectory.
     fn check_columns(&self, findings: &Findings) {
         let columns = self.space.columns();
         let measures: HashSet<&str> = self.measures.iter().map(|m| m.name.as_str()).collect();

@@ -1,10 +1,11 @@
 //! Suggests the name that was probably intended.
 
-/// Longer names are not compared, because the work grows with the square of the length.
+/// Longer names are not compared, because the computing time is proportional to the square of the
+/// length.
 const LONGEST: usize = 80;
 
-/// Names in other programs and books, and the names used here, as listed in the book. These words
-/// are used only for suggestions; words that are not candidates are skipped.
+/// Names in other programs and books, each with the name used here; the book contains this list.
+/// These words are used only for suggestions; words that are not candidates are skipped.
 pub const ELSEWHERE: &[(&str, &str)] = &[
     ("pin", "revolute"),
     ("hinge", "revolute"),
@@ -97,9 +98,9 @@ pub const ELSEWHERE: &[(&str, &str)] = &[
     ("--dt", "--max-step"),
 ];
 
-/// The candidate nearest to `name`, if one is near enough. A candidate is near if other programs
-/// use `name` for it, or if one is the plural of the other. It is also near if at most a third of
-/// its letters (but not all) differ.
+/// Returns the candidate that is most similar to `name`, if one is similar enough. A candidate is
+/// similar if other programs use `name` for it, or if one of the two is the plural of the other. It
+/// is also near if at most a third of its letters (but not all) differ.
 ///
 /// ```
 /// assert_eq!(pfaff_scene::nearest("hinge", ["fixed", "revolute"]), Some("revolute"));
@@ -144,7 +145,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
-/// The name used here for a name of other programs and books, if it differs.
+/// Returns the name used here for a name in other programs and books, if the two differ.
 pub(crate) fn meant(name: &str) -> Option<&'static str> {
     let mut known = ELSEWHERE.iter();
     known.find_map(|(said, here)| name.eq_ignore_ascii_case(said).then_some(*here))
@@ -161,7 +162,7 @@ pub(crate) fn did_you_mean<'a>(
 /// Largest number of names in an advice.
 const LISTED: usize = 10;
 
-/// The advice `the … are …`, if there are not too many names.
+/// The advice `the … are …`, if there are few names.
 pub(crate) fn all<'a>(what: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let names: Vec<_> = names.into_iter().take(LISTED + 1).collect();
     let few = (1..=LISTED).contains(&names.len());
@@ -174,7 +175,7 @@ pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// The letters that are compared: upper and lower case count as equal.
+/// Writes the characters to compare to `out`; upper and lower case count as equal.
 fn lower(text: &str, out: &mut Vec<char>) {
     out.clear();
     if text.is_ascii() {
@@ -184,7 +185,7 @@ fn lower(text: &str, out: &mut Vec<char>) {
     }
 }
 
-/// Three rows of the table of distances between initial parts of two texts.
+/// Three rows of the table of edit distances between initial parts of two texts.
 #[derive(Default)]
 struct Rows {
     before: Vec<usize>,
@@ -193,8 +194,8 @@ struct Rows {
 }
 
 impl Rows {
-    /// Number of letters to insert, delete, replace or exchange with their neighbour (optimal
-    /// string alignment), if it is at most `limit`.
+    /// Returns the number of letters to insert, delete, replace or exchange with their neighbour
+    /// (optimal string alignment), if it is at most `limit`.
     fn distance(&mut self, a: &[char], b: &[char], limit: usize) -> Option<usize> {
         if a.len().abs_diff(b.len()) > limit {
             return None;
@@ -206,8 +207,8 @@ impl Rows {
         for (j, x) in self.last.iter_mut().enumerate() {
             *x = j;
         }
-        // An exchange of neighbours uses the second-last row: no distance is below the smaller of
-        // the minima of the last two rows.
+        // An exchange of neighbours uses the second-last row. Therefore no later distance is below
+        // the smaller of the minima of the last two rows.
         let mut least_before = 0;
         for i in 1..=a.len() {
             let Self { before, last, row } = self;
@@ -279,7 +280,7 @@ mod tests {
         assert_eq!(nearest("D", ["A", "B"]), None);
         assert_eq!(nearest("a", ["B", "A"]), Some("A"));
         assert_eq!(nearest("bodies", ["joint", "body"]), Some("body"));
-        // The first candidate is used if several are equally similar.
+        // If several candidates are equally similar, the first one is used.
         let near = nearest("crank-10", ["crank-1", "crank-20", "Crank-10", "crank-10"]);
         assert_eq!(near, Some("Crank-10"));
     }

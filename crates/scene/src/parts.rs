@@ -90,8 +90,8 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         }
     }
 
-    /// Joints and drives by name, including those that could not be read: all, or only the active
-    /// ones.
+    /// Joints and drives by name, including those that could not be read: all of them, or only the
+    /// active ones.
     pub(crate) fn reactions(&self, of: Participation) -> Reactions<'_> {
         let space = self.names.space;
         let joints = self.joints.iter().map(|joint| {
@@ -132,7 +132,7 @@ impl<'r, S: SceneBody> Parts<'r, S> {
     }
 }
 
-/// Which joints and drives a reference may name.
+/// The joints and drives to which a reference may refer.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Participation {
     Any,

@@ -1,6 +1,6 @@
-//! The reference point of a joint or force: `at`, a global point of the described configuration, or
-//! points in the frames of the bodies; or markers instead of these points. Points are stored
-//! relative to the centres of mass.
+//! The reference point of a joint or force. It is given by `at`, which is a point in ground
+//! coordinates in the described configuration, or by points in the frames of the bodies. Markers
+//! may replace these points. Points are stored relative to the centres of mass.
 
 use std::ops::Range;
 
@@ -18,14 +18,14 @@ use crate::nearest::list;
 use crate::space::SceneSpace;
 use crate::table::Table;
 
-/// Points in the frames of their bodies, in the order of the point parameters, `None` if they could
-/// not be read; and their positions in the text.
+/// Points in the frames of their bodies, in the order of the point parameters, with their positions
+/// in the text. A point is `None` if it could not be read.
 pub(crate) struct Place<S: SceneSpace> {
     pub(crate) points: Vec<Option<S::Vector<f64>>>,
     pub(crate) span: Range<usize>,
 }
 
-/// The key of the reference point in global coordinates.
+/// The key of the reference point in ground coordinates.
 pub(crate) const AT: &str = "at";
 
 /// The key of the reference point in the frame of one body.
@@ -40,7 +40,7 @@ pub(crate) fn local_key(spec: &Spec) -> &'static str {
     }
 }
 
-/// Description of the frames for the points of such a key.
+/// The frames of the points of such a key, in words for messages.
 fn frames(local_key: &str) -> &'static str {
     match local_key {
         POINT => "in the frame of the body",
@@ -48,8 +48,8 @@ fn frames(local_key: &str) -> &'static str {
     }
 }
 
-/// The slots of the bodies whose points a table gives: all slots of a definition, or the last one
-/// if bearings define the others.
+/// The indices of the bodies whose points a table contains. These are all bodies of a definition,
+/// or only the last one if bearings define the points of the others.
 pub(crate) fn slots_of_points(spec: &Spec) -> Vec<usize> {
     let mut slots: Vec<usize> = spec.slots_of_points().collect();
     if spec.bearings {
@@ -58,8 +58,8 @@ pub(crate) fn slots_of_points(spec: &Spec) -> Vec<usize> {
     slots
 }
 
-/// Reads the reference point of a definition whose slots contain the bodies `slots`: points of the
-/// bodies in the slots `of`.
+/// Reads the reference point of a definition with the bodies `slots`; the result contains the
+/// points of the bodies with the indices `of`.
 pub(crate) fn read<S: SceneSpace>(
     table: &mut Table,
     spec: &'static Spec,
@@ -116,7 +116,7 @@ pub(crate) fn read<S: SceneSpace>(
     }
 }
 
-/// Reads `at`: one common point, or one point for each parameter.
+/// Reads `at`, which contains one common point, or one point for each parameter.
 fn global<S: SceneSpace>(
     at: &Field,
     spec: &Spec,
@@ -140,7 +140,7 @@ fn global<S: SceneSpace>(
     of.iter().enumerate().map(local).collect()
 }
 
-/// A point given by `at`, in the frame of a body relative to its centre of mass.
+/// Converts a point given by `at` to a point relative to the centre of mass, in the body frame.
 fn local<S: SceneSpace>(
     at: &Field,
     point: &PointText<S>,
@@ -159,13 +159,14 @@ fn local<S: SceneSpace>(
     Some(local)
 }
 
-/// A point as written in the text.
+/// A point in the form given in the text.
 enum PointText<'b, S: SceneSpace> {
     At(S::Vector<f64>),
     Of(&'b Marker),
 }
 
-/// Reads a vector, or the name of a marker. Returns `None` and reports if the value is neither.
+/// Reads a vector, or the name of a marker. If the value is neither, the function reports this and
+/// returns `None`.
 fn point<'b, S: SceneSpace>(
     field: &Field,
     expected: &str,
@@ -178,7 +179,8 @@ fn point<'b, S: SceneSpace>(
     point.map(PointText::At)
 }
 
-/// The fields of `n` points. Returns `None` and reports if the number of points differs.
+/// Returns the fields of `n` points. If the number of points differs, the function reports this and
+/// returns `None`.
 fn several<'t>(
     field: &Field<'t>,
     n: usize,
@@ -194,8 +196,8 @@ fn several<'t>(
     None
 }
 
-/// Reads points in the frame of one body, relative to its centre of mass; a list if there are
-/// several.
+/// Reads points in the frame of one body and converts them to points relative to the centre of
+/// mass; several points are in a list.
 fn of_body<S: SceneSpace>(
     field: &Field,
     n: usize,
@@ -229,7 +231,7 @@ fn of_body<S: SceneSpace>(
     fields.iter().map(&mut local).collect()
 }
 
-/// Reads `points`: a table whose keys are the names of the bodies that have points.
+/// Reads `points`, a table whose keys are the names of the bodies with points.
 fn by_body<S: SceneSpace>(
     field: &Field,
     of: &[usize],
@@ -240,7 +242,7 @@ fn by_body<S: SceneSpace>(
     let Some(table) = field.table(S::BY_BODY) else {
         return points;
     };
-    // If a body has no name, the reader cannot decide which keys are right.
+    // If a body has no name, it is not possible to decide which keys are correct.
     let Some(owners) = of
         .iter()
         .map(|&slot| slots.get(slot).copied().flatten())
@@ -256,7 +258,7 @@ fn by_body<S: SceneSpace>(
     let foreign = given
         .iter()
         .filter(|(_, value)| !names.contains(&&*value.key));
-    // One point with a wrong name is one mistake.
+    // If one point has a wrong name, this is only one mistake.
     let meant = match (missing.len(), foreign.count()) {
         (1, 1) => missing.pop(),
         _ => None,

@@ -1,9 +1,10 @@
-//! Warnings of numbers that are valid, but were probably meant in another unit or are typing
-//! errors. The thresholds lie between numbers of real machines and the numbers that result from a
-//! wrong unit. An author who intends such a number suppresses the warning by its code (`silence`).
+//! Warnings about numbers that are valid, but are probably typing errors or in a wrong unit. The
+//! thresholds are between the values for real machines and the values that result from a wrong
+//! unit. To use such a number intentionally, the author of the scene suppresses the warning by its
+//! code (`silence`).
 //!
-//! A check that needs only one value is made when the value is read, for angles in `angles`. Checks
-//! that need the mechanism are in `mechanism`.
+//! A check that needs only one value is done when the value is read; for angles, see `angles`. For
+//! checks that need the mechanism, see `mechanism`.
 
 pub(crate) mod angles;
 mod mechanism;
@@ -19,18 +20,18 @@ use crate::field::Field;
 
 pub(crate) use mechanism::check;
 
-/// Standard acceleration of free fall on the Earth (m/s²).
+/// Standard gravity of the Earth (m/s²).
 const EARTH: f64 = 9.80665;
 
-/// Share by which a gravity of the Earth may differ from the standard value, because 10 m/s² is
+/// Relative difference up to which a value counts as the gravity of the Earth, because 10 m/s² is
 /// also used.
 const NEAR_EARTH: f64 = 0.03;
 
-/// Largest plausible gravity (m/s²): twice the gravity of Jupiter, which is the largest of the
-/// planets.
+/// Largest plausible gravity (m/s²): twice the gravity of Jupiter, which has the largest gravity of
+/// the planets.
 const LARGEST_GRAVITY: f64 = 50.0;
 
-/// Warns of a gravity that no planet has, and of the gravity of the Earth in another unit.
+/// Warns about a gravity that no planet has, and about the gravity of the Earth in a wrong unit.
 pub(crate) fn gravity(field: &Field, gravity: &[f64]) {
     let size = norm(gravity);
     let is_earth = |x: f64| (x / EARTH - 1.0).abs() <= NEAR_EARTH;
@@ -39,7 +40,7 @@ pub(crate) fn gravity(field: &Field, gravity: &[f64]) {
     let lengths = || lengths().map(|(name, unit)| (name, unit.to_f64()));
     let mut others = lengths().filter(|(_, metres)| *metres != 1.0);
     let own = Some(base.metres).filter(|metres| *metres != 1.0);
-    // The number may be in another unit, or in metres although bare numbers are in another unit.
+    // The number may be in another unit, or in metres although the scene uses another unit.
     let (meant, why) = if let Some((name, metres)) = others.find(|(_, u)| is_earth(size * u)) {
         (Some(metres), format!("it looks like {name}/s²"))
     } else if let Some(metres) = own.filter(|metres| is_earth(size / metres)) {
@@ -73,8 +74,8 @@ pub(crate) fn gravity(field: &Field, gravity: &[f64]) {
     );
 }
 
-/// Warns of output rows that are farther apart than the duration of the run. A run of zero duration
-/// is a start with its reactions.
+/// Warns about an output step that is longer than the run. A run without duration computes only the
+/// initial state and its reactions.
 pub(crate) fn output_step(step: &Field, [each, end]: [f64; 2]) {
     if !(each > end && end > 0.0) {
         return;
@@ -91,7 +92,7 @@ pub(crate) fn output_step(step: &Field, [each, end]: [f64; 2]) {
     );
 }
 
-/// Warns of a measure between two points of one body, which is constant.
+/// Warns about a measure between two points of one body, which is constant.
 pub(crate) fn measure(field: &Field, between: [Option<usize>; 2], markers: &[Marker]) {
     let body = |k: Option<usize>| k.map_or(BodyRef::Ground, |k| markers[k].body);
     let [first, second] = between;

@@ -1,4 +1,5 @@
-//! `[[group]]` and `[output]`: which reactions are requested, and which combinations of them.
+//! `[[group]]` and `[output]`: the requested reactions, and the requested combinations of
+//! reactions.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -13,7 +14,7 @@ use crate::key::{Key, Takes};
 use crate::mistake::Mistake;
 use crate::table::Table;
 
-/// A combination of reactions on which a verdict is requested.
+/// A combination of reactions for which a uniqueness verdict is requested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroupRequest {
     /// Name of the group.
@@ -52,13 +53,13 @@ impl Default for Output {
     }
 }
 
-/// The reactions that are written to files.
+/// The reactions that are written to the output file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum WantedReactions {
     /// Reactions of all joints and drives.
     #[default]
     All,
-    /// No reactions.
+    /// No joint or drive.
     None,
     /// The reactions of these joints and drives.
     Of(Vec<String>),
@@ -71,7 +72,7 @@ const COMBINE: Key =
         "A sum of components as \"W3.N + W4.N\" or of whole reactions as \"W3 + W4\", with factors where wanted",
     );
 
-/// Keys that exclude each other in a group; it has exactly one of them, in addition to its name.
+/// Keys of a group, of which exactly one must be given, in addition to the name.
 pub(crate) const GROUP_KEYS: [Key; 2] = [MEMBERS, COMBINE];
 
 const TRAJECTORY: Key = Key::optional("trajectory", "true or false", Takes::Flag)
@@ -92,7 +93,7 @@ const REPORT: Key = Key::optional("report", "true or false", Takes::Flag)
 pub(crate) const OUTPUT_KEYS: [Key; 3] = [TRAJECTORY, REACTIONS, REPORT];
 
 /// Components that can be requested: force and torque, even if they are identically zero, and the
-/// named component.
+/// component named by the definition.
 pub(crate) fn components(space: SpaceKind, spec: &ConstraintSpec) -> Vec<&'static str> {
     let all = space.components().iter().copied();
     all.chain(spec.component).collect()

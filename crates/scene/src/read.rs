@@ -1,4 +1,4 @@
-//! Reads a text as a scene, or returns all of its problems.
+//! Reads the text of a scene, or returns all problems in the text.
 
 mod syntax;
 
@@ -36,11 +36,12 @@ use crate::text::SourceText;
 /// Reads a scene file.
 ///
 /// `source_name` is the name in diagnostics, usually the path; `registry` contains the joints and
-/// forces that the text may use.
+/// forces that are permitted in the text.
 ///
 /// # Errors
-/// All problems of the text, in the order of the text. If a file is not TOML, only this problem is
-/// reported. A scene without problems is a description that [`model::Mechanism::build`] accepts.
+/// Returns an error with all problems of the text, in the order of the text. If the text is not
+/// valid TOML, only this problem is reported. If there is no problem, [`model::Mechanism::build`]
+/// accepts the description.
 ///
 /// ```
 /// use model::Registry;
@@ -57,7 +58,8 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     checked(source_name, text, registry).map(|(scene, _)| scene)
 }
 
-/// Like [`read()`], but also returns the mechanism of the scene, which was built to check the text.
+/// Works like [`read()`], but also returns the mechanism of the scene, which was built to check the
+/// text.
 ///
 /// # Errors
 /// Returns the same errors as [`read()`].
@@ -79,7 +81,7 @@ pub fn read_and_build(
     if scene.inactive.is_empty() {
         return Ok((scene, mechanism));
     }
-    // The mechanism that was checked also contains the inactive parts.
+    // The mechanism that was built for the check also contains the inactive parts.
     match Mechanism::build(&scene.description) {
         Ok(mechanism) => Ok((scene, mechanism)),
         Err(errors) => Err(errors
@@ -89,7 +91,7 @@ pub fn read_and_build(
     }
 }
 
-/// Reads a scene and builds the mechanism of all of its parts, active or not.
+/// Reads a scene and builds the mechanism of all parts, including inactive parts.
 fn checked(
     source_name: &str,
     text: &str,
@@ -118,7 +120,7 @@ fn checked(
     scene.units = language.units;
     let unit = language.length_unit();
     drop(language);
-    // The parsed text is large compared with the scene read from it.
+    // The parsed text needs much more memory than the scene, so it is freed here.
     drop(root);
     let mechanism = match &scene.source {
         Some(source) => check(&scene.description, source, unit, &findings),
@@ -237,9 +239,9 @@ fn groups<S: SceneBody>(root: &mut Table, parts: &mut Parts<S>) -> (Vec<GroupReq
     (groups, entries)
 }
 
-/// Builds the mechanism. Reports the errors of the build, or otherwise implausible data of the
-/// mechanism. The existence of bodies and the names, including those of unreadable tables, have
-/// already been checked.
+/// Builds the mechanism for a check. Reports the errors of the build, or otherwise implausible
+/// values of the mechanism. The existence of bodies and all names, including the names in
+/// unreadable tables, were checked earlier.
 fn check(
     description: &AnyDescription,
     source: &SourceMap,
@@ -261,12 +263,12 @@ fn check(
         }
         match error {
             BuildError::DuplicateName { .. } | BuildError::Ground | BuildError::NoBodies => {}
-            // The joint of the drive has the same problem.
+            // The same problem is reported for the joint of the drive.
             BuildError::Tolerance {
                 of: ToleranceScope::Drive(_),
                 ..
             } => {}
-            // The joint of the drive has the same problem.
+            // The same problem is reported for the joint of the drive.
             BuildError::SameBody { name, .. } | BuildError::GroundOnly { name }
                 if of_drive(name) => {}
             _ => findings.report(locate::build(source, description, error)),

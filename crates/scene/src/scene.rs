@@ -1,5 +1,5 @@
-//! A mechanism with the requested computations: the result of reading a text, or a description that
-//! a program has created.
+//! A mechanism with the requested computations. It is read from a text, or a program creates it
+//! from a description.
 
 use dynamics::{MotionError, MotionOptions};
 use model::{
@@ -15,8 +15,8 @@ use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
 use crate::source_map::{Entry, SourceMap};
 
-/// A mechanism, the requested computations, and the positions of all of these in the file, if it
-/// was read from a file.
+/// A mechanism and the requested computations. If they were read from a file, their positions in
+/// the file are also available.
 ///
 /// ```
 /// use dynamics::MotionOptions;
@@ -32,30 +32,31 @@ use crate::source_map::{Entry, SourceMap};
 /// ```
 #[derive(Clone, Default)]
 pub struct Scene {
-    /// The mechanism as plain data; it has the name of the scene.
+    /// The mechanism as plain data; its name is the name of the scene.
     pub description: AnyDescription,
-    /// Options of the start.
+    /// Options for the computation of the initial state.
     pub start: StartOptions,
     /// The run, if the file requests one.
     pub simulate: Option<MotionOptions>,
     /// Requested output.
     pub output: Output,
-    /// Combinations of reactions on which verdicts are requested.
+    /// Combinations of reactions for which uniqueness verdicts are requested.
     pub groups: Vec<GroupRequest>,
     /// Positions in the text; `None` if there is no text.
     pub source: Option<SourceMap>,
-    /// Units of numbers that the text gives without a unit.
+    /// Units of bare numbers in the text.
     pub units: Units,
-    /// Numbers of the text without a unit that are not in SI, because `units` chooses another unit:
-    /// their start positions, and the SI value of 1 in their unit.
+    /// Bare numbers in the text that are not in SI units because `units` chooses other units: the
+    /// start position of each number, and the size of its unit in SI.
     pub scales: Vec<(usize, f64)>,
-    /// Inactive parts of the text: they were checked, but are not part of the mechanism.
+    /// Inactive parts of the text, which were checked but are not part of the mechanism.
     pub inactive: Vec<Inactive>,
-    /// Parts of the text that can be used, but are probably not what the author intended.
+    /// Warnings about parts of the text that are valid, but are probably not what the author
+    /// intended.
     pub warnings: Vec<Diagnostic>,
 }
 
-/// A part of a scene that is read but is not part of the mechanism.
+/// An inactive part of a scene, which is read but is not part of the mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Inactive {
     /// `joint`, `drive`, `force` or `group`.
@@ -70,8 +71,8 @@ impl std::fmt::Display for Inactive {
     }
 }
 
-/// A scene that contains only the mechanism: all other settings have their defaults, and no run is
-/// requested.
+/// Creates a scene that contains only the mechanism: all other settings have default values, and no
+/// run is requested.
 impl From<AnyDescription> for Scene {
     fn from(description: AnyDescription) -> Self {
         Self {
@@ -111,9 +112,9 @@ impl Scene {
         self.warnings.iter().map(Diagnostic::sentence)
     }
 
-    /// The position of an error of [`model::Mechanism::build`], for descriptions that were changed
-    /// after reading. This function and the other functions for positions return `None` if there is
-    /// no text.
+    /// Returns the position of an error of [`model::Mechanism::build`], for descriptions that were
+    /// changed after reading. If there is no text, this function and the other functions for
+    /// positions return `None`.
     #[must_use]
     pub fn locate_build(&self, error: &BuildError) -> Option<Diagnostic> {
         let source = self.source.as_ref()?;
@@ -132,7 +133,7 @@ impl Scene {
         Some(locate::motion(self.source.as_ref()?, error))
     }
 
-    /// Parses a combination of reaction components of this scene, as in the key `combine` of a
+    /// Parses a combination of reactions of this scene, with the syntax of the key `combine` of a
     /// group.
     ///
     /// # Errors
@@ -149,7 +150,7 @@ impl Scene {
         combination::parse(text, &Reactions::new(names.collect()).without(inactive))
     }
 
-    /// Removes all inactive parts, after the whole scene has been checked.
+    /// Removes all inactive parts; the whole scene must have been checked before.
     pub(crate) fn take_out_inactive(&mut self) {
         let Some(source) = &mut self.source else {
             return;
@@ -162,14 +163,14 @@ impl Scene {
         retain("group", &mut self.groups, &mut source.groups, inactive);
     }
 
-    /// Whether the text contains an inactive joint or drive with this name.
+    /// Returns whether the text contains an inactive joint or drive with this name.
     #[must_use]
     pub fn is_inactive(&self, name: &str) -> bool {
         let mut all = self.inactive.iter();
         all.any(|x| x.name == name && matches!(x.kind, "joint" | "drive"))
     }
 
-    /// The joint or drive with the most similar name, if one is similar.
+    /// Returns the joint or drive with the most similar name, if one is similar enough.
     #[must_use]
     pub fn nearest_reaction(&self, name: &str) -> Option<&str> {
         let named = self.description.joints().chain(self.description.drives());
@@ -177,7 +178,7 @@ impl Scene {
     }
 }
 
-/// Retains the active parts of a mechanism.
+/// Removes the inactive parts of a mechanism.
 fn retain_active<S: BodySpace>(
     d: &mut MechanismDescription<S>,
     source: &mut SourceMap,
@@ -188,7 +189,7 @@ fn retain_active<S: BodySpace>(
     retain("force", &mut d.forces, &mut source.forces, inactive);
 }
 
-/// Retains the active items of a list, and their entries.
+/// Removes the inactive items of a list, and their entries in the list of positions.
 fn retain<T>(
     kind: &'static str,
     items: &mut Vec<T>,

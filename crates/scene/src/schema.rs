@@ -1,6 +1,6 @@
 //! The format as a JSON schema for editors, generated from the keys of the reader and the
-//! definitions of the registry. The schema contains no conditions on a whole scene (names that
-//! exist, rows, a start that assembles).
+//! definitions of the registry. The schema does not contain conditions that concern the whole scene
+//! (existing names, rows, the assembly of the initial configuration).
 
 mod element;
 mod value;
@@ -29,10 +29,11 @@ use crate::{coupling, marker, measure, simulate, spring, start, tolerance};
 use element::{ElementKind, elements};
 use value::{described, reference};
 
-/// The JSON schema (draft 2020-12) of scene files that use joints and forces of this registry.
+/// The JSON schema (draft 2020-12) of scene files with the joints and forces of this registry.
 ///
 /// The function [`read`](crate::read()) rejects every text that the schema rejects. The reverse is
-/// not true, because a schema does not check names, rows and the assembly of a start.
+/// not true, because a schema cannot check names, rows and the assembly of the initial
+/// configuration.
 ///
 /// ```
 /// let schema = pfaff_scene::schema(&model::Registry::standard());
@@ -96,7 +97,8 @@ const OF_SPACE: [&Section; 7] = [
     &section::FORCE,
 ];
 
-/// The sections of a space; adds their definitions, with a prefix for space.
+/// Returns the sections of a space, and adds their definitions; in three-dimensional space the
+/// names of the definitions have a prefix.
 fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Value>) -> Value {
     let registry = S::definitions(registry);
     let tables = [
@@ -119,14 +121,14 @@ fn in_space<S: SceneBody>(registry: &Registry, definitions: &mut Map<String, Val
         properties.insert((*name).to_owned(), property(doc, times, &of));
         definitions.insert(of, definition);
     }
-    // A scene needs at least one body.
+    // A scene must contain at least one body.
     properties[section::BODY.name]["minItems"] = 1.into();
     definitions.insert(value::name_in::<S>("point"), value::point::<S>());
     definitions.insert(value::name_in::<S>("place"), value::place::<S>());
     properties.into()
 }
 
-/// The elements of a section, and the elements of a type that has keys instead of a definition.
+/// Adds a type that the registry does not contain to the elements of a section; its keys are given.
 fn with_type(
     mut elements: Value,
     title: &str,
@@ -142,7 +144,7 @@ fn with_type(
     elements
 }
 
-/// The joints, with couplings.
+/// The joints, including couplings.
 fn joints<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     let keys = [&coupling::KEYS[..], &[tolerance::OF_JOINT, ACTIVE]].concat();
     let doc = "A measure of one joint follows a measure of another";
@@ -150,7 +152,7 @@ fn joints<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     with_type(joints, "Joint", COUPLING, (doc, &keys))
 }
 
-/// The forces, in space with springs on angles.
+/// The forces; in space with springs on angles.
 fn forces<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     let forces = elements(registry, ElementKind::Force);
     if S::KIND != SpaceKind::Space3 {
@@ -161,7 +163,7 @@ fn forces<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     with_type(forces, "Force", spring::SPRING, (doc, &keys))
 }
 
-/// A section with this definition.
+/// A section with this definition, for the root of the schema.
 fn property(doc: &str, times: Times, definition: &str) -> Value {
     let of = reference(definition);
     match times {
@@ -214,7 +216,7 @@ fn named(title: &str, keys: &[Key]) -> Value {
 
 fn drive<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     let mut table = named("Drive", &[&DRIVE_KEYS[..], &[ACTIVE]].concat());
-    // Joints, grouped by the joint coordinates that can be prescribed.
+    // Joints with the same set of joint coordinates that can be prescribed.
     let mut measures: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for spec in registry.constraint_specs() {
         for definition in registry.constraints(spec.scene_type) {
@@ -238,14 +240,14 @@ fn drive<S: SceneSpace>(registry: &Definitions<S>) -> Value {
     table
 }
 
-/// Adds a key to the required keys.
+/// Marks a key as required.
 fn require(table: &mut Value, key: &str) {
     if let Some(required) = table["required"].as_array_mut() {
         required.push(key.into());
     }
 }
 
-/// A table with a name and one of two kinds of content.
+/// A table with a name and exactly one of two keys.
 fn group() -> Value {
     let either =
         GROUP_KEYS.map(|key| table(&format!("Group with `{}`", key.name), &[NAME, key, ACTIVE]));

@@ -1,4 +1,4 @@
-//! The tables of the first level: tables that occur once, and lists of named items.
+//! The top-level tables of a file: sections that occur once, and lists of named items.
 
 use std::collections::BTreeMap;
 
@@ -62,11 +62,11 @@ pub(crate) const OUTPUT: Section = Section::new(
     "What is written; what is not wanted is not computed",
 );
 
-/// The name of the item that a table of a list describes.
+/// The key for the name of the item that a table in a list describes.
 pub(crate) const NAME: Key = Key::required("name", "a text", Takes::Name)
     .doc("Its name, once among things of its kind; joints, drives and forces share their names, and so do bodies, markers and measures");
 
-/// A table that occurs once, if it is given.
+/// Reads a section that may occur once, if it is given.
 pub(crate) fn section<'t>(
     root: &mut Table<'t>,
     Section { name, .. }: &Section,
@@ -79,7 +79,7 @@ pub(crate) fn section<'t>(
     Some(table)
 }
 
-/// Tables that may occur many times, with the names of their items.
+/// Reads a list of tables, with the names of their items.
 pub(crate) fn tables<'t>(
     root: &mut Table<'t>,
     Section { name: kind, .. }: &Section,
@@ -100,7 +100,7 @@ pub(crate) fn tables<'t>(
         .collect()
 }
 
-/// A table with its name, or with its number if it has no name.
+/// Reads a table with its name. If it has no name, its index is used in its place.
 fn named<'t>(item: &Field<'t>, kind: &str, number: usize) -> Option<(Table<'t>, String)> {
     let Some(entries) = item.value.get_ref().as_table() else {
         item.mismatch(&format!("a list of tables `[[{kind}]]`"));
@@ -126,11 +126,11 @@ fn named<'t>(item: &Field<'t>, kind: &str, number: usize) -> Option<(Table<'t>, 
     Some((table, name))
 }
 
-/// Number of letters of the longest name: every message and the column headers repeat it.
+/// Largest number of characters of a name, because every message and the column headers repeat it.
 pub(crate) const LONGEST_NAME: usize = 1000;
 
-/// The reason why a name cannot be used in a column header, if there is one, and a suggestion:
-/// tables have one line for their header, and spreadsheets open them.
+/// Returns the reason why a name is not permitted in a column header, and a suggestion; `None` if
+/// it is permitted. An output table has one line for its header and may be opened in a spreadsheet.
 pub(crate) fn unfit(name: &str) -> Option<(String, &'static str)> {
     if name.trim().is_empty() {
         return Some(("is empty".to_owned(), "expected a name"));

@@ -1,4 +1,4 @@
-//! `silence` of `[scene]`: the warnings that the user suppresses, by their codes.
+//! `silence` of `[scene]`: the warnings that the author suppresses, by their codes.
 
 use model::codes::Code;
 use serde_json::json;
@@ -7,7 +7,7 @@ use crate::key::{Key, Takes};
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
-/// The warnings that a scene can have. They are never errors, and each can be suppressed.
+/// All warnings about a scene. They are never errors, and each of them can be suppressed.
 const WARNINGS: [Code; 10] = [
     Code::new(190),
     Code::new(191),
@@ -21,7 +21,7 @@ const WARNINGS: [Code; 10] = [
     Code::new(199),
 ];
 
-/// The codes as written in the text.
+/// The codes in the form given in the text.
 pub(crate) fn warnings() -> Vec<String> {
     WARNINGS.iter().map(ToString::to_string).collect()
 }

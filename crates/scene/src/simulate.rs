@@ -17,7 +17,7 @@ use crate::nearest::{did_you_mean, list};
 use crate::plausible;
 use crate::table::Table;
 
-/// The values of a key that correspond to an enum of `dynamics`.
+/// The values of a key, each with the value of an enum of `dynamics`.
 struct Choice<T: 'static> {
     key: Key,
     available: &'static [T],
@@ -103,18 +103,18 @@ fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
     all.iter().map(|value| name(*value)).collect()
 }
 
-/// Number of rows for the step that an error message proposes.
+/// Number of output rows for which an error message suggests a step.
 const USEFUL_ROWS: f64 = 1e4;
 
-/// The section with the positions that later checks need.
+/// The section, with the positions that later checks need.
 pub(crate) struct Simulate {
     pub(crate) options: MotionOptions,
     pub(crate) t_end: Range<usize>,
-    /// Redundant rows (key `drop`), from 0, with their positions in the text.
+    /// Rows to treat as dependent (key `drop`, 0-based), with their positions in the text.
     drop: Vec<(usize, Range<usize>)>,
 }
 
-/// Reads the section. `None` if the end time of the run could not be read.
+/// Reads the section. Returns `None` if the end time of the run could not be read.
 pub(crate) fn read(mut table: Table) -> Option<Simulate> {
     let end = table.needed(T_END.name, "the last time in s");
     let t_end = end.as_ref().and_then(|field| bounded(field, &T_END));
@@ -150,7 +150,7 @@ pub(crate) fn read(mut table: Table) -> Option<Simulate> {
     })
 }
 
-/// Reports an output with too many rows for a disk.
+/// Reports an output with more rows than a disk can hold.
 fn check_length(options: &MotionOptions, step: &Field, end: &Field) {
     let MotionOptions {
         t_end, output_step, ..
@@ -177,7 +177,7 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field) {
     step.findings.report(too_small);
 }
 
-/// Reads a number within its bounds; errors have the text of `dynamics`.
+/// Reads a number within its bounds; the error messages are those of `dynamics`.
 fn bounded(field: &Field, key: &Key) -> Option<f64> {
     let value = field.number(key.unit)?;
     if key.allows(value) {
@@ -232,8 +232,8 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T> {
     None
 }
 
-/// Reads the rows to treat as redundant, counted from 1 in the file and from 0 in the result.
-/// Whether they exist is checked when the mechanism is built.
+/// Reads the rows to treat as dependent, which are 1-based in the file and 0-based in the result. A
+/// later check, after the build of the mechanism, reports rows that do not exist.
 fn rows(field: &Field) -> Vec<(usize, Range<usize>)> {
     const EXPECTED: &str = DROP.expected;
     let mut rows: Vec<(usize, Range<usize>)> = Vec::new();
@@ -274,7 +274,7 @@ impl Simulate {
         }
     }
 
-    /// Reports tables of functions that end before the run ends.
+    /// Reports tables of functions that end before the end of the run.
     pub(crate) fn check_domains(&self, domains: &[Domain], findings: &Findings) {
         let t_end = self.options.t_end;
         for domain in domains {

@@ -1,4 +1,4 @@
-//! Positions of all items in the file, for problems that are found later.
+//! Positions of all items in the file, for problems that are found after reading.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use crate::text::SourceText;
 /// Positions of a table and of its values.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Entry {
-    /// The name of the item that the table describes; for a section, its own name.
+    /// The name of the item that the table describes, or the name of the section.
     pub name: String,
     /// Position of the header, such as `[[body]]`.
     pub header: Range<usize>,
@@ -44,7 +44,7 @@ impl Entry {
         self.value("name").unwrap_or_else(|| self.header.clone())
     }
 
-    /// Position of the value of a key, or of the name if the key is not given.
+    /// Position of the value of a key, or of the name if the key is missing.
     #[must_use]
     pub fn span(&self, key: &str) -> Range<usize> {
         self.value(key).unwrap_or_else(|| self.name_span())
@@ -57,7 +57,7 @@ impl Entry {
             .map(|(_, span)| span.clone())
     }
 
-    /// Position of the value of the first of these keys that is given, or of the name.
+    /// Position of the value of the first of these keys that is given, or otherwise of the name.
     #[must_use]
     pub fn first_of(&self, keys: &[&str]) -> Range<usize> {
         let given = keys.iter().find_map(|key| self.value(key));
@@ -119,8 +119,8 @@ impl SourceMap {
         self.elements().find(|entry| entry.name == name)
     }
 
-    /// Position of the value of a key of a section; if it is not given, of the header of the
-    /// section, or of `[scene]`.
+    /// Position of the value of a key of a section. If the key is missing, it is the position of
+    /// the section header, or of `[scene]`.
     #[must_use]
     pub fn section(&self, section: &str, key: &str) -> Range<usize> {
         self.sections

@@ -1,4 +1,4 @@
-//! Differences of the format between plane and space: vectors, names, and bodies.
+//! The differences between the plane and space in the format: vectors, names, and bodies.
 
 mod plane;
 mod space3;
@@ -11,7 +11,7 @@ use model::{AnyDescription, BodySpace, Definitions, MechanismDescription, Regist
 
 use crate::key::Key;
 
-/// The name of the space other than `here` for which the flag is true.
+/// Returns the name of the space other than `here` for which the flag in `holds` is true.
 fn other(here: &str, holds: [(&'static str, bool); 2]) -> Option<&'static str> {
     let mut others = holds.into_iter().filter(|(name, _)| *name != here);
     others.find_map(|(name, holds)| holds.then_some(name))
@@ -36,10 +36,10 @@ pub(crate) fn of_type(here: &str, registry: &Registry, name: &str) -> Option<&'s
     )
 }
 
-/// A coordinate of a body that the start may keep, with its name.
+/// A coordinate of a body that may be listed in `keep`, with its name.
 pub(crate) struct BodyCoordinate {
     pub(crate) name: &'static str,
-    /// Degrees of freedom of the body.
+    /// The indices of the velocity components that belong to the coordinate.
     pub(crate) dofs: Range<usize>,
     pub(crate) level: KeepLevel,
 }
@@ -54,50 +54,52 @@ impl BodyCoordinate {
 pub(crate) trait SceneSpace: BodySpace {
     /// Name of the space in `[scene]`.
     const NAME: &'static str;
-    /// A vector, as written in messages.
+    /// The word for a vector in messages.
     const VECTOR: &'static str;
-    /// A point, as written in messages.
+    /// The word for a point in messages.
     const POINT: &'static str;
-    /// A point in global coordinates, as written in messages.
+    /// The words for a point in ground coordinates in messages.
     const GLOBAL_POINT: &'static str;
-    /// Points, one for each body, as written in messages.
+    /// The words for points, one for each body, in messages.
     const BY_BODY: &'static str;
-    /// The key for the acceleration of free fall.
+    /// The key for the acceleration due to gravity.
     const GRAVITY: Key;
-    /// Coordinates of a body that the start may keep.
+    /// Coordinates of a body that may be listed in `keep`.
     const COORDINATES: &'static [BodyCoordinate];
 
-    /// Whether directions may be written in the axes of the ground (`frame = "global"`), and
-    /// whether directions of a second body are written in the axes of the first one.
+    /// Whether directions may be given in ground axes (`frame = "global"`), and whether directions
+    /// on the second body are given in the axes of the first one.
     const CARRIES: bool;
 
-    /// The description for programs that accept both spaces.
+    /// Converts the description to the type for programs that accept both spaces.
     fn described(d: MechanismDescription<Self>) -> AnyDescription;
 
     /// The definitions of a registry that belong to this space.
     fn definitions(registry: &Registry) -> &Definitions<Self>;
 
-    /// A point in the frame of a body relative to its centre of mass.
+    /// Converts a point of a body frame to a point relative to the centre of mass.
     fn from_centre(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
 
     /// The inverse of [`BodySpace::to_local`].
     fn to_global(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
 
-    /// Converts a direction from the axes of a body, or of the ground, to the axes of another body.
-    /// In the plane each direction is written in the axes of its own body.
+    /// Transforms a direction from the axes of a body, or of the ground, to the axes of another
+    /// body. In the plane the direction does not change, because each direction is given in the
+    /// axes of its own body.
     fn carried(
         direction: Self::Vector<f64>,
         from: Option<&Self::Body>,
         to: Option<&Self::Body>,
     ) -> Self::Vector<f64>;
 
-    /// The vector with these components.
+    /// Returns the vector with these components; `None` if their number is wrong.
     fn of_numbers(numbers: &[f64]) -> Option<Self::Vector<f64>>;
 
-    /// A point or a direction as the argument of a definition.
+    /// Converts a point or a direction to an argument of a definition.
     fn argument(vector: Self::Vector<f64>) -> Argument;
 
-    /// An axis, with a vector across it if one is given, as the argument of a definition.
+    /// Converts an axis, and the direction perpendicular to it if one is given, to an argument of a
+    /// definition.
     fn axis(axis: Self::Vector<f64>, across: Option<Self::Vector<f64>>) -> Argument {
         Argument::Axis(Self::point(axis), across.map(Self::point))
     }

@@ -1,5 +1,5 @@
-//! Forces of the type `torsion-spring-damper` in space: they act on the angle of a joint. They
-//! refer to a joint, as drives do; in the plane this type is a definition between two bodies.
+//! Forces of the type `torsion-spring-damper` in space, which act on the angle of a joint. Like
+//! drives, they refer to a joint; in the plane this type has a definition with two bodies.
 
 use joints::spec::Unit;
 use model::law::{Join, Law, Operation};
@@ -27,10 +27,10 @@ const FREE_ANGLE: Key = Key::optional("free_angle", "a number", Takes::Number(In
     .unit(Dimension::ANGLE)
     .doc("Angle of the joint without torque at rest (rad); that of the start if it is not given");
 
-/// Keys of such a spring in addition to its name and its type.
+/// Keys of such a spring, except its name and its type.
 pub(crate) const KEYS: [Key; 5] = [OF, MEASURE, STIFFNESS, DAMPING, FREE_ANGLE];
 
-/// Whether this force is one of these springs.
+/// Returns whether this force is such a spring.
 pub(crate) fn is_meant<S: SceneSpace>(table: &Table) -> bool {
     S::KIND == SpaceKind::Space3 && table.peek(TYPE) == Some(SPRING)
 }

@@ -1,4 +1,4 @@
-//! `[start]`: options of the start.
+//! `[start]`: options for the computation of the initial state.
 
 use std::collections::HashMap;
 
@@ -58,7 +58,7 @@ pub(crate) fn read<S: SceneSpace>(mut table: Table, bodies: &BodyNames) -> Start
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,
         },
-        // The bodies contain the start poses.
+        // The initial poses are given in the tables of the bodies.
         poses: Vec::new(),
     }
 }

@@ -1,4 +1,4 @@
-//! A table of the file. It records which keys were read: all other keys are unknown.
+//! A table of the file. The table records which keys were read; the others are unknown keys.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -20,21 +20,21 @@ pub(crate) fn belongs(what: &str, space: &str) -> String {
     format!("`{what}` belongs to `space = \"{space}\"`")
 }
 
-/// A table and what it describes.
+/// A table with a description of its item.
 pub(crate) struct Table<'t> {
-    /// Description of the table at the start of messages: joint `A`, or `[simulate]`.
+    /// Description of the table at the start of messages, for example joint `A`, or `[simulate]`.
     pub(crate) subject: Rc<str>,
-    /// Position of its header, or of the braces of an inline table.
+    /// Position of the header, or of the braces of an inline table.
     pub(crate) header: Range<usize>,
     entries: &'t DeTable<'t>,
-    /// Meaning of its numbers.
+    /// Meaning of the numbers in the table.
     language: &'t Language,
     /// The list to which problems are added.
     pub(crate) findings: &'t Findings<'t>,
     known: Vec<&'static str>,
-    /// Keys that are missing, with the index of the problem in the findings.
+    /// Keys that are missing, each with the index of its problem in the findings.
     absent: Vec<(&'static str, usize)>,
-    /// Keys of the scenes of a space, with the name of the space.
+    /// Keys that exist only in the other space, each with the name of this space.
     by_space: Vec<(&'static str, &'static str)>,
 }
 
@@ -57,8 +57,8 @@ impl<'t> Table<'t> {
         }
     }
 
-    /// Keys of the spaces, each with the name of its space. A key that is unknown here is reported
-    /// as a key of the other space.
+    /// Adds the keys of both spaces, each with the name of its space. If the table contains a key
+    /// of the other space, the report names this space.
     pub(crate) fn spaces(&mut self, keys: impl Iterator<Item = (&'static str, &'static str)>) {
         self.by_space.extend(keys);
     }
@@ -72,7 +72,7 @@ impl<'t> Table<'t> {
         self.field(key)
     }
 
-    /// The value of a key; the key is not marked as known.
+    /// Returns the value of a key without marking the key as known.
     pub(crate) fn field(&self, key: &'static str) -> Option<Field<'t>> {
         let value = self.entries.get(key)?;
         Some(Field {
@@ -121,7 +121,7 @@ impl<'t> Table<'t> {
         items.unwrap_or_default()
     }
 
-    /// Reads a required key whose type a definition states.
+    /// Reads a required key; the definition gives the description of its value.
     pub(crate) fn needed(
         &mut self,
         key: &'static str,
@@ -135,8 +135,8 @@ impl<'t> Table<'t> {
         field
     }
 
-    /// Reports that a key is missing. If a similar unknown key is found later, the misspelling is
-    /// reported instead.
+    /// Reports that a key is missing. If a similar unknown key is found later, its misspelling is
+    /// reported in place of this problem.
     pub(crate) fn lacks(
         &mut self,
         key: &'static str,
@@ -148,14 +148,16 @@ impl<'t> Table<'t> {
             .error(Mistake::Missing, self.header.clone(), message, label);
     }
 
-    /// Reports that an item is missing; the message continues the description of the table.
+    /// Reports that an item is missing; the text before the message is the description of the
+    /// table.
     pub(crate) fn missing(&self, message: impl Display, label: impl Into<String>) {
         let message = format!("{}{message}", self.subject);
         let at = self.header.clone();
         self.findings.error(Mistake::Missing, at, message, label);
     }
 
-    /// Reports two values that exclude each other, each with its label; `ways` contains their keys.
+    /// Reports two values that must not be given together, each with its label; `ways` contains
+    /// their keys.
     pub(crate) fn exclusive(&self, ways: impl Display, values: [(Range<usize>, &str); 2]) {
         let message = format!("{} takes {ways}, not both", self.subject);
         let [(first, of_first), (second, of_second)] = values;
@@ -170,7 +172,7 @@ impl<'t> Table<'t> {
         );
     }
 
-    /// All keys with their values, for tables whose keys are names.
+    /// Returns all keys with their values, for tables whose keys are names.
     pub(crate) fn all(&self) -> Vec<(Range<usize>, Field<'t>)> {
         let field = |(key, value): (&'t toml::Spanned<_>, _)| {
             let name: &'t Cow<str> = key.get_ref();
@@ -186,17 +188,18 @@ impl<'t> Table<'t> {
         self.entries.iter().map(field).collect()
     }
 
-    /// Whether the table contains a key; the key is not marked as known.
+    /// Returns whether the table contains a key, without marking the key as known.
     pub(crate) fn has(&self, key: &str) -> bool {
         self.entries.contains_key(key)
     }
 
-    /// The text of a key, if there is one; the key is not marked as known.
+    /// Returns the text of a key, if there is one, without marking the key as known.
     pub(crate) fn peek(&self, key: &str) -> Option<&'t str> {
         self.entries.get(key)?.get_ref().as_str()
     }
 
-    /// Positions of all values by key. Known keys need no additional memory.
+    /// Returns the positions of all values, each with its key. Known keys need no additional
+    /// memory.
     pub(crate) fn spans(&self) -> impl Iterator<Item = (Cow<'static, str>, Range<usize>)> {
         self.entries.iter().map(|(key, value)| {
             let name: &str = key.get_ref();
@@ -206,14 +209,14 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// Position of the value of a key, or of the header if the key is missing.
+    /// Returns the position of the value of a key, or of the header if the key is missing.
     pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
         let value = self.entries.get(key);
         value.map_or_else(|| self.header.clone(), toml::Spanned::span)
     }
 
-    /// Reports unknown keys. An unknown key that is similar to a missing key is reported together
-    /// with this key.
+    /// Reports unknown keys. If an unknown key is similar to a missing key, the two are reported
+    /// together.
     pub(crate) fn close(self) {
         let known = || self.known.iter().copied();
         for key in self.entries.keys() {

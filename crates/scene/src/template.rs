@@ -1,6 +1,6 @@
-//! A scene in which some numbers are variable: its text with other numbers or expressions instead
-//! of them. The rest of the text does not change, so that [`read`](crate::read()) checks the result
-//! like any other scene, line by line.
+//! The text of a scene in which some numbers can be replaced by other numbers or expressions. The
+//! rest of the text does not change. Therefore [`read`](crate::read()) checks the result like any
+//! other scene, with the same line numbers.
 //!
 //! The caller chooses the values; this module does not check them.
 
@@ -20,17 +20,17 @@ pub use rest::at_rest;
 
 use crate::limits;
 
-/// Whole numbers below this are written without a decimal point, because some keys accept only
+/// Integers below this value are written without a decimal point, because some keys accept only
 /// integers.
 const WHOLE: f64 = 9_007_199_254_740_992.0;
 
-/// The text of a scene with variable numbers.
+/// The text of a scene with numbers that can be replaced.
 ///
 /// A key is the name of a parameter, or a path: `body.platform.mass`, `joint.H.axis[0]`,
-/// `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Items with names are
-/// selected by their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key that
-/// is missing in the text is added to its table, which must exist; a parameter is not added.
-/// `active` counts as a number: zero is false.
+/// `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Named items are selected
+/// by their names or by `[0]`, `[1]`, …; entries of lists are 0-based. If a key is missing in the
+/// text, it is added to its table, which must exist; parameters are not added. The key `active`
+/// counts as a number, and zero means false.
 ///
 /// ```
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
@@ -47,22 +47,22 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 #[derive(Clone, Debug)]
 pub struct Template {
     text: String,
-    /// The numbers in the order of the text, each with the index of its key.
+    /// The positions of the numbers in the order of the text, each with the index of its key.
     slots: Vec<(usize, Slot)>,
 }
 
-/// Change of a number of a template.
+/// Change of a number in a template.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shift {
-    /// A change by a number, in the unit of the number itself.
+    /// Adds a value, in the unit of the number itself.
     By(f64),
-    /// A change by a number with a unit; the scene must be of format 2.
+    /// Adds a value with a unit; the scene must have format 2.
     Of(f64, String),
-    /// A change by a share of the number itself.
+    /// Adds a fraction of the number itself.
     Share(f64),
 }
 
-/// Position of a number, and other text to write there.
+/// Position of a number in the text, and the text to write around a new value.
 #[derive(Clone, Debug)]
 struct Slot {
     span: Range<usize>,
@@ -71,10 +71,10 @@ struct Slot {
     old: OldValue,
 }
 
-/// The text of the scene at the position of a number.
+/// The current text at the position of a number.
 #[derive(Clone, Debug)]
 enum OldValue {
-    /// Nothing, or a value that is not a number.
+    /// No text, or a value that is not a number.
     Other,
     /// A number.
     Number(f64),
@@ -83,14 +83,14 @@ enum OldValue {
 }
 
 impl Template {
-    /// Finds the numbers with these keys.
+    /// Finds the positions of the numbers with these keys.
     ///
     /// # Errors
     /// - [`KeyError::NotToml`]: the text cannot be parsed; [`read`](crate::read()) reports the
     ///   reason.
     /// - [`KeyError::Unknown`], [`KeyError::Index`]: a key does not exist.
-    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: the value is not a number, or no number
-    ///   can be added.
+    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: the value is not a number, or the key
+    ///   cannot be added.
     /// - [`KeyError::Repeated`]: two keys refer to the same number.
     pub fn new(text: &str, keys: &[&str]) -> Result<Self, KeyError> {
         Self::of(text, keys, SlotKind::Number)
@@ -122,7 +122,7 @@ impl Template {
         })
     }
 
-    /// The text with these values, in the order of the keys.
+    /// Returns the text with these values, in the order of the keys.
     ///
     /// # Panics
     /// Panics if the number of values differs from the number of keys.
@@ -132,8 +132,8 @@ impl Template {
         self.filled(&texts)
     }
 
-    /// The text with these numbers or expressions, in the order of the keys; expressions need a
-    /// scene of format 2.
+    /// Returns the text with these numbers or expressions, in the order of the keys; expressions
+    /// require a scene of format 2.
     ///
     /// ```
     /// let text = "[scene]\nformat = 2\n[parameters]\nL = 0.3\n";
@@ -150,7 +150,7 @@ impl Template {
         self.placed(expressions).0
     }
 
-    /// The same text, and the start position of each expression in it.
+    /// Returns the same text, and the start position of each expression in it.
     ///
     /// # Panics
     /// Panics if the number of expressions differs from the number of keys.
@@ -166,9 +166,9 @@ impl Template {
         (text, places)
     }
 
-    /// The text with every number changed by a share of itself, in the order of the keys. A zero,
-    /// or a number that is missing in the text, becomes the share. `None` if the value of a key is
-    /// not a number.
+    /// Returns the text with every number changed by a fraction of its value, in the order of the
+    /// keys. A zero, or a number that is missing in the text, is set to the fraction. Returns
+    /// `None` if the value of a key is not a number.
     ///
     /// ```
     /// let head = "[scene]\nformat = 2\n[parameters]\n";
@@ -180,7 +180,7 @@ impl Template {
     /// ```
     ///
     /// # Panics
-    /// Panics if the number of shares differs from the number of keys.
+    /// Panics if the number of fractions differs from the number of keys.
     #[must_use]
     pub fn changed_by(&self, shares: &[f64]) -> Option<String> {
         let mut texts = vec![String::new(); self.slots.len()];
@@ -201,8 +201,8 @@ impl Template {
         Some(self.filled(&texts))
     }
 
-    /// The text with every number changed by a shift, in the order of the keys. `None` if the text
-    /// has no number or expression for a key.
+    /// Returns the text with every number changed by a shift, in the order of the keys. Returns
+    /// `None` if the text has neither a number nor an expression for a key.
     ///
     /// ```
     /// use pfaff_scene::{Shift, Template};
@@ -243,12 +243,12 @@ impl Template {
         Some(self.filled(&texts))
     }
 
-    /// The text with these values as TOML writes them.
+    /// Returns the text with these values, which are already in the syntax of TOML.
     fn filled(&self, texts: &[String]) -> String {
         self.filled_at(texts, &mut vec![0; texts.len()])
     }
 
-    /// The text with these values; their start positions are written to `places`.
+    /// Returns the text with these values, and writes their start positions to `places`.
     fn filled_at(&self, texts: &[String], places: &mut [usize]) -> String {
         let n = self.slots.len();
         assert!(
@@ -274,7 +274,7 @@ impl Template {
     }
 }
 
-/// The shortest text that is read as the same bits.
+/// Returns the shortest decimal text from which the same bits are read.
 fn number(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < WHOLE {
         format!("{value:.0}")

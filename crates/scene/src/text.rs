@@ -14,7 +14,7 @@ pub struct SourceText {
 }
 
 impl SourceText {
-    /// A text with the name used in diagnostics.
+    /// Creates a text with the name used in diagnostics.
     #[must_use]
     pub fn new(name: &str, text: &str) -> Self {
         let after_breaks = text.match_indices('\n').map(|(at, _)| at + 1);
@@ -37,7 +37,7 @@ impl SourceText {
         &self.text
     }
 
-    /// Line and column of a byte offset, both from 1; columns count characters.
+    /// Line and column of a byte offset, both 1-based; columns count characters.
     #[must_use]
     pub fn position(&self, offset: usize) -> (usize, usize) {
         let offset = self.boundary(offset);
@@ -46,7 +46,7 @@ impl SourceText {
         (line, self.text[start..offset].chars().count() + 1)
     }
 
-    /// Line of a byte offset, from 1.
+    /// Line of a byte offset (1-based).
     #[must_use]
     pub fn line(&self, offset: usize) -> usize {
         let offset = self.boundary(offset);
@@ -55,7 +55,8 @@ impl SourceText {
             .max(1)
     }
 
-    /// A label for a range of bytes. A range outside the text, or within a character, is shortened.
+    /// A label for a range of bytes. A range that ends outside the text or within a character is
+    /// shortened.
     #[must_use]
     pub fn label(&self, span: Range<usize>, text: impl Into<String>) -> Label {
         let start = self.boundary(span.start);
@@ -69,7 +70,7 @@ impl SourceText {
         }
     }
 
-    /// The start of the character at or before the offset.
+    /// Returns the start of the character that contains this offset.
     fn boundary(&self, offset: usize) -> usize {
         self.text.floor_char_boundary(offset)
     }

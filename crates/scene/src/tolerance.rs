@@ -1,4 +1,4 @@
-//! `tolerance` and `angle_tolerance`: the uncertainty of the numbers of a scene.
+//! `tolerance` and `angle_tolerance`: the uncertainty of the numbers in a scene.
 
 use model::Tolerance;
 

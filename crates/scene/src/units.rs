@@ -1,5 +1,5 @@
-//! Numbers with units in values for which the format allows no units. Advice gives the intended
-//! value in the units of the format, so that the author can copy it.
+//! Explains numbers with units in values for which the format does not permit units. The advice
+//! contains the value in the units of the format, which the author can copy.
 
 use linalg::Dd;
 
@@ -12,15 +12,15 @@ use crate::language::Language;
 pub struct WithUnit<'a> {
     /// The number.
     pub number: f64,
-    /// The unit, as written in the text.
+    /// The unit in the form given in the text.
     pub unit: &'a str,
-    /// The dimension of the SI unit of `number` times [`Self::factor`].
+    /// The dimension of the value `number` times [`Self::factor`], which is in SI units.
     dimension: Dimension,
     factor: Dd,
 }
 
 impl<'a> WithUnit<'a> {
-    /// Reads a number with a unit of expressions. Returns `None` for other texts.
+    /// Reads a number with one of the units of expressions. Returns `None` for other texts.
     ///
     /// ```
     /// let length = pfaff_scene::WithUnit::read("300mm").unwrap();
@@ -43,21 +43,21 @@ impl<'a> WithUnit<'a> {
         })
     }
 
-    /// Another number with this unit, in SI.
+    /// Converts another number in this unit to SI.
     #[must_use]
     pub fn in_si(&self, number: f64) -> f64 {
         (Dd::from(number) * self.factor).to_f64()
     }
 
-    /// Whether both have the same dimension.
+    /// Returns whether both units have the same dimension.
     #[must_use]
     pub fn is_like(&self, other: &Self) -> bool {
         self.dimension == other.dimension
     }
 }
 
-/// Advice for a text that starts with a number and a unit: the suggested number. `None` for other
-/// texts.
+/// Returns advice for a text that starts with a number and a unit; the advice contains the
+/// converted number. Returns `None` for other texts.
 pub(crate) fn advice(text: &str) -> Option<String> {
     let (number, between, unit) = split(text)?;
     const RULE: &str =
@@ -77,15 +77,16 @@ pub(crate) fn advice(text: &str) -> Option<String> {
     ))
 }
 
-/// The number with its unit at the start of a text.
+/// Returns the number with its unit at the start of a text.
 pub(crate) fn with_unit(text: &str) -> Option<&str> {
     let (number, between, unit) = split(text)?;
     text.get(..number.len() + between.len() + unit.len())
 }
 
-/// A number, spaces, and the unit after them.
+/// Splits a text into a number, spaces, and the unit after them.
 fn split(text: &str) -> Option<(&str, &str, &str)> {
-    // The longest initial part that is a number: the `e` of `2 e` or `2eggs` is not an exponent.
+    // The longest initial part that is a number; for example, the `e` of `2 e` or `2eggs` is not an
+    // exponent.
     let sign = |c: char| c.is_ascii_digit() || "+-.eE_".contains(c);
     let most = text.find(|c| !sign(c)).unwrap_or(text.len());
     let ends = (1..=most).rev();
@@ -106,7 +107,7 @@ pub(crate) fn is_number(text: &str) -> bool {
     text.ends_with(digits) && text.contains(digits) && text.replace('_', "").parse::<f64>().is_ok()
 }
 
-/// A finite number in SI, or one with a unit of the same dimension.
+/// A finite number in SI, or a number with a unit of the same dimension.
 ///
 /// ```
 /// use pfaff_scene::in_si;
@@ -150,7 +151,7 @@ mod tests {
             let said = advice(text).unwrap_or_default();
             assert!(said.ends_with(expected), "{text}: {said}");
         }
-        // The factor of an unknown unit is not guessed.
+        // For an unknown unit, the advice contains only the rule, because its factor is not known.
         let rule = "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
         assert_eq!(advice("3 furlongs").as_deref(), Some(rule));
         for silent in [

@@ -796,3 +796,52 @@ pub(crate) const NAMED_ROWS: usize = 12;
 /// Maximum number of rows that a sentence lists. Unit: rows. Too small: rows are only counted. Too
 /// large: the sentences are too long to read. Test: `every_answer_is_that_of_its_session`.
 pub(crate) const TELLABLE: usize = 8;
+
+/// Minor, or component of a load, of a self-stress that counts as zero, relative to its rows. Unit:
+/// dimensionless. Too small: rounding makes sets of components that cannot be zero together. Too
+/// large: weak self-stresses are ignored. Test: `a_weak_component_is_undecided`.
+pub(crate) const ZERO_MINOR: f64 = 1e-10;
+
+/// Minor of a self-stress that is certainly not zero, relative to its rows. Unit: dimensionless. Too
+/// small: bounds depend on rounding. Too large: bounds of weak self-stresses are refused. Test:
+/// `a_weak_component_is_undecided`.
+pub(crate) const CLEAR_MINOR: f64 = 1e-7;
+
+/// Factor between the accuracy of coefficients and a coefficient that is certainly not zero. Unit:
+/// dimensionless. Too small: bounds depend on the accuracy of the data. Too large: bounds within a
+/// tolerance are refused. Test: `a_weak_component_is_undecided`.
+pub(crate) const CLEAR_OF_ZERO: f64 = 10.0;
+
+/// Maximum number of sets of components that are examined for bounds. Unit: sets. Too small: bounds
+/// of small mechanisms are incomplete. Too large: the request takes long. Test:
+/// `too_many_sets_give_reached_values`.
+pub(crate) const ELASTIC_SETS: u64 = 100_000;
+
+/// Difference of leverages that count as equal. Unit: dimensionless. Too small: axes depend on
+/// rounding. Too large: axes of different leverages are mixed. Test:
+/// `bounds_do_not_depend_on_the_axes_of_the_scene`.
+pub(crate) const EQUAL_LEVERAGE: f64 = 1e-6;
+
+/// Maximum number of solutions that are compared for the magnitude of a load. Unit: solutions. Too
+/// small: the bound of a magnitude is wider than necessary. Too large: the request takes long. Test:
+/// `the_magnitude_is_that_of_a_vertex`.
+pub(crate) const MAGNITUDE_POINTS: usize = 100_000;
+
+/// Ratio of the square roots of the compliances of a soft load and of the others. Unit:
+/// dimensionless. Too small: the values are far from the limit of a soft load. Too large: other
+/// loads are lost to rounding. Test: `too_many_sets_give_reached_values`.
+pub(crate) const SOFT: f64 = 1e4;
+
+/// Difference of values at the end of a range that count as equal, relative to the largest value.
+/// Unit: dimensionless. Too small: an end is not marked as reached because of rounding. Too large:
+/// an end is marked as reached by another solution. Test: `the_middle_of_two_joints_is_not_reached`.
+pub(crate) const TIED_ENDS: f64 = 1e-12;
+
+/// Weight or squared residual that counts as zero in the test of vertices. Unit: dimensionless. Too
+/// small: rounding makes vertices. Too large: vertices are not found. Test:
+/// `vertices_are_separated_and_midpoints_are_not`.
+pub(crate) const SEPARATED: f64 = 1e-9;
+
+/// Maximum number of steps of the test of vertices. Unit: steps. Too small: vertices are not found.
+/// Too large: the test takes long. Test: `vertices_are_separated_and_midpoints_are_not`.
+pub(crate) const SEPARATION_STEPS: usize = 1000;

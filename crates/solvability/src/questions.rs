@@ -21,7 +21,9 @@ use crate::choices::{
 };
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
-use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term};
+use crate::groups::{
+    Configuration, Group, GroupVerdict, LinearForm, NO_REACTION, RequestError, Term,
+};
 use crate::moments::MomentVerdict;
 use crate::parts::{ListedRows, PartAnalysis};
 use crate::value::Value;
@@ -87,12 +89,16 @@ impl<'a> Questions<'a> {
         }
     }
 
-    fn parts(&self) -> &[PartAnalysis] {
+    pub(crate) fn mechanism(&self) -> &'a Mechanism {
+        self.mechanism
+    }
+
+    pub(crate) fn parts(&self) -> &[PartAnalysis] {
         &self.analysis.parts
     }
 
     /// Returns the configuration of a part.
-    fn configuration(&self, k: usize) -> Result<&Configuration<'a>, RequestError> {
+    pub(crate) fn configuration(&self, k: usize) -> Result<&Configuration<'a>, RequestError> {
         let cell = &self.configurations[k];
         if let Some(made) = cell.get() {
             return Ok(made);
@@ -182,8 +188,7 @@ impl<'a> Questions<'a> {
         match group {
             Group::WrenchSum(terms) => {
                 let &(_, first) = terms.first().ok_or(NO_REACTION)?;
-                let (k, own) = self.place(first)?;
-                self.configuration(k)?.reactions.place(own).map(Some)
+                self.reference_point(first).map(Some)
             }
             Group::Resultant(all) => {
                 let bodies = self.mechanism.bodies().len();
@@ -324,25 +329,44 @@ impl<'a> Questions<'a> {
     fn numbers(
         &self,
         group: &Group,
-        value: impl Fn(
-            usize,
-            &Configuration<'a>,
-            &crate::groups::LinearForm,
-        ) -> Result<Value, RequestError>,
+        value: impl Fn(usize, &Configuration<'a>, &LinearForm) -> Result<Value, RequestError>,
     ) -> Result<Numbers, RequestError> {
-        let about = self.about(group)?;
         let mut sums: Numbers = Vec::new();
-        for (k, share) in self.shares(group)? {
-            let configuration = self.configuration(k)?;
-            for (name, form) in configuration.reactions.numbers_about(&share, about)? {
-                let own = value(k, configuration, &form)?;
-                match sums.iter_mut().find(|(known, _)| *known == name) {
-                    Some((_, sum)) => *sum = sum.clone() + own,
-                    None => sums.push((name, own)),
-                }
+        for (k, name, form) in self.forms(group)? {
+            let own = value(k, self.configuration(k)?, &form)?;
+            match sums.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, sum)) => *sum = sum.clone() + own,
+                None => sums.push((name, own)),
             }
         }
         Ok(sums)
+    }
+
+    /// Returns the contribution of each part to the numbers of a group: the part, the name and the
+    /// number.
+    pub(crate) fn forms(
+        &self,
+        group: &Group,
+    ) -> Result<Vec<(usize, &'static str, LinearForm)>, RequestError> {
+        let about = self.about(group)?;
+        let mut all = Vec::new();
+        for (k, share) in self.shares(group)? {
+            let forms = self
+                .configuration(k)?
+                .reactions
+                .numbers_about(&share, about)?;
+            all.extend(forms.into_iter().map(|(name, form)| (k, name, form)));
+        }
+        Ok(all)
+    }
+
+    /// Returns the reference point of a joint or drive, in ground axes (m).
+    ///
+    /// # Errors
+    /// [`RequestError::UnknownReaction`], [`RequestError::Large`]
+    pub fn reference_point(&self, id: ConstraintId) -> Result<[f64; 3], RequestError> {
+        let (k, own) = self.place(id)?;
+        self.configuration(k)?.reactions.place(own)
     }
 
     /// Returns the verdicts on a reaction in all of its frames.

@@ -7,12 +7,12 @@ use crate::table;
 /// A mechanism with a known motion.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Name of the case, which is that of its scene.
+    /// Name of the case and of its scene.
     pub name: &'static str,
     /// A short description.
     pub title: &'static str,
-    /// The scene; it states the duration and an output step, and all times of the reference are
-    /// multiples of this step.
+    /// The scene, with the duration and an output step. All times of the reference are multiples of
+    /// this step.
     pub scene: &'static str,
     known: Known,
 }
@@ -25,7 +25,7 @@ enum Known {
 }
 
 impl Case {
-    /// Returns the reference values of its motion.
+    /// Returns the reference values of the motion of the mechanism.
     ///
     /// ```
     /// // The three cranks start from the angle of 30° with the angular acceleration −(1.5·mc + M)·g·sin θ/((mc + M)·L).

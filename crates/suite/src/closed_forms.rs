@@ -2,13 +2,14 @@
 
 use crate::reference::{Fact, Instant, Quantity, Reference, Trust};
 
-/// Rounding error of some products and of the sine of an angle of some tens of radians.
+/// Rounding error of a few products and of the sine of an angle between 10 and 100 rad.
 const ROUNDING: f64 = 4e-15;
 
 /// Times at which the closed forms are evaluated (s).
 const TIMES: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
-/// A knife edge at its centre of mass on a plane with slope `σ`, x downhill, turning at `ω`:
+/// A body with a knife edge at its centre of mass slides on a plane with slope `σ` and rotates with
+/// `ω`; x points downhill:
 ///
 /// `x = g·sin σ/(2ω²)·sin²ωt`, `y = g·sin σ/(2ω²)·(ωt − sin 2ωt/2)`, `φ = ωt`,
 /// `N = 2m·g·sin σ·sin ωt` across the edge.
@@ -56,7 +57,7 @@ pub fn knife_edge() -> Reference {
 /// A vertical disk rolls with spin rate `Ω` while its heading changes with rate `ω`, on a circle:
 ///
 /// `x = RΩ/ω·sin ωt`, `y = RΩ/ω·(1 − cos ωt)`; the contact force is perpendicular to the heading,
-/// `N = m·ω·RΩ`, without a component along it.
+/// `N = m·ω·RΩ`, and its component along the heading is zero.
 ///
 /// Here m = 3 kg, R = 0.4 m, ω = 2 rad/s, Ω = 1 rad/s. Source: Bloch, Nonholonomic Mechanics and
 /// Control, chapter 1.

@@ -1,9 +1,9 @@
 //! Large scenes with known results: families of mechanisms of any size, written as text in
 //! sequence.
 //!
-//! An [`Order`] is a request; [`Order::generate`] checks it; a [`Generator`] contains the known
-//! results and writes the scene. The same order gives the same bytes. This module reads no scene
-//! and computes no motion.
+//! An [`Order`] is a request, which [`Order::generate`] checks. A [`Generator`] contains the known
+//! results and writes the scene. Equal requests result in identical files. This module reads no
+//! scene and computes no motion.
 //!
 //! | module | content |
 //! | --- | --- |

@@ -19,7 +19,7 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
-    /// Returns a number between two others; the upper one is reached only by rounding.
+    /// Returns a number from `low` to `high`; the upper bound is reached only by rounding.
     pub fn within(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         low + unit * (high - low)

@@ -1,7 +1,7 @@
 //! Reference values: known values of a motion at given instants, with their accuracy.
 
-/// A quantity of a body, a joint or a drive. SI units and radians, global components; reactions are
-/// forces on the first body.
+/// A quantity of a body, a joint or a drive, in SI units and radians, with global components.
+/// Reactions are the forces on the first body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Coordinate x of the centre of mass.
@@ -20,7 +20,7 @@ pub enum Quantity {
     Ax,
     /// Time derivative of vy.
     Ay,
-    /// Time derivative of omega.
+    /// Time derivative of the angular velocity `omega`.
     Alpha,
     /// Force along x.
     Fx,

@@ -1,6 +1,7 @@
-//! Straight-line code, built operation by operation. Known values are folded: numbers, zeros and
-//! ones, signs, `x − x`. Terms are not regrouped, so that the order of operations, which determines
-//! the rounding, is that of the caller.
+//! Straight-line code, built operation by operation. Operations whose result is known are folded:
+//! operations on constants, with zeros and ones, changes of sign, and `x − x`. Terms are not
+//! regrouped, so that the order of operations, which determines the rounding, is that of the
+//! caller.
 
 use rotation::angle_over_sine;
 
@@ -29,7 +30,8 @@ impl Program {
         Self::default()
     }
 
-    /// Returns a program with these outputs and only the operations that they need.
+    /// Returns a program that computes these outputs and contains only the operations that they
+    /// need.
     #[must_use]
     pub fn with_outputs(&self, outputs: &[Value]) -> Self {
         let mut needed = vec![false; self.ops().len()];
@@ -61,7 +63,7 @@ impl Program {
 
     /// Adds a constant.
     pub fn number(&mut self, x: f64) -> Value {
-        // The numbers −0 and 0 are one constant.
+        // The values −0 and 0 are one constant.
         self.push(Op::Number(if x == 0.0 { 0.0_f64 } else { x }.to_bits()))
     }
 
@@ -146,7 +148,7 @@ impl Program {
         }
     }
 
-    /// Adds the product of a number and a value that is not a constant.
+    /// Adds the product of a constant and a value that is not a constant.
     fn scale(&mut self, x: f64, v: Value) -> Value {
         match (x, self.op(v)) {
             (0.0, _) => self.number(0.0),
@@ -213,8 +215,8 @@ impl Program {
 }
 
 impl Op {
-    /// Returns the value of the operation for operands with the values `of` and inputs with the
-    /// values `input`.
+    /// Returns the value of the operation if `of` returns the values of operands and `input`
+    /// returns the values of inputs.
     pub fn evaluate(&self, of: impl Fn(Value) -> f64, input: impl Fn(Symbol) -> f64) -> f64 {
         match *self {
             Self::Number(bits) => f64::from_bits(bits),

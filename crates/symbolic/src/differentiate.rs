@@ -1,6 +1,6 @@
-//! Exact derivatives. A derivation is defined by its values for the inputs; sum, product and chain
-//! rule determine all other values. A partial derivative, a derivative along a rotation
-//! (`cos ↦ −sin`, `sin ↦ cos`) and a total time derivative differ only in the values for the
+//! Exact derivatives. A derivation is defined by its values for the inputs; all other values follow
+//! from the sum, product and chain rules. A partial derivative, a derivative along a rotation
+//! (`cos ↦ −sin`, `sin ↦ cos`) and a total time derivative differ only in these values for the
 //! inputs.
 
 use std::collections::{BTreeMap, HashMap};

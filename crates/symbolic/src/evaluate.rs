@@ -1,5 +1,5 @@
-//! Direct evaluation of an expression for any number type. It is used for constants of definitions,
-//! and as the reference in tests of printed code.
+//! Direct evaluation of an expression for any numeric type. It is used for constants of
+//! definitions, and as the reference in tests of printed code.
 
 use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg};
@@ -8,7 +8,7 @@ use rotation::angle_over_sine;
 
 use crate::graph::{Expr, Function, Graph, Node, Symbol};
 
-/// The operations of a number that direct evaluation needs.
+/// The operations of a numeric type that direct evaluation needs.
 pub trait Number:
     Copy + From<f64> + Add<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {

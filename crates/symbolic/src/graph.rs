@@ -2,14 +2,14 @@
 //! expressions have equal handles, and a derivative shares the subexpressions of its original.
 //!
 //! The constructors apply these simplifications: like terms and like factors are merged, and
-//! numbers are folded. A factor common to all terms of a sum is moved out of it. The first term of
-//! a sum is positive, and `√u²` is `u`. Products are never multiplied out. Nested sums stay nested
-//! unless terms cancel, because the nesting in a definition determines the shared values of its
-//! kernel.
+//! operations on constants are performed. A factor common to all terms of a sum is moved out of it.
+//! The first term of a sum is positive, and `√u²` is `u`. Products are never multiplied out. Nested
+//! sums stay nested unless terms cancel, because the nesting in a definition determines the shared
+//! values of its kernel.
 //!
-//! Numbers are folded in `f64`, in the order of construction: if the coefficients are not binary
-//! fractions, two groupings of the same constants may differ in the last digit, and are then two
-//! different expressions.
+//! Operations on constants are performed in `f64`, in the order of construction. If the
+//! coefficients are not binary fractions, two groupings of the same constants may differ in the
+//! last digit, and are then two different expressions.
 //!
 //! Because common factors are moved out of sums, the derivatives of a rotated arm are the same
 //! nodes as the arm itself.
@@ -68,7 +68,7 @@ pub enum Node {
     Call(Function, Expr),
 }
 
-/// Key of a node in the hash-consing table: the node with its numbers as bits.
+/// Key of a node in the hash-consing table: the node with its constants as bits.
 #[derive(PartialEq, Eq, Hash)]
 enum Key {
     Number(u64),
@@ -163,7 +163,8 @@ impl Graph {
         self.as_number(e) == Some(0.0)
     }
 
-    /// Inputs that the expression depends on, in order of first use in the graph.
+    /// Returns the inputs that the expression depends on, in the order of their first use in the
+    /// graph.
     #[must_use]
     pub fn inputs(&self, e: Expr) -> Vec<Symbol> {
         let mut seen = std::collections::BTreeSet::new();
@@ -193,7 +194,7 @@ impl Graph {
 
     /// Returns a constant.
     pub fn number(&mut self, x: f64) -> Expr {
-        // The numbers −0 and 0 are one constant.
+        // The values −0 and 0 are one constant.
         self.intern(Node::Number(if x == 0.0 { 0.0 } else { x }))
     }
 
@@ -324,7 +325,7 @@ impl Graph {
         }
     }
 
-    /// Splits `c·e` into a number and an expression without a numerical coefficient.
+    /// Splits `c·e` into a coefficient and an expression without a coefficient.
     fn split_coefficient(&mut self, c: f64, e: Expr) -> (f64, Expr) {
         match self.node(e) {
             Node::Number(x) => {

@@ -9,7 +9,7 @@
 //! | [`differentiate`] | exact derivatives along any derivation |
 //! | [`evaluate`] | direct evaluation, for tests and constants |
 //! | [`program`] | straight-line code: common subexpressions and operation counts |
-//! | `build` | straight-line code, built by operations, with known parts folded |
+//! | `build` | straight-line code, built operation by operation, with known values folded |
 //! | `lower` | translation of expressions to straight-line code |
 //! | [`mod@print`] | output as Rust tokens |
 //!

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use crate::graph::{Expr, Graph, Node};
 
-/// Compares two factors in the order of factors: numbers, inputs (in order of first use),
+/// Compares two factors in the order of factors: constants, inputs (in order of first use),
 /// functions, products, sums.
 pub(crate) fn compare(g: &Graph, a: Expr, b: Expr) -> Ordering {
     if a == b {

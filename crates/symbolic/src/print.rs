@@ -9,7 +9,7 @@ use quote::quote;
 use crate::graph::{Expr, Function, Graph};
 use crate::program::{Binary, Op, Program, Value};
 
-/// The number type of the printed code.
+/// The numeric type of the printed code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scalar {
     /// The type `f64`: constants are literals.
@@ -191,7 +191,7 @@ impl<'a> Printer<'a> {
         } else if x.is_infinite() {
             quote!(f64::INFINITY)
         } else {
-            // The shortest text that is parsed as the same bits.
+            // The shortest text that is parsed to the same bits.
             let literal = Literal::f64_unsuffixed(x.abs());
             quote!(#literal)
         };

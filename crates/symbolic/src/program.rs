@@ -1,6 +1,6 @@
-//! Straight-line code: binary operations with value numbering, so that shared values are computed
-//! once, and operation counts. A program is lowered from expressions ([`Program::new`]) or built by
-//! operations that fold known values.
+//! Straight-line code of binary operations, with operation counts. Value numbering ensures that
+//! shared values are computed once. A program is lowered from expressions ([`Program::new`]) or
+//! built operation by operation, with known values folded.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -163,8 +163,8 @@ impl Program {
         counts
     }
 
-    /// Returns the handle of an operation: an existing one if the operation has been computed
-    /// before.
+    /// Returns the handle of an operation. If the program already contains the operation, this is
+    /// the existing handle.
     pub(crate) fn push(&mut self, op: Op) -> Value {
         if let Some(&v) = self.table.get(&op) {
             return v;

@@ -32,7 +32,7 @@ class ComponentVerdict:
     verdict: str
     """``unique``, ``not_unique`` or ``undecided``."""
     margin: float
-    """Distance from being unique; for a unique component only rounding error."""
+    """Distance from being unique; only a rounding error if the component is unique."""
     within_tolerance: bool
     """Whether the component is unique only within the stated tolerance."""
     sensitivity: float | None = None
@@ -84,7 +84,7 @@ class Verdict:
 
     @property
     def generic_verdict(self) -> str | None:
-        """The verdict at the other configurations that were compared: at nearly all of them.
+        """The verdict at nearly all other configurations that were compared.
 
         The value is ``None`` if no other configuration was reached. The verdict along a motion is
         in :meth:`Analysis.along`.
@@ -120,13 +120,13 @@ class Verdict:
 
     @property
     def margin(self) -> float:
-        """Distance from being unique; for a unique reaction only rounding error."""
+        """Distance from being unique; only a rounding error if the reaction is unique."""
         margin: float = self._entry["margin"]
         return margin
 
     @property
     def components(self) -> dict[str, ComponentVerdict]:
-        """The verdicts on its components that are not zero under every load."""
+        """The verdicts on components of the reaction that are not zero under every load."""
         return _components(self._entry["components"])
 
     @property
@@ -207,9 +207,9 @@ class GroupVerdict:
     values: dict[str, float]
     """Values of the sum; NaN for values that are not unique."""
     sensitivity: float | None = None
-    """Largest relative change of its unique numbers by one point; ``None`` without one."""
+    """Largest relative change of a unique value by one point; ``None`` without such a value."""
     fragile: bool = False
-    """Whether one of its numbers is unique, but sensitive to the last digits of the data."""
+    """Whether a value of the sum is unique, but sensitive to the last digits of the data."""
 
     @property
     def unique(self) -> bool:
@@ -230,7 +230,7 @@ def _number(value: float | None) -> float:
 class Analysis:
     """The verdicts at one configuration. The object is immutable, so a copy is the object itself.
 
-    Results that are not in its document need a new analysis of the configuration.
+    Results that are not in the document need a new analysis of the configuration.
     """
 
     def __init__(self, answer: Answer) -> None:

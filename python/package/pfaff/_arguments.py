@@ -39,7 +39,7 @@ def number(name: str, given: Any, needed: str = "a number") -> float:
 
 
 def finite(name: str, given: Any, needed: str = "a number") -> float:
-    """Checks a number that is neither NaN nor infinite."""
+    """Checks that a number is neither NaN nor infinite."""
     found = number(name, given, needed)
     if not np.isfinite(found):
         raise wrong(f"{name} is {found}, need a finite number")

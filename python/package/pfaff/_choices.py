@@ -46,7 +46,7 @@ def _compliance(name: str, given: Any) -> str:
 
 
 def of_run(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[str]]:
-    """Whether values are those for the independent rows of the run, and the other choices."""
+    """Whether the values are those for the independent rows of a run, and the other choices."""
     if choose is None:
         return False, []
     if is_rows(choose) or (isinstance(choose, str) and choose == "kept-rows"):

@@ -1,4 +1,4 @@
-"""Error against run time."""
+"""Measured error and run time of the methods on one scene."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _ERRORS = ("error_position", "error_velocity", "error_acceleration", "error_reac
 
 
 class Curve(NamedTuple):
-    """The runs of one method that reached their end, the loosest tolerance first."""
+    """The runs of one method that reached their end, sorted from loose to tight tolerances."""
 
     tolerance: Array
     """Relative and absolute tolerance."""
@@ -100,7 +100,7 @@ class WorkPrecision:
 
 
 def _flat(row: dict[str, Any]) -> dict[str, Any]:
-    """Returns a run with its four errors as separate numbers."""
+    """Returns a run with its four errors as separate entries."""
     errors = row["errors"]
     rest = {name: value for name, value in row.items() if name != "errors"}
     return {**rest, **dict(zip(_ERRORS, errors, strict=True))}

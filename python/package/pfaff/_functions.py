@@ -22,15 +22,15 @@ class BodyState(NamedTuple):
     """The state of the centre of mass of a body, in ground axes."""
 
     position: Array
-    """Position of the centre of mass (m), 2 or 3 numbers."""
+    """Position of the centre of mass (m), 2 or 3 components."""
     rotation: Array
     """Rotation matrix from the frame of the body to ground axes, 2 × 2 or 3 × 3."""
     angle: float
     """Angle in the plane (rad), not reduced to one revolution; NaN in space."""
     velocity: Array
-    """Velocity of the centre of mass (m/s), 2 or 3 numbers."""
+    """Velocity of the centre of mass (m/s), 2 or 3 components."""
     angular_velocity: Any
-    """Angular velocity (rad/s): a number in the plane, 3 numbers in space."""
+    """Angular velocity (rad/s): a scalar in the plane, 3 components in space."""
 
 
 BodyForce = Callable[[float, BodyState], ArrayLike]
@@ -49,7 +49,7 @@ def of_drives(drives: Mapping[str, DriveLaw] | None) -> Named:
 
 
 def of_bodies(forces: Mapping[str, BodyForce] | None) -> Named:
-    """Returns names of bodies, and functions of plain numbers and arrays."""
+    """Returns names of bodies, and their functions with scalars and arrays as arguments."""
     return [(body, _of_state(f)) for body, f in _checked("forces", forces, "t and the body")]
 
 

@@ -46,6 +46,8 @@ class Questions:
         eliminations: int | None = None,
         frames: bool = False,
         about: str | None = None,
+        bounds: bool = False,
+        rigid: Iterable[str] = (),
         matrices: bool = False,
         along: float | str | None = None,
         choose: Iterable[str] = (),
@@ -69,6 +71,9 @@ class Questions:
           motion
         - ``frames``: Also analyse components in the frames of body, edge and joint
         - ``about``: Also analyse moments about a point X,Y or X,Y,Z (m) or a marker
+        - ``bounds``: Also bound reactions for joints of any stiffness
+        - ``rigid``: Joints and drives that do not give way in ``bounds``; ``drives`` names all
+          drives
         - ``matrices``: Print Φq, Ψ and Γ with names of rows and columns; ``out`` writes them as CSV
         - ``along``: Analyse along the motion to T_END (s): the generic verdict and the intervals
           where it differs
@@ -85,6 +90,8 @@ class Questions:
             "eliminations": arguments.maybe(arguments.count, "eliminations", eliminations),
             "frames": arguments.flag("frames", frames),
             "about": arguments.maybe(arguments.text, "about", about),
+            "bounds": arguments.flag("bounds", bounds),
+            "rigid": arguments.texts("rigid", rigid),
             "matrices": arguments.flag("matrices", matrices),
             "along": arguments.maybe(arguments.finite_or_word, "along", along),
             "choose": arguments.texts("choose", choose),

@@ -60,7 +60,7 @@ class _Columns:
 
     @property
     def columns(self) -> list[str]:
-        """The names of its columns, as in the tables of the command."""
+        """The names of the columns, as in the tables of the command."""
         return list(self._numbers)
 
     def __getitem__(self, column: str) -> Array:
@@ -106,7 +106,7 @@ class BodyMotion(_Columns):
 
     @property
     def angular_velocity(self) -> Array:
-        """Angular velocities (rad/s): one number in the plane, 3 columns in space."""
+        """Angular velocities (rad/s): one value per time in the plane, 3 columns in space."""
         return self["omega"] if "omega" in self._numbers else self._of(("wx", "wy", "wz"))
 
 
@@ -120,12 +120,12 @@ class Reaction(_Columns):
 
     @property
     def force(self) -> Array:
-        """Forces (N), 2 or 3 columns; NaN if a component is not determined on its stretch."""
+        """Forces (N), 2 or 3 columns; NaN if not determined in the interval between two events."""
         return self._of(("Fx", "Fy", "Fz"))
 
     @property
     def torque(self) -> Array:
-        """Torques (N·m): one number in the plane, 3 columns in space; NaN as for forces."""
+        """Torques (N·m): one value per time in the plane, 3 columns in space; NaN as for forces."""
         return self["T"] if "T" in self._numbers else self._of(("Tx", "Ty", "Tz"))
 
 

@@ -27,7 +27,7 @@ class Samples:
         self.document = answer.document
         """The document of ``pfaff tolerance --json``."""
         self.table: dict[str, Values] = {}
-        """The columns of ``tolerance.csv``: numbers, or texts for ``status`` and verdicts.
+        """The columns of ``tolerance.csv``: numeric, or texts for ``status`` and verdicts.
 
         Values that do not exist in a sample are NaN.
         """
@@ -96,7 +96,7 @@ class Samples:
 
 
 def _values(column: tuple[str, ...]) -> Values:
-    """Returns numbers, or texts if a cell is not a number."""
+    """Returns values as numbers, or as texts if one of them is not a number."""
     try:
         return np.array([float(cell) for cell in column], dtype=np.float64)
     except ValueError:

@@ -237,7 +237,7 @@ class Scene(Questions):
 
         >>> scene.with_(**{"joint.H.axis": [0, 1, 0], "L": 0.4})  # doctest: +SKIP
 
-        Values are numbers or expressions. A list stands for its entries, ``axis[0]`` and so on.
+        Values are numbers or expressions. A list sets its entries, ``axis[0]`` and so on.
         """
         pairs = [pair for key, item in settings.items() for pair in _entries(key, item)]
         keys, expressions = [key for key, _ in pairs], [text for _, text in pairs]
@@ -268,9 +268,9 @@ class Scene(Questions):
     ) -> Run:
         """Runs the scene; an option that is ``None`` has the value in the scene.
 
-        ``reactions`` are all, none, or those with these names. Numbers that are not unique on their
-        stretch of the run are NaN, unless ``choose`` gives a choice: ``"kept-rows"`` for the
-        independent rows of the run, a list of rows to delete (1-based), or a choice of
+        ``reactions`` are all, none, or those with these names. Values that are not unique in the
+        interval between two events are NaN, unless ``choose`` gives a choice: ``"kept-rows"`` for
+        the independent rows of the run, a list of rows to delete (1-based), or a choice of
         :meth:`Analysis.reactions`. The latter is ``"minimum-norm"``, ``"minimum-norm:length=0.5"``
         (m), or compliances by name, such as ``{"left": 1e-6, "right": (2e-6, 1e-3)}`` (m/N, and
         rad/(N·m)). With a list of these choices ``run.choices`` contains the values for each
@@ -389,8 +389,8 @@ class Scene(Questions):
         """Writes the assembled start as a page or picture, with joints marked by their verdicts.
 
         A name that ends with ``.html`` gives a page, ``.svg`` a picture, and ``.png`` also a
-        picture, if the package was built with the feature ``png``; ``scale`` is its number of
-        pixels for each px.
+        picture, if the package was built with the feature ``png``. ``scale`` is the number of PNG
+        pixels for each px of the picture.
         """
         common = Common(tolerance, angle_tolerance, None, max_memory)
         name = arguments.path("path", path)
@@ -484,7 +484,7 @@ def _native(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _known(options: Mapping[str, Any]) -> None:
-    """Rejects an unknown option like an unknown keyword."""
+    """Rejects an unknown option with the same error as an unknown keyword."""
     known = [*_CHECKS, "choices", "drives", "forces"]
     for name in options:
         if name not in known:
@@ -511,7 +511,7 @@ def _wanted(reactions: bool | Iterable[str]) -> list[str] | None:
 
 
 def _entries(key: str, item: Any) -> list[tuple[str, str]]:
-    """Returns a key with its text; a list stands for its entries."""
+    """Returns a key with its text, or a key and a text for each entry of a list."""
     if isinstance(item, str):
         return [(key, item)]
     if isinstance(item, (bool, np.bool_)):

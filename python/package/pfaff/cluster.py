@@ -1,4 +1,4 @@
-"""Sweeps: many runs of one scene with other numbers, here or on the machines of a cluster.
+"""Sweeps: many runs of one scene with varied values, here or on the machines of a cluster.
 
 >>> import pfaff.cluster
 >>> from dask.distributed import Client  # doctest: +SKIP
@@ -43,7 +43,7 @@ Vary = Mapping[str, Any] | str | Sequence[str]
 """Keys with their values, or texts in the syntax of ``pfaff sweep --vary``."""
 
 SHARD_SECONDS = 20.0
-"""Target time of a shard. Small values need many files; with large ones workers wait."""
+"""Target time (s) of a shard. Small values need many files; with large values workers wait."""
 
 SHARD_SECONDS_LEAST = 2.0
 """Smallest target time of a shard if there are few shards."""
@@ -80,7 +80,7 @@ class Shard(NamedTuple):
 
 
 class Done(NamedTuple):
-    """The result of a shard."""
+    """The result of performing a shard."""
 
     k: int
     """Index of the part."""
@@ -235,10 +235,10 @@ def sweep(
     ``out`` is a directory that all its workers see; it is optional without a client. The same call
     in the same directory resumes a sweep, and only reads a finished one.
 
-    ``shards`` is the number of parts. By default it is that of the directory; for a new directory
-    each part takes some tens of seconds, for which a worker makes a few trial runs. ``threads`` are
-    the threads of one shard: one by default, and all cores without a client. The engine repeats
-    lost work up to ``retries`` times, and so does this function.
+    ``shards`` is the number of parts. The default is the number in an existing directory. For a
+    new directory, it is chosen from a few trial runs of a worker, so that each part takes some tens
+    of seconds. ``threads`` are the threads of one shard: one by default, and all cores without a
+    client. The engine repeats lost work up to ``retries`` times, and so does this function.
 
     A run that has ended its process twice has a row ``crashed``, which is final. With
     ``retry_crashed`` such runs are repeated as new runs: for instance after a worker was killed

@@ -28,7 +28,7 @@ const fn answer(
     }
 }
 
-/// The list has the order of the table.
+/// The examples are in the order of the table.
 const ANSWERS: [Answer; 34] = [
     answer("door", [3, 1, 0], &["lower", "upper"]),
     answer("carriage", [2, 2, 1], &["rear", "front"]),

@@ -137,7 +137,7 @@ fn permuted(rows: &Rows, numbers: &mut Numbers) -> Rows {
     down.iter().map(row).collect()
 }
 
-/// Returns numbers from 1e-6 to 1e-20, sometimes 1e-100.
+/// Returns a value from 1e-6 to 1e-20, sometimes 1e-100.
 fn small(numbers: &mut Numbers) -> f64 {
     if numbers.once_in(8) {
         return 1e-100;

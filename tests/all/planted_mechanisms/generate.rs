@@ -303,8 +303,8 @@ impl Pen<'_> {
         1
     }
 
-    /// No three points of the four-bar are collinear. It has one freedom, so all drives except one
-    /// are redundant.
+    /// No three points of the four-bar are collinear. It has one degree of freedom, so all drives
+    /// except one are redundant.
     fn four_bar(&mut self) -> usize {
         let points = loop {
             let p = [0; 4].map(|_| self.point());

@@ -1,8 +1,9 @@
 //! Compares one pendulum on five joints with tables of Adams after 5 s. The pose agrees to six
 //! digits. The reactions on the ground about the reference point of the joint agree to four digits,
 //! because the tables scatter beyond these digits. The table of the universal joint is late by 0.7
-//! ms (0.0006 m, 0.001 N). Its numbers come from Lagrange's equations in its two angles, integrated
-//! in steps of 2.5 ms by the classical method of order four.
+//! ms (0.0006 m, 0.001 N). The expected values for this joint therefore come from Lagrange's
+//! equations in its two angles, integrated in steps of 2.5 ms by the classical method of order
+//! four.
 //!
 //! Source: Project Chrono, `data/testing/joints` (files `*_ADAMS_*.txt`), BSD licence; the
 //! mechanisms are those of its tests `utest_JOINT_*.cpp`.
@@ -175,7 +176,7 @@ impl Case {
     }
 }
 
-/// Returns the largest difference relative to the largest expected number, or to `least` if that is
+/// Returns the largest difference relative to the largest expected value, or to `least` if that is
 /// larger.
 fn gap(found: &[f64], expected: &[f64], least: f64) -> f64 {
     let size = expected.iter().fold(least, |a, x| a.max(x.abs()));

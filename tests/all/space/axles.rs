@@ -1,9 +1,9 @@
 //! Tests of two wheels on one axle. On a rigid axle both contact points belong to one body: six
-//! rows constrain two of its points, and five of them are independent. The remaining freedom is a
-//! rotation about the line through both points. So the axle rolls straight ahead and cannot steer,
-//! and of two forces along this line only the sum is determined. On hubs each wheel has its own
-//! spin, and the axle has three freedoms: to roll, to steer, and to pitch on its hubs; both wheels
-//! still constrain it sideways along one line.
+//! rows constrain two of its points, and five of them are independent. The remaining degree of
+//! freedom is a rotation about the line through both points. So the axle rolls straight ahead and
+//! cannot steer, and of two forces along this line only the sum is determined. On hubs each wheel
+//! has its own spin, and the axle has three degrees of freedom: it can roll, steer, and pitch on
+//! its hubs; both wheels still constrain it sideways along one line.
 
 use std::fmt::Write;
 

@@ -1,6 +1,6 @@
 //! Compares the benchmark bicycle in one state of its motion with its published accelerations: P.
 //! Basu-Mandal, A. Chatterjee, J. M. Papadopoulos, Hands-free circular motions of a benchmark
-//! bicycle, Proc. R. Soc. A 463 (2007) 1983–2003, table 1. The numbers are in the package
+//! bicycle, Proc. R. Soc. A 463 (2007) 1983–2003, table 1. The values are in the package
 //! DynamicistToolKit, `dtk/bicycle.py`.
 //!
 //! In that source z points up, and the rear hub is at (x, y, z). The frame is rotated by θ about z,
@@ -127,7 +127,7 @@ fn accelerations_of_the_published_state() {
     );
     let study = study.unwrap_or_else(|e| panic!("{e}"));
     let prepared = &study.prepared;
-    // The numbers are rounded to 13 decimals, and they are consistent.
+    // The values are rounded to 13 decimals, and they are consistent.
     for correction in [&prepared.assembly.correction, &prepared.velocity_correction] {
         assert!(tests::largest(correction.iter().copied()) < 1e-11);
     }

@@ -87,8 +87,9 @@ fn close(found: &[f64], expected: &[f64], bound: f64) {
     }
 }
 
-/// At the mass centre every freedom oscillates independently, √(k/m) and √(k/J). Below it, at (0,
-/// 0, −0.5), translation along x is coupled with rotation about y: x_place = x − 0.5·θ_y.
+/// With the bushing at the mass centre, every degree of freedom oscillates independently, √(k/m)
+/// and √(k/J). With the bushing below it, at (0, 0, −0.5), translation along x is coupled with
+/// rotation about y: x_place = x − 0.5·θ_y.
 #[test]
 fn small_motions_have_the_frequencies_of_springs() {
     let bushing = |at: &str| {

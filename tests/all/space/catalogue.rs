@@ -1,6 +1,6 @@
 //! Mechanisms known by hand and random ones with planted redundancy (crate `lab`, `fuzz::space`),
-//! built without files. The numbers come from textbooks and screws, and every verdict is compared
-//! with exact arithmetic on wrenches.
+//! built without files. The expected counts come from textbooks and screws, and every verdict is
+//! compared with exact arithmetic on wrenches.
 
 use lab::fuzz::space::pose::{Writing, posed};
 use lab::fuzz::space::text::Precision;
@@ -117,5 +117,5 @@ fn random_mechanisms_with_planted_redundancy() {
     }
 }
 
-/// Each drawing occurs in four writings.
+/// Each drawing is written as a scene in four ways.
 const SCENES: usize = 240;

@@ -286,7 +286,7 @@ fn row_of_teeth(
     at(first) - at(second)
 }
 
-/// Returns pseudo-random numbers between −1 and 1, one for each velocity.
+/// Returns pseudo-random values between −1 and 1, one for each velocity.
 fn velocities(n: usize, seed: usize) -> Vec<f64> {
     let number = |k: usize| (12.9898 * (k * 7 + 1) as f64 + 78.233 * (seed + 1) as f64).sin();
     (0..n).map(number).collect()
@@ -424,8 +424,8 @@ drive = [
     }
 }
 
-/// The test uses `examples/planetary-gear.toml` in space, with gear meshes at its pitch circles. It
-/// has the same numbers as in the plane, and the same acceleration.
+/// The test uses `examples/planetary-gear.toml` in space, with gear meshes at its pitch circles.
+/// Its verdicts and its acceleration are the same as in the plane.
 #[test]
 fn a_planetary_gear_has_the_answers_of_the_plane() {
     let places = [

@@ -187,8 +187,8 @@ fn bricards_angle(q: &[f64]) -> (f64, f64) {
     (along[2].atan2(along[0]), q[9] - 0.5 * side[2])
 }
 
-/// Bricard's linkage of the IFToMM benchmark (A04) moves although Grübler's formula gives no
-/// freedom; angle and rate after 1 s come from an integration of its angle in higher precision.
+/// Bricard's linkage of the IFToMM benchmark (A04) moves although Grübler's formula gives no degree
+/// of freedom; angle and rate after 1 s come from an integration of its angle in higher precision.
 #[test]
 fn bricards_linkage() {
     let (q, v, drift) = moved(&bricard(), 1.0, Method::Dop853, 1e-12);

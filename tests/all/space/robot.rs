@@ -1,6 +1,6 @@
 //! Compares the robot with its trolley in space, on wheels that turn, with references: its ranks
-//! and verdicts with independently written constraints ([`oracle`]), and its motion with that in
-//! the plane.
+//! and verdicts with independently written constraints ([`oracle`]), and its motion with the motion
+//! of the robot in the plane.
 
 mod oracle;
 

@@ -166,8 +166,8 @@ fn a_platform_on_three_legs_is_blocked_without_a_definite_combination() {
     assert_eq!(blocked(&d).len(), 2);
 }
 
-/// A linkage that moves along a path is not blocked, although Grübler's formula gives no freedom,
-/// and neither is a linkage with branches.
+/// A linkage that moves along a path is not blocked, although Grübler's formula gives no degree of
+/// freedom, and neither is a linkage with branches.
 #[test]
 fn linkages_that_move_are_not_blocked() {
     for drawing in [
@@ -239,8 +239,8 @@ fn what_rounding_leaves_of_a_self_stress_blocks_nothing() {
     }
 }
 
-/// Case V24 with n separate doors: the freedom of V24 is blocked, and the freedoms of the doors are
-/// not.
+/// Case V24 with n separate doors: the free motion of V24 is blocked, and the free motions of the
+/// doors are not.
 #[test]
 fn a_blocked_freedom_beside_many_others() {
     for n in [0_u8, 1, 4, 9, 20] {

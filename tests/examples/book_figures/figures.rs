@@ -150,7 +150,7 @@ fn cart(text: &str) -> Fallible<String> {
     };
     study
         .run(&options, |sample| {
-            // If a row cannot be drawn, the test finds the figure changed.
+            // If a row cannot be drawn, the figure differs from its file, and the test fails.
             let drawn = recorder.record(sample.t, sample.q);
             Ok(match drawn {
                 Ok(()) => ControlFlow::Continue(()),
@@ -367,8 +367,8 @@ fn work_precision(csv: &str) -> Fallible<String> {
     Ok(figures::work_precision(&[scene]))
 }
 
-/// Returns the names that may occur in a row of the report: those of pfaff, and of the comparators
-/// of the laboratory.
+/// Returns the names that may occur in a row of the report: those of pfaff, and of the reference
+/// methods of the laboratory.
 fn known(name: &str) -> Fallible<&'static str> {
     use pfaff::dynamics::{Method, Stabilisation};
     const OTHERS: [&str; 8] = [

@@ -1,9 +1,10 @@
-"""Compares the exact motions with digits that are known from elsewhere.
+"""Compares the exact motions with digits from other sources.
 
 usage: python tests/peers/engines/check_references.py
 
-Top and n-four-bar: closed forms evaluated with 20 digits and more; Bricard's linkage: another
-derivation with other coordinates. Every difference has to be below 1e-10.
+The motions of the top and of the n-four-bar are closed forms, evaluated with at least 20 digits.
+The motion of Bricard's linkage is derived again with other coordinates. Every difference must be
+below 1e-10.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ BRICARD_ANGLE = -1.035028459518
 
 
 def differences() -> dict[str, float]:
-    """The largest difference for each known motion."""
+    """Returns the largest difference for each known motion."""
     top = scenes.make("top", 1).reference(np.array(list(TOP)))[:, 0]
     angles = pendulum_of_bars(2, 1.0)(np.array(list(TWO_FOUR_BARS)))
     tops: Array = np.stack([np.sin(angles), np.cos(angles)], axis=1)

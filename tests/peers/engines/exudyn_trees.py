@@ -1,6 +1,6 @@
-"""Exudyn in joint coordinates: a kinematic tree for all that hangs on one hinge of the ground.
+"""Exudyn in joint coordinates: one kinematic tree for each hinge of the ground.
 
-Loops are closed by the rows that a user keeps. Only hinges are known here.
+Loops are closed by the rows that a user would keep. Hinges are the only supported joints.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ Placed = tuple[int, int, Array, Array]
 
 
 def axes_of(joint: Joint) -> Array:
-    """The frame of a hinge at the start, z along its axis."""
+    """Returns the frame of a hinge at the start, with z along its axis."""
     return np.column_stack([*perpendicular(joint.axis), joint.axis])
 
 
 class Trees:
-    """The model of a mechanism with sensors at the watched places."""
+    """The model of a mechanism, with sensors at the watched points."""
 
     def __init__(self, mechanism: Mechanism) -> None:
         """Builds the model."""
@@ -39,7 +39,7 @@ class Trees:
         self.mbs.Assemble()
 
     def below(self, body: int) -> list[Joint]:
-        """The joints that hang on a body, each after the one that carries it."""
+        """Returns the joints that follow a body in the tree, in order."""
         found = []
         for joint in self.mechanism.tree_joints():
             if joint.first == body:
@@ -47,7 +47,7 @@ class Trees:
         return found
 
     def add(self, joints: list[Joint]) -> None:
-        """One tree."""
+        """Adds one tree."""
         frames = {GROUND: (np.eye(3), np.zeros(3))}
         number = {joint.second: k for k, joint in enumerate(joints)}
         turns, offsets, tensors, centres = [], [], [], []
@@ -114,7 +114,7 @@ class Trees:
         )
 
     def sensor(self, body: int, offset: Array) -> int:
-        """A sensor of a point of a body."""
+        """Adds a sensor at a point of a body."""
         tree, link, axes, origin = self.links[body]
         place = axes.T @ (self.mechanism.centre(body) + offset - origin)
         return self.mbs.AddSensor(

@@ -1,4 +1,4 @@
-"""The figures: error against seconds on the same axes for all engines, failures included."""
+"""Figures of error against run time (s), on the same axes for all engines, including failures."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LARGEST = 30.0
 
 
 def panel(axes: plt.Axes, problem: report.Problem, listed: list[report.Line]) -> None:
-    """One scene."""
+    """Draws one scene."""
     axes.set(xscale="log", yscale="log", xlim=(5e-5, 60.0), ylim=(1e-11, 100.0))
     axes.set_title(f"{problem[0]}" + (f", N = {problem[1]}" if "bar" in problem[0] else ""))
     axes.axhline(1e-5, color="#999999", linewidth=0.8, linestyle=":")
@@ -44,13 +44,13 @@ def panel(axes: plt.Axes, problem: report.Problem, listed: list[report.Line]) ->
 
 
 def least_error(line: report.Line) -> float:
-    """The smallest error of a line."""
+    """Returns the smallest error of a line."""
     best = line.best()
     return best.error if best else math.inf
 
 
 def curve(axes: plt.Axes, line: report.Line, is_main: bool) -> None:
-    """One setting: a line through the runs that ended, crosses for the others."""
+    """Draws one setting: a line through the finished runs, and crosses for the others."""
     colour = COLOURS[line.engine]
     style = {"color": colour, "alpha": 1.0 if is_main else 0.3}
     done = line.done()
@@ -75,7 +75,7 @@ def curve(axes: plt.Axes, line: report.Line, is_main: bool) -> None:
 
 
 def sheet(path: Path, problems: list[report.Problem], listed: list[list[report.Line]]) -> None:
-    """A figure with a panel for each scene."""
+    """Returns a figure with a panel for each scene."""
     columns = min(4, len(problems))
     rows = math.ceil(len(problems) / columns)
     size = (3.1 * columns, 2.8 * rows + 0.4)
@@ -100,13 +100,13 @@ def sheet(path: Path, problems: list[report.Problem], listed: list[list[report.L
     )
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
-    # A white sheet, and no blanks at the ends of lines.
+    # The sheet is white, and lines have no blanks at their ends.
     text = "\n".join(line.rstrip() for line in path.read_text().splitlines()) + "\n"
     path.write_text(text)
 
 
 def draw(out: Path, lines: dict, problems: list[report.Problem]) -> None:
-    """Both figures."""
+    """Draws both figures."""
     loops = [problem for problem in problems if problem[0].startswith("n-four-bar")]
     loops.sort(key=lambda problem: (problem[0], problem[1]))
     others = [problem for problem in problems if problem not in loops]

@@ -1,7 +1,7 @@
-"""What an engine is given: bodies, joints, a start and the instants at which places are compared.
+"""The input of an engine: bodies, joints, a start, and the instants of comparison.
 
-All frames lie at the centres of mass and are parallel to the ground at the start, so that every
-engine gets the same numbers and none of them has to turn a tensor. Units: m, kg, s, rad.
+All frames are at the centres of mass and parallel to the ground at the start, so that all engines
+get the same values and do not have to rotate tensors. Units: m, kg, s, rad.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ GROUND = -1
 
 @dataclass(frozen=True)
 class Body:
-    """A rigid body: tensor about its centre of mass, along the axes of the ground at the start."""
+    """A rigid body; its tensor about its centre of mass has ground axes at the start."""
 
     name: str
     mass: float
@@ -31,14 +31,14 @@ class Body:
 
 @dataclass(frozen=True)
 class Joint:
-    """A joint of two bodies at a place of the start.
+    """A joint of two bodies, with its position at the start.
 
-    `kind` is revolute, spherical, prismatic or universal. `axis` is the axis of a revolute or
-    prismatic joint, the one that a universal joint has in its first body (`cross` is the one in
-    the second), or of a ball the axis of a fast spin, for engines that turn balls by three
-    angles. `closes` marks joints outside the spanning tree. `rows` says which rows (x, y, z, then
-    rotations about x, y, z, in a frame whose z is the axis) a user would keep who removes
-    redundant ones of a closing joint by hand.
+    `kind` is revolute, spherical, prismatic or universal. For a revolute or prismatic joint, `axis`
+    is its axis; for a universal joint, `axis` is fixed in the first body and `cross` in the second.
+    For a ball joint, `axis` is the axis of a fast spin, for engines that describe ball joints by
+    three angles. `closes` marks joints outside the spanning tree. If a user removes redundant rows
+    of a closing joint by hand, `rows` are the rows to keep (x, y, z, then rotations about x, y, z,
+    in a frame whose z is the axis).
     """
 
     name: str
@@ -60,7 +60,7 @@ Watched = tuple[int, Array]
 
 @dataclass(frozen=True)
 class Mechanism:
-    """A scene: `reference(times)` has the `watched` places, (times, watched, 3)."""
+    """A scene; `reference(times)` returns the `watched` positions, (times, watched, 3)."""
 
     name: str
     bodies: list[Body]
@@ -74,43 +74,43 @@ class Mechanism:
 
     @property
     def times(self) -> Array:
-        """The instants of comparison, without the start."""
+        """Returns the instants of comparison, without the start."""
         return np.linspace(0.0, self.duration, self.samples + 1)[1:]
 
     @property
     def interval(self) -> float:
-        """The time between two instants of comparison."""
+        """Returns the time between two instants of comparison."""
         return self.duration / self.samples
 
     def tree_joints(self) -> list[Joint]:
-        """Joints of the spanning tree, each after the one that carries its first body."""
+        """Returns the joints of the spanning tree, each after the joint of its first body."""
         return [joint for joint in self.joints if not joint.closes]
 
     def closing_joints(self) -> list[Joint]:
-        """Joints that close loops."""
+        """Returns the joints that close loops."""
         return [joint for joint in self.joints if joint.closes]
 
     def floating_bodies(self) -> list[int]:
-        """Bodies that no joint of the tree carries."""
+        """Returns the bodies that have no joint in the tree."""
         carried = {joint.second for joint in self.tree_joints()}
         return [k for k in range(len(self.bodies)) if k not in carried]
 
     def centre(self, body: int) -> Array:
-        """Centre of mass at the start; the origin for the ground."""
+        """Returns the centre of mass at the start; the origin for the ground."""
         return np.zeros(3) if body == GROUND else self.bodies[body].centre
 
     def twist(self, body: int) -> tuple[Array, Array]:
-        """Velocity of the centre of mass and angular velocity at the start."""
+        """Returns the velocity of the centre of mass and the angular velocity at the start."""
         if body == GROUND:
             return np.zeros(3), np.zeros(3)
         return self.bodies[body].velocity, self.bodies[body].angular_velocity
 
     def relative_spin(self, joint: Joint) -> Array:
-        """Angular velocity at the start of the second body against the first."""
+        """Returns the angular velocity of the second body relative to the first at the start."""
         return self.twist(joint.second)[1] - self.twist(joint.first)[1]
 
     def sliding_rate(self, joint: Joint) -> float:
-        """Rate at the start of a prismatic joint."""
+        """Returns the rate of a prismatic joint at the start."""
         velocities = []
         for body in (joint.first, joint.second):
             velocity, spin = self.twist(body)
@@ -118,7 +118,7 @@ class Mechanism:
         return float(joint.axis @ (velocities[1] - velocities[0]))
 
     def error(self, places: Array) -> float:
-        """Largest distance of a watched place from the reference, over the instants reached."""
+        """Returns the largest distance of a watched point from the reference."""
         if len(places) == 0 or not np.isfinite(places).all():
             return float("nan")
         wanted = self.reference(self.times[: len(places)])
@@ -126,18 +126,18 @@ class Mechanism:
 
 
 def unit(vector: list[float] | Array) -> Array:
-    """The vector, scaled to length one."""
+    """Returns the vector, scaled to length one."""
     vector = np.asarray(vector, float)
     return vector / np.linalg.norm(vector)
 
 
 def second_axes(joint: Joint) -> tuple[Array, Array]:
-    """The axes of a universal joint at the start, in the first body and in the second."""
+    """Returns the axes of a universal joint at the start, in the first and in the second body."""
     return joint.axis, joint.cross
 
 
 def perpendicular(axis: Array) -> tuple[Array, Array]:
-    """Two unit vectors that complete the axis to a right-handed frame (u, v, axis)."""
+    """Returns two unit vectors that complete the axis to a right-handed frame (u, v, axis)."""
     least = np.eye(3)[int(np.argmin(np.abs(axis)))]
     u = unit(least - (least @ axis) * axis)
     return u, np.cross(axis, u)

@@ -1,4 +1,4 @@
-"""What one integration gives back."""
+"""The result of one integration."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from mechanism import Array
 
 @dataclass(frozen=True)
 class Outcome:
-    """Places of the watched points at the instants reached, and the time it took.
+    """Positions of the watched points at the reached instants, and the run time.
 
-    `seconds` is the wall time of the integration alone. `other_clock` is that of the whole
-    program where the engine is one, and that of the accelerations alone where the loop around
-    them is ours. `note` says why a run stopped early.
+    `seconds` is the wall time of the integration alone. `other_clock` is the time of the whole
+    program if the engine is a program, and the time of the accelerations alone if the integration
+    loop is ours. `note` states why a run stopped early.
     """
 
     places: Array
@@ -33,7 +33,7 @@ FAR = 1e3
 
 
 def sampled(count: int, advance: Callable[[int], None], places: Callable[[], Array]) -> Outcome:
-    """Advances to each instant in turn and notes the places there; only that is timed."""
+    """Advances to each instant in turn and records the positions; only the advancing is timed."""
     rows: list[Array] = []
     note = ""
     begin = time.perf_counter()

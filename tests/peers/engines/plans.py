@@ -1,4 +1,4 @@
-"""Which options of which engine are measured on which scene, and at which steps."""
+"""The options of each engine that are measured on each scene, with their steps."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ OPEN = ("top", "free-body", "spherical-pendulum")
 
 @dataclass(frozen=True)
 class Family:
-    """An engine in one setting with its steps, from coarse to fine.
+    """An engine with one setting and its steps, from coarse to fine.
 
-    `steps` are numbers of steps between two instants of comparison, or tolerances where
-    `is_tolerance`.
+    `steps` are numbers of steps between two instants of comparison, or tolerances if `is_tolerance`
+    is set.
     """
 
     engine: str
@@ -36,7 +36,7 @@ class Family:
 
 
 def doubled(first: int, last: int) -> tuple[float, ...]:
-    """Powers of two from `first` to `last`."""
+    """Returns the powers of two from `first` to `last`."""
     steps = [float(first)]
     while steps[-1] < last:
         steps.append(2.0 * steps[-1])
@@ -44,19 +44,19 @@ def doubled(first: int, last: int) -> tuple[float, ...]:
 
 
 def powers(first: int, last: int) -> tuple[float, ...]:
-    """Tolerances 10^-first … 10^-last, and half-way between."""
+    """Returns the tolerances 10^-first … 10^-last, and values half-way between on a log scale."""
     return tuple(10.0 ** (-0.5 * k) for k in range(2 * first, 2 * last + 1))
 
 
 def pfaff() -> list[Family]:
-    """The program as it is; only the tolerance is swept."""
+    """Returns the program with its defaults; only the tolerance varies."""
     return [Family("pfaff", "default", {}, powers(3, 12), True)]
 
 
 def mujoco(scene: str, count: int) -> list[Family]:
-    """Semi-implicit steps and Runge-Kutta; closing hinges held at one point or at two.
+    """Returns semi-implicit steps and Runge-Kutta, with closing hinges at one or two points.
 
-    Runge-Kutta is three times slower on small n-four-bars and left out of large ones.
+    Runge-Kutta is three times slower on small n-four-bars and omitted for large ones.
     """
     families = []
     places = (2,) if scene in HINGED else (1, 2) if scene in (*LOOPS, THIN) else (1,)
@@ -70,7 +70,7 @@ def mujoco(scene: str, count: int) -> list[Family]:
 
 
 def drake(scene: str, count: int) -> list[Family]:
-    """Discrete steps with constraints; error control with bushings, or alone without loops."""
+    """Returns discrete steps with constraints, and error control with bushings or without loops."""
     if scene in OPEN:
         names = ("runge_kutta3", "runge_kutta5", "radau3")
         return [
@@ -88,7 +88,7 @@ def drake(scene: str, count: int) -> list[Family]:
 
 
 def exudyn(scene: str, count: int) -> list[Family]:
-    """Generalised-alpha with all rows or with those that a user keeps."""
+    """Returns generalised-alpha with all rows, or with the rows that a user keeps."""
     steps = doubled(16 if scene in LOOPS else 4, 8192)
     if scene == "n-four-bar-plane":
         return [
@@ -123,7 +123,7 @@ def exudyn(scene: str, count: int) -> list[Family]:
 
 
 def pinocchio(scene: str) -> list[Family]:
-    """Runge-Kutta of order 4 and 8 around its accelerations; gains of Baumgarte's correction."""
+    """Returns Runge-Kutta methods of order 4 and 8, with gains of Baumgarte's correction."""
     points = 2 if scene in HINGED else 1
     gains = (0.0,) if scene in OPEN else (10.0, 30.0)
     families = []
@@ -136,10 +136,10 @@ def pinocchio(scene: str) -> list[Family]:
 
 
 def families(scene: str, count: int) -> list[Family]:
-    """All that is measured on a scene.
+    """Returns all families that are measured on a scene.
 
-    In the plane only pfaff and Exudyn have models of their own; those of the others are the
-    models in space, whose runs are not repeated.
+    In the plane only pfaff and Exudyn have separate models. The other engines use the models in
+    space, whose runs are not repeated.
     """
     if scene == THIN:
         return pfaff() + mujoco(scene, 64)
@@ -151,7 +151,7 @@ def families(scene: str, count: int) -> list[Family]:
 
 
 def problems(quick: bool) -> list[tuple[str, int]]:
-    """Scenes with their sizes, in the order of measurement."""
+    """Returns the scenes with their sizes, in the order of measurement."""
     sizes = LARGE[:2] if quick else LARGE
     others = ("three-cranks", "slider-crank", "bennett", "bricard", *OPEN, "hexapod")
     listed = [(scene, 1) for scene in others]

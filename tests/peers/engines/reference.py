@@ -1,8 +1,8 @@
 """Exact motions of the scenes, each from an equation for one coordinate or from a closed form.
 
-Nothing here comes from a program that is measured. A mechanism of one freedom has kinetic energy
-m(s)·s'²/2 and potential V(s) in one coordinate s, hence m·s'' + m'·s'²/2 + V' = 0. Poses are made
-at Chebyshev points, and their polynomials are differentiated exactly.
+No part of this file uses a measured program. A mechanism of one degree of freedom has the kinetic
+energy m(s)·s'²/2 and the potential V(s) in one coordinate s, hence m·s'' + m'·s'²/2 + V' = 0. Poses
+are computed at Chebyshev points, and their polynomials are differentiated exactly.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Pose = tuple[Array, Array]
 
 
 def solution(slope: Callable, start: list[float], times: Array) -> Array:
-    """Values at the times, (times, components)."""
+    """Returns the values at the times, (times, components)."""
     run = solve_ivp(slope, (0.0, times[-1]), start, t_eval=times, **TOLERANCES)
     assert run.success and run.y.shape[1] == len(times), run.message
     return run.y.T
@@ -41,7 +41,7 @@ class OneFreedom:
     degree: int = 160
 
     def tabulated(self) -> tuple[Array, Array]:
-        """Coefficients of the centres and of the rotations, the degree first."""
+        """Returns coefficients of centres and rotations; the first index is the degree."""
         low, high = self.interval
         points = chebyshev.chebpts1(self.degree + 1)
         places = 0.5 * (low + high) + 0.5 * (high - low) * points
@@ -53,7 +53,7 @@ class OneFreedom:
         return self.fitted(centres), self.fitted(turns)
 
     def fitted(self, values: Array) -> Array:
-        """Chebyshev coefficients of values at the points, which have to die away."""
+        """Returns Chebyshev coefficients of values at the points; the coefficients must decay."""
         points = chebyshev.chebpts1(self.degree + 1)
         table = values.reshape(len(points), -1)
         weights = 2.0 / len(points) * chebyshev.chebvander(points, self.degree).T
@@ -64,7 +64,7 @@ class OneFreedom:
         return series
 
     def energies(self, centres: Array, turns: Array) -> tuple[Array, Array]:
-        """Series of the inertia m(s) and of the potential V(s)."""
+        """Returns the series of the inertia m(s) and of the potential V(s)."""
         low, high = self.interval
         scale = 2.0 / (high - low)
         points = chebyshev.chebpts1(self.degree + 1)
@@ -87,7 +87,7 @@ class OneFreedom:
         return self.fitted(inertia)[:, 0], self.fitted(potential)[:, 0]
 
     def reference(self, watched: list[Watched]) -> Reference:
-        """The motion from the start, as a function of the times."""
+        """Returns the motion from the start, as a function of the times."""
         low, high = self.interval
         scale = 2.0 / (high - low)
         centres, turns = self.tabulated()
@@ -117,7 +117,7 @@ class OneFreedom:
 
 
 def turned(axis: Array, angle: float) -> Array:
-    """Rotation matrix about a unit axis."""
+    """Returns the rotation matrix about a unit axis."""
     x, y, z = axis
     skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     return np.eye(3) + np.sin(angle) * skew + (1.0 - np.cos(angle)) * skew @ skew
@@ -127,9 +127,9 @@ def turned(axis: Array, angle: float) -> Array:
 class ClosedChain:
     """A single loop of hinges: its pose from the angle of the first hinge, by Newton's method.
 
-    `points` and `axes` are those of the hinges at the start, from ground to ground; the last
-    one closes the loop. The loop is overconstrained, so Newton's equations are solved by least
-    squares; they agree along the motion.
+    `points` and `axes` belong to the hinges at the start, from ground to ground; the last hinge
+    closes the loop. The loop is overconstrained, so Newton's equations are solved by least squares;
+    they are consistent along the motion.
     """
 
     points: Array
@@ -138,11 +138,11 @@ class ClosedChain:
     known: dict[float, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """The start is known."""
+        """Stores the pose of the start."""
         self.known[0.0] = np.zeros(len(self.points) - 1)
 
     def placed(self, angles: Array) -> tuple[list[Array], list[Array]]:
-        """Rotation and displacement of each link: x ↦ R·x + d of a place of the start."""
+        """Returns rotation and displacement of each link: x ↦ R·x + d for a point at the start."""
         turn, shift = np.eye(3), np.zeros(3)
         turns, shifts = [], []
         for angle, point, axis in zip(angles, self.points, self.axes, strict=False):
@@ -154,13 +154,13 @@ class ClosedChain:
         return turns, shifts
 
     def misfit(self, angles: Array) -> Array:
-        """Six numbers that are zero where the last hinge is closed: place, and axis."""
+        """Returns six values that are zero if the last hinge is closed: position and axis."""
         turns, shifts = self.placed(angles)
         point, axis = self.points[-1], self.axes[-1]
         return np.r_[turns[-1] @ point + shifts[-1] - point, np.cross(turns[-1] @ axis, axis)]
 
     def jacobian(self, angles: Array) -> Array:
-        """Derivatives of the misfit by the angles after the first."""
+        """Returns the derivatives of the violation with respect to the angles after the first."""
         turns, shifts = self.placed(angles)
         point, axis = self.points[-1], self.axes[-1]
         place, direction = turns[-1] @ point + shifts[-1], turns[-1] @ axis
@@ -174,7 +174,7 @@ class ClosedChain:
         return np.array(columns).T
 
     def closed(self, guess: Array) -> Array:
-        """The angles with the first one of the guess, closed to rounding."""
+        """Returns the angles for the given first angle, closed to rounding."""
         angles = guess.copy()
         for _ in range(30):
             step = np.linalg.lstsq(self.jacobian(angles), -self.misfit(angles), rcond=1e-9)[0]
@@ -185,7 +185,7 @@ class ClosedChain:
         return angles
 
     def pose(self, first: float) -> Pose:
-        """Centres and rotations with the first hinge at an angle, followed from the nearest one."""
+        """Returns centres and rotations for an angle of the first hinge."""
         nearest = min(self.known, key=lambda angle: abs(angle - first))
         angles = self.known[nearest].copy()
         steps = max(1, int(np.ceil(abs(first - nearest) / 0.05)))
@@ -199,9 +199,9 @@ class ClosedChain:
 
 
 def pendulum_of_bars(count: int, speed: float) -> Callable[[Array], Array]:
-    """Angle of the uprights of the n-four-bar from the upward vertical, clockwise.
+    """Returns the angle of the uprights of the n-four-bar from the upward vertical, clockwise.
 
-    All uprights are parallel and all couplers keep their direction, so that
+    All uprights are parallel, and all couplers translate, so that
     [(n + 1)/3 + n]·a'' = [(n + 1)/2 + n]·g·sin a; a(0) = 0, a'(0) = speed.
     """
     factor = 9.81 * ((count + 1) / 2 + count) / ((count + 1) / 3 + count)
@@ -214,10 +214,10 @@ def pendulum_of_bars(count: int, speed: float) -> Callable[[Array], Array]:
 
 
 def rigid_body(body: Body, gravity: Array, point: Array | None, offset: Array) -> Reference:
-    """Places of a point of one body, free or held at a point, by Euler's equations.
+    """Returns positions of a point of one body, free or fixed at a point, by Euler's equations.
 
-    `point` is the fixed point relative to the centre of mass at the start; None leaves the body
-    free of forces other than its weight.
+    `point` is the fixed point relative to the centre of mass at the start. If it is None, no force
+    except the weight acts on the body.
     """
     arm = np.zeros(3) if point is None else -point
     tensor = body.tensor + (

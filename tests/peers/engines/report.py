@@ -32,7 +32,7 @@ RIGHT = 1e-2
 
 
 def machine() -> dict:
-    """What the numbers depend on."""
+    """Returns the data of the machine on which the results depend."""
     model = platform.processor() or platform.machine()
     for line in Path("/proc/cpuinfo").read_text().splitlines():
         if line.startswith("model name"):
@@ -56,7 +56,7 @@ def machine() -> dict:
 
 
 def check_machine(out: Path, is_fresh: bool) -> None:
-    """Notes the machine, or refuses to add runs of another one to the table."""
+    """Records the machine; rejects runs of another machine for the same table."""
     path = out / "machine.json"
     now = machine()
     if not is_fresh and path.exists():
@@ -83,11 +83,11 @@ class Point:
 
     @property
     def median(self) -> float:
-        """Median time."""
+        """Returns the median time."""
         return statistics.median(self.seconds) if self.seconds else math.nan
 
     def fineness(self) -> float:
-        """Grows with numbers of steps, which are at least one, and falls with tolerances."""
+        """Returns a value that is larger for more steps (at least one) or a tighter tolerance."""
         return self.step if self.step >= 1.0 else 1.0 / self.step
 
     @property
@@ -97,41 +97,41 @@ class Point:
 
     @property
     def right(self) -> int:
-        """Neighbours, this run included, that stayed on the branch."""
+        """Returns the number of neighbours, including this run, that stayed on the branch."""
         return sum(error <= RIGHT for error in [*self.neighbours, self.error])
 
     @property
     def is_steady(self) -> bool:
-        """Whether it and all its neighbours stayed on the branch."""
+        """Whether the run and all its neighbours stayed on the branch."""
         return self.right == len(self.neighbours) + 1
 
 
 @dataclass
 class Line:
-    """A family on a problem: its points from coarse to fine."""
+    """A family on a problem, with its points from coarse to fine."""
 
     engine: str
     family: str
     points: list[Point]
 
     def done(self) -> list[Point]:
-        """The points that reached the end."""
+        """Returns the points that reached the end."""
         return [point for point in self.points if point.is_done]
 
     def best(self) -> Point | None:
-        """The most exact point."""
+        """Returns the most accurate point."""
         return min(self.done(), key=lambda point: point.error, default=None)
 
     def chosen(self) -> Point | None:
-        """The cheapest point within the target whose neighbours were run, else the best."""
+        """Returns the cheapest point within the target with neighbours, otherwise the best one."""
         good = [point for point in self.done() if point.error <= plans.TARGET]
         tested = [point for point in good if point.neighbours] or good
         return min(tested, key=lambda point: point.median, default=None) or self.best()
 
     def cost(self) -> float:
-        """Seconds at the target, interpolated between neighbouring steps; nan if not reached.
+        """Returns the time (s) at the target, interpolated between steps; nan if not reached.
 
-        Points that were measured in all rounds count before those that were measured once.
+        Points that were measured in all rounds take precedence over points that were measured once.
         """
         good = [point for point in self.done() if point.error <= plans.TARGET]
         rounds = max((len(point.seconds) for point in good), default=0)
@@ -150,7 +150,7 @@ Problem = tuple[str, int]
 
 
 def read(path: Path) -> dict[Problem, list[Line]]:
-    """All lines of all problems."""
+    """Returns all lines of all problems."""
     points: dict[tuple, Point] = {}
     with path.open(newline="") as file:
         rows = list(csv.DictReader(file))
@@ -180,7 +180,7 @@ def read(path: Path) -> dict[Problem, list[Line]]:
 
 
 def with_models_of_space(lines: dict[Problem, list[Line]], problem: Problem) -> list[Line]:
-    """The lines of a problem; in the plane peers take part with their models in space, too."""
+    """Returns the lines of a problem; in the plane, peers with models in space are included."""
     listed = list(lines.get(problem, []))
     if problem[0] == "n-four-bar-plane":
         listed += [
@@ -192,7 +192,7 @@ def with_models_of_space(lines: dict[Problem, list[Line]], problem: Problem) -> 
 
 
 def fastest(lines: list[Line], engine: str, is_steady: bool) -> Line | None:
-    """The family of an engine that costs least at the target."""
+    """Returns the family of an engine with the lowest cost at the target."""
     reached = [line for line in lines if line.engine == engine and not math.isnan(line.cost())]
     if is_steady:
         reached = [line for line in reached if line.chosen().is_steady]
@@ -200,18 +200,18 @@ def fastest(lines: list[Line], engine: str, is_steady: bool) -> Line | None:
 
 
 def milliseconds(seconds: float) -> str:
-    """A time with two or three digits."""
+    """Returns a time with two or three digits."""
     value = 1e3 * seconds
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
 
 
 def ratio(value: float) -> str:
-    """A ratio with two digits."""
+    """Returns a ratio with two digits."""
     return f"{value:.0f}" if value >= 10 else f"{value:.1f}"
 
 
 def cell(lines: list[Line], engine: str) -> str:
-    """What an engine costs on a problem, or how near it came."""
+    """Returns the cost of an engine on a problem, or the smallest error that it reached."""
     of_engine = [line for line in lines if line.engine == engine]
     if not of_engine:
         return "–"
@@ -230,7 +230,7 @@ def cell(lines: list[Line], engine: str) -> str:
 
 
 def alone(lines: list[Line]) -> str:
-    """What Pinocchio's accelerations alone cost within its fastest steady setting."""
+    """Returns the time of Pinocchio's accelerations alone within its fastest steady setting."""
     line = fastest(lines, "pinocchio", True) or fastest(lines, "pinocchio", False)
     if line is None or not line.chosen().other:
         return "–"
@@ -239,7 +239,7 @@ def alone(lines: list[Line]) -> str:
 
 
 def cost_table(lines: dict[Problem, list[Line]], problems: list[Problem]) -> str:
-    """Milliseconds at the target, an engine a column."""
+    """Returns the milliseconds at the target, with one column for each engine."""
     titles = [*(TITLES[name] for name in ENGINES), "its accelerations alone"]
     text = "| scene | N | " + " | ".join(titles) + " |\n"
     text += "| --- | ---: |" + " ---: |" * len(titles) + "\n"
@@ -251,12 +251,12 @@ def cost_table(lines: dict[Problem, list[Line]], problems: list[Problem]) -> str
 
 
 def steady_text(point: Point) -> str:
-    """How many of the neighbours stayed on the branch."""
+    """Returns how many of the neighbours stayed on the branch."""
     return f"{point.right} of {len(point.neighbours) + 1}"
 
 
 def loops_table(lines: dict[Problem, list[Line]]) -> str:
-    """The n-four-bar: pfaff in space against itself in the plane and against the fastest peer."""
+    """Compares pfaff in space on the n-four-bar with pfaff in the plane and the fastest peer."""
     text = (
         "| | N | pfaff, ms | error | right branch | tolerances | whole process, ms | "
         "space : plane | fastest steady peer | its ms | right branch | peer : pfaff |\n"
@@ -291,7 +291,7 @@ def loops_table(lines: dict[Problem, list[Line]]) -> str:
 
 
 def setting_table(lines: dict[Problem, list[Line]], problems: list[Problem]) -> str:
-    """All families of all problems."""
+    """Returns all families of all problems."""
     text = (
         "| scene | N | engine | setting | ms at the target | best error | in ms | "
         "right branch | how it ended |\n"
@@ -313,7 +313,7 @@ def setting_table(lines: dict[Problem, list[Line]], problems: list[Problem]) -> 
 
 
 def ending(line: Line) -> str:
-    """What kept a line from its end, in words."""
+    """Returns the reason why a line did not reach its end, in words."""
     parts = []
     for status, words in (
         ("refused", "refused"),
@@ -334,7 +334,7 @@ def ending(line: Line) -> str:
 
 
 def losses(lines: dict[Problem, list[Line]], problems: list[Problem]) -> str:
-    """Where a peer is faster than pfaff or less than 20 times slower."""
+    """Returns the cases in which a peer is faster than pfaff, or less than 20 times slower."""
     items = []
     for problem in problems:
         listed = with_models_of_space(lines, problem)
@@ -353,12 +353,12 @@ def losses(lines: dict[Problem, list[Line]], problems: list[Problem]) -> str:
 
 
 def ordered(lines: dict[Problem, list[Line]]) -> list[Problem]:
-    """The problems that were measured, in the order of the plan."""
+    """Returns the problems that were measured, in the order of the plan."""
     return [problem for problem in plans.problems(quick=False) if problem in lines]
 
 
 def machine_table(out: Path) -> str:
-    """The machine, in words."""
+    """Returns a description of the machine."""
     told = json.loads((out / "machine.json").read_text())
     versions = ", ".join(f"{TITLES[name]} {text}" for name, text in told["versions"].items())
     text = (

@@ -2,9 +2,9 @@
 
 usage: python tests/peers/engines/run.py --out docs/reports/engines [--quick] [--fresh]
 
-Runs that are in the table already are not repeated, so an interrupted measurement goes on where
-it stopped. Sweeps first; then the runs that count again in rounds over all engines, so that
-what else the machine does falls on all of them; then neighbours of the chosen runs.
+Runs that are already in the table are not repeated, so an interrupted measurement is resumed. The
+sweeps come first. Then the selected runs are repeated in rounds over all engines, so that other
+work of the machine affects all engines equally. The neighbours of the chosen runs come last.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", 
 
 
 class Worker:
-    """A process with one engine, started again after a crash or a time-out."""
+    """A process with one engine, restarted after a crash or a time-out."""
 
     def __init__(self, engine: str, core: int) -> None:
-        """Starts lazily."""
+        """Does not start the process yet."""
         self.engine, self.core = engine, core
         self.process: subprocess.Popen | None = None
         self.lines: queue.Queue = queue.Queue()
         self.version = "does not start"
 
     def start(self) -> None:
-        """Starts the process and learns the version of its engine."""
+        """Starts the process and receives the version of its engine."""
         command = [sys.executable, str(HERE / "worker.py"), self.engine, str(self.core)]
         self.process = subprocess.Popen(
             command,
@@ -82,13 +82,13 @@ class Worker:
 
     @staticmethod
     def listen(process: subprocess.Popen, lines: queue.Queue) -> None:
-        """Passes on what a process says; None at its end."""
+        """Passes on the output of a process; None at its end."""
         for line in process.stdout:
             lines.put(json.loads(line))
         lines.put(None)
 
     def read(self, limit: float) -> dict | None:
-        """The next answer; None if the process ended, {} if it took too long."""
+        """Returns the next answer; None if the process ended, {} if it took too long."""
         try:
             return self.lines.get(timeout=limit)
         except queue.Empty:
@@ -102,7 +102,7 @@ class Worker:
         self.process = None
 
     def ask(self, order: dict) -> dict:
-        """Runs an order; a crash or a time-out is a row like any other."""
+        """Executes an order; a crash or a time-out also gives a row."""
         if self.process is None:
             self.start()
         try:
@@ -128,13 +128,13 @@ class Worker:
 
 @dataclass
 class Table:
-    """All rows, in a file that grows by one line for each run."""
+    """All rows, in a file to which each run appends one line."""
 
     path: Path
     rows: dict[tuple, dict] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        """Reads what is there."""
+        """Reads the existing rows."""
         if self.path.exists():
             with self.path.open(newline="") as file:
                 for row in csv.DictReader(file):
@@ -145,7 +145,7 @@ class Table:
 
     @staticmethod
     def key(row: dict) -> tuple:
-        """What tells a run from all others."""
+        """Returns the properties that identify a run."""
         return (
             row["scene"],
             int(row["count"]),
@@ -157,7 +157,7 @@ class Table:
         )
 
     def add(self, row: dict) -> dict:
-        """Notes a row."""
+        """Adds a row."""
         text = {name: shown(row.get(name)) for name in COLUMNS}
         self.rows[self.key(text)] = text
         with self.path.open("a", newline="") as file:
@@ -166,24 +166,24 @@ class Table:
 
 
 def shown(value: object) -> str:
-    """A cell of the table."""
+    """Returns a cell of the table."""
     if value is None:
         return ""
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 class Measurement:
-    """The whole: workers, table, and what to do next."""
+    """The whole measurement: workers, table, and the choice of the next runs."""
 
     def __init__(self, table: Table, core: int, rounds: int) -> None:
-        """Nothing runs yet."""
+        """Does not start any run."""
         self.table, self.core, self.rounds = table, core, rounds
         self.workers: dict[str, Worker] = {}
 
     def run(
         self, problem: tuple[str, int], family: Family, step: float, nearby: int = 0, turn: int = 1
     ) -> dict:
-        """One run, or its row if it is there already."""
+        """Performs one run, or returns its row if the row exists."""
         scene, count = problem
         row = {
             "scene": scene,
@@ -212,7 +212,7 @@ class Measurement:
         return told
 
     def sweep(self, problem: tuple[str, int]) -> None:
-        """Each family from coarse to fine, until it is exact, slow, or no longer improves."""
+        """Runs each family from coarse to fine, until it is accurate, slow, or at its best."""
         for family in plans.families(*problem):
             best, worse, failed, last = float("inf"), 0, 0, 0.0
             for step in family.steps:
@@ -221,8 +221,9 @@ class Measurement:
                     break
                 row = self.run(problem, family, step)
                 if row["status"] in ("timeout", "crashed"):
-                    # A tighter tolerance may pass where one failed between others; a smaller step
-                    # takes longer still, as does what has not ended at the coarsest.
+                    # A tighter tolerance may succeed after a failure of a looser one. A smaller
+                    # step takes longer, and so does a run that did not reach its end with the
+                    # coarsest step.
                     failed += 1
                     if failed == LOST or best == float("inf") or not family.is_tolerance:
                         break
@@ -232,7 +233,7 @@ class Measurement:
                     last, error = float(row["seconds"]), float(row["error"])
                 worse = 0 if error < 0.8 * best else worse + 1
                 best = min(best, error)
-                # An error at a loose tolerance may be small by luck.
+                # An error at a loose tolerance may be small by coincidence.
                 is_early = family.is_tolerance and step > SETTLED
                 if best < plans.FINE or (
                     not is_early and worse >= (3 if best < float("inf") else 6)
@@ -240,9 +241,9 @@ class Measurement:
                     break
 
     def chosen(self, problem: tuple[str, int]) -> list[tuple[Family, float, float]]:
-        """The cheapest run of each family within the target, else its best: step, seconds.
+        """Returns step and time (s) of the cheapest run of each family, or of its best.
 
-        Families within the target come first, each group in the order of cost.
+        Families within the target come first; each group is in the order of cost.
         """
         picked = []
         for family in plans.families(*problem):
@@ -274,13 +275,13 @@ class Measurement:
         return [(family, step, seconds) for _, seconds, step, family in picked]
 
     def repeat(self, problem: tuple[str, int]) -> None:
-        """Further rounds, interleaved: of chosen runs, and of all that are short."""
+        """Performs further rounds, interleaved: of chosen runs, and of all short runs."""
         again = {}
         seen = set()
         for family, step, seconds in self.chosen(problem):
             if seconds <= 6.0 and family.engine not in seen:
                 at = [f"{one:.6g}" for one in family.steps].index(f"{step:.6g}")
-                # With the next coarser step, to interpolate between them.
+                # The next coarser step is included, to interpolate between both.
                 for one in family.steps[max(0, at - 1) : at + 1]:
                     again[family.engine, family.name, one] = family
             seen.add(family.engine)
@@ -305,10 +306,10 @@ class Measurement:
                 self.run(problem, family, step, turn=turn)
 
     def neighbours(self, problem: tuple[str, int]) -> None:
-        """Nearby starts and steps of the n-four-bar: of each engine the cheapest that is steady.
+        """Runs nearby starts and steps of the n-four-bar, for the best family of each engine.
 
         Families are tried in the order of their cost until all neighbours of one stay on the
-        branch. Long runs get fewer neighbours.
+        branch. Long runs have fewer neighbours.
         """
         by_engine: dict[str, list[tuple[Family, float, float]]] = {}
         for family, step, seconds in self.chosen(problem):
@@ -326,7 +327,7 @@ class Measurement:
                     break
 
     def all(self, quick: bool) -> None:
-        """Everything, problem by problem."""
+        """Measures everything, problem by problem."""
         for problem in plans.problems(quick):
             self.sweep(problem)
             self.repeat(problem)
@@ -337,7 +338,7 @@ class Measurement:
 
 
 def write_scenes(folder: Path) -> None:
-    """The scene files of the small problems, as pfaff reads them."""
+    """Writes the scene files of the small problems in the format of pfaff."""
     import scenes
     from with_pfaff import scene_text
 
@@ -348,7 +349,7 @@ def write_scenes(folder: Path) -> None:
 
 
 def main() -> None:
-    """Reads the command line and does the rest."""
+    """Reads the command line and performs the measurement."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--out", type=Path, required=True, help="folder of the report")
     parser.add_argument("--quick", action="store_true", help="small scenes, two rounds")

@@ -1,4 +1,4 @@
-"""The scenes: the same numbers for every engine, and the exact motion of each."""
+"""The scenes: the same values for every engine, and the exact motion of each scene."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NEARBY = 2e-3
 
 
 def rod_tensor(length: float, mass: float, along: Array) -> Array:
-    """Tensor of a rod of 0.1 m × 0.1 m across."""
+    """Returns the tensor of a rod with a cross section of 0.1 m × 0.1 m."""
     own = mass * 0.1**2 / 6.0
     across = mass * (length**2 + 0.1**2) / 12.0
     return across * np.eye(3) + (own - across) * np.outer(along, along)
@@ -27,11 +27,12 @@ def rod_tensor(length: float, mass: float, along: Array) -> Array:
 def n_four_bar(
     count: int, nearby: int = 0, planar: bool = False, about_itself: float = 1.0 / 600.0
 ) -> Mechanism:
-    """n four-bars in a row: n + 1 uprights and n couplers, unit rods of 1 kg, falling over.
+    """Returns n falling four-bars in a row: n + 1 uprights, n couplers, rods of 1 m and 1 kg.
 
-    The motion passes flat poses, where it could branch. In space all hinges are parallel to z
-    and 3 n rows are redundant. `about_itself` is the inertia of a rod about its own axis, that of
-    0.1 m × 0.1 m; the motion does not depend on it.
+    The motion passes singular configurations, at which it could change to another branch. In space
+    all hinges are parallel to z, and 3 n rows are redundant. `about_itself` is the moment of
+    inertia of a rod about its own axis, by default for 0.1 m × 0.1 m; the motion does not depend on
+    it.
     """
     speed = 1.0 + NEARBY * nearby
     along = np.diag([1.0, 0.0, 1.0]) / 12.0
@@ -68,7 +69,7 @@ def n_four_bar(
 
 
 def three_cranks(_: int = 1, nearby: int = 0, planar: bool = True) -> Mechanism:
-    """Three parallel cranks with one coupler of 2 m, from rest at 60°: one redundant row."""
+    """Returns three parallel cranks with a coupler of 2 m, at rest at 60°: one redundant row."""
     start = np.deg2rad(60.0) + NEARBY * nearby
     top = np.array([np.cos(start), np.sin(start), 0.0])
     bodies, joints = [], []
@@ -103,7 +104,7 @@ def chain(
     rows: tuple[int, ...],
     motion: tuple[Array, float, float, tuple[float, float]],
 ) -> Mechanism:
-    """A single loop of hinges between rods; `motion`: gravity, time, first rate, interval."""
+    """Returns a loop of hinges between rods; `motion`: gravity, time, first rate, interval."""
     gravity, duration, rate, interval = motion
     places = np.array(points, float)
     directions = np.array([unit(axis) for axis in axes])
@@ -120,7 +121,7 @@ def chain(
     for k in range(len(points)):
         closes = k == len(points) - 1
         first, second = k - 1, (GROUND if closes else k)
-        # The ground is the first body of a joint, in every scene.
+        # In every scene, the ground is the first body of a joint.
         first, second = (second, first) if closes else (first, second)
         joints.append(
             Joint(
@@ -140,7 +141,7 @@ def chain(
 
 
 def moving(body: Body, loop: ClosedChain, rate: float, k: int) -> Body:
-    """The body with its velocities for a rate of the first hinge, by exact linear algebra."""
+    """Returns the body with its velocities for a rate of the first hinge."""
     angles = np.zeros(len(loop.points) - 1)
     jacobian = loop.jacobian(angles)
     first = first_column(loop)
@@ -153,14 +154,14 @@ def moving(body: Body, loop: ClosedChain, rate: float, k: int) -> Body:
 
 
 def first_column(loop: ClosedChain) -> Array:
-    """Derivative of the misfit by the first angle, at the start."""
+    """Returns the derivative of the violation with respect to the first angle, at the start."""
     point, axis = loop.points[-1], loop.axes[-1]
     along, origin = loop.axes[0], loop.points[0]
     return np.r_[np.cross(along, point - origin), np.cross(np.cross(along, axis), axis)]
 
 
 def bricard(_: int = 1, nearby: int = 0) -> Mechanism:
-    """Bricard's linkage, IFToMM A04: six hinges along edges of a cube, from rest; p = 1."""
+    """Returns Bricard's linkage, IFToMM A04: six hinges along edges of a cube, from rest; p = 1."""
     points = [[0, 0, 0], [1, 0, 0], [1, -1, 0], [1, -1, 1], [0, -1, 1], [0, 0, 1]]
     axes = [[0, 1, 0], [0, 0, 1], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 0, 0]]
     motion = (-G * Y, 1.0, NEARBY * nearby, (-0.35, 1.35))
@@ -168,7 +169,7 @@ def bricard(_: int = 1, nearby: int = 0) -> Mechanism:
 
 
 def bennett(_: int = 1, nearby: int = 0) -> Mechanism:
-    """Bennett's linkage with rational numbers, swinging from rest; p = 3."""
+    """Returns Bennett's linkage with rational dimensions, swinging from rest; p = 3."""
     points = [[0, 0, 0], [0, 3, 0], [-16 / 13, -9 / 13, 12 / 13], [-4, 0, 0]]
     axes = [[0, 0, 1], [3, 0, 4], [-3, 4, 12], [0, 4, 3]]
     motion = (-G * Z, 2.0, NEARBY * nearby, (-2.5, 2.5))
@@ -176,10 +177,11 @@ def bennett(_: int = 1, nearby: int = 0) -> Mechanism:
 
 
 def slider_crank(_: int = 1, nearby: int = 0) -> Mechanism:
-    """Spatial slider-crank: hinge about x, rod between two balls, slide along x.
+    """Returns a spatial slider-crank: hinge about x, rod between two balls, slide along x.
 
-    The rod is thin and round and starts without spin about itself, which stays so: the places
-    do not depend on it. Nothing is redundant; the idle spin is a second freedom.
+    The rod is thin and round. It starts without spin about its axis and keeps this spin, so that
+    the positions do not depend on it. No row is redundant; the idle spin is a second degree of
+    freedom.
     """
     crank, rod, height = 0.1, 0.3, 0.12
     speed = 12.0 * (1.0 + NEARBY * nearby)
@@ -209,8 +211,9 @@ def slider_crank(_: int = 1, nearby: int = 0) -> Mechanism:
             [turned(X, angle), least, np.eye(3)]
         )
 
-    # The smallest rotation spins the rod about itself; its round tensor feels it. The energy of
-    # that spin is left out by a tensor without a moment about the axis of the rod.
+    # The solution of least rotation contains a spin of the rod about its axis, which affects its
+    # energy for a round tensor. A tensor without a moment about the axis of the rod omits this
+    # energy.
     thin = Body("rod", 0.5, solid[1].centre, 0.00375 * (np.eye(3) - np.outer(along, along)))
     exact = OneFreedom(
         [solid[0], thin, solid[2]], -G * Z, pose, (-0.5, 16.0), (0.0, speed), degree=400
@@ -234,7 +237,7 @@ def slider_crank(_: int = 1, nearby: int = 0) -> Mechanism:
 
 
 def top(_: int = 1, nearby: int = 0) -> Mechanism:
-    """Fast heavy top on a ball joint (15 kg, 150 rad/s): the standard test of rotations."""
+    """Returns a fast heavy top on a ball joint (15 kg, 150 rad/s), a standard test."""
     spin = np.array([0.0, 150.0, -4.61538 * (1.0 + NEARBY * nearby)])
     tensor = np.diag([0.234375, 0.46875, 0.234375])
     body = Body("top", 15.0, Y, tensor, np.cross(spin, Y), spin)
@@ -244,7 +247,7 @@ def top(_: int = 1, nearby: int = 0) -> Mechanism:
 
 
 def free_body(_: int = 1, nearby: int = 0) -> Mechanism:
-    """Body without forces that spins about its middle axis and tumbles; a point 1 m off it."""
+    """Returns a free body that spins about its middle axis; a point 1 m off this axis."""
     spin = np.array([0.01, 1.0 + NEARBY * nearby, 0.01])
     body = Body("body", 1.0, HERE, np.diag([1.0, 2.0, 3.0]), HERE, spin)
     offset = unit([1.0, 1.0, 1.0])
@@ -253,7 +256,7 @@ def free_body(_: int = 1, nearby: int = 0) -> Mechanism:
 
 
 def spherical_pendulum(_: int = 1, nearby: int = 0) -> Mechanism:
-    """Ball of 1 kg and 0.1 m radius on a rod without mass of 1 m and a ball joint."""
+    """Returns a ball of 1 kg and 0.1 m radius on a massless rod of 1 m and a ball joint."""
     speed = 1.0 + NEARBY * nearby
     body = Body("bob", 1.0, X, 4e-3 * np.eye(3), speed * Y, speed * Z)
     joints = [Joint("ball", "spherical", GROUND, 0, HERE)]
@@ -262,7 +265,7 @@ def spherical_pendulum(_: int = 1, nearby: int = 0) -> Mechanism:
 
 
 def hexapod(_: int = 1, nearby: int = 0) -> Mechanism:
-    """Hexapod without drives: six legs U-P-S, the platform falls straight down by symmetry."""
+    """Returns a hexapod without drives: six legs U-P-S; the platform falls straight down."""
     height = 1.2
     speed = NEARBY * nearby
     turns = [120.0 * np.pi / 180.0 * k for k in range(3)]
@@ -279,7 +282,7 @@ def hexapod(_: int = 1, nearby: int = 0) -> Mechanism:
     low, high = 0.35, 0.35
 
     def legs(z: float) -> list[tuple[Array, Array, Array, Array]]:
-        """Centres of cylinder and piston, direction and normal of the plane of each leg."""
+        """Returns centres of cylinder and piston, direction and normal of the plane of each leg."""
         placed = []
         for foot, head in zip(feet, heads, strict=True):
             leg = head + z * Z - foot
@@ -331,13 +334,13 @@ def hexapod(_: int = 1, nearby: int = 0) -> Mechanism:
 
 
 def thin_four_bars(count: int, nearby: int = 0) -> Mechanism:
-    """The n-four-bar in space with rods about 2 cm thick: tensors of very unequal entries."""
+    """Returns the n-four-bar in space with rods about 2 cm thick: very unequal tensors."""
     made = n_four_bar(count, nearby, about_itself=1e-3 / 12.0)
     return replace(made, name=f"n-four-bar-thin-{count}")
 
 
 def planar_four_bars(count: int, nearby: int = 0) -> Mechanism:
-    """The n-four-bar in the plane."""
+    """Returns the n-four-bar in the plane."""
     return n_four_bar(count, nearby, planar=True)
 
 
@@ -357,7 +360,7 @@ SCENES: dict[str, Callable[..., Mechanism]] = {
 
 
 def make(scene: str, count: int, nearby: int = 0) -> Mechanism:
-    """A scene by name; `nearby` moves its start a little."""
+    """Returns a scene by name; `nearby` displaces its start slightly."""
     return SCENES[scene](count, nearby)
 
 

@@ -1,9 +1,10 @@
-"""Drake: joints of the spanning tree, loops closed by ball constraints or by stiff bushings.
+"""Drake: joints of the spanning tree, and loops closed by ball constraints or stiff bushings.
 
-Constraints exist in discrete plants (SAP) and in the CENIC integrator; the other error-controlled
-integrators refuse or ignore them, so loops are closed by a bushing there, as in Drake's own
-example of a four-bar. Options: `scheme` ("sap", or the name of an integrator), `closure`
-("ball" or "bushing"), `points` at which a closing hinge is held, `stiffness` (N/m).
+Constraints exist in discrete plants (SAP) and in the CENIC integrator. The other error-controlled
+integrators reject or ignore constraints, so for these integrators loops are closed by a bushing, as
+in Drake's own example of a four-bar. Options: `scheme` ("sap", or the name of an integrator),
+`closure` ("ball" or "bushing"), number of `points` at which a closing hinge is constrained,
+`stiffness` (N/m).
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from outcome import Outcome, Run, sampled
 
 
 def version() -> str:
-    """Version of the package."""
+    """Returns the version of the package."""
     return version_of("drake")
 
 
@@ -26,7 +27,7 @@ class Plant:
     """The model of a mechanism, and its joints by name."""
 
     def __init__(self, mechanism: Mechanism, options: dict, step: float) -> None:
-        """Builds the plant; `step` is zero for continuous ones."""
+        """Builds the plant; `step` is zero for continuous plants."""
         self.mechanism, self.options = mechanism, options
         self.plant = drake.MultibodyPlant(step)
         self.plant.mutable_gravity_field().set_gravity_vector(mechanism.gravity)
@@ -43,7 +44,7 @@ class Plant:
         self.plant.Finalize()
 
     def body(self, index: int) -> drake.RigidBody:
-        """A body of the plant; constraints to the world itself crash, so it is an anchor."""
+        """Returns a body of the plant; an anchor replaces the world, whose constraints crash."""
         if index != GROUND:
             return self.bodies[index]
         if self.anchor is None:
@@ -54,7 +55,7 @@ class Plant:
         return self.anchor
 
     def frame(self, joint: Joint, index: int, turn: Array) -> drake.Frame:
-        """A frame of a body at the place of a joint."""
+        """Returns a frame of a body at the position of a joint."""
         owner = self.plant.world_frame() if index == GROUND else self.bodies[index].body_frame()
         pose = drake.RigidTransform(
             drake.RotationMatrix(turn), joint.at - self.mechanism.centre(index)
@@ -63,7 +64,7 @@ class Plant:
         return self.plant.AddFrame(drake.FixedOffsetFrame(name, owner, pose))
 
     def add(self, joint: Joint) -> drake.Joint:
-        """A joint of the tree."""
+        """Adds a joint of the tree."""
         turn = np.eye(3)
         if joint.kind == "universal":
             turn = np.column_stack([joint.axis, joint.cross, np.cross(joint.axis, joint.cross)])
@@ -97,7 +98,7 @@ class Plant:
             )
 
     def close_by_bushing(self, joint: Joint) -> None:
-        """Closes a loop by springs along three axes, free to turn, with critical damping."""
+        """Closes a loop by springs along three axes, without torques, with critical damping."""
         stiffness = self.options["stiffness"]
         mass = min(body.mass for body in self.mechanism.bodies)
         damping = 2.0 * np.sqrt(stiffness * 0.1 * mass)
@@ -111,7 +112,7 @@ class Plant:
         self.plant.AddForceElement(bushing)
 
     def start(self, context: drake.Context) -> None:
-        """Sets the velocities of the start; all coordinates are zero there."""
+        """Sets the velocities of the start, at which all coordinates are zero."""
         for joint in self.mechanism.tree_joints():
             made, spin = self.joints[joint.name], self.mechanism.relative_spin(joint)
             if joint.kind == "spherical":
@@ -134,13 +135,13 @@ class Plant:
 
 
 def ball_frame(joint: Joint) -> Array:
-    """A frame with x along the axis of a fast spin: that angle may grow, the pitch may not."""
+    """Returns a frame with x along the axis of a fast spin: only this angle may become large."""
     u, v = perpendicular(joint.axis)
     return np.column_stack([joint.axis, -v, u])
 
 
 def prepare(mechanism: Mechanism, options: dict, step: float) -> Run:
-    """A run with steps of `step` (SAP), or with that accuracy (error-controlled)."""
+    """Prepares a run with steps of `step` (SAP), or with this accuracy (error-controlled)."""
     discrete = options["scheme"] == "sap"
     interval = mechanism.interval / max(1, round(mechanism.interval / step))
     made = Plant(mechanism, options, interval if discrete else 0.0)

@@ -1,10 +1,10 @@
-"""Exudyn: redundant or joint coordinates, implicit generalised-alpha, one call of C++ for a run.
+"""Exudyn: redundant or joint coordinates, implicit generalised-alpha, one C++ call for each run.
 
 Options: `rows` ("all": every row of every joint, the solver ignores the singular Jacobian; "kept":
-the redundant rows of closing joints removed by hand), `solver` ("dense" or "sparse"), `method`
+the redundant rows of closing joints are removed by hand), `solver` ("dense" or "sparse"), `method`
 ("ga" for index 3 with the given `radius`, "ga2" for index 2, "trapezoid"), `rotation` ("euler",
 "quaternion" or "vector"), `newton` ("modified" or "full"), `coordinates` ("trees" for joint
-coordinates in place of redundant ones). Planar scenes get planar bodies.
+coordinates instead of redundant ones). Planar scenes have planar bodies.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ SOLVERS = {"dense": exu.LinearSolverType.EigenDense, "sparse": exu.LinearSolverT
 
 
 def version() -> str:
-    """Version of the package."""
+    """Returns the version of the package."""
     return exu.__version__
 
 
 class System:
-    """The model of a mechanism with sensors at the watched places."""
+    """The model of a mechanism, with sensors at the watched points."""
 
     def __init__(self, mechanism: Mechanism, options: dict) -> None:
         """Builds the model."""
@@ -63,7 +63,7 @@ class System:
         self.mbs.Assemble()
 
     def add_planar(self, index: int) -> int:
-        """A body in the plane."""
+        """Adds a body in the plane."""
         body = self.mechanism.bodies[index]
         node = self.mbs.AddNode(
             item.NodeRigidBody2D(
@@ -80,7 +80,7 @@ class System:
         return made
 
     def add_body(self, index: int) -> int:
-        """A body in space."""
+        """Adds a body in space."""
         body = self.mechanism.bodies[index]
         return self.mbs.CreateRigidBody(
             referencePosition=list(body.centre),
@@ -92,11 +92,11 @@ class System:
         )
 
     def owner(self, index: int) -> int:
-        """The object of a body."""
+        """Returns the object of a body."""
         return self.ground if index == GROUND else self.bodies[index]
 
     def markers(self, joint: Joint, kind: type) -> list[int]:
-        """Markers of a joint on its two bodies."""
+        """Returns markers of a joint on its two bodies."""
         return [
             self.mbs.AddMarker(
                 kind(
@@ -108,7 +108,7 @@ class System:
         ]
 
     def join_in_plane(self, joint: Joint) -> None:
-        """A hinge in the plane; a row of it where the others are removed by hand."""
+        """Adds a hinge in the plane, or one row of it if the other rows are removed by hand."""
         markers = self.markers(joint, item.MarkerBodyPosition)
         if joint.closes and self.options.get("rows") == "kept" and joint.rows[:2] != (1, 1):
             self.mbs.AddObject(
@@ -120,7 +120,7 @@ class System:
         self.mbs.AddObject(item.ObjectJointRevolute2D(markerNumbers=markers))
 
     def join(self, joint: Joint) -> None:
-        """A joint in space, through the generic one where rows are left out."""
+        """Adds a joint in space; the generic joint is used if rows are omitted."""
         markers = self.markers(joint, item.MarkerBodyRigid)
         kept = joint.closes and self.options.get("rows") == "kept"
         if joint.kind == "spherical":
@@ -131,7 +131,8 @@ class System:
             rows = [1, 1, 0, 1, 1, 1]
             turn = np.column_stack([*perpendicular(joint.axis), joint.axis])
         elif joint.kind == "universal":
-            # Free about the first axis of the first body and the second one of the second.
+            # The joint is free about the first axis in the first body and the second axis in the
+            # second.
             rows = [1, 1, 1, 0, 0, 1]
             turn = np.column_stack([joint.axis, joint.cross, np.cross(joint.axis, joint.cross)])
         else:
@@ -155,7 +156,7 @@ class System:
 
 
 def settings(mechanism: Mechanism, options: dict, steps: int) -> exu.SimulationSettings:
-    """Settings of a run; nothing is written."""
+    """Returns the settings of a run; no file is written."""
     made = exu.SimulationSettings()
     made.timeIntegration.numberOfSteps = steps
     made.timeIntegration.endTime = mechanism.duration
@@ -174,7 +175,7 @@ def settings(mechanism: Mechanism, options: dict, steps: int) -> exu.SimulationS
 
 
 def read(system: System | Trees, sensors: list[int], mechanism: Mechanism) -> Array:
-    """The places noted at the instants of comparison."""
+    """Reads the positions at the instants of comparison."""
     tables = [np.atleast_2d(system.mbs.GetSensorStoredData(sensor)) for sensor in sensors]
     wanted = mechanism.times
     rows = []
@@ -187,7 +188,7 @@ def read(system: System | Trees, sensors: list[int], mechanism: Mechanism) -> Ar
 
 
 def prepare(mechanism: Mechanism, options: dict, step: float) -> Run:
-    """A run with steps of about `step`, a whole number of them between instants."""
+    """Prepares a run with steps of about `step`, a whole number of steps between instants."""
     trees = options.get("coordinates") == "trees"
     system = Trees(mechanism) if trees else System(mechanism, options)
     steps = mechanism.samples * max(1, round(mechanism.interval / step))
@@ -201,7 +202,7 @@ def prepare(mechanism: Mechanism, options: dict, step: float) -> Run:
         begin = time.perf_counter()
         try:
             system.mbs.SolveDynamic(chosen, solverType=scheme)
-        except Exception as error:  # the solver stopped; what it reached counts
+        except Exception as error:  # the solver stopped; the reached instants count
             note = " ".join(str(error).split())[:160] or type(error).__name__
         seconds = time.perf_counter() - begin
         return Outcome(read(system, system.sensors, mechanism), seconds, note=note)

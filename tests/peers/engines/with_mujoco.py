@@ -1,7 +1,8 @@
-"""MuJoCo: hinges of the spanning tree, loops closed by `connect`, soft in every setting.
+"""MuJoCo: hinges of the spanning tree, loops closed by `connect`, which is soft in every setting.
 
-Options: `integrator`; `points` at which a closing hinge is held (1 or 2); `stiffness`, the time
-constant of the constraints in steps, or "direct" for a stiffness of 0.9/step²; `solver`.
+Options: `integrator`; number of `points` (1 or 2) at which a closing hinge is constrained;
+`stiffness`, the time constant of the constraints in steps, or "direct" for a stiffness of
+0.9/step²; `solver`.
 """
 
 from __future__ import annotations
@@ -14,17 +15,17 @@ from outcome import Outcome, Run, sampled
 
 
 def version() -> str:
-    """Version of the package."""
+    """Returns the version of the package."""
     return mujoco.__version__
 
 
 def numbers(values: Array) -> str:
-    """A vector in an attribute."""
+    """Returns a vector as the value of an attribute."""
     return " ".join(repr(float(v)) for v in values)
 
 
 def joint_text(joint: Joint, mechanism: Mechanism) -> str:
-    """The element or elements of a joint of the tree."""
+    """Returns the element or elements of a joint of the tree."""
     place = numbers(joint.at - mechanism.centre(joint.second))
     if joint.kind == "spherical":
         return f'<joint name="{joint.name}" type="ball" pos="{place}"/>'
@@ -38,7 +39,7 @@ def joint_text(joint: Joint, mechanism: Mechanism) -> str:
 
 
 def body_text(mechanism: Mechanism, index: int, parent: int, joint: str) -> str:
-    """A body with all that the tree hangs on it."""
+    """Returns a body with all bodies that follow it in the tree."""
     body = mechanism.bodies[index]
     t = body.tensor
     inertia = numbers(np.array([t[0, 0], t[1, 1], t[2, 2], t[0, 1], t[0, 2], t[1, 2]]))
@@ -49,7 +50,7 @@ def body_text(mechanism: Mechanism, index: int, parent: int, joint: str) -> str:
 
 
 def children(mechanism: Mechanism, parent: int) -> str:
-    """The bodies that the tree hangs on a body."""
+    """Returns the bodies that follow a body in the tree."""
     return "".join(
         body_text(mechanism, joint.second, parent, joint_text(joint, mechanism))
         for joint in mechanism.tree_joints()
@@ -58,7 +59,7 @@ def children(mechanism: Mechanism, parent: int) -> str:
 
 
 def connects(mechanism: Mechanism, points: int, stiffness: str) -> str:
-    """The equalities that close the loops."""
+    """Returns the equality constraints that close the loops."""
     text = ""
     for joint in mechanism.closing_joints():
         names = [mechanism.bodies[k].name for k in (joint.second, joint.first) if k != GROUND]
@@ -74,7 +75,7 @@ def connects(mechanism: Mechanism, points: int, stiffness: str) -> str:
 
 
 def document(mechanism: Mechanism, options: dict, step: float) -> str:
-    """The whole model."""
+    """Returns the whole model."""
     factor = options.get("stiffness", 2.0)
     if factor == "direct":
         reference = f"{-0.9 / step**2!r} {-1.8 / step!r}"
@@ -96,7 +97,7 @@ def document(mechanism: Mechanism, options: dict, step: float) -> str:
 
 
 def start(mechanism: Mechanism, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Sets the velocities of the start; all coordinates are zero there."""
+    """Sets the velocities of the start, at which all coordinates are zero."""
     for joint in mechanism.tree_joints():
         at = model.joint(joint.name).dofadr[0]
         spin = mechanism.relative_spin(joint)
@@ -116,7 +117,7 @@ def start(mechanism: Mechanism, model: mujoco.MjModel, data: mujoco.MjData) -> N
 
 
 def prepare(mechanism: Mechanism, options: dict, step: float) -> Run:
-    """A run with steps of about `step`, a whole number of them between instants."""
+    """Prepares a run with steps of about `step`, a whole number of steps between instants."""
     steps = max(1, round(mechanism.interval / step))
     text = document(mechanism, options, mechanism.interval / steps)
     model = mujoco.MjModel.from_xml_string(text)

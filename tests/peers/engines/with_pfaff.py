@@ -1,4 +1,4 @@
-"""pfaff, as a program: scene files from the same numbers, and its own runs."""
+"""Uses pfaff as a program, with scene files of the same values and its own runs."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ PROGRAM = str(Path(os.environ.get("PFAFF", "target/release/pfaff")).resolve())
 
 
 def version() -> str:
-    """What the program calls itself."""
+    """Returns the version that the program prints."""
     shown = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True)
     return shown.stdout.split()[-1]
 
 
 def numbers(values: Array, planar: bool) -> str:
-    """A vector in TOML; the plane has its first two components."""
+    """Returns a vector in TOML; in the plane, only its first two components."""
     return "[" + ", ".join(repr(float(v)) for v in (values[:2] if planar else values)) + "]"
 
 
 def body_text(body: Body, planar: bool) -> str:
-    """One `[[body]]`."""
+    """Returns one `[[body]]`."""
     if planar:
         inertia, spin = repr(float(body.tensor[2, 2])), repr(float(body.angular_velocity[2]))
     else:
@@ -44,7 +44,7 @@ def body_text(body: Body, planar: bool) -> str:
 
 
 def joint_text(joint: Joint, mechanism: Mechanism) -> str:
-    """One `[[joint]]`, its axes in the frame of the first body."""
+    """Returns one `[[joint]]`, with its axes in the frame of the first body."""
     names = [
         "ground" if k == GROUND else mechanism.bodies[k].name for k in (joint.first, joint.second)
     ]
@@ -65,7 +65,7 @@ def joint_text(joint: Joint, mechanism: Mechanism) -> str:
 
 
 def scene_text(mechanism: Mechanism) -> str:
-    """The scene file: no reactions and no page, since no other engine is asked for them."""
+    """Returns the scene file, without reactions and page, because no other engine computes them."""
     planar = mechanism.planar
     parts = [
         f'[scene]\nname = "{mechanism.name}"\nspace = "{"plane" if planar else "spatial"}"\n'
@@ -86,7 +86,7 @@ def scene_text(mechanism: Mechanism) -> str:
 
 
 def read_places(path: Path, mechanism: Mechanism) -> Array:
-    """The watched places after the start, from `trajectory.csv`."""
+    """Reads the positions of the watched points after the start from `trajectory.csv`."""
     with path.open(newline="") as file:
         rows = list(csv.DictReader(file))[1:]
     axes = "xy" if mechanism.planar else "xyz"
@@ -98,7 +98,7 @@ def read_places(path: Path, mechanism: Mechanism) -> Array:
 
 
 def prepare(mechanism: Mechanism, options: dict, step: float) -> Run:
-    """A run with a relative tolerance of `step`."""
+    """Prepares a run with `step` as relative tolerance."""
     folder = tempfile.TemporaryDirectory(prefix="engines-")
     scene = Path(folder.name) / "scene.toml"
     scene.write_text(scene_text(mechanism))

@@ -1,9 +1,10 @@
-"""Pinocchio: accelerations by `constraintDynamics` (proximal), steps by a loop of ours.
+"""Pinocchio: accelerations by `constraintDynamics` (proximal), with our own integration loop.
 
-The library has no integrator. Its accelerations are C++; the loop around them is Python, which
-takes most of the time of small mechanisms: `other_clock` is the time of the accelerations alone.
-Options: `method` ("rk4" or "rk8", the twelve stages of Dormand and Prince), `points` at which a
-closing hinge is held, `mu` of the proximal iteration, `gain` of the Baumgarte correction (1/s).
+The library has no integrator. Its accelerations are C++, and our loop is Python, which takes most
+of the time for small mechanisms; `other_clock` is the time of the accelerations alone. Options:
+`method` ("rk4" or "rk8", the twelve stages of Dormand and Prince), number of `points` at which a
+closing hinge is constrained, `mu` of the proximal iteration, `gain` of the Baumgarte correction
+(1/s).
 """
 
 from __future__ import annotations
@@ -21,12 +22,12 @@ from outcome import Outcome, Run, sampled
 
 
 def version() -> str:
-    """Version of the package."""
+    """Returns the version of the package."""
     return pin.__version__
 
 
 def joint_model(joint: Joint, axis: Array | None) -> pin.JointModel:
-    """A joint of the tree."""
+    """Returns a joint of the tree."""
     if joint.kind == "spherical":
         return pin.JointModelSpherical()
     if joint.kind == "prismatic":
@@ -40,7 +41,7 @@ def joint_model(joint: Joint, axis: Array | None) -> pin.JointModel:
 
 
 class Tree:
-    """The model of a mechanism with its constraints."""
+    """The model of a mechanism, with its constraints."""
 
     def __init__(self, mechanism: Mechanism, options: dict) -> None:
         """Builds the model."""
@@ -67,21 +68,21 @@ class Tree:
         pin.initConstraintDynamics(self.model, self.data, self.constraints, self.constraint_data)
 
     def attach(self, body: int, joint: int, origin: Array) -> None:
-        """Gives a joint of the model its body."""
+        """Attaches a body to a joint of the model."""
         given = self.mechanism.bodies[body]
         inertia = pin.Inertia(given.mass, given.centre - origin, given.tensor)
         self.model.appendBodyToJoint(joint, inertia, pin.SE3.Identity())
         self.joints[body], self.origins[body] = joint, origin
 
     def grow(self, parent: int) -> None:
-        """All that hangs on a body, depth first: in another order the forces are wrong."""
+        """Adds all bodies after a body, depth first: in another order the forces are wrong."""
         for joint in self.mechanism.tree_joints():
             if joint.first == parent:
                 self.add(joint)
                 self.grow(joint.second)
 
     def add(self, joint: Joint) -> None:
-        """A joint of the tree; a universal joint is two hinges with nothing between them."""
+        """Adds a joint of the tree; a universal joint is two hinges without a body between them."""
         place = pin.SE3(np.eye(3), joint.at - self.origins[joint.first])
         parent = self.joints[joint.first]
         made = self.model.addJoint(parent, joint_model(joint, joint.axis), place, joint.name)
@@ -92,7 +93,7 @@ class Tree:
         self.attach(joint.second, made, joint.at)
 
     def close(self, joint: Joint) -> None:
-        """Point constraints that close a loop."""
+        """Adds point constraints that close a loop."""
         offsets = [np.zeros(3)]
         if joint.kind == "revolute" and self.options.get("points", 1) == 2:
             offsets = [0.25 * joint.axis, -0.25 * joint.axis]
@@ -118,7 +119,7 @@ class Tree:
             self.constraints.append(constraint)
 
     def start(self) -> tuple[Array, Array]:
-        """Coordinates and velocities of the start."""
+        """Returns coordinates and velocities of the start."""
         q, v = pin.neutral(self.model), np.zeros(self.model.nv)
         for joint in self.mechanism.tree_joints():
             at = self.model.joints[self.joints[joint.second]].idx_v
@@ -138,10 +139,10 @@ class Tree:
 
 
 class Charts:
-    """Coordinates as a vector: rates of quaternions from angular velocities, and their length."""
+    """Coordinates as a vector, with the rates and the normalisation of quaternions."""
 
     def __init__(self, model: pin.Model) -> None:
-        """Looks for the joints whose coordinates are no angles."""
+        """Finds the joints whose coordinates are not angles."""
         self.is_flat = model.nq == model.nv
         self.flat: list[tuple[int, int]] = []
         self.balls: list[tuple[int, int]] = []
@@ -153,7 +154,7 @@ class Charts:
         self.flat_v = [v for _, v in self.flat]
 
     def rates(self, q: Array, v: Array) -> Array:
-        """The derivative of the coordinates."""
+        """Returns the derivative of the coordinates."""
         if self.is_flat:
             return v
         made = np.empty(len(q))
@@ -167,14 +168,14 @@ class Charts:
         return made
 
     def on(self, q: Array) -> Array:
-        """Quaternions of length one."""
+        """Normalises the quaternions."""
         for at in [*(at for at, _ in self.balls), *(at + 3 for at, _ in self.free)]:
             q[at : at + 4] /= math.sqrt(q[at : at + 4] @ q[at : at + 4])
         return q
 
 
 def spun(q: Array, spin: Array) -> list[float]:
-    """The derivative of a quaternion (x, y, z, w) with an angular velocity of the body."""
+    """Returns the derivative of a quaternion (x, y, z, w) for an angular velocity of the body."""
     x, y, z, w = q.tolist()
     a, b, c = (0.5 * spin).tolist()
     return [
@@ -186,7 +187,7 @@ def spun(q: Array, spin: Array) -> list[float]:
 
 
 def tableau(method: str) -> tuple[list[Array], Array]:
-    """Rows of the stages and weights of an explicit method."""
+    """Returns the rows of the stages and the weights of an explicit method."""
     if method == "rk4":
         rows = [np.array([]), np.array([0.5]), np.array([0.0, 0.5]), np.array([0.0, 0.0, 1.0])]
         return rows, np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
@@ -194,7 +195,7 @@ def tableau(method: str) -> tuple[list[Array], Array]:
 
 
 def prepare(mechanism: Mechanism, options: dict, step: float) -> Run:
-    """A run with steps of `step`, the last one before each instant shortened to meet it."""
+    """Prepares a run with steps of `step`, shortened before each instant to end there."""
     tree = Tree(mechanism, options)
     model, data = tree.model, tree.data
     whole = max(0, math.ceil(mechanism.interval / step - 1e-9) - 1)

@@ -1,7 +1,7 @@
-"""A process that runs one engine: orders come in as lines of JSON, answers go out as such.
+"""A process that runs one engine; it reads orders and writes answers as lines of JSON.
 
 For each order {scene, count, nearby, options, step, is_tolerance} there are two answers: {ready}
-when the model stands, and the row of the run. A crash ends this process only.
+after the model is built, and the row of the run. A crash ends only this process.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from mechanism import Mechanism
 
 @lru_cache(maxsize=4)
 def mechanism(scene: str, count: int, nearby: int) -> Mechanism:
-    """The scene, with its reference."""
+    """Returns the scene, with its reference."""
     return scenes.make(scene, count, nearby)
 
 
 def answer(engine: object, order: dict, tell: callable) -> dict:
-    """Prepares and runs; the row without what the order says already."""
+    """Prepares and performs the run; returns the row without the entries of the order."""
     made = mechanism(order["scene"], order["count"], order["nearby"])
     step = order["step"] if order["is_tolerance"] else made.interval / order["step"]
     step *= 1.0 + 0.01 * order["nearby"]
@@ -46,9 +46,9 @@ def answer(engine: object, order: dict, tell: callable) -> dict:
 
 
 def serve(name: str, core: int) -> None:
-    """Answers orders until the input ends."""
+    """Executes orders until the input ends."""
     os.sched_setaffinity(0, {core})
-    # Engines print what they like; only our answers go to the pipe.
+    # Engines may print any text; only our answers go to the pipe.
     pipe = os.fdopen(os.dup(1), "w")
     silent = os.open(os.devnull, os.O_WRONLY)
     os.dup2(silent, 1)
@@ -59,14 +59,14 @@ def serve(name: str, core: int) -> None:
         pipe.flush()
 
     engine = importlib.import_module(f"with_{name}")
-    # MuJoCo writes a log where it stands.
+    # MuJoCo writes a log into the current directory.
     os.chdir(tempfile.gettempdir())
     tell({"version": engine.version()})
     for line in sys.stdin:
         order = json.loads(line)
         try:
             tell(answer(engine, order, tell))
-        except Exception as error:  # an engine that refuses is a result, too
+        except Exception as error:  # if an engine rejects a scene, that is a result, too
             note = " ".join(str(error).split())[:160] or type(error).__name__
             tell({"status": "refused", "note": note})
 

@@ -1,6 +1,6 @@
-//! The saddle system of large mechanisms, `M·a + Cᵀ·λ = f`, `C·a = γ` on kept rows, by the Schur
-//! complement of `linalg` and by sparse Cholesky and LU of faer: time, memory, accuracy, refusals,
-//! and whether two runs give the same bits.
+//! The saddle system of large mechanisms, `M·a + Cᵀ·λ = f`, `C·a = γ` on independent rows. It is
+//! solved by the Schur complement of `linalg` and by sparse Cholesky and LU of faer. The program
+//! compares time, memory, accuracy and rejected input, and whether two runs give the same bits.
 //!
 //! `cargo run --release --manifest-path tests/peers/Cargo.toml --example sparse_saddle`
 #![allow(clippy::print_stdout)]
@@ -19,7 +19,7 @@ use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
 use model::System;
 use pfaff::{RunOptions, Study};
 
-/// Number of runs of each solver; the least time counts.
+/// Number of runs of each solver; the shortest time counts.
 const RUNS: usize = 15;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -98,7 +98,7 @@ impl SaddleSystem {
     }
 }
 
-/// Least time (s) of some runs, and the last result.
+/// Shortest time (s) of some runs, and the last result.
 fn timed<T>(mut f: impl FnMut() -> T) -> (f64, T) {
     let mut least = f64::INFINITY;
     let mut last = None;
@@ -151,7 +151,7 @@ fn ours(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
     saddle.factor(&system.c, &system.mass)?;
     saddle.solve(&system.c, &system.force, &system.gamma, &mut a, &mut lambda)?;
     println!("  same bits again: {}", before == lambda);
-    // One row twice.
+    // One row occurs twice.
     let mut rows: Vec<Vec<(usize, f64)>> = (0..r).map(|i| system.c.entries(i).collect()).collect();
     rows.push(rows[r / 2].clone());
     let doubled = SparseMatrix::from_rows(n, rows)?;
@@ -169,7 +169,7 @@ fn ours(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
 /// `S = C·M⁻¹·Cᵀ` by the products of entries of each column, in a fixed pattern.
 struct Schur {
     matrix: SparseColMat<usize, f64>,
-    /// For each product: its place in S, both entries, and the column.
+    /// For each product: its position in S, both entries, and the column.
     products: Vec<(u32, u32, u32, u32)>,
 }
 
@@ -191,7 +191,7 @@ impl Schur {
             let range = symbolic.col_range(l);
             range.start + symbolic.row_idx()[range.clone()].partition_point(|&row| row < i)
         };
-        // Entries of C by rows; those of a column by the rows.
+        // Entries of C are stored by rows; this finds the entry of a column in a row.
         let entry = |i: usize, j: usize| c.start(i) + c.row(i).0.partition_point(|&k| k < j);
         let mut products = Vec::with_capacity(triplets.len());
         for j in 0..c.ncols() {
@@ -279,7 +279,7 @@ fn cholesky(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
         "  same bits again: {}",
         again.solve(&rhs) == llt.solve(&rhs)
     );
-    // One row twice.
+    // One row occurs twice.
     let mut rows: Vec<Vec<(usize, f64)>> = (0..r).map(|i| system.c.entries(i).collect()).collect();
     rows.push(rows[r / 2].clone());
     let doubled = SparseMatrix::from_rows(n, rows)?;

@@ -1,4 +1,4 @@
-"""Accelerations of imported MJCF files beside those of MuJoCo at random states."""
+"""Compares accelerations of imported MJCF files with those of MuJoCo at random states."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ BOUND = 1e-9
 
 
 def random_state(model: mujoco.MjModel, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates and velocities: unit quaternions, angles in ±3, lengths in ±1 about the reference."""
+    """Returns coordinates (angles in ±3, lengths in ±1 about the reference) and velocities."""
     q = model.qpos0.copy()
     for joint in range(model.njnt):
         at, kind = model.jnt_qposadr[joint], model.jnt_type[joint]
@@ -36,7 +36,7 @@ def random_state(model: mujoco.MjModel, rng: np.random.Generator) -> tuple[np.nd
 
 
 def accelerations(model: mujoco.MjModel, q: np.ndarray, v: np.ndarray) -> dict[str, np.ndarray]:
-    """Mass centre, its acceleration, and the angular acceleration of each body, in ground axes."""
+    """Returns centre of mass, its acceleration, and angular acceleration by body, in ground axes."""
     data = mujoco.MjData(model)
     data.qpos[:], data.qvel[:] = q, v
     mujoco.mj_forward(model, data)
@@ -54,7 +54,7 @@ def accelerations(model: mujoco.MjModel, q: np.ndarray, v: np.ndarray) -> dict[s
 
 
 def parsed(text: str) -> dict[int, dict[str, np.ndarray]]:
-    """The lines of `imported_accelerations`."""
+    """Returns the lines of `imported_accelerations`."""
     out: dict[int, dict[str, np.ndarray]] = {}
     for line in text.splitlines():
         key, body, *numbers = line.split("\t")
@@ -63,7 +63,7 @@ def parsed(text: str) -> dict[int, dict[str, np.ndarray]]:
 
 
 def with_states(path: Path, states: list[tuple[np.ndarray, np.ndarray]]) -> Path:
-    """The file with these states as keyframes, beside it so that it finds what it includes."""
+    """Writes the file with these states as keyframes, next to its included files."""
     tree = ElementTree.parse(path)
     root = tree.getroot()
     for kind in ("keyframe", "equality"):
@@ -81,7 +81,7 @@ def with_states(path: Path, states: list[tuple[np.ndarray, np.ndarray]]) -> Path
 
 
 def compare(path: Path, count: int, seed: int, program: str) -> tuple[float, int]:
-    """The largest relative difference of a file, and how many bodies were compared."""
+    """Returns the largest relative difference of a file, and how many bodies were compared."""
     spec = mujoco.MjSpec.from_file(str(path))
     model = spec.compile()
     off = mujoco.mjtDisableBit
@@ -106,7 +106,8 @@ def compare(path: Path, count: int, seed: int, program: str) -> tuple[float, int
         bodies = len(shared)
         for name in shared:
             a, b = theirs[name], ours[number][name]
-            # A body that others were merged into has another mass centre: its spin is compared.
+            # If other bodies were merged into a body, its centre of mass differs, so its spin is
+            # compared.
             same = np.allclose(a[:3], b[:3], rtol=0, atol=1e-9)
             compared = slice(3, 9) if same else slice(6, 9)
             size = max(1.0, *(np.abs(x[3:]).max() for x in theirs.values()))

@@ -21,8 +21,8 @@ pub enum Cost {
     Unknown,
 }
 
-/// The least cost at which a series, in the order of its tolerances, passes from errors above
-/// `error` to errors below.
+/// The least cost at which a series, in the order of its tolerances, changes from errors above
+/// `error` to errors below it.
 pub fn cost_at(series: &[Point], error: f64) -> Cost {
     let crossings = series.windows(2).filter_map(|pair| {
         let [a, b] = [pair[0], pair[1]];

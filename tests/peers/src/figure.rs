@@ -62,8 +62,8 @@ fn style(all: &[&Series], i: usize) -> String {
     format!("fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\" stroke-dasharray=\"{dash}\"")
 }
 
-/// One panel with its upper left corner at (x0, MARGIN): errors to the right become smaller, costs
-/// grow upwards.
+/// One panel with its upper left corner at (x0, MARGIN): errors decrease to the right, costs
+/// increase upwards.
 fn panel(
     out: &mut String,
     x0: f64,

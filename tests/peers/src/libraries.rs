@@ -1,5 +1,5 @@
-//! How each library is called: the same right-hand side, the same tolerances, its fast options,
-//! without stored output.
+//! The calls of the libraries. All get the same right-hand side and the same tolerances, each with
+//! its fast options, and without stored output.
 
 pub mod with_differential_equations;
 pub mod with_diffsol;

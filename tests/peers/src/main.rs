@@ -1,4 +1,4 @@
-//! Our methods and those of other crates on the same right-hand sides:
+//! Compares our methods with those of other crates on the same right-hand sides:
 //! `cargo run --release -- DIRECTORY` in `tests/peers`.
 
 mod equal_error;

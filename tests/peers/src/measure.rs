@@ -1,4 +1,4 @@
-//! One row of the comparison: cost and error of a run. Times are those of this thread.
+//! One row of the comparison, with the cost and error of a run. Times are those of this thread.
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ pub struct Series {
     pub library: &'static str,
     /// Its method.
     pub method: &'static str,
-    /// The treatment of times at which the right-hand side is not smooth.
+    /// How the run treats times at which the right-hand side is not smooth.
     pub breaks: Breaks,
 }
 
@@ -76,7 +76,7 @@ pub struct Row {
     pub seconds: f64,
 }
 
-/// From this error on, relative or in metres and radians, a result is wrong.
+/// A result with this relative error, or this error in metres and radians, is wrong.
 const WRONG: f64 = 1.0;
 
 impl Row {
@@ -102,7 +102,7 @@ impl Row {
 /// repetitions of a run.
 const ROUNDS: usize = 9;
 
-/// Each run is repeated in each round until this has passed …
+/// Each run is repeated in each round for at least this time …
 const ENOUGH: Duration = Duration::from_millis(20);
 
 /// … and at least this number of times, unless one takes longer than that.
@@ -110,9 +110,9 @@ const REPETITIONS: usize = 3;
 
 /// Makes all runs. The first one of each is the warm-up and gives the result.
 ///
-/// The least time of a round is one without interruptions; the median over the rounds is one at the
-/// usual speed of the processor. The least over all rounds would favour runs that happened at a
-/// moment of higher clock speed.
+/// The shortest time of a round is not affected by interruptions. The median over the rounds is a
+/// time at the usual speed of the processor, while the shortest time over all rounds would favour
+/// runs that happened at a moment of higher clock speed.
 pub fn measure(runs: &[Run<'_>]) -> Vec<Row> {
     let mut rows: Vec<Row> = runs.iter().map(first).collect();
     let mut times = vec![Vec::with_capacity(ROUNDS); runs.len()];

@@ -1,5 +1,5 @@
-//! The problem that every library gets: one right-hand side, counted in one place, and the task of
-//! an integration.
+//! The problem that every library gets: one right-hand side, whose evaluations are counted in one
+//! place, and the task of an integration.
 //!
 //! The problems themselves (`problems`) and the libraries (`libraries`) are not part of this
 //! module.
@@ -48,10 +48,10 @@ impl<'a, P> Counted<'a, P> {
         self.problem.rhs(t, y, dy);
     }
 
-    /// The same for libraries that use slices.
+    /// Works like [`Self::rhs`], for libraries that use slices.
     ///
     /// # Panics
-    /// If a slice does not have length N.
+    /// Panics if a slice does not have length N.
     #[inline]
     pub fn rhs_of_slices<const N: usize>(&self, t: f64, y: &[f64], dy: &mut [f64])
     where
@@ -72,16 +72,16 @@ impl<'a, P> Counted<'a, P> {
 /// A slice as an array.
 ///
 /// # Panics
-/// If it does not have length N.
+/// Panics if the slice does not have length N.
 #[inline]
 pub fn array<const N: usize>(y: &[f64]) -> &[f64; N] {
     y.try_into().expect("a state has N components")
 }
 
-/// The same for writing.
+/// A slice as a mutable array.
 ///
 /// # Panics
-/// If it does not have length N.
+/// Panics if the slice does not have length N.
 #[inline]
 pub fn array_mut<const N: usize>(y: &mut [f64]) -> &mut [f64; N] {
     y.try_into().expect("a state has N components")
@@ -115,15 +115,15 @@ pub struct End<const N: usize> {
     pub steps: u64,
 }
 
-/// The end, or the error message of the library.
+/// The end of an integration, or the error message of the library.
 pub type Solved<const N: usize> = Result<End<N>, String>;
 
 impl<const N: usize> Asked<'_, N> {
-    /// Integrates from break time to break time: `leg(t0, t1, y)` moves y from t0 to t1 and returns
-    /// the accepted steps.
+    /// Integrates each interval between two break times: `leg(t0, t1, y)` advances y from t0 to t1
+    /// and returns the number of accepted steps.
     ///
     /// # Errors
-    /// As `leg`.
+    /// Same errors as `leg`.
     pub fn by_legs(
         &self,
         mut leg: impl FnMut(f64, f64, &mut [f64; N]) -> Result<u64, String>,

@@ -1,4 +1,4 @@
-//! The problems: two mechanisms on kept rows, one orbit, one stiff reaction.
+//! The problems: two mechanisms on independent rows, one orbit, one stiff reaction.
 
 pub mod arenstorf;
 pub mod mechanism;

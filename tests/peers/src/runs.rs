@@ -15,8 +15,8 @@ use crate::problems::robertson::{self, Robertson};
 /// Relative tolerances 10⁻⁴ … 10⁻¹².
 const EXPONENTS: std::ops::RangeInclusive<i32> = 4..=12;
 
-/// Those of Robertson's reaction, for which the absolute tolerance must not become effectively
-/// zero.
+/// The exponents for Robertson's reaction, for which the absolute tolerance must not become
+/// effectively zero.
 const EXPONENTS_OF_ROBERTSON: std::ops::RangeInclusive<i32> = 4..=10;
 
 /// A method of a library on a problem P.
@@ -25,13 +25,13 @@ type Solve<P, const N: usize> = fn(&Counted<'_, P>, &Asked<'_, N>) -> Solved<N>;
 /// States of mechanisms of seven planar bodies, [q; v].
 const N: usize = 42;
 
-/// Absolute tolerance divided by the relative one: that of the defaults of `dynamics`.
+/// Absolute tolerance divided by the relative one, as in the defaults of `dynamics`.
 const ATOL: f64 = 1e-2;
 
-/// A mechanism by our runs, and its right-hand side by all libraries.
+/// A mechanism simulated by our runs, and its right-hand side integrated by all libraries.
 ///
 /// # Errors
-/// If the mechanism does not move.
+/// Returns an error if the mechanism does not move.
 pub fn of_mechanism<'c>(
     problem: &'static str,
     case: &'c MovingCase,
@@ -102,7 +102,7 @@ pub fn of_mechanism<'c>(
     Ok(runs)
 }
 
-/// The orbit, rtol = atol.
+/// The orbit, with equal relative and absolute tolerances.
 pub fn of_arenstorf() -> Vec<Run<'static>> {
     let methods: [(&str, &str, Solve<Arenstorf, 4>); 6] = [
         ("integrators", "dop853", ours::dop853),
@@ -130,8 +130,8 @@ pub fn of_arenstorf() -> Vec<Run<'static>> {
     )
 }
 
-/// The reaction with its Jacobian. y₂ is 10⁻¹³ at the end: atol = 10⁻⁸·rtol for all components,
-/// because the libraries take a single number.
+/// The reaction with its Jacobian. At the end y₂ is 10⁻¹³. Therefore atol = 10⁻⁸·rtol for all
+/// components, because the libraries accept only a single value.
 pub fn of_robertson() -> Vec<Run<'static>> {
     let methods: [(&str, &str, Solve<Robertson, 3>); 3] = [
         ("integrators", "radau5", ours::radau5_with_jacobian),

@@ -8,7 +8,7 @@ use crate::measure::{Row, Series};
 /// Errors at which series are compared.
 const ERRORS: [i32; 7] = [-2, -4, -6, -7, -8, -10, -11];
 
-/// All rows, failures included.
+/// All rows, including failures.
 pub fn csv(rows: &[Row]) -> Result<String, fmt::Error> {
     let mut out = String::from(
         "problem,library,method,break_times,rtol,atol,error,evaluations,steps,seconds,status\n",
@@ -40,7 +40,7 @@ pub fn csv(rows: &[Row]) -> Result<String, fmt::Error> {
     Ok(out)
 }
 
-/// One problem: evaluations and time of each series at equal error, with ratios to the first
+/// One problem: evaluations and time of each series at equal error, their ratios to the first
 /// series, and the failures.
 pub fn problem(title: &str, rows: &[&Row]) -> Result<String, fmt::Error> {
     let mut all: Vec<&Series> = Vec::new();

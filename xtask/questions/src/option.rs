@@ -1,4 +1,4 @@
-//! An option of a question: its text from the command line, its type from the schema.
+//! An option of a question. Its text comes from the command line, and its type from the schema.
 
 use clap::Arg;
 use serde_json::Value;
@@ -97,7 +97,7 @@ fn resolved<'v>(schema: &'v Value, options: &'v Value) -> &'v Value {
 /// The type of a schema, and whether it may be `null`.
 ///
 /// # Panics
-/// The type is unknown: then it must be added to the generator.
+/// Panics if the type is unknown. Such a type must be added to the generator.
 fn kind(schema: &Value, options: &Value) -> (Kind, bool) {
     let schema = resolved(schema, options);
     if let Some(any) = schema["anyOf"].as_array() {

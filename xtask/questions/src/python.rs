@@ -5,7 +5,7 @@
 use crate::option::{Kind, QuestionOption};
 use crate::question::Question;
 
-/// The module.
+/// The path of the module.
 pub(crate) const PATH: &str = "python/package/pfaff/_questions.py";
 
 /// Questions whose Python object contains more than the document: name of the question, module and

@@ -3,7 +3,7 @@
 //! A module is a file with the modules written inside it; tests and generated files are omitted.
 //! The module A **uses** the module B if code of A names an item that B defines: in a `use` that is
 //! not a re-export, or by a path anywhere in code, including the arguments of macros. The position
-//! of the definition counts: a path through re-exports leads to the definition, so
+//! of the definition counts: a path through re-exports is a use of the definition, so
 //! `mod b; pub use b::X;` is not a use of `b`, and `use super::X` of a child is a use of the parent
 //! only if the parent defines `X`. The following are not uses: `mod b;` alone, `use super::b`,
 //! which only gives the module a name, and a path that only passes through a module. In contrast,

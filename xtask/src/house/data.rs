@@ -1,4 +1,5 @@
-//! Data files that a program includes when it is compiled: they are code that is not counted.
+//! Data files that a program includes when it is compiled. They are a part of the program that is
+//! not counted as code.
 
 use std::fs;
 use std::path::Path;

@@ -85,8 +85,8 @@ impl Seen {
     }
 }
 
-/// Whether a `#` starts a doc comment: then it has the span of the comment, while a written `#` has
-/// width one.
+/// Whether a `#` starts a doc comment. In this case it has the span of the comment, while a written
+/// `#` has width one.
 fn is_comment(hash: Span) -> bool {
     let (start, end) = (hash.start(), hash.end());
     (end.line, end.column) != (start.line, start.column + 1)

@@ -283,7 +283,7 @@ fn numeric_constants_are_listed_with_value_and_line() {
     assert_eq!(constants(&house(&[("src/lib.rs", text)])), expected);
 }
 
-/// An item that two modules need is in a module below both.
+/// If two modules need an item of each other, the item must move to a third module that both use.
 #[test]
 fn no_more_than_two_modules_of_this_house_reach_each_other() {
     let crates = crates(&root()).expect("sources");
@@ -324,7 +324,8 @@ fn conditions_on_systems(tokens: &TokenStream) -> Vec<String> {
     found
 }
 
-/// Therefore one other system represents all of them in [`crate::platforms`].
+/// The sources distinguish only Linux from all other systems. Therefore one other system represents
+/// all of them in [`crate::platforms`].
 #[test]
 fn sources_tell_linux_from_others_and_nothing_else() {
     for home in crates(&root()).expect("sources") {

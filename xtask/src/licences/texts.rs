@@ -73,8 +73,8 @@ pub(super) fn texts<'p>(
     Ok(texts)
 }
 
-/// The text of a licence for crates whose sources contain no licence text: the text of this
-/// workspace; the heading contains the authors.
+/// The text of a licence for crates whose sources contain no licence text. It is the text in this
+/// workspace, and the heading names the authors.
 fn standard(taken: &[&str]) -> Result<Option<String>, String> {
     if taken != ["MIT"] {
         return Ok(None);

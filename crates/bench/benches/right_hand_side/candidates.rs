@@ -62,12 +62,12 @@ pub(crate) struct Work<'r> {
     pub(crate) lap: Box<dyn FnMut() + 'r>,
 }
 
-/// Largest difference, relative to the largest known value at any state. The condition number of
-/// the problem is at most 1/σ_r ≈ 25; the rest is a margin for solvers that square the condition
-/// number or truncate.
+/// Largest allowed difference from the known values, relative to the largest known value at any
+/// state. The condition number of the problem is at most 1/σ_r ≈ 25. The bound has a margin for
+/// solvers that square the condition number or truncate singular values.
 const AGREES: f64 = 1e-10;
-/// Singular values below this fraction of the largest one are zero: with all rows the smallest
-/// nonzero one is 1e-3 times the largest.
+/// Singular values below this fraction of the largest one count as zero. If all rows are used, the
+/// smallest nonzero singular value is 1e-3 times the largest one.
 const SINGULAR: f64 = 1e-9;
 
 /// Returns the candidates, in the order of the table.
@@ -139,10 +139,10 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
     Ok(list?.works)
 }
 
-/// Evaluates at a state and writes into the storage of the caller.
+/// Evaluates a candidate at a state and writes the result into the given slice.
 type Call<'r> = Box<dyn FnMut(&State, &mut [f64]) -> bool + 'r>;
 
-/// L states; the last index is the state.
+/// L states; the last index selects the state.
 struct Lanes<const L: usize> {
     t: [f64; L],
     q: [[f64; L]; automatic::N_Q],
@@ -179,8 +179,8 @@ impl<'r> List<'r> {
         })
     }
 
-    /// Adds generated code on L states at once, checked at all of them. One state counts as one
-    /// call.
+    /// Adds generated code that evaluates L states at once. The result is checked at all states,
+    /// and each state counts as one call.
     fn lanes<const L: usize>(mut self, key: &'static str, title: &str) -> Outcome<Self> {
         let states = &self.robot.states;
         let size = states
@@ -278,7 +278,7 @@ fn kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     }))
 }
 
-/// A comparator of the laboratory, constructed from C and M at the start and the rank there.
+/// A reference method of the crate `lab`, constructed from C, M and the rank at the initial state.
 fn all_rows<'r>(
     robot: &'r Robot,
     solver: impl FnOnce(
@@ -364,7 +364,7 @@ fn dense_svd(robot: &Robot) -> Call<'_> {
     })
 }
 
-/// The rows of C_K come from the assembled matrix of a state: the columns after those of the mass
+/// The rows of C_K come from the assembled matrix of a state, whose columns after the mass matrix
 /// are C_Kᵀ.
 fn solve_kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     let mass = robot.prepared.mechanism.mass();

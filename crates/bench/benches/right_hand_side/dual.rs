@@ -1,7 +1,7 @@
-//! Computes C and Γ of the robot by dual numbers: each joint states Φ, or the velocity that an edge
-//! prevents, and `num-dual` differentiates. This is the best case for the method: forward
-//! derivatives with respect to the six coordinates of one joint instead of all, sizes known to the
-//! compiler, no heap.
+//! Computes C and Γ of the robot with dual numbers. Each joint computes Φ, or the velocity that a
+//! knife edge prevents, and `num-dual` differentiates this value. This is the best case for the
+//! method: it differentiates with respect to the six coordinates of one joint instead of all
+//! coordinates, the compiler has all sizes, and no heap is used.
 
 use model::{Function, Mechanism};
 use nalgebra::SVector;
@@ -23,7 +23,7 @@ const REVOLUTES: [(usize, usize, [f64; 2]); 7] = [
     (4, 5, [-0.2, -0.2]),
 ];
 
-/// Body and position of the edges W1 … W5, whose normals are the y-axes of their bodies.
+/// Body and position of the knife edges W1 … W5. The normal of each is the y-axis of its body.
 const EDGES: [(usize, [f64; 2]); 5] = [
     (1, [0.3, 0.0]),
     (2, [-0.3, 0.0]),
@@ -32,10 +32,10 @@ const EDGES: [(usize, [f64; 2]); 5] = [
     (6, [-0.8, 0.0]),
 ];
 
-/// Platform and slider, connected by H and its drive at this point.
+/// Platform, slider, and the point at which the joint H and its drive connect them.
 const SLIDE: (usize, usize, [f64; 2]) = (0, 5, [0.0, -0.2]);
 
-/// Numbers of columns and rows of C.
+/// Number of columns and number of rows of C.
 const COLUMNS: usize = 21;
 const ROWS: usize = 22;
 

@@ -1,5 +1,5 @@
-//! Solves the dense equations by faer. The method is LU with partial pivoting, in the given storage
-//! and on one thread; all storage is allocated in advance.
+//! Solves the dense equations by faer. The method is LU with partial pivoting, in place and on one
+//! thread; all storage is allocated in advance.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::lu::partial_pivoting::{factor, solve};

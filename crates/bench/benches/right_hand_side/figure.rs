@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::table::{Line, duration};
 
 const WIDTH: f64 = 820.0;
-/// Space for names, and for numbers to the right of the longest bar.
+/// Space for the names to the left of the bars, and for the times to the right of the longest bar.
 const LEFT: f64 = 330.0;
 const RIGHT: f64 = 80.0;
 const TOP: f64 = 44.0;

@@ -6,7 +6,8 @@ use std::process::Command;
 
 use crate::Outcome;
 
-/// Numbers of laps in a short and a long run; the difference does not contain the start-up.
+/// Number of laps in a short run and in a long run. The difference of the two counts does not
+/// contain the start-up.
 const LAPS: [u64; 2] = [1, 4];
 
 /// Returns the instructions of one lap of a candidate.

@@ -1,5 +1,5 @@
-//! Solves the dense equations by nalgebra: LU with partial pivoting of a matrix with a size known
-//! or unknown to the compiler, and singular values.
+//! Solves the dense equations with nalgebra: by LU with partial pivoting, for a matrix of static or
+//! dynamic size, and by singular values.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
@@ -11,7 +11,8 @@ pub(crate) fn solve_static(matrix: SMatrix<f64, N, N>, x: &mut SVector<f64, N>) 
     matrix.lu().solve_mut(x)
 }
 
-/// Solves by LU of a matrix on the heap, which is consumed, because nalgebra offers no other way.
+/// Solves by LU of a matrix on the heap. The function consumes the matrix, because nalgebra has no
+/// function that reuses its storage.
 pub(crate) fn solve_dynamic(matrix: DMatrix<f64>, x: &mut DVector<f64>) -> bool {
     matrix.lu().solve_mut(x)
 }

@@ -1,11 +1,11 @@
-//! The equations of the robot derived by hand for this one mechanism. No part of this module comes
-//! from a definition, and no part can be used for another mechanism.
+//! The equations of motion of the robot, derived by hand for this mechanism only. This module uses
+//! no joint definitions, and no part of it applies to another mechanism.
 //!
-//! The wheels W3 and W4 allow the platform only a speed u along its x-axis. W1 turns it with
-//! `ω = κ·u`, `κ = tan β/0.3`; the angle β is that of the front knuckle. W2 gives the same
-//! condition by symmetry. β follows from the displacement d(t) of the slider in closed form. The
-//! trolley follows its hitch: `ω₇ = −(sin δ/0.4 + κ·cos δ)·u`; δ is its angle to the platform. All
-//! velocities are `J·u + c(t)`, and all accelerations are `J·u̇ + Γ`, so that
+//! The wheels W3 and W4 allow the platform only a speed u along its x-axis. W1 makes the platform
+//! rotate with `ω = κ·u`, `κ = tan β/0.3`, with the angle β of the front knuckle. By symmetry, W2
+//! gives the same condition. β follows from the displacement d(t) of the slider in closed form. The
+//! trolley follows its hitch with `ω₇ = −(sin δ/0.4 + κ·cos δ)·u`, with the angle δ between trolley
+//! and platform. All velocities are `J·u + c(t)`, and all accelerations are `J·u̇ + Γ`, so that
 //!
 //! `(Σ Jᵀ·M·J)·u̇ = −Σ Jᵀ·M·Γ`.
 //!
@@ -20,7 +20,7 @@ const TONGUE: f64 = 0.4;
 const CENTRE: f64 = 0.35;
 /// Vector from the pivot of the front knuckle to the joint of its link, at β = 0.
 const ARM: [f64; 2] = [-0.09, 0.05];
-/// The point of the slider at which the front link is connected, at d = 0.
+/// Position of the joint between slider and front link, at d = 0.
 const EYE: [f64; 2] = [0.2, -0.2];
 /// Squared length of a link: from (0.2, −0.2) to (0.21, 0.05).
 const LINK_2: f64 = 0.01 * 0.01 + 0.25 * 0.25;
@@ -33,8 +33,7 @@ const LINK: [f64; 2] = [0.3, 0.0016];
 const SLIDER: [f64; 2] = [1.0, 0.02];
 const TROLLEY: [f64; 2] = [8.0, 0.5];
 
-/// A body carried by the platform: its position and angle relative to the platform, with
-/// derivatives.
+/// Position and angle of a body relative to the platform, with their derivatives.
 #[derive(Clone, Copy)]
 struct Carried {
     r: [f64; 2],
@@ -56,8 +55,7 @@ impl Carried {
     }
 }
 
-/// The direction J of the velocity and the rest Γ of the acceleration: `a = J·u̇ + Γ`, with two
-/// components and the angle.
+/// J and Γ of one body, with `a = J·u̇ + Γ`: two components of the translation, and the rotation.
 type Share = ([f64; 3], [f64; 3]);
 
 /// Computes v̇ of all bodies.
@@ -119,8 +117,8 @@ pub(crate) fn acceleration(t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
 
 /// Returns front knuckle, front link, slider, and `[κ, κ̇]`, for `[d, ḋ, d̈]`.
 ///
-/// The arm p of the knuckle and the link ℓ close the loop `w + p = ℓ`; w is the vector from the
-/// point of the slider to the pivot. The condition `|w + p| = |ℓ|` is
+/// The arm p of the knuckle and the link ℓ form the loop `w + p = ℓ`, in which w is the vector from
+/// the joint on the slider to the pivot. The condition `|w + p| = |ℓ|` is
 /// `cos β·(w·s) + sin β·(w·s⊥) = c`, and its derivatives are two linear equations for the rates of
 /// p and ℓ.
 fn linkage([d, dd, ddd]: [f64; 3]) -> (Carried, Carried, Carried, [f64; 2]) {
@@ -174,7 +172,7 @@ fn linkage([d, dd, ddd]: [f64; 3]) -> (Carried, Carried, Carried, [f64; 2]) {
     (knuckle, link, slider, [tan / WHEEL, kappad])
 }
 
-/// Returns `[d, ḋ, d̈]`: steps of one second each, 10s³ − 15s⁴ + 6s⁵.
+/// Returns `[d, ḋ, d̈]`. The function d consists of steps of one second each, 10s³ − 15s⁴ + 6s⁵.
 fn steering(t: f64) -> [f64; 3] {
     const STEPS: [(f64, f64); 4] = [(1.0, 0.02), (3.0, -0.02), (6.0, -0.021876), (8.0, 0.021876)];
     let mut jet = [0.0; 3];

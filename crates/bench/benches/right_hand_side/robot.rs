@@ -1,5 +1,4 @@
-//! The moving robot: states of its motion at which all candidates are evaluated, and the expected
-//! results.
+//! States of the moving robot at which all candidates are evaluated, and the expected results.
 
 use std::ops::ControlFlow;
 
@@ -12,12 +11,12 @@ use crate::Outcome;
 use crate::saddle::Saddle;
 
 /// Time between the states (s). The first state is at half of this interval, so that no state is at
-/// a break time. Half of the states are within turns.
+/// a break time of the drive. At half of the states the robot is turning.
 const STEP: f64 = 0.5;
 
 /// The robot and states of its motion.
 pub(crate) struct Robot {
-    /// The start and the independent rows.
+    /// The assembled mechanism with its independent rows.
     pub(crate) prepared: PreparedMechanism,
     /// States that satisfy the constraints, over ten seconds.
     pub(crate) states: Vec<State>,
@@ -31,16 +30,16 @@ pub(crate) struct State {
     pub(crate) q: Vec<f64>,
     /// Velocities.
     pub(crate) v: Vec<f64>,
-    /// Accelerations by the interpreter on the independent rows.
+    /// Accelerations, computed by the interpreter with the independent rows.
     pub(crate) a: Vec<f64>,
-    /// C by rows, then Γ, by the generated kernels.
+    /// C by rows, then Γ, computed by the generated kernels.
     pub(crate) c_and_gamma: Vec<f64>,
     /// `[M, C_Kᵀ; C_K, 0]` and `[Q; Γ_K]`, assembled.
     pub(crate) saddle: (Vec<f64>, Vec<f64>),
 }
 
 impl Robot {
-    /// Computes ten seconds of its motion.
+    /// Computes ten seconds of the motion of the robot.
     pub(crate) fn moving() -> Outcome<Self> {
         let case = suite::find("robot-trolley").ok_or("the suite has no robot")?;
         let study = Study::read(

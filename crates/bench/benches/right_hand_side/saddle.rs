@@ -3,7 +3,7 @@
 use dynamics::PreparedMechanism;
 use model::{Mechanism, Scratch, System};
 
-/// `[M, C_Rᵀ; C_R, 0]·[a; λ] = [Q; Γ_R]` with some rows R, column-major.
+/// `[M, C_Rᵀ; C_R, 0]·[a; λ] = [Q; Γ_R]` with a selection R of rows, column-major.
 pub(crate) struct Saddle<'p> {
     mechanism: &'p Mechanism,
     s: Scratch,

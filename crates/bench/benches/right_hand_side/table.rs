@@ -11,7 +11,7 @@ use crate::timing::{ROUNDS, Time};
 /// One line of the table.
 pub(crate) struct Line {
     key: &'static str,
-    /// Description of the candidate, with the markup of a page.
+    /// Description of the candidate, with Markdown markup.
     pub(crate) title: String,
     /// The table to which the line belongs.
     pub(crate) group: Group,
@@ -22,7 +22,8 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// Creates the line of a measured candidate; `instructions` are those of one lap.
+    /// Creates the line of a measured candidate; `instructions` is the number of instructions of
+    /// one lap.
     pub(crate) fn new(work: &Work<'_>, time: Time, instructions: Option<u64>) -> Self {
         Self {
             key: work.key,

@@ -1,7 +1,7 @@
-//! Measures times of candidates that alternate: in each round all of them run for a while, so that
-//! changes of the speed of the machine affect all equally. Other processes can only add time: the
-//! least time over the rounds is the time that a candidate needs, and the median shows how much was
-//! added.
+//! Measures times of candidates that alternate. All candidates run in each round, so that changes
+//! of the speed of the machine affect all of them equally. Other processes can only add time.
+//! Therefore the least time over the rounds is the time that a candidate needs, and the median
+//! shows the time added by other processes.
 
 use std::time::{Duration, Instant};
 

@@ -100,7 +100,7 @@ impl<'a> Scope<'a> {
         })
     }
 
-    /// The stored number with this name, which these rows of Φ must contain.
+    /// The stored value with this name, which these rows of Φ must contain.
     fn moved(&self, name: &Ident, rows: &[Row<'_>]) -> syn::Result<Expr> {
         let kept = self.model.kept.iter().find(|k| *name == k.field);
         let number = kept.filter(|k| matches!(k.kind, Kept::Number(_)) && k.of_start);

@@ -51,8 +51,8 @@ pub(super) const PSI: &[Refusal] = &[
 ];
 
 /// The reference point of a reaction. It may contain divisions, because only the kernel of the
-/// reference point uses it. The exception is a moment about it that the joint transmits, whose
-/// kernel must be a polynomial.
+/// reference point uses it. However, if the joint transmits a moment about the reference point, the
+/// kernel of this moment must be a polynomial.
 pub(super) const PLACE: &[Refusal] = &[
     Refusal {
         bad: moves,

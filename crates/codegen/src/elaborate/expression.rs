@@ -10,8 +10,8 @@ use super::value::Value;
 use crate::parse::Definition;
 use crate::vector::{Components, Frame, Vector};
 
-/// Allowed magnitudes of numbers, so that products of a few numbers and of their derivatives do not
-/// overflow.
+/// Allowed magnitudes of literals, so that products of a few literals and of their derivatives do
+/// not overflow.
 const NUMBERS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// Highest allowed power; no joint needs more.

@@ -187,8 +187,8 @@ impl<'a> Scope<'a> {
         }
     }
 
-    /// The angle of the axes `to` relative to the axes `from` about their common w: from its sine
-    /// v·u' and its cosine u·u'.
+    /// The angle of the axes `to` relative to the axes `from` about their common w, computed from
+    /// its sine v·u' and its cosine u·u'.
     fn angle_about(&mut self, from: &'a syn::Expr, to: &'a syn::Expr) -> syn::Result<Value> {
         let mut axes = Vec::new();
         for e in [from, to] {

@@ -35,7 +35,7 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// The value as an expression in the kernel; the flag is `true` for numbers that are always
+    /// The value as an expression in the kernel; the flag is `true` for values that are always
     /// `f64`.
     pub(crate) fn access(&self) -> (TokenStream, bool) {
         let index = Literal::usize_unsuffixed;
@@ -319,8 +319,8 @@ impl Inputs {
             .collect()
     }
 
-    /// The values of the unwrapped angle number `k`: the angle since the start, its cosine and its
-    /// sine. They follow the functions of time.
+    /// The values of the unwrapped angle with index `k`: the angle since the start, its cosine and
+    /// its sine. As arguments they come after the functions of time.
     pub(crate) fn counted(&mut self, g: &mut Graph, name: &str, k: usize) -> [Expr; 3] {
         let first = self.functions.len() + 3 * k;
         [
@@ -331,7 +331,7 @@ impl Inputs {
         .map(|(index, part)| self.add(g, &format!("{name}_{part}"), Source::Counted { index }))
     }
 
-    /// Values of a parameter: one value for a number, two components for a point or a direction.
+    /// Values of a parameter: one value for a scalar, two components for a point or a direction.
     pub(crate) fn values(&self, name: &str) -> &[Expr] {
         &self.params[name]
     }
@@ -411,7 +411,7 @@ impl Inputs {
         self.derivation(g, &[(by, one)])
     }
 
-    /// Each number of the pose of a slot with its rate for these velocities.
+    /// Each coordinate of the pose of the body in a slot, with its rate for these velocities.
     fn pose_rates(&self, g: &mut Graph, slot: usize, v: &[Expr]) -> Vec<(Expr, Expr)> {
         let s = &self.slots[slot];
         let dim = self.space.dim();

@@ -32,18 +32,18 @@ pub(crate) struct KeptValue {
     /// Name of the field.
     pub(crate) field: String,
     pub(crate) kind: Kept,
-    /// The kernel inputs that represent it.
+    /// The kernel inputs that represent the value.
     pub(crate) symbols: Vec<Expr>,
     /// Values at the start.
     pub(crate) values: Vec<Expr>,
-    /// The optional parameter that overrides it.
+    /// The optional parameter that overrides the value.
     pub(crate) overridden_by: Option<Ident>,
     /// Whether the value depends on the configuration.
     pub(crate) of_start: bool,
 }
 
-/// An angle in space since the start: the expressions that determine it up to full revolutions, and
-/// its rate.
+/// An angle in space, measured from the start. The expressions determine the angle up to full
+/// revolutions, and its rate.
 #[derive(Clone, Copy)]
 pub(crate) struct Counted {
     pub(crate) cos: Expr,
@@ -84,8 +84,8 @@ pub(crate) struct ConstraintBody {
 pub(crate) enum Measure {
     /// An expression: its row is coordinate − initial value − motion.
     Of(Expr),
-    /// A value stored at the start: the motion is added to it in the rows of the joint, and these
-    /// rows replace the rows of the joint.
+    /// A value stored at the start. The motion of the drive is added to this value in the rows of
+    /// the joint, and the resulting rows replace the rows of the joint.
     Kept(Expr),
     /// An angle θ in space: its row is sin(θ − initial angle − motion). This row is a polynomial in
     /// the sines and cosines, so that revolutions need not be counted.
@@ -198,7 +198,7 @@ impl Model {
         requirements.iter_mut().for_each(|c| c.visit(&mut expand));
     }
 
-    /// Whether a stored value is computed only from other numbers, so that it changes with them.
+    /// Whether a stored value is computed only from other values, so that it changes with them.
     pub(crate) fn is_computed(&self, kept: &KeptValue) -> bool {
         let reads_poses = |&e: &Expr| self.depends_on(e, |s| matches!(s, Source::Pose { .. }));
         kept.overridden_by.is_none() && !kept.values.iter().any(reads_poses)

@@ -59,7 +59,7 @@ impl Names {
         Err(syn::Error::new_spanned(name, message))
     }
 
-    /// Every name must be used.
+    /// Rejects a definition that contains an unused name.
     pub(super) fn check_use(&self, definition: &Definition) -> syn::Result<()> {
         let params = definition.params.iter().map(|p| &p.name);
         let bindings = definition.bindings.iter().map(|b| &b.name);

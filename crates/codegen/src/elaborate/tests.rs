@@ -86,7 +86,7 @@ fn functions_mean_what_they_say() {
         ("f", 0.25),
     ];
     for (expression, expected) in cases {
-        // `value` is a difference of numbers of order 10².
+        // `value` is a difference of terms of order 10².
         assert!(
             (value(expression) - expected).abs() < 1e-12,
             "{expression}: {}",

@@ -48,7 +48,8 @@ pub(super) fn facts(d: &Definition, data: &[Datum]) -> TokenStream {
     quote!(&[#(#data),*])
 }
 
-/// The numbers of a constraint that its rows read, and their derivatives with respect to its data.
+/// The stored values of a constraint that its rows read, and their derivatives with respect to its
+/// data.
 pub(super) struct Stored {
     pub(super) symbols: Vec<Symbol>,
     slopes: Vec<(usize, usize, Expr)>,
@@ -61,8 +62,8 @@ impl Stored {
         Self { symbols, slopes }
     }
 
-    /// Number of these derivatives, from the first one on, that belong to consecutive stored
-    /// numbers which are data themselves.
+    /// The number of derivatives at the beginning of the list that belong to consecutive stored
+    /// values which are data themselves.
     fn run_of_numbers(model: &Model, slopes: &[(usize, usize, Expr)]) -> usize {
         let [(first, by, _), ..] = slopes else {
             return 0;
@@ -76,7 +77,7 @@ impl Stored {
         numbers.count()
     }
 
-    /// The statements that read the numbers; components of one array are read together.
+    /// The statements that read the stored values; components of one array are read together.
     fn reads(&self, model: &Model) -> Vec<TokenStream> {
         let mut runs: Vec<(String, usize)> = Vec::new();
         for &symbol in &self.symbols {

@@ -292,12 +292,12 @@ pub(super) fn measure_0(by: Driven) -> Option<TokenStream> {
     }
 }
 
-/// A number without suffix.
+/// An integer literal without suffix.
 pub(crate) fn index(k: usize) -> proc_macro2::Literal {
     proc_macro2::Literal::usize_unsuffixed(k)
 }
 
-/// The number of a slot.
+/// The index of a slot.
 pub(super) fn slot(d: &Definition, name: &Ident) -> proc_macro2::Literal {
     let slot = d.slots.iter().position(|s| s == name);
     index(slot.expect("checked while elaborating"))
@@ -400,8 +400,8 @@ pub(super) fn initialise(model: &Model, measure: Option<Measure>) -> Option<Toke
     })
 }
 
-/// Statements that store cosine and sine of an angle, from the values for axes that are nearly
-/// parallel.
+/// Statements that store the cosine and sine of an angle. The computed values are divided by their
+/// length √(cos² + sin²), because the axes may be only nearly parallel.
 fn unit_turn(model: &Model, field: &Ident, turn: &[Expr]) -> TokenStream {
     let printed = kernel(model, turn, Scalar::F64);
     let (statements, outputs) = (&printed.statements, &printed.outputs);

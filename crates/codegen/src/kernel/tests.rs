@@ -1,4 +1,4 @@
-//! UnitSystem kernels: inputs first, then shared parts with their names, then outputs.
+//! Tests single kernels: inputs come first, then shared parts with their names, then outputs.
 
 use quote::quote;
 use symbolic::Scalar;

@@ -20,7 +20,7 @@ pub struct Definition {
     pub space: Space,
     /// Name of the definition.
     pub name: Ident,
-    /// Names of the body slots.
+    /// Names of the body slots, which are the arguments of the definition that stand for bodies.
     pub slots: Vec<Ident>,
     /// Doc comment, one string for each line.
     pub doc: Vec<String>,
@@ -91,9 +91,9 @@ pub enum ParamKind {
     GroundLine,
     /// A plane of the ground; z = 0 unless it is given.
     GroundPlane,
-    /// One number with its unit.
+    /// A scalar value with its unit.
     Number(Ident),
-    /// Several numbers.
+    /// Several scalar values.
     Numbers(Vec<Ident>),
     /// One function of time.
     Function(Ident),
@@ -114,7 +114,7 @@ pub struct Binding {
 /// The kind of a value stored at the start.
 #[derive(Clone, PartialEq, Eq)]
 pub enum Kept {
-    /// One number with its unit.
+    /// A scalar value with its unit.
     Number(Ident),
     /// Components in the frame of the body in a slot.
     Vector(Ident),

@@ -1,6 +1,6 @@
-//! Checks whether generated code belongs to a mechanism and whether a run may use it. Names play no
-//! role in the check: sizes, rows and break times must be equal, and values must agree at the start
-//! of the motion and near it.
+//! Checks whether generated code belongs to a mechanism and whether a run may use it. The check
+//! ignores names. Sizes, rows and break times must be equal, and values must agree at the start of
+//! the motion and near the start.
 
 use std::sync::Arc;
 
@@ -86,7 +86,7 @@ pub enum CodeMismatch {
         /// Health of the code.
         health: f64,
     },
-    /// The code takes numbers of a mechanism as inputs, and this mechanism has other equations.
+    /// The code takes parameters of a mechanism as inputs, but this mechanism has other equations.
     #[error(
         "the code `{name}` was generated for a mechanism with other equations (joints, forces, functions of time or bodies with products of inertia differ), or by another version; generate it again"
     )]
@@ -94,7 +94,7 @@ pub enum CodeMismatch {
         /// Name of the code.
         name: String,
     },
-    /// Two numbers that are one input of the code differ in the mechanism.
+    /// Two parameters that share one input of the code have different values in the mechanism.
     #[error(
         "the code `{name}` takes {input} as one number, in the mechanism it is both {:.9e} and {:.9e}; generate it again with the key among `--inputs` that sets them apart",
         values[0], values[1]
@@ -108,8 +108,8 @@ pub enum CodeMismatch {
         values: [f64; 2],
     },
     /// A mass or moment of inertia that is an input is zero in the mechanism, but was not zero when
-    /// the code was generated. The order of elimination depends on it, and without mass there is no
-    /// mass metric for the smallest correction of a position.
+    /// the code was generated. The order of elimination depends on whether the value is zero.
+    /// Without mass, the mass metric that defines the smallest position correction does not exist.
     #[error(
         "the code `{name}` was generated for a positive {input}, in the mechanism it is 0; generate it again for a mechanism without it"
     )]
@@ -119,7 +119,7 @@ pub enum CodeMismatch {
         /// Name of the input.
         input: String,
     },
-    /// The number of inputs of the code differs from the number of names of inputs.
+    /// The number of inputs of the code differs from the number of its input names.
     #[error("the code `{name}` names {found} inputs and does not take them")]
     Inputs {
         /// Name of the code.
@@ -144,10 +144,10 @@ pub enum NoCode {
     /// There is no generated code.
     #[error("not provided")]
     None,
-    /// The method needs more than accelerations.
+    /// The method needs more than the accelerations, for example their derivatives.
     #[error("the method {0} needs more than accelerations")]
     Method(&'static str),
-    /// States are not projected.
+    /// The run does not project states onto the constraints.
     #[error("code needs projection as stabilisation, found {0}")]
     Stabilisation(&'static str),
     /// A force calls an external function.
@@ -166,7 +166,7 @@ pub enum NoCode {
         /// The largest mass divided by the smallest.
         spread: f64,
     },
-    /// The size of the mechanism is so far from a metre that solutions have to be refined.
+    /// The size of the mechanism is so different from one metre that solutions have to be refined.
     #[error(
         "solutions of a mechanism of {size} are refined, which generated code does not do", size = estimate(*size, "m"))]
     Size {
@@ -176,12 +176,13 @@ pub enum NoCode {
 }
 
 impl CodeInputs {
-    /// The values of the inputs in a mechanism, in their order; `code` is the name of the code in
-    /// messages.
+    /// Returns the values of the inputs for a mechanism, in the order of the inputs. `code` is the
+    /// name of the code in error messages.
     ///
     /// # Errors
-    /// - [`CodeMismatch::Shape`]: the equations of the mechanism differ from those of the code.
-    /// - [`CodeMismatch::Parts`]: numbers that are one input of the code differ in the mechanism.
+    /// - [`CodeMismatch::Shape`]: the mechanism and the code have different equations.
+    /// - [`CodeMismatch::Parts`]: parameters that share one input of the code have different values
+    ///   in the mechanism.
     /// - [`CodeMismatch::Massless`]: the code was generated for a positive mass that is zero in the
     ///   mechanism.
     pub fn of(&self, code: &str, mechanism: &Mechanism) -> Result<Vec<f64>, CodeMismatch> {
@@ -233,7 +234,7 @@ enum At {
     ManyStates,
 }
 
-/// The code with the numbers of a mechanism, if the code has inputs.
+/// The code with the input values of a mechanism, if the code has inputs.
 fn for_mechanism(
     code: Arc<SharedCode>,
     mechanism: &Mechanism,
@@ -251,11 +252,11 @@ fn for_mechanism(
 }
 
 impl PreparedMechanism {
-    /// Adds code generated for this mechanism, or for one that differs from it only in numbers that
-    /// the code takes as inputs ([`SceneCode::inputs`]); runs then use the code if possible. If the
-    /// code has inputs and the user chose no rows, the run uses the independent rows of the code
-    /// ([`PreparedMechanism::on_rows`]). The reason is that the choice of rows may depend on any
-    /// number.
+    /// Adds code generated for this mechanism, or for a mechanism that differs only in the inputs
+    /// of the code ([`SceneCode::inputs`]). Runs then use the code if possible. If the code has
+    /// inputs and the user chose no rows, the run uses the independent rows of the code
+    /// ([`PreparedMechanism::on_rows`]), because the automatic choice of rows may depend on the
+    /// values of the inputs.
     ///
     /// # Errors
     /// [`CodeMismatch`], if the code belongs to another mechanism or to other rows.
@@ -430,7 +431,7 @@ fn check_values(
     }
     let times = times(&prepared.mechanism);
     for k in 0..CODE_STATES.max(times.len()) {
-        // Numbers without any relation to a symmetry of a mechanism.
+        // Values that are not related to any symmetry of a mechanism.
         let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
         let away = |by: f64| -> Vec<f64> {
             let unit = |j: usize| prepared.mechanism.space().unit(j, prepared.assembly.size);
@@ -448,8 +449,8 @@ fn check_values(
     Ok(())
 }
 
-/// Compares Φ, C·v − b, accelerations and multipliers; the last two only if both sides have good
-/// pivots.
+/// Compares Φ, C·v − b, accelerations and multipliers of the code and of the interpreter.
+/// Accelerations and multipliers are compared only if the pivots of both are large enough.
 fn compare(
     motion: &mut KeptRowMotion<'_>,
     code: &dyn SceneCode,
@@ -496,8 +497,8 @@ fn compare(
         let shares = x.iter().enumerate().map(|(j, x)| x.abs() / unit(j));
         shares.fold(0.0, f64::max)
     };
-    // The accelerations of free bodies under these forces set the scale, because forces cancel in a
-    // mechanism at rest.
+    // Differences are relative to the accelerations of free bodies under these forces, because
+    // forces cancel in a mechanism at rest.
     mechanism.twist(v, &mut s);
     mechanism.force(&mut s);
     let masses = mechanism.mass().iter().zip(&s.force);

@@ -1,9 +1,11 @@
-//! Numbers of a mechanism that generated code takes as inputs. Code that was generated for one
-//! mechanism can be used for every other mechanism that differs only in these numbers.
+//! Parameters of a mechanism that generated code takes as inputs. Code that was generated for one
+//! mechanism can be used for every other mechanism that differs only in the values of these
+//! parameters.
 //!
-//! A number is identified by its position in the recorded equations, not by its value, so two equal
-//! numbers are not confused. Numbers that were equal in all mechanisms from which the code was
-//! generated are one input. A mechanism in which these numbers differ is rejected.
+//! A parameter is identified by its position in the recorded equations, not by its value, so two
+//! parameters with equal values are not confused. Parameters that were equal in all mechanisms from
+//! which the code was generated share one input. A mechanism in which such parameters differ is
+//! rejected.
 
 use std::borrow::Cow;
 
@@ -12,17 +14,17 @@ use std::borrow::Cow;
 pub struct CodeInputs {
     /// [`model::RecordedEquations::shape`] of the mechanism for which the code was generated.
     pub shape: u64,
-    /// The input numbers, in their order.
+    /// The inputs, in the order of their values.
     pub list: Cow<'static, [CodeInput]>,
 }
 
-/// One input number.
+/// One input: a parameter of the mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeInput {
-    /// Description of the number, with the keys of the scene that change it.
+    /// Description of the parameter, with the keys of the scene that change it.
     pub name: Cow<'static, str>,
     /// Value in the mechanism for which the code was generated.
     pub described: f64,
-    /// Positions of the number in the recorded equations, at least one.
+    /// Positions of the parameter in the recorded equations, at least one.
     pub places: Cow<'static, [usize]>,
 }

@@ -1,8 +1,7 @@
-//! Forces at one configuration: forces along the free motions, and multipliers of the constrained
-//! ones.
+//! Forces along the free motions at one configuration, and multipliers of the constraints.
 //!
-//! All numbers are in units of one energy: velocities are in sizes of the mechanism and radians,
-//! and forces and torques are multiplied by these units.
+//! All forces are in units of energy. Translations are divided by the size of the mechanism, and
+//! forces are multiplied by it; rotations (rad) and torques are unchanged.
 
 use linalg::{Matrix, RowBasis};
 use model::start::{Metric, nearest_configuration};
@@ -147,7 +146,7 @@ impl<'m> Statics<'m> {
         })
     }
 
-    /// The largest entry of the weight or of an applied force, at the pose in the scratch memory.
+    /// The largest entry of the weight or of an applied force, at the last evaluated pose.
     fn largest_part(&mut self) -> f64 {
         let largest = |q: &[f64]| {
             let shares = q.iter().zip(&self.units).map(|(f, u)| (f * u).abs());
@@ -163,12 +162,12 @@ impl<'m> Statics<'m> {
         at.z.times(y)
     }
 
-    /// Converts forces along free motions to forces on all velocities.
+    /// Expresses the forces along the free motions as forces along all velocities, n_v values.
     pub(super) fn scaled(&self, at: &Balance) -> Vec<f64> {
         at.z.times(&at.free)
     }
 
-    /// Velocities in their units.
+    /// Velocities of all bodies for the velocities y along the free motions (m/s, rad/s).
     pub(super) fn velocity(&self, at: &Balance, y: &[f64]) -> Vec<f64> {
         let moved = self.moved(at, y);
         moved.iter().zip(&self.units).map(|(x, u)| x * u).collect()

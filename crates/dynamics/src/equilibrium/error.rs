@@ -10,7 +10,7 @@ use model::{CalledForce, StartError};
 pub struct UnbalancedForce {
     /// Description of the motion.
     pub motion: String,
-    /// Force or torque along the motion, for its fastest translation or rotation.
+    /// Force or torque along the motion: its power divided by the speed of the fastest body.
     pub force: f64,
     /// N or N·m.
     pub unit: &'static str,
@@ -30,7 +30,7 @@ pub enum EquilibriumError {
         name: String,
         /// Whether the element is a drive.
         is_drive: bool,
-        /// The rate that it prescribes.
+        /// The prescribed rate.
         rate: f64,
         /// Unit of the rate.
         unit: &'static str,
@@ -117,7 +117,7 @@ impl EquilibriumError {
         }
     }
 
-    /// Whether other input may have an equilibrium.
+    /// Whether the scene has no equilibrium as it is given, so that the scene must be changed.
     #[must_use]
     pub fn is_input(&self) -> bool {
         matches!(

@@ -16,8 +16,9 @@ use super::balance::Statics;
 use super::words::{of_bodies, parts};
 use crate::limits::{DEAD_LOAD, UNRESISTED_FORCE};
 
-/// Displacements for testing whether a force is a dead load (a constant force): of the centre of
-/// mass (sizes of the mechanism) and by a rotation (rad), by number of direction.
+/// Displacements at which forces are evaluated, to find dead loads (constant forces). The entries
+/// belong to the directions of a body: translations of its centre of mass (in sizes of the
+/// mechanism), and rotations (rad).
 const ELSEWHERE: [[f64; 6]; 2] = [
     [0.7, -1.3, 0.9, 0.8, -0.5, 0.4],
     [-2.1, 1.9, -3.2, -1.1, 0.9, 1.7],

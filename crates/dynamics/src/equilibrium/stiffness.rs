@@ -75,7 +75,8 @@ impl Statics<'_> {
         Ok(Stiffness {
             eigen: symmetric_eigen(&k),
             nothing: IDLE * largest.max(at.scale),
-            // Away from an equilibrium, the rotation of axes adds a part of the remaining forces.
+            // Away from an equilibrium, the rotation of the axes adds a skew part that is
+            // proportional to the remaining forces.
             has_potential: skew <= ASYMMETRIC * largest.max(at.scale) + 2.0 * norm(&at.free),
             largest,
             k,
@@ -117,7 +118,7 @@ impl Stiffness {
         falling.map(|(i, _)| self.vector(i)).collect()
     }
 
-    /// Motions along which forces do not change.
+    /// Motions along which the forces are constant.
     pub(super) fn idle(&self) -> Vec<Vec<f64>> {
         if self.has_potential {
             let values = self.eigen.values.iter().enumerate();
@@ -156,8 +157,8 @@ impl Stiffness {
         (self.shifted(free, high, rounding), Way::Short)
     }
 
-    /// `K⁻¹·f` of a stiffness without negative eigenvalues, without idle motions. `None` if forces
-    /// act along idle motions, or if they point away from the equilibrium.
+    /// `K⁻¹·f` without the components along idle motions, for a K without negative eigenvalues.
+    /// Returns `None` if forces act along idle motions, or if they point away from the equilibrium.
     fn newton(&self, free: &[f64], rounding: f64) -> Option<Vec<f64>> {
         let mut y = vec![0.0; free.len()];
         for (i, &value) in self.eigen.values.iter().enumerate() {
@@ -177,7 +178,7 @@ impl Stiffness {
         Some(y)
     }
 
-    /// `K⁻¹·f` without idle motions. `None` if forces act along idle motions.
+    /// `K⁻¹·f` without the components along idle motions. Returns `None` if forces act along them.
     fn inverse(&self, free: &[f64], rounding: f64) -> Option<Vec<f64>> {
         let svd = small_svd(&self.k);
         let mut y = vec![0.0; free.len()];

@@ -6,7 +6,7 @@ use super::UnbalancedForce;
 use super::balance::{Balance, Statics};
 use crate::limits::{MOSTLY_TURNS, TAKES_PART, UNRESISTED};
 
-/// Descriptions of free motions, d components each.
+/// Descriptions of free motions, each given by d components.
 pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> Vec<String> {
     let velocities: Vec<Vec<f64>> = of.iter().map(|y| statics.velocity(at, y)).collect();
     let told = motions_among(statics.mechanism, statics.t, &at.q, &velocities);
@@ -14,7 +14,7 @@ pub(super) fn motions(statics: &Statics<'_>, at: &Balance, of: &[Vec<f64>]) -> V
     told.map(|motion| motion.text).collect()
 }
 
-/// The loads along a free motion, for each set of bodies that move.
+/// The loads along a free motion, separately for each set of bodies that move.
 pub(super) fn pushed(
     statics: &mut Statics<'_>,
     at: &Balance,
@@ -60,7 +60,7 @@ pub(super) fn parts(statics: &mut Statics<'_>, q: &[f64]) -> Vec<(String, Vec<f6
     std::iter::once(weight).chain(forces).collect()
 }
 
-/// The loads on some bodies along their part of a motion.
+/// The loads that act on some bodies along the motion of these bodies.
 pub(super) fn of_bodies(
     statics: &Statics<'_>,
     forces: &[(String, Vec<f64>)],
@@ -80,7 +80,8 @@ pub(super) fn of_bodies(
         bodies.iter().map(speed).fold(0.0, f64::max)
     };
     let (turn, slide) = (fastest(true), fastest(false));
-    // Force per metre of the translation, or moment per radian if the motion is mostly a rotation.
+    // The load is a force per metre of the translation. If the motion is mostly a rotation, it is a
+    // moment per radian.
     let (largest, unit) = if turn * statics.size > MOSTLY_TURNS * slide {
         (turn, "N·m")
     } else {

@@ -35,7 +35,7 @@ pub enum DropError {
         /// The row.
         row: RowLabel,
     },
-    /// The remaining rows depend on each other.
+    /// The remaining rows are dependent.
     #[error(
         "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
          {smallest_singular_value}, need {required}). `pfaff analyze` lists the dependent sets; drop one row of each", smallest_singular_value = short(*smallest_singular_value), required = short(*required))]

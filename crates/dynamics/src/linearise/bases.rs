@@ -1,4 +1,5 @@
-//! Displacements and velocities that change one independent coordinate, or one row, and no other.
+//! Displacements and velocities that change one independent coordinate or one row, and no other
+//! coordinate or row.
 
 use linalg::{DampedRows, Matrix};
 
@@ -9,7 +10,7 @@ use super::error::LineariseError;
 
 /// Displacements and velocities that change one independent coordinate each.
 pub(crate) struct Bases {
-    /// Displacements in rows, one for each position, n_v each.
+    /// The displacements: one row of n_v values for each position.
     pub(crate) shifts: Matrix,
     positions: DampedRows,
     velocities: DampedRows,
@@ -54,12 +55,12 @@ impl Bases {
         })
     }
 
-    /// The displacement that changes position k by one.
+    /// The displacement that changes independent position k by one unit.
     pub(crate) fn shift(&self, k: usize) -> Vec<f64> {
         self.shifts.row(k).to_vec()
     }
 
-    /// The velocity that changes velocity k by one.
+    /// The velocities of all bodies that change independent velocity k by one unit.
     pub(crate) fn velocity(&self, k: usize) -> Result<Vec<f64>, LineariseError> {
         let [_, r] = self.kept;
         unit_step(&self.velocities, r + self.free[1], r + k)

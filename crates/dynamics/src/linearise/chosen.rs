@@ -17,8 +17,8 @@ pub(crate) struct CoordinateChoice {
 
 impl CoordinateChoice {
     /// Chooses velocities first, and then positions whose rates are these velocities. Cyclic and
-    /// requested coordinates come first, then rotations before translations; among these, the first
-    /// coordinate with a large free share.
+    /// requested coordinates are chosen first, then rotations, and then translations. Of several
+    /// candidates, the first one with a large free share is chosen.
     pub(crate) fn new(
         curves: &Curves<'_>,
         followed: &FollowedCoordinates,
@@ -128,7 +128,7 @@ impl<'c, 'm> FreeMotions<'c, 'm> {
         }
     }
 
-    /// The part of a row that is still free.
+    /// The part of a row that the directions already chosen do not determine.
     fn left(&self, row: usize) -> Vec<f64> {
         let mut left = self.rows.row(row).to_vec();
         // The second pass removes the rounding error of the first one.

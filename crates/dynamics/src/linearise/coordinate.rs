@@ -5,7 +5,7 @@ use model::{Mechanism, SpaceKind};
 
 use super::error::LineariseError;
 
-/// Directions in which the frame of a body moves: three translations and three rotations.
+/// Number of directions in which the frame of a body moves: three translations and three rotations.
 pub(crate) const BODY: usize = 6;
 
 /// A coordinate of the frame of a body, or its velocity.
@@ -18,7 +18,8 @@ pub struct Coordinate {
     /// Unit of the coordinate.
     pub unit: &'static str,
     pub(crate) body: usize,
-    /// Three translations, then three rotations, along axes of the ground.
+    /// Index of the direction along the axes of the ground: first three translations, then three
+    /// rotations.
     pub(crate) direction: usize,
 }
 
@@ -51,7 +52,7 @@ fn names(space: SpaceKind) -> [[&'static str; 2]; BODY] {
     }
 }
 
-/// A direction of a body, as a position or as a velocity.
+/// The coordinate for a direction of a body, as a position or as a velocity.
 pub(crate) fn coordinate(
     mechanism: &Mechanism,
     body: usize,
@@ -109,7 +110,8 @@ pub(crate) fn named(
     ))
 }
 
-/// Row of the frame of a body and its direction: three translations, then three rotations.
+/// Row of a direction of a body in the matrix of all frames: three translations, then three
+/// rotations.
 pub(crate) fn frame_row(body: usize, direction: usize) -> usize {
     BODY * body + direction
 }

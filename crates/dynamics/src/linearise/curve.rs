@@ -14,13 +14,13 @@ use crate::limits::{
 use crate::motion::KeptRowMotion;
 use crate::prepare::PreparedMechanism;
 
-/// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances: its
-/// terms of second, fourth and sixth order cancel, and `|x|` has the derivative 1. A corner is
-/// even, so central differences do not detect it.
+/// Weights of the even part of a function, `(f(h) + f(−h))/2 − f(0)`, at the same distances. In the
+/// weighted sum, terms of second, fourth and sixth order cancel, and the sum is 1 for `|x|`. Thus
+/// it detects corners. Central differences do not detect them, because a corner is even.
 const CORNER: [f64; 4] = [14.0 / 5.0, -7.0 / 5.0, 2.0 / 5.0, -1.0 / 20.0];
 
 /// Derivatives of the velocities and accelerations of all frames in ground axes, and the
-/// corresponding displacement; `BODY` numbers for each body.
+/// corresponding displacement; `BODY` values for each body.
 #[derive(Clone, Debug)]
 pub(crate) struct Derivative {
     pub(crate) shift: Vec<f64>,
@@ -156,7 +156,8 @@ impl<'m> Curves<'m> {
         frames.body(body, &self.q, &self.v).omega
     }
 
-    /// The largest difference between the two orders, as a share of the largest derivative.
+    /// The largest difference between the derivatives of the two orders, as a share of the largest
+    /// derivative.
     pub(crate) fn accuracy(&self) -> f64 {
         if self.largest > 0.0 {
             self.doubt / self.largest
@@ -181,8 +182,8 @@ impl<'m> Curves<'m> {
                 acceleration: vec![0.0; BODY * bodies],
             });
         };
-        // Functions that are steep for this size of mechanism need shorter steps; a corner remains
-        // a corner.
+        // Functions that are steep for this size of mechanism need shorter steps. Shorter steps do
+        // not remove a corner.
         let mut found = self.differences(shift, dv, step);
         for _ in 0..LINEARISE_SHORTER {
             if found.is_ok() {
@@ -335,7 +336,8 @@ impl<'m> Curves<'m> {
         let Some(step) = self.step(shift, dv) else {
             return Ok(());
         };
-        // Dimensionless: for a change by the size of the mechanism, or by one radian.
+        // Derivatives become dimensionless: for a displacement by the size of the mechanism, or by
+        // one radian.
         let way = LINEARISE_STEP / step;
         let accelerations = high.len() / 2..high.len();
         let (mut largest, mut doubt) = (self.largest, self.doubt);
@@ -370,8 +372,8 @@ impl<'m> Curves<'m> {
         bodies[row / BODY % bodies.len()].name.clone()
     }
 
-    /// Checks that the state is an equilibrium or is steady in rotating axes: accelerations are
-    /// those of the rotation, and stay so along the motion.
+    /// Checks that the state is an equilibrium, or is steady in rotating axes. Accelerations must
+    /// result only from the rotation of the axes, and this must remain true along the motion.
     pub(crate) fn check_steady(&mut self, turning: [f64; 3]) -> Result<(), LineariseError> {
         let mechanism = self.mechanism();
         let (q, v, a) = (self.q.clone(), self.v.clone(), self.a.clone());
@@ -447,8 +449,8 @@ fn frame_rates(
 ) -> [[f64; BODY]; 2] {
     let frames = mechanism.frames();
     let moved = frames.body(body, q, v);
-    // Accelerations are the same function of a as velocities of v, plus the centripetal
-    // acceleration.
+    // Accelerations of the frames depend on a as their velocities depend on v; the centripetal
+    // acceleration is added.
     let pushed = frames.body(body, q, a);
     let space = mechanism.space();
     let centre = &q[space.coordinates(body)];

@@ -6,7 +6,7 @@ use super::bases::Bases;
 use super::curve::{Curves, Derivative};
 use super::error::LineariseError;
 
-/// A number that acts on the motion from outside.
+/// A scalar, prescribed by a drive or a force function, that acts on the motion from outside.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -20,7 +20,8 @@ pub struct Input {
 }
 
 /// The inputs of all forces and of all drives with independent rows, and the derivatives with
-/// respect to these inputs. A drive that other rows imply prescribes no motion by itself.
+/// respect to these inputs. A drive that other rows imply has no input, because it prescribes no
+/// motion by itself.
 pub(crate) fn all(
     curves: &mut Curves<'_>,
     bases: &Bases,

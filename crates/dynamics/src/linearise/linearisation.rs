@@ -20,7 +20,7 @@ pub struct Linearisation {
     pub velocities: Vec<Coordinate>,
     /// The inputs u.
     pub inputs: Vec<Input>,
-    /// Drives and joints that their functions of time would accelerate; they are locked because the
+    /// Drives and joints whose functions of time would accelerate them; they are locked because the
     /// state is at rest.
     pub held: Vec<String>,
     /// A, square.
@@ -32,7 +32,8 @@ pub struct Linearisation {
     pub second_order: Option<SecondOrder>,
     /// Displacements of all bodies for a unit change of each position, in rows: n_v each.
     pub shapes: Matrix,
-    /// Difference between two orders of approximation, as a share of the largest entries of A.
+    /// Difference between the results of two orders of approximation, as a share of the largest
+    /// entries of A.
     pub accuracy: f64,
 }
 
@@ -45,6 +46,6 @@ pub struct SecondOrder {
     pub mass: Matrix,
     /// Damping.
     pub damping: Matrix,
-    /// Stiffness: of springs, of the weight and of the joint reactions.
+    /// Stiffness due to springs, the weight and the joint reactions.
     pub stiffness: Matrix,
 }

@@ -10,8 +10,8 @@ use super::Linearisation;
 pub struct Mode {
     /// The eigenvalue λ (1/s); exactly zero if it is not larger than the rounding error.
     pub value: [f64; 2],
-    /// Entries of the eigenvector, in the order of the states. The largest position is 1; if no
-    /// position takes part, the largest velocity is 1.
+    /// Entries of the eigenvector, in the order of the states. The largest position is 1; if all
+    /// positions are zero, the largest velocity is 1.
     pub states: Vec<[f64; 2]>,
 }
 
@@ -114,9 +114,9 @@ impl Linearisation {
         Some(modes.filter(|mode| mode.value[1] >= 0.0).collect())
     }
 
-    /// Radius of the circle around zero that contains those of these eigenvalues that are zero
-    /// without rounding. In a Jordan block of k rows, rounding spreads zero eigenvalues to
-    /// `‖A‖·ε^(1/k)`; this may be far more than the square root of the rounding error, and the
+    /// Radius of a circle around zero. Eigenvalues inside the circle would be zero without
+    /// rounding. In a Jordan block of k rows, rounding changes zero eigenvalues by up to
+    /// `‖A‖·ε^(1/k)`. This may be far more than the square root of the rounding error, because the
     /// block may contain all eigenvalues.
     fn around_zero(&self, sizes: impl Iterator<Item = f64>) -> f64 {
         let entries = self.a.as_slice().iter();
@@ -180,9 +180,9 @@ mod tests {
         }
     }
 
-    /// A vehicle on four wheels of 0.1 m rolls straight on at 1 m/s: its heading, the rotations of
-    /// its wheels and its track are positions, its speed is a velocity. All eigenvalues are zero;
-    /// rounding changes two of them to 3e-15 ± 3e-8i.
+    /// A vehicle on four wheels of 0.1 m rolls straight ahead at 1 m/s. Its heading, the rotations
+    /// of its wheels and its lateral position are positions of the state, and its speed is a
+    /// velocity. All eigenvalues are zero; rounding changes two of them to 3e-15 ± 3e-8i.
     #[test]
     fn rounding_around_a_multiple_zero_neither_grows_nor_decays() {
         let mut a = Matrix::zeros(7, 7);
@@ -218,11 +218,11 @@ mod tests {
         let modes = with(a.clone(), 6).modes().expect("converges");
         assert!(modes.iter().all(|mode| mode.value == [0.0; 2]), "{modes:?}");
         assert_eq!(Stability::of(&modes), Stability::Marginal);
-        // A rotation that grows at 1e-4 1/s is not such a rounding error.
+        // A growth rate of 1e-4 1/s is larger than these rounding errors.
         a[(0, 0)] = 1e-4;
         let modes = with(a, 6).modes().expect("converges");
         assert_eq!(Stability::of(&modes), Stability::Unstable);
-        // Heading and track with their rounding errors: λ² − 1e-4·λ − a₀₅·a₅₀ = 0.
+        // Heading and lateral position with their rounding errors: λ² − 1e-4·λ − a₀₅·a₅₀ = 0.
         let half = 0.5e-4_f64;
         let expected = half + (half * half - 7.278080531453108e-16).sqrt();
         assert!((modes[0].value[0] - expected).abs() < 1e-14, "{modes:?}");

@@ -29,7 +29,7 @@ pub(crate) fn reduce(
     let largest = whole.a.max_abs();
     for (c, symmetry) in followed.coordinates.iter().zip(&symmetries) {
         let mut rate = whole.a.times(symmetry);
-        // The remainder in the directions of the other symmetries counts as no change.
+        // Components along the directions of the other symmetries do not count as a change.
         let shares: Vec<f64> = left_out.iter().map(|&k| rate[k]).collect();
         for (share, other) in shares.iter().zip(&symmetries) {
             rate.iter_mut()
@@ -70,8 +70,8 @@ pub(crate) fn reduce(
     })
 }
 
-/// The states that change if the whole mechanism moves along a coordinate by one unit, or rotates
-/// about its axis.
+/// The change of the states if the whole mechanism moves along a coordinate by one unit, or rotates
+/// about the axis of this coordinate.
 fn symmetry(c: &Coordinate, chosen: &CoordinateChoice, curves: &Curves<'_>) -> Vec<f64> {
     let (_, q, v) = curves.state();
     let frames = curves.mechanism().frames();

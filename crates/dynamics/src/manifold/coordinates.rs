@@ -1,11 +1,12 @@
-//! Independent coordinates z and velocities u: the rows determine all others, and the motion is an
-//! ordinary differential equation in z and u. The vector y contains all coordinates:
-//! `f(y) = F(P·y)`, where P completes a state from its independent entries. Therefore results,
-//! projections and output do not depend on the partition. Steps of explicit methods need no
-//! projection; implicit methods have a Jacobian without constraints ([`crate::run`]).
+//! Independent coordinates z and velocities u. The constraint rows determine all other coordinates
+//! and velocities, so the motion is an ordinary differential equation in z and u. The integrator
+//! nevertheless integrates the vector y of all coordinates and velocities: `f(y) = F(P·y)`, where P
+//! completes a state from its independent entries. Therefore results, projections and output do not
+//! depend on the partition into independent and dependent coordinates. Steps of explicit methods
+//! need no projection; implicit methods have a Jacobian without constraints ([`crate::run`]).
 //!
-//! The partition is constant during a step and its dense output, because f must not change within
-//! them. If its pivots have become small, a new partition is chosen at the accepted state when the
+//! The partition is constant during a step and its dense output, because f must not change during a
+//! step. If its pivots have become small, a new partition is chosen at the accepted state when the
 //! next step starts. Near a singular configuration no partition exists, and a step that needs a
 //! partition is rejected.
 
@@ -18,7 +19,7 @@ use crate::error::MotionFault;
 use crate::limits::{FAR_AT_REST, FAR_COMPLETION, FAR_EXTRAPOLATED, FAR_IN_A_STEP};
 use crate::solve::{Evaluation, KeptEquations};
 
-/// A partition, and the last completed state.
+/// A partition into independent and dependent coordinates, and the last completed state.
 pub(crate) struct IndependentCoordinates {
     pub(crate) partition: Partition,
     pub(crate) q: Vec<f64>,
@@ -28,7 +29,7 @@ pub(crate) struct IndependentCoordinates {
     /// Whether no step has started from the accepted state.
     is_fresh: bool,
     /// The configuration relative to which independent rotations are computed, and the number of
-    /// earlier such configurations.
+    /// reference configurations before it.
     pub(crate) base: Vec<f64>,
     pub(crate) bases: u64,
     /// The state at which a new partition is to be chosen, if necessary.
@@ -59,7 +60,7 @@ pub(crate) struct Origin {
 }
 
 impl IndependentCoordinates {
-    /// Partitions the rows at the pose in the scratch memory, which must be the pose of `origin`.
+    /// Partitions the coordinates at the last evaluated pose, which must be the pose of `origin`.
     pub(super) fn new(
         equations: &mut KeptEquations<'_>,
         origin: Origin,
@@ -97,16 +98,16 @@ impl IndependentCoordinates {
         })
     }
 
-    /// Completes the next state from the configuration at the start of `y`.
+    /// Uses the configuration in `y` as the initial value of the next completion.
     pub(crate) fn begin_from(&mut self, y: &[f64]) {
         let n_q = self.q.len();
         self.q.copy_from_slice(&y[..n_q]);
     }
 
-    /// Completes a state. The start of the iteration is the last completed state; if this is too
-    /// far away, the last accepted state; otherwise the values that the integrator carries. In a
-    /// mechanism without degrees of freedom the integrator's values come first, because no other
-    /// value shows how far the motion has advanced.
+    /// Completes a state by iteration. The initial value is the last completed state. If the
+    /// iteration fails or ends too far away, it is repeated from the last accepted state, and then
+    /// from the values of the integrator. In a mechanism without degrees of freedom the values of
+    /// the integrator are used first, because no other value shows how far the motion has advanced.
     pub(crate) fn complete(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -168,8 +169,8 @@ impl IndependentCoordinates {
         velocity.complete(at, &mut self.v)
     }
 
-    /// The longest displacement along a column of C between the last accepted state and time t at
-    /// the velocities of this state, in units of the mechanism.
+    /// The longest displacement along a column of C from the last accepted state to time t, at the
+    /// velocities of this state. It is in units of the mechanism.
     fn way_to(&self, t: f64, at: &Evaluation<'_>) -> f64 {
         let velocities = self.accepted.v.iter().enumerate();
         let rates = velocities.map(|(j, v)| v.abs() / at.mechanism.space().unit(j, at.size));
@@ -177,9 +178,10 @@ impl IndependentCoordinates {
     }
 
     /// Copies the independent entries of a state. The other entries keep the values of the last
-    /// completed state. The integrator's values for them may have an error as large as a step, and
-    /// Newton's method would converge to another branch or another revolution from there. For
-    /// unwrapped angles, only the number of revolutions is read from the integrator's values.
+    /// completed state. The integrator's values of these entries may have an error as large as a
+    /// step. From such values, Newton's method may converge to another branch or another
+    /// revolution. For unwrapped angles, only the number of revolutions is read from the
+    /// integrator's values.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
         mechanism.take(&mut self.q, q, &self.partition.z);
         self.storage.held.keep(&mut self.q);
@@ -189,7 +191,8 @@ impl IndependentCoordinates {
     }
 
     /// Checks that an evaluated state (q, v) at the end of a step lies on the path that the
-    /// velocities at both ends imply; a state on another branch or another revolution does not.
+    /// velocities at both ends imply. A state on another branch or in another revolution fails the
+    /// check.
     ///
     /// # Errors
     /// [`MotionFault::FarCompletion`]
@@ -228,8 +231,9 @@ impl IndependentCoordinates {
         }
     }
 
-    /// Computes rotations relative to the accepted state, if a step has started from it. Far from
-    /// their reference configuration, half a turn away, the rotations are not valid coordinates.
+    /// Computes rotations relative to the accepted state from now on, if a step has started from
+    /// this state. Half a turn away from their reference configuration, rotations are not valid
+    /// coordinates.
     pub(crate) fn begin_step(&mut self, mechanism: &Mechanism, has_begun: impl Fn(f64) -> bool) {
         let held = &mut self.storage.held;
         if self.is_fresh && !held.is_empty() && has_begun(self.accepted.t) {

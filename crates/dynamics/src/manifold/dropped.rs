@@ -23,9 +23,9 @@ pub struct Correction {
     pub velocity_residual: f64,
 }
 
-/// Residuals of all rows at a projected state; the residuals of its independent rows are `left`.
-/// Returns an error if a redundant row is above its limit. `horizon` is the duration of the run
-/// (s).
+/// Residuals of all rows at a projected state. `iterations` is the number of corrections, and
+/// `left` the largest velocity residual of the independent rows. Returns an error if a redundant
+/// row is above its limit. `horizon` is the duration of the run (s).
 pub(super) fn monitor(
     equations: &mut KeptEquations<'_>,
     v: &[f64],
@@ -87,8 +87,8 @@ pub(super) fn monitor(
     Ok(found)
 }
 
-/// Checks the redundant rows of Φ at the pose in the scratch memory; on another branch of the
-/// independent rows they are violated.
+/// Checks the redundant rows of Φ at the last evaluated pose. They are violated if the pose is on
+/// another branch of the independent rows.
 pub(super) fn check_positions(equations: &mut KeptEquations<'_>) -> Result<(), MotionFault> {
     let (at, rows) = (&equations.at, &mut equations.position);
     let check = Check {
@@ -170,7 +170,8 @@ where
     ) -> Result<(), MotionFault> {
         let scales = at.mechanism.scales(&at.s);
         let scale = |i: usize| scales.terms(i, &self.level);
-        // The terms that are present are a part of all terms and need less work.
+        // The terms that are nonzero in this state are a part of all terms and take less time to
+        // compute.
         let present = |i: usize| match self.level.of {
             ConstraintLevel::Position => at.position_scale(i),
             _ => 0.0,

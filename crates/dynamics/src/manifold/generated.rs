@@ -1,4 +1,5 @@
-//! Projection by generated code: its residuals and corrections in the common Newton iteration.
+//! Projection by generated code. The code computes the residuals and corrections of the Newton
+//! iteration that the interpreter also uses.
 
 use model::{Mechanism, System};
 
@@ -31,7 +32,7 @@ pub(crate) struct CodeProjection {
 
 /// For each row, the columns of C with nonzero entries, and bounds on these entries.
 struct Bounds {
-    /// Start of each row and end of the last one, m + h + 1 entries.
+    /// Index of the first entry of each row, and the end of the last row: m + h + 1 values.
     start: Vec<usize>,
     entries: Vec<(usize, f64)>,
 }
@@ -56,8 +57,8 @@ impl Bounds {
 }
 
 impl CodeProjection {
-    /// Work memory for code on the rows of these equations, with C at the pose in the scratch
-    /// memory.
+    /// Allocates work space for code on the rows of these equations, with C at the last evaluated
+    /// pose.
     pub(crate) fn new(equations: &KeptEquations<'_>, q: &[f64]) -> Self {
         let at = &equations.at;
         let layout = at.mechanism.layout();

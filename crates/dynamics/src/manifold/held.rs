@@ -1,13 +1,13 @@
 //! Independent rotations of bodies that also have dependent rotations.
 //!
-//! A quaternion has no entry for one independent rotation. The integrator carries a whole
-//! orientation, whose dependent part is an estimate. A correction of this part about two axes of a
-//! body also rotates the body about the third axis. Therefore the independent part is the twist
-//! about the axis relative to the orientation at the start of a step. For a relative quaternion (w,
-//! x, y, z) and the third axis, the twist is `2·atan2(z, w)`, which does not depend on x and y. To
-//! first order it is the coordinate in the Jacobian of an implicit method ([`crate::run`]). A
-//! completion keeps the twist: the rows and the twist functions are solved together for all
-//! rotations.
+//! A quaternion has no entry for one independent rotation. The integrator stores the complete
+//! orientation, of which the dependent part is an estimate. A correction of this part about two
+//! axes of a body also rotates the body about the third axis. Therefore the independent part is the
+//! twist about the axis relative to the orientation at the start of a step. For a relative
+//! quaternion (w, x, y, z) and the third axis, the twist is `2·atan2(z, w)`, which does not depend
+//! on x and y. To first order it is the coordinate in the Jacobian of an implicit method
+//! ([`crate::run`]). A completion does not change the twist, because the rows and the twist
+//! functions are solved together for all rotations.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -25,20 +25,21 @@ struct Twist {
     /// not change lengths, but the integrator's values of dependent parts may change them.
     own: Range<usize>,
     length: f64,
-    /// Twice the sine of half the angle, and the cosine, up to a common factor: indices into q with
-    /// coefficients.
+    /// Twice the sine of half the angle, and the cosine of half the angle, up to a common factor.
+    /// Both are linear forms: indices into q with coefficients.
     sine: Vec<(usize, f64)>,
     cosine: Vec<(usize, f64)>,
 }
 
-/// Independent rotations of this kind, and their values during a completion.
+/// Independent rotations of bodies that also have dependent rotations, and their values during a
+/// completion.
 #[derive(Default)]
 pub(super) struct IndependentRotations {
     /// Columns of these rotations in C.
     columns: Vec<usize>,
     /// Computation of each rotation from q.
     twists: Vec<Twist>,
-    /// Values that a completion keeps.
+    /// Values that a completion does not change.
     values: Vec<f64>,
     /// Row j: the motion that satisfies the rows and rotates along column j, but along no other
     /// independent column, n_v.
@@ -52,7 +53,7 @@ pub(super) struct IndependentRotations {
 }
 
 impl IndependentRotations {
-    /// The rotations of this kind among independent columns.
+    /// Finds the independent columns that rotate a body which also has dependent rotations.
     pub(super) fn among(mechanism: &Mechanism, independent: &[usize], q: &[f64]) -> Self {
         let space = mechanism.space();
         let mut held = Self::default();
@@ -83,7 +84,7 @@ impl IndependentRotations {
         held
     }
 
-    /// Whether there are no such rotations.
+    /// Whether there are no independent rotations that a completion must preserve.
     pub(super) fn is_empty(&self) -> bool {
         self.columns.is_empty()
     }
@@ -118,7 +119,7 @@ impl IndependentRotations {
     pub(super) fn off(&self, q: &[f64]) -> f64 {
         let of = |(value, twist): (&f64, &Twist)| twist.behind(*value, q).abs();
         let off = self.values.iter().zip(&self.twists).map(of);
-        // NaN is worse than any number.
+        // NaN counts as larger than any other value.
         off.fold(0.0, |a: f64, x| if x <= a { a } else { x })
     }
 
@@ -153,7 +154,8 @@ impl IndependentRotations {
             })
     }
 
-    /// Adds tangents to a correction of q, so that the correction keeps the stored values.
+    /// Adds tangents to a correction of q, so that the correction does not change the stored
+    /// values.
     pub(super) fn hold(&mut self, mechanism: &Mechanism, q: &[f64], delta: &mut [f64]) {
         let Some(system) = &mut self.system else {
             return;
@@ -177,14 +179,13 @@ impl Twist {
         [0.5 * read(&self.sine, q), read(&self.cosine, q)]
     }
 
-    /// The angle (rad), in the range of half a turn in both directions.
+    /// The angle (rad), between −π and π.
     fn angle(&self, q: &[f64]) -> f64 {
         let [sine, cosine] = self.half(q);
         2.0 * (sine / cosine).atan()
     }
 
-    /// Difference between another angle and the angle of q (rad), in the range of half a turn in
-    /// both directions.
+    /// Another angle minus the angle of q (rad), between −π and π.
     fn behind(&self, angle: f64, q: &[f64]) -> f64 {
         let off = angle - self.angle(q);
         off - TAU * (off / TAU).round()

@@ -36,7 +36,7 @@ pub(super) struct ProjectionStorage {
     /// Sizes of the terms of the independent rows of Φ at the first configuration; corrections
     /// change them only slightly.
     scales: Vec<f64>,
-    /// Rotations that a completion keeps for bodies that also have dependent rotations.
+    /// Rotations that a completion does not change, for bodies that also have dependent rotations.
     pub(super) held: IndependentRotations,
 }
 

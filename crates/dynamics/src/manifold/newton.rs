@@ -12,7 +12,8 @@ pub(super) trait Level {
     /// residual in roundings of its terms.
     fn misses(&mut self, corrections: usize) -> (usize, f64);
 
-    /// Makes one correction; `converges` states whether the last correction gained a digit.
+    /// Makes one correction; `converges` states whether the last correction reduced the residual to
+    /// a tenth or less.
     fn correct(&mut self, converges: bool) -> Result<(), Self::Fault>;
 }
 
@@ -135,8 +136,8 @@ mod tests {
         }
     }
 
-    /// A factorisation costs about ten corrections, so it pays off if one more digit takes more
-    /// than one of them.
+    /// A factorisation costs about as much as ten corrections. It is worth its cost if one
+    /// correction does not reduce the residual to a tenth.
     #[test]
     fn factors_serve_as_long_as_a_correction_gains_a_digit() {
         for (share, serves) in [(0.09, true), (0.11, false)] {

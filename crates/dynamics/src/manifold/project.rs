@@ -1,5 +1,6 @@
-//! Projection onto the constraints: positions first, both levels by the smallest correction in the
-//! mass metric. Without projection it computes the residuals of a state.
+//! Projection onto the constraints. Positions are corrected first, then velocities, each by the
+//! smallest correction in the mass metric. In a run without projection, the module computes the
+//! residuals of a state.
 
 use model::System;
 
@@ -37,8 +38,8 @@ impl Manifold {
         self.coordinates.is_some() || self.stabilisation == Stabilisation::Projection
     }
 
-    /// Switches the motion to independent coordinates, chosen at the pose in the scratch memory,
-    /// which must be the pose of `origin`.
+    /// Switches the motion to independent coordinates, chosen at the last evaluated pose, which
+    /// must be the pose of `origin`.
     pub(crate) fn choose_coordinates(
         &mut self,
         equations: &mut KeptEquations<'_>,
@@ -112,8 +113,8 @@ impl Manifold {
         correct_velocity(equations, v, &mut self.storage).map(drop)
     }
 
-    /// The change that a projection would make to [q; v] of a state without projection; allocates
-    /// memory. Redundant rows are checked nevertheless.
+    /// The change of [q; v] that a projection would make, for states that are not projected;
+    /// allocates memory. Redundant rows are checked nevertheless.
     pub(crate) fn missed_correction(
         &mut self,
         equations: &mut KeptEquations<'_>,

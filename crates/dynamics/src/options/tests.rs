@@ -1,8 +1,8 @@
-//! Invalid numbers are rejected with the name of the option, before any computation.
+//! Invalid values of options are rejected with the name of the option, before any computation.
 
 use super::MotionOptions;
 
-/// Message for changed options of a run over 10 s.
+/// Error message for changed options of a run over 10 s.
 fn said(change: impl Fn(&mut MotionOptions)) -> Result<(), String> {
     let mut options = MotionOptions::to(10.0);
     change(&mut options);

@@ -40,7 +40,8 @@ impl<'a> ComponentPlan<'a> {
         Self::of(Whose::Whole(prepared), options, reactions)
     }
 
-    /// A part; `wanted` covers the groups of the whole mechanism.
+    /// A component as a part of the whole mechanism; `wanted` has one entry for each joint and
+    /// drive of the whole mechanism.
     pub(super) fn part(
         (prepared, places): (PreparedMechanism, Places),
         options: &MotionOptions,

@@ -27,7 +27,8 @@ pub struct Decisions {
     pub elimination: Decision<[usize; 2]>,
     /// Whether solutions are refined from the start on.
     pub refinement: Decision<bool>,
-    /// Degrees of freedom; if there are none, the motion is a function of time.
+    /// Degrees of freedom; the motion of a mechanism without degrees of freedom is a function of
+    /// time.
     pub mobility: Decision<usize>,
     /// Rows that exist only at velocity level.
     pub nonholonomic: Decision<usize>,
@@ -97,8 +98,9 @@ impl Decisions {
 
 fn linear_systems(method: Method, sizes: &Sizes) -> Decision<bool> {
     let (n, w) = (sizes.velocities, 2 * sizes.mobility());
-    // Derivatives of [q; v] along each independent entry; the real system, and the complex one as a
-    // real one of twice the order.
+    // Stored values: derivatives of [q; v] with respect to each independent entry, the matrix of
+    // the real system, and the matrix of the complex system, written as a real one of twice the
+    // order.
     let reduced = (2 * w * 2 * n + w * w + 4 * w * w) as u64;
     let (value, taken, why, left_out) = match method {
         Method::Radau5 => (true, "on independent coordinates", "is implicit", 0),
@@ -198,7 +200,7 @@ fn mobility(
     Decision::new(value, taken, reason)
 }
 
-/// A decision about a number that may be zero, with a reason for either case.
+/// A decision about a count, with one reason for zero and one for a positive count.
 fn counted(value: usize, [none, some]: [&str; 2], what: &str) -> Decision<usize> {
     match value {
         0 => Decision::new(0, "none", none),

@@ -28,7 +28,7 @@ pub enum Cost {
     TimeRows,
     /// Values of Γ in an evaluation.
     Gamma,
-    /// Stored numbers.
+    /// Stored floating-point numbers.
     Storage,
     /// Redundant rows whose residuals are compared with a limit at each accepted step.
     Monitors,

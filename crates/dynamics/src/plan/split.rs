@@ -1,8 +1,8 @@
 //! Splits a prepared mechanism into prepared components. Each component uses its part of the rows
 //! that were decided at the start of the whole mechanism.
 //!
-//! The rows that a component drops are those that the whole mechanism drops in this component, so
-//! one sentence describes the choice of rows.
+//! The redundant rows of a component are the redundant rows of the whole mechanism that belong to
+//! the component. Therefore one sentence describes the choice of rows.
 
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};

@@ -227,8 +227,8 @@ fn rows_that_nobody_wants_are_not_computed() {
     assert!(stopped.t < 2.0 && rows == 1, "{} {rows}", stopped.t);
 }
 
-/// A pendulum: the same steps, and interpolated rows that violate the hinge constraint by at most
-/// the tolerance.
+/// A run of a pendulum with interpolated rows takes the same steps, and these rows violate the
+/// hinge constraint by at most the tolerance.
 #[test]
 fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
     let p = scene(|d| pendulum(d, "bob", 0.0));
@@ -568,6 +568,6 @@ fn free_bodies_take_memory_in_proportion() {
     };
     let (few, many) = (of(400), of(4000));
     assert!(many < 11 * few, "{few} and {many} bytes");
-    // Some hundred numbers of eight bytes for each velocity.
+    // Some hundred values of eight bytes for each velocity.
     assert!(many < 4000 * 3 * 256 * 8, "{many} bytes");
 }

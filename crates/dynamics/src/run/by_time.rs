@@ -1,4 +1,4 @@
-//! The state as a function of time, for mechanisms without a degree of freedom: stages are moved
+//! The state as a function of time, for mechanisms without degrees of freedom. Stages are moved
 //! onto the constraint manifold, and no time is evaluated twice in a step.
 
 use crate::error::MotionFault;

@@ -19,7 +19,7 @@ pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
 /// evaluation, so that a run ends within a step; a call should cost no more than reading a flag.
 pub type Stop<'w> = dyn Fn() -> bool + Sync + 'w;
 
-/// The cause of a collapsed step size, if it is an error of this crate.
+/// Returns the cause of a collapsed step size as the error, if the cause is an error of this crate.
 pub(super) fn named(error: IntegrationError<MotionFault>) -> MotionError {
     match error {
         IntegrationError::StepSizeCollapsed {

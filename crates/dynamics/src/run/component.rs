@@ -132,8 +132,8 @@ pub(super) fn run_component(
     Err(Box::new(Failure { error, summary }))
 }
 
-/// The solver for the choices of a plan in one of its components; `None` if no choice or no
-/// reaction is requested.
+/// The solver for the additional choices of a plan in one of its components; `None` if no choice or
+/// no reaction is requested.
 fn carried_choices<'p>(
     plan: &Plan<'_>,
     component: &'p ComponentPlan<'_>,
@@ -155,9 +155,9 @@ fn carried_choices<'p>(
     Ok(Some(carried))
 }
 
-/// Within a stated tolerance, the data explain the violation of joints that drives move. Then no
-/// redundant row shows during the run that a drive prescribes a motion which joints prevent; so the
-/// run does not start in this case.
+/// Checks before the run that no drive prescribes a motion that joints prevent. If a tolerance is
+/// stated, data within it may explain the violated joints, so the redundant rows would not show
+/// this contradiction during the run.
 fn drives_agree(prepared: &PreparedMechanism, t_end: f64) -> Result<(), MotionError> {
     if !prepared.may_miss {
         return Ok(());
@@ -193,8 +193,8 @@ fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
     }
 }
 
-/// If drives contradict each other or prescribe a motion that joints prevent, reports these drives
-/// as the cause of a violated redundant row, whichever row was redundant.
+/// If drives contradict each other or prescribe a motion that joints prevent, these drives are
+/// reported as the cause of a violated redundant row, whichever row was redundant.
 fn of_drives(prepared: &PreparedMechanism, t_end: f64, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow { time, .. }) = &error else {
         return error;
@@ -213,7 +213,7 @@ fn of_drives(prepared: &PreparedMechanism, t_end: f64, error: MotionError) -> Mo
 }
 
 /// If drives prescribe values that no configuration near the last state can reach, reports these
-/// drives as the cause of the stop, whichever row or number was found first.
+/// drives as the cause of the stop, whatever was found first.
 fn at_drive_limit(
     prepared: &PreparedMechanism,
     (t, y): (f64, &[f64]),
@@ -250,8 +250,8 @@ fn at_drive_limit(
     }
 }
 
-/// Checks whether a violated redundant row is redundant only at the start; then it contradicts no
-/// other row.
+/// Checks whether a violated redundant row is redundant at the start only, because the start is
+/// singular.
 fn at_singular_start(prepared: &PreparedMechanism, error: MotionError) -> MotionError {
     let MotionError::Fault(MotionFault::DroppedRow {
         time,

@@ -66,8 +66,8 @@ fn rounding(mechanism: &Mechanism, q: &[f64]) -> f64 {
     ENERGY_ROUNDINGS * f64::EPSILON * all
 }
 
-/// The larger of two numbers; NaN, which results from an overflowing energy, counts as larger than
-/// all.
+/// The larger of two values; NaN, which results from an overflowing energy, counts as the largest
+/// value.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
@@ -89,7 +89,7 @@ mod tests {
     fn what_cannot_be_balanced_is_not_balanced() {
         assert_eq!(larger(larger(1.0, 2.0), 0.5), 2.0);
         assert!(larger(larger(1.0, f64::NAN), 3.0).is_nan());
-        // ½·m·v² larger than the largest number: ∞ − ∞.
+        // The energy ½·m·v² overflows: ∞ − ∞ is NaN.
         assert!(relative(f64::INFINITY - f64::INFINITY, f64::INFINITY).is_nan());
         assert_eq!(relative(0.0, 0.0), 0.0);
     }

@@ -47,7 +47,7 @@ pub(super) struct RunEquations<'m> {
     pub(super) record: Record,
     /// Values requested at output rows.
     wanted: AtRows,
-    /// Choices of multipliers requested at output rows, with their solvers.
+    /// Additional assumptions (choices) for reactions at output rows, with their solvers.
     choices: &'m [NamedChoice],
     carried_choices: Option<CarriedChoices<'m>>,
     /// Verdicts during the run, if reactions are requested.
@@ -170,8 +170,8 @@ impl<'m> RunEquations<'m> {
         off && (self.is_by_time() || is_near)
     }
 
-    /// From now on, `leader` integrates; on all coordinates, unless it is implicit and chooses
-    /// independent ones.
+    /// From now on, `leader` integrates all coordinates. An implicit method chooses independent
+    /// coordinates instead.
     pub(super) fn follow(&mut self, leader: Leader) {
         let KeptRowMotion {
             manifold,
@@ -189,8 +189,7 @@ impl<'m> RunEquations<'m> {
     /// Whether another method must continue after an accepted step over these times.
     pub(super) fn hands_over(&self, [t0, t]: [f64; 2]) -> bool {
         let delicate = self.motion.watch.delicate_time();
-        // Explicit steps up to the singular configuration would be far shorter than those of an
-        // implicit method.
+        // Explicit steps up to the singular configuration would be far shorter than implicit steps.
         let reach = if self.motion.independent().is_some() {
             IMPLICIT_REACH * (t - t0)
         } else {
@@ -302,8 +301,8 @@ impl<'m> RunEquations<'m> {
     }
 
     /// Starts new intervals of verdicts at the events of an accepted step, which are the events
-    /// from `first_event` on. Returns one time between each two interval boundaries without another
-    /// evaluation of verdicts.
+    /// from `first_event` on. Returns one time between any two interval boundaries between which
+    /// verdicts would otherwise not be evaluated.
     pub(super) fn cut_verdicts(&mut self, times: [f64; 2], first_event: usize) -> Vec<f64> {
         let ends_there = times[1] == self.until.t_end || self.is_break(times[1]);
         let Some(verdicts) = &mut self.verdicts else {
@@ -564,8 +563,8 @@ fn work(q: &[f64], v: &[f64], y: &[f64]) -> f64 {
     y.get(q.len() + v.len()).copied().unwrap_or(0.0)
 }
 
-/// Checks that an output row y = [q; v; …] has finite numbers: sums may overflow even if both ends
-/// of a step are finite.
+/// Checks that the values of an output row y = [q; v; …] are finite, because sums may overflow even
+/// if both ends of a step are finite.
 fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), MotionFault> {
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
     let y = &y[..n_q + n_v];

@@ -1,5 +1,5 @@
-//! If a drive changes its rate instantaneously, an impulse of the constraints changes the
-//! velocities by the smallest change in the mass metric that satisfies the new rates. A jump of the
+//! If the prescribed rate of a drive jumps, an impulse of the constraints changes the velocities.
+//! The change is the smallest one in the mass metric that satisfies the new rates. A jump of the
 //! prescribed position itself would need an infinite force and is rejected.
 //!
 //! The energy of the impulse is part of the energy balance and is reported as an event. Output rows

@@ -1,7 +1,7 @@
 //! The integration of one component: its method, and another method over singular configurations.
 //!
-//! Near a singular configuration, accelerations are quotients of two small numbers, so the step
-//! over it must start and end as far away from it as possible. `dop853` makes the longest steps
+//! Near a singular configuration, accelerations are quotients of two small values, so the step over
+//! the configuration must start and end as far away as possible. `dop853` makes the longest steps
 //! over it. Implicit methods cannot step over it at all, because their coordinates become
 //! dependent. Therefore every other method stops before a predicted singular configuration,
 //! `dop853` steps over it, and the method of the run continues after it.

@@ -8,12 +8,12 @@ use crate::events::Event;
 use crate::guards::GUARDED;
 use crate::manifold::Correction;
 
-/// Numbers and events of a run so far.
+/// Statistics and events of a run so far.
 pub(super) struct Record {
     energy: EnergyBalance,
     max_position_residual: f64,
     max_velocity_residual: f64,
-    /// Quaternions that were scaled at accepted steps.
+    /// Number of quaternions that were scaled at accepted steps.
     pub(super) normalisations: u64,
     pub(super) min_pivot_ratio: f64,
     pub(super) events: Vec<Event>,

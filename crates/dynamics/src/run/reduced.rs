@@ -14,10 +14,10 @@
 //! The system `(σ·I − D·S)·x = r` needs only a factorisation of the order of w,
 //! `(σ·I − S·D)·x_w = r_w`. The dependent entries of x are only estimates for completions, so they
 //! follow from x_w like the dependent entries of dq and dv. The exact solution, `σ·x = r + D·x_w`,
-//! is not used for them: the stiff forces outside the slow motion would enter Newton's method
-//! through all levers of the mechanism. Then the method would fail to converge although w has
-//! converged. Along the normals of the coordinates, along which no pose changes, f does not depend
-//! on y; the exact solution `σ·x = r` is used there.
+//! is not used for these entries. It would include stiff forces in the dependent directions,
+//! amplified by the lever arms of the mechanism. Then the method would fail to converge although w
+//! has converged. Along the normals of the coordinates, along which no pose changes, f does not
+//! depend on y; the exact solution `σ·x = r` is used along these normals.
 
 use linalg::{Lu, Matrix};
 use model::{Derivatives, Mechanism, System};
@@ -217,7 +217,7 @@ impl ReducedJacobian {
         Ok(())
     }
 
-    /// Linearises and factors again if the partition changed at the start of the step: then f is
+    /// Linearises and factors again if the partition changed at the start of the step. Then f is
     /// another function of y, although the motion is the same.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use crate::motion::KeptRowMotion;
 pub struct Sample<'s, 'm> {
     /// Time (s).
     pub t: f64,
-    /// Coordinates. At a break time all values are those just before it.
+    /// Coordinates. At a break time all values are the values just before it.
     pub q: &'s [f64],
     /// Velocities.
     pub v: &'s [f64],
@@ -22,12 +22,12 @@ pub struct Sample<'s, 'm> {
     pub events: &'s [Event],
     /// The rows (from 0) whose multipliers are zero by choice in this output row.
     pub dropped: &'s [usize],
-    /// The additional choices of multipliers that are requested.
+    /// The additional choices for which reactions are requested.
     pub choices: &'s [NamedChoice],
     pub(super) source: Source<'s, 'm>,
 }
 
-/// Reactions for a choice of multipliers, at an output row.
+/// Multipliers and reactions for one additional choice, at an output row.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ChosenReactions {
@@ -35,7 +35,7 @@ pub struct ChosenReactions {
     pub multipliers: ChosenValues<f64>,
     /// Reactions of all joints and drives, NaN as in [`Sample::reactions`].
     pub reactions: ChosenValues<Reaction>,
-    /// Reason why the choice selects no solution here; then all numbers are NaN.
+    /// Reason why the choice selects no solution here; then all values are NaN.
     pub refused: Option<ChoiceError>,
 }
 
@@ -65,7 +65,7 @@ pub(super) struct OfMotion<'s, 'm> {
 /// Progress of the solution of the equations at an output row; each part is solved at most once.
 pub(super) enum SolveProgress {
     Nothing,
-    /// Rows are factored at the pose in the scratch memory, which is the pose of the output row.
+    /// Rows are factored at the last evaluated pose, which is the pose of the output row.
     Factored,
     /// The accelerations of the last evaluation of the motion are available.
     Solved(Vec<f64>),
@@ -91,7 +91,7 @@ pub(super) struct Values {
     pub(super) chosen: Result<Vec<OfChoice>, MotionFault>,
 }
 
-/// Numbers for one choice.
+/// Multipliers and reactions for one choice.
 #[derive(Clone)]
 pub(super) struct OfChoice {
     pub(super) multipliers: Vec<f64>,
@@ -136,8 +136,8 @@ impl Sample<'_, '_> {
         Ok(ChosenValues::new(multipliers?, self.dropped.to_vec()))
     }
 
-    /// Reactions of all joints and drives in the order of their rows; NaN for those that the plan
-    /// omits. Reactions that are not unique are valid only for the choice of this run (its
+    /// Reactions of all joints and drives in the order of their rows; NaN for reactions that the
+    /// plan omits. Reactions that are not unique are valid only for the choice of this run (its
     /// independent rows); allocates memory.
     ///
     /// # Errors
@@ -150,8 +150,9 @@ impl Sample<'_, '_> {
         Ok(ChosenValues::new(reactions?, self.dropped.to_vec()))
     }
 
-    /// Multipliers and reactions for each of [`Self::choices`], all for the same accelerations.
-    /// Values that the model determines are the same in all of them; allocates memory.
+    /// Multipliers and reactions for each of [`Self::choices`], all of them for the same
+    /// accelerations. Values that the model determines are the same in all of them; allocates
+    /// memory.
     ///
     /// # Errors
     /// Returns an error if the equations have no unique solution at this state.
@@ -262,7 +263,7 @@ impl<'m> OfMotion<'_, 'm> {
         ids.map(reaction).collect()
     }
 
-    /// The numbers of each choice, computed at the first request.
+    /// The multipliers and reactions for each choice, computed at the first request.
     fn chosen(&mut self, q: &[f64], v: &[f64]) -> Result<&[OfChoice], MotionFault> {
         let chosen = match (self.chosen.take(), self.choices) {
             (Some(chosen), _) => chosen,

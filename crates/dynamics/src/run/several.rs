@@ -198,8 +198,8 @@ fn gather<T: Copy>(
     }
 }
 
-/// Copies the numbers of choices of all parts into the whole; a component without reactions has no
-/// such numbers.
+/// Copies the multipliers and reactions for the choices of all parts into the whole. A component
+/// without reactions has no such values.
 fn gather_chosen(
     own: Result<Vec<OfChoice>, MotionFault>,
     places: &Places,

@@ -164,13 +164,13 @@ mod tests {
         span.check(&body(), 1.0, 0.5, &state(x, v)).is_ok()
     }
 
-    /// The cubic is at half of the displacement.
+    /// At the middle of the step, the cubic is at half of the displacement.
     #[test]
     fn rows_lie_where_their_step_leads() {
-        // Deviation of less than a quarter of the displacement.
+        // Deviations of less than a quarter of the displacement are accepted.
         assert!(is_shown([0.5 + 0.2, 1.0], 1.0, 1.0));
         assert!(!is_shown([0.5 + 0.3, 1.0], 1.0, 1.0));
-        // At rest, deviation of less than a thousandth of the size.
+        // At rest, deviations of less than a thousandth of the size are accepted.
         assert!(is_shown([0.8e-3, 0.0], 0.0, 0.0));
         assert!(!is_shown([1.5e-3, 0.0], 0.0, 0.0));
     }

@@ -277,8 +277,8 @@ mod tests {
 
     #[test]
     fn events_of_components_are_told_with_the_rows_of_the_whole() {
-        // Rows 0, 2, 4, of which the second is redundant first, and rows 1, 3, of which the first
-        // is redundant first.
+        // One component has the rows 0, 2, 4, of which row 2 is redundant at the start. The other
+        // component has the rows 1, 3, of which row 1 is redundant at the start.
         let components = vec![
             component(
                 &[0, 2, 4],
@@ -296,7 +296,7 @@ mod tests {
         assert_eq!(told, [(0.5, &[0, 1][..]), (1.0, &[0, 3]), (1.5, &[3, 4])]);
         let redundancy = |e: &Event| [e.redundancy_before, e.redundancy_after];
         assert!(whole.events.iter().all(|e| redundancy(e) == [2, 2]));
-        // The time reached is that of the slower component; the balance is a bound.
+        // The time reached is the time of the slower component; the energy balance is a bound.
         assert_eq!((whole.t, whole.steps), (1.0, 20));
         assert_eq!(whole.energy_balance, (0.25 + 0.25) / 2.0);
     }

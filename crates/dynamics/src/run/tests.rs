@@ -1,5 +1,5 @@
-//! Forces that call a function: closed-form solutions, methods that reject such forces, and the end
-//! of a run at their faults.
+//! Forces that call a function: closed-form solutions, methods that reject these forces, and the
+//! end of a run at their faults.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -53,7 +53,7 @@ fn called(
     of_law(Law::called(f))
 }
 
-/// `−k·x − c·ẋ` as operations, rounded as the function below rounds.
+/// The force `−k·x − c·ẋ` as recorded operations, with the same rounding as the function below.
 fn written() -> Law {
     Law::new(&[
         Operation::Number(-STIFFNESS),
@@ -269,7 +269,8 @@ fn a_body_is_pushed_by_a_called_wrench() {
 }
 
 /// A torque about the vertical axis of the ground rotates a body about this axis, whatever the
-/// body's own axes are: its inertia tensor has products of inertia, and y is a principal axis.
+/// body's own axes are. The inertia tensor of the body has products of inertia, and y is a
+/// principal axis.
 #[test]
 fn a_called_wrench_of_space_is_in_ground_axes() {
     let torque = 0.6;

@@ -1,8 +1,8 @@
 //! The verdicts of a run: at accepted steps and output rows they are computed from the rows that
 //! are factored there.
 //!
-//! A parameter sweep needs only the verdicts of the whole run, so it reads them at the ends of each
-//! stretch.
+//! A parameter sweep needs only the verdicts of the whole run. For it, they are computed only at
+//! the ends of each time interval between two events.
 
 use std::collections::HashMap;
 
@@ -173,9 +173,9 @@ impl<'m> RunVerdicts<'m> {
         }
     }
 
-    /// If only verdicts on the whole run are requested: the joints and drives that have neither a
-    /// determined force nor a determined torque on the run, whatever the following steps show. The
-    /// last evaluation was inside a time interval.
+    /// The joints and drives whose force and torque are both not determined on the whole run,
+    /// whatever the following steps show. Empty unless only verdicts on the whole run are
+    /// requested. The last evaluation was inside a time interval.
     pub(super) fn not_of_run(&self) -> Vec<ConstraintId> {
         let asked = self
             .carried
@@ -194,9 +194,9 @@ impl<'m> RunVerdicts<'m> {
     }
 
     /// Starts time intervals at events within a step, given in the order of time, and after the
-    /// step if `ends_there`. Returns the times at which verdicts must be computed before the end of
-    /// the step: one between each two boundaries without another evaluation, and the start of the
-    /// last step of an interval.
+    /// step if `ends_there`. Returns the times before the end of the step at which verdicts must be
+    /// computed. One such time is between any two boundaries that have no evaluation between them;
+    /// another is the start of the last step of an interval.
     pub(super) fn cut(&mut self, events: &[f64], [t0, t1]: [f64; 2], ends_there: bool) -> Vec<f64> {
         let Some(carried) = &mut self.carried else {
             return Vec::new();

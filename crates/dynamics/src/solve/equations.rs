@@ -1,9 +1,9 @@
 //! The equations of motion with independent rows.
 //!
-//! The rank is never decided at a stage: a stage violates the constraints by δ, so a singular value
-//! that is exactly zero appears as about δ. Positions and velocities have separate independent
-//! rows. A holonomic row may be redundant at velocity level because knife edges imply its velocity.
-//! But no row implies its position, and without it the configuration would drift.
+//! The rank is never decided at a stage. A stage violates the constraints by some δ, so a singular
+//! value that should be zero is about δ. Positions and velocities have separate independent rows. A
+//! holonomic row may be redundant at velocity level because knife edges imply its velocity. But no
+//! row implies its position, and without it the configuration would drift.
 
 use model::System;
 
@@ -21,7 +21,7 @@ pub(crate) struct KeptEquations<'m> {
     pub(crate) velocity: KeptRows,
     /// Independent rows of Φq.
     pub(crate) position: KeptRows,
-    /// Rows requested by the user, while they are ill-conditioned and others are used.
+    /// Rows requested by the user, while they are ill-conditioned and other rows are used.
     pub(crate) requested_rows: Option<KeptRows>,
     /// Constraint violations of redundant rows, if a tolerance is stated.
     pub(crate) misfits: Option<Box<Misfits>>,

@@ -51,7 +51,7 @@ impl std::fmt::Display for Doubt {
 }
 
 impl Doubt {
-    /// Checks the health of a result and that its numbers are finite; NaN is never healthy.
+    /// Checks the health of a result and that its values are finite; NaN counts as unreliable.
     pub(crate) fn of(health: f64, results: &[f64]) -> Result<(), Self> {
         if !GUARDED {
             return Ok(());

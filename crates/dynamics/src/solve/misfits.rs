@@ -4,8 +4,8 @@
 //!
 //! Let `z` be 1 at a redundant row, and minus the coefficients at the independent rows that imply
 //! it. Then the bound is `3·Σ τ_j·|zᵀ·∂Φ/∂d_j|` over all data d_j with their tolerances τ_j; for
-//! velocities `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor is [`model::SHARED`]: it includes the residual
-//! of rows that share a violation, and the pose, which moves with the data.
+//! velocities `3·Σ τ_j·|zᵀ·∂(C·v)/∂d_j|`. The factor 3 is [`model::SHARED`]. It accounts for rows
+//! that share a violation, and for the pose, which changes with the data.
 
 use model::words::quantity;
 use model::{Bodies, DataBlock, Level, RowLabel, System};
@@ -30,7 +30,7 @@ pub struct Misfit {
     pub largest: f64,
     /// Time of the largest violation (s).
     pub time: f64,
-    /// Violation that data within their tolerances explain at this time, in the unit of the row.
+    /// Violation that data within their tolerances can cause at this time, in the unit of the row.
     pub bound: f64,
     /// For a row of angles: its violation times the size of the mechanism (m, or m/s).
     pub at_size: Option<f64>,
@@ -40,7 +40,7 @@ pub struct Misfit {
 #[derive(Clone)]
 pub(crate) struct Misfits {
     blocks: Vec<DataBlock>,
-    /// Gradient with respect to all numbers of the constraints.
+    /// Gradient with respect to all data of the constraints.
     gradient: Vec<f64>,
     /// Coefficients of all rows.
     z: Vec<f64>,
@@ -67,7 +67,7 @@ struct Residual {
     value: f64,
     /// dΦ/dt; `None` for a nonholonomic row.
     rate: Option<f64>,
-    /// Residual that the data explain, if the residual is larger than rounding errors.
+    /// Largest residual that the data can cause, if the residual is larger than rounding errors.
     bound: Option<f64>,
 }
 
@@ -86,8 +86,8 @@ impl Misfits {
         }
     }
 
-    /// Residual of the redundant row i at a level that data within their tolerances explain. The
-    /// rows must be factored.
+    /// Largest residual of the redundant row i at a level that data within their tolerances can
+    /// cause. The rows must be factored.
     pub(crate) fn bound(
         &mut self,
         (at, rows): (&Evaluation<'_>, &mut KeptRows),

@@ -90,7 +90,7 @@ impl KeptRows {
         Self::new(at, rows, self.of_c)
     }
 
-    /// Factors the rows with the entries of C in the scratch memory. Rows that are dependent for an
+    /// Factors the rows with the last evaluated entries of C. Rows that are dependent for an
     /// instant are skipped, but not in the first factorisation.
     pub(crate) fn factor(&mut self, at: &Evaluation<'_>) -> Result<(), MotionFault> {
         let reference = self.reference();
@@ -117,7 +117,8 @@ impl KeptRows {
         Ok(())
     }
 
-    /// Like [`KeptRows::factor`], without rows whose pivot is below this share of the reference.
+    /// Like [`KeptRows::factor`], but skips the rows whose pivot is below this share of the
+    /// reference.
     pub(crate) fn factor_above(
         &mut self,
         share: f64,
@@ -131,9 +132,9 @@ impl KeptRows {
         factored.map_err(|e| self.fault(at, e))
     }
 
-    /// Chooses the coordinates that these rows determine best with the entries of C in the scratch
-    /// memory, each relative to its accuracy. From now on the rows are solved for these
-    /// coordinates. Afterwards the rows are factored; returns the other coordinates, ascending.
+    /// Chooses the coordinates that these rows determine best with the last evaluated entries of C,
+    /// each relative to its accuracy. From now on the rows are solved for these coordinates.
+    /// Afterwards the rows are factored; returns the other coordinates, ascending.
     pub(crate) fn partition(
         &mut self,
         at: &Evaluation<'_>,
@@ -230,7 +231,7 @@ impl KeptRows {
         self.written(at, solved, x)
     }
 
-    /// Computes accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q in the scratch memory. The
+    /// Computes accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with the last evaluated Q. The
     /// solution is refined if it would otherwise lose digits.
     pub(super) fn accelerate(
         &mut self,
@@ -291,9 +292,9 @@ impl KeptRows {
         self.solver.multipliers(force, motion, &mut self.lambda)
     }
 
-    /// The largest coefficient of an independent row in a redundant row, with the entries of C in
-    /// the scratch memory, at which the rows must be factored. The rounding error of the
-    /// independent rows is multiplied by this coefficient in the redundant rows.
+    /// The largest coefficient of an independent row in a redundant row, with the last evaluated
+    /// entries of C, at which the rows must be factored. In the redundant rows, the rounding error
+    /// of the independent rows is multiplied by this coefficient.
     pub(crate) fn largest_coefficient(&mut self, at: &Evaluation<'_>) -> f64 {
         note(WorkKind::Coefficients);
         // Large mechanisms have thousands of redundant rows, each implied by a few rows: instead of
@@ -315,10 +316,10 @@ impl KeptRows {
         largest
     }
 
-    /// Size of the redundant row i and of the contributions of the independent rows to it: with
-    /// `c_i = Σ T_ik·c_k` the sum of `scale(i)` and `|T_ik|·scale(k)`. The residual of the row may
-    /// be as large as the rounding error of these terms. The function needs the factorisation with
-    /// the entries of C in the scratch memory.
+    /// Size of the redundant row i and of the contributions of the independent rows to it. For
+    /// `c_i = Σ T_ik·c_k` this is the sum of `scale(i)` and of all `|T_ik|·scale(k)`. The residual
+    /// of the row may be as large as the rounding error of these terms. The rows must be factored
+    /// with the last evaluated entries of C.
     pub(crate) fn implied_scale(
         &mut self,
         at: &Evaluation<'_>,
@@ -331,9 +332,9 @@ impl KeptRows {
         Ok(scale(i) + terms.sum::<f64>())
     }
 
-    /// Writes the dependency of a redundant row on the independent rows over all rows: 1 at the
-    /// redundant row, and minus the coefficients at the independent rows. The rows must be
-    /// factored.
+    /// Writes the dependency of a redundant row on the independent rows as a combination of all
+    /// rows. It is 1 at the redundant row, and minus the coefficients at the independent rows. The
+    /// rows must be factored.
     pub(crate) fn dependency(
         &mut self,
         at: &Evaluation<'_>,
@@ -487,7 +488,7 @@ impl KeptRows {
         Ok(())
     }
 
-    /// The fault for a failed solution at the instant of the scratch memory.
+    /// The fault for a failed solution at the last evaluated time.
     fn fault(&self, at: &Evaluation<'_>, e: SaddleError) -> MotionFault {
         let time = at.s.t;
         match e {
@@ -534,7 +535,7 @@ fn weight_of(k: usize, seed: u64) -> f64 {
     for odd in [0x9e37_79b9_7f4a_7c15, 0xbf58_476d_1ce4_e5b9] {
         mixed = mixed.wrapping_mul(odd).rotate_left(31);
     }
-    // 52 bits as the fraction of a number, and a sign.
+    // The number has 52 random bits as its fraction, and a random sign.
     let size = f64::from_bits(1.0_f64.to_bits() | mixed >> 12);
     size.copysign(if mixed & 1 == 0 { 1.0 } else { -1.0 })
 }
@@ -543,7 +544,7 @@ fn weight_of(k: usize, seed: u64) -> f64 {
 mod tests {
     use super::weight_of;
 
-    /// In a sum no two rows cancel, and each row has a significant weight.
+    /// No two rows cancel in a sum, and each row has a significant weight.
     #[test]
     fn weights_of_rows_differ_in_size() {
         for seed in 1..=8 {

@@ -45,8 +45,8 @@ struct NullSpace {
 #[derive(Clone)]
 struct Many {
     saddle: SchurSaddle,
-    /// The smallest relative pivot of its reference divided by that of the null space; 0 before it
-    /// has been computed.
+    /// The smallest relative pivot of the Schur complement divided by that of the null space, both
+    /// at the reference state; 0 before it has been computed.
     share: f64,
     /// Whether the last factorisation was made by this solver, with this floor and these masses.
     is_used: bool,
@@ -70,9 +70,10 @@ macro_rules! either {
 
 /// Whether the independent rows of C and of Φq are solved through the Schur complement, for this
 /// number of independent rows of C and this size of the mechanism (m). There are two such cases. In
-/// the first, there are many rows and many free motions, every coordinate has a mass, and solutions
-/// need no refinement because of different masses. In the second, there are too many of both for
-/// the null space. Many free motions without rows leave no equation to eliminate.
+/// the first case, there are many rows and many free motions, every coordinate has a mass, and
+/// solutions need no refinement because of different masses. In the second case, rows and free
+/// motions are too many for the null space. Many free motions without rows leave no equation to
+/// eliminate.
 pub(crate) fn is_schur(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
     let free = mechanism.layout().n_v.saturating_sub(rows);
     let is_free = || rows == 0 && free > FREE_DENSE && mechanism.mass().iter().all(|&m| m > 0.0);
@@ -349,7 +350,7 @@ impl NullSpace {
     }
 
     /// Factors the rows of the last factorisation by the Schur complement as well, so that its
-    /// pivots can be compared with those of the null-space solver.
+    /// pivots can be compared with the pivots of the null-space solver.
     fn keep_shares(&mut self, c: &SparseMatrix, mass: &[f64]) {
         let Some(many) = &mut self.many else { return };
         let usual = self.saddle.pivot_ratio();

@@ -55,10 +55,10 @@ pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     exponents.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
-/// The unit of each column of C for each body: a translation in metres, a rotation by the distance
-/// (m) that it moves the joints of the body. An example is a chain of a thousand metres. With these
-/// units its links have masses of one order of magnitude, although their moments of inertia are
-/// negligible relative to the square of the size of the chain.
+/// The unit of each column of C, chosen for each body. The unit of a translation is 1 m; a rotation
+/// is measured by the distance (m) by which it moves the joints of the body. For example, the links
+/// of a chain of a thousand metres then have masses of one order of magnitude. With the size of the
+/// chain as the unit, their moments of inertia would be negligible.
 fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let (layout, space) = (mechanism.layout(), mechanism.space());
     let mut units = vec![1.0; layout.n_v];
@@ -69,9 +69,9 @@ fn units_of_bodies(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     units
 }
 
-/// The length (m) of each body: the longest arm from its centre of mass to a point of its joints,
-/// or its largest radius of gyration if that is longer. It is the size of the mechanism (m) if both
-/// are zero or rounding errors.
+/// The length (m) of each body. It is the longest arm from the centre of mass to a point of a
+/// joint, or the largest radius of gyration if that is longer. The length is the size of the
+/// mechanism (m) if both are zero or rounding errors.
 fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let space = mechanism.space();
     let gyration = |mass: &[f64]| {

@@ -1,7 +1,7 @@
 //! Switching between generated code and the interpreter. Generated code is used as long as its
 //! results are reliable at every stage and step; otherwise the interpreter continues from the last
-//! accepted state. Nothing in this module ends a run. The module [`crate::code`] checks whether
-//! code belongs to a mechanism.
+//! accepted state. This module never ends a run. The module [`crate::code`] checks whether code
+//! belongs to a mechanism.
 //!
 //! The interpreter does not run while generated code is used. Before it continues the run, it
 //! evaluates the last two accepted states, because it predicts singular configurations from the
@@ -63,7 +63,8 @@ pub(crate) struct CodeSwitch<'m> {
     evaluations: u64,
     /// Number of accepted steps before generated code may be used again.
     patience: u64,
-    /// The last two states accepted with generated code, the last one first, and their number.
+    /// The last two states accepted with generated code, the last one first, and the number of
+    /// these states.
     accepted: [AcceptedState; 2],
     n_accepted: usize,
     departure: Option<Departure>,
@@ -81,7 +82,7 @@ pub(crate) struct Departure {
 }
 
 impl<'m> CodeSwitch<'m> {
-    /// Uses generated code from time t on, starting from the state q.
+    /// Creates the switch, which uses generated code from time t on, starting from the state q.
     pub(crate) fn new(
         code: &'m dyn SceneCode,
         equations: &mut KeptEquations<'_>,
@@ -113,7 +114,7 @@ impl<'m> CodeSwitch<'m> {
     }
 
     /// Accelerations for an evaluation of a run. Returns `false` if the interpreter must compute
-    /// them. The motion stops using generated code that is unreliable.
+    /// them. If the generated code is unreliable, the motion stops using it.
     pub(crate) fn evaluate(
         &mut self,
         state: State<'_>,
@@ -157,8 +158,8 @@ impl<'m> CodeSwitch<'m> {
         }
     }
 
-    /// Resets the predictions after a jump of the velocities at t: earlier states cannot be used
-    /// for them.
+    /// Resets the predictions after a jump of the velocities at t, because earlier states cannot be
+    /// used for predictions.
     pub(crate) fn restart(
         &mut self,
         equations: &mut KeptEquations<'_>,

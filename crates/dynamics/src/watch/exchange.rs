@@ -22,7 +22,8 @@ pub(crate) struct Exchange {
 enum Velocity {
     /// The rows requested by the user, which are well-conditioned again.
     Requested,
-    /// Rows other than the present ones; the flag states whether the present ones were requested.
+    /// Rows other than the present ones; the flag states whether the user requested the present
+    /// rows.
     Others(Box<KeptRows>, bool),
 }
 
@@ -55,9 +56,9 @@ impl Exchange {
         Ok(is_due.then_some(Self { position, velocity }))
     }
 
-    /// The check after redundant rows were violated: other independent rows then move the mechanism
-    /// by a similar amount, so rows are exchanged only if they are lost. Without nonholonomic rows
-    /// both levels have the same independent rows.
+    /// The check for redundant rows that are violated within a stated tolerance. An exchange then
+    /// moves the mechanism by about this violation, so rows are exchanged only if they have become
+    /// ill-conditioned. Without nonholonomic rows both levels have the same independent rows.
     fn due_within_tolerance(
         equations: &mut KeptEquations<'_>,
         q: &[f64],
@@ -85,8 +86,8 @@ impl Exchange {
         }))
     }
 
-    /// Uses the new rows. Returns whether other rows determine the position, which must then be
-    /// settled again, and the event.
+    /// Uses the new rows. Returns the event, and whether the rows that determine the position have
+    /// changed. If they have, the position must be settled again.
     pub(crate) fn keep(
         self,
         equations: &mut KeptEquations<'_>,
@@ -132,16 +133,16 @@ impl Exchange {
     }
 }
 
-/// Whether [`Exchange::due`] has a decision to make for freshly factored rows.
+/// Whether [`Exchange::due`] must make a decision for freshly factored rows.
 pub(super) fn may_be_due(equations: &mut KeptEquations<'_>, choice: &RowChoice) -> bool {
     equations.requested_rows.is_some()
         || position_wants_exchange(equations)
         || want_exchange(equations, choice)
 }
 
-/// Rows with smaller coefficients than the present independent rows, at a settled output row.
-/// Between two steps, the mechanism may reach configurations for which the present rows are not
-/// suitable.
+/// Rows with smaller coefficients in the redundant rows than the present independent rows have, at
+/// a settled output row. Between two steps, the mechanism may reach configurations for which the
+/// present rows are not suitable.
 pub(super) fn better_for_row(
     equations: &mut KeptEquations<'_>,
     choice: &RowChoice,
@@ -154,7 +155,7 @@ pub(super) fn better_for_row(
     better(at, decide_rows(at.mechanism, &at.s, q), old)
 }
 
-/// Such rows for the determination of the position.
+/// Like [`better_for_row`], for the rows that determine the position.
 pub(super) fn better_position_for_row(
     equations: &mut KeptEquations<'_>,
     q: &[f64],
@@ -166,7 +167,7 @@ pub(super) fn better_position_for_row(
     better(at, decide_holonomic_rows(at.mechanism, &at.s, q), old)
 }
 
-/// Whether an output row uses the rows of the surrounding steps without a search for others.
+/// Whether an output row uses the present rows without a search for other ones.
 fn suit_output(equations: &KeptEquations<'_>) -> bool {
     !GUARDED || equations.have_missed() || are_sound(&equations.velocity)
 }

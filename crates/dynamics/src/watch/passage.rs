@@ -1,15 +1,15 @@
 //! Detects whether a step moves through a singular configuration. There the independent rows are
-//! dependent for an instant: branches of the motion may meet, and a step may end on another branch
-//! although every residual is a rounding error.
+//! dependent for an instant, and branches of the motion may meet. A step may then end on another
+//! branch although every residual is a rounding error.
 //!
-//! The accelerations there are a quotient of two numbers that both vanish. At the distance σ, a
-//! relative pivot, a constraint violation δ of a stage causes an error δ/σ, and rounding causes
-//! eps/σ². Therefore stages near a singular configuration are moved onto the constraint manifold
-//! before their evaluation. Steps are chosen such that the configuration is between two stages
-//! ([`Passage::expected`]), and rows with relative pivots below 1e-6 are left out of the solution.
-//! A step must not end so close that a projection could not distinguish the branches. A step over a
-//! singular configuration is accepted only if its correction is small relative to the distance of
-//! the branches: the run continues on the smooth branch.
+//! The accelerations there are quotients whose numerator and denominator both vanish. At the
+//! distance σ, a relative pivot, a constraint violation δ of a stage causes an error δ/σ, and
+//! rounding causes eps/σ². Therefore stages near a singular configuration are moved onto the
+//! constraint manifold before their evaluation. Steps are chosen such that the configuration is
+//! between two stages ([`Passage::expected`]), and rows with relative pivots below 1e-6 are left
+//! out of the solution. A step must not end so close that a projection could not distinguish the
+//! branches. A step over a singular configuration is accepted only if its correction is small
+//! relative to the distance of the branches. Thus the run continues on the smooth branch.
 
 use crate::guards::GUARDED;
 use crate::limits::{KINK, SUSPECT};
@@ -25,8 +25,8 @@ pub(crate) struct Now<'a> {
 }
 
 /// Data of the last accepted step: a basis of the possible motions, and the sign of the determinant
-/// of the independent rows bordered by this basis. Also the smallest pivot of the stages since
-/// then.
+/// of the independent rows bordered by this basis. It also contains the smallest pivot of the
+/// stages since this step.
 #[derive(Default)]
 pub(crate) struct Passage {
     frame: Vec<f64>,
@@ -58,8 +58,8 @@ impl Passage {
         self.pivot
     }
 
-    /// Time at which the pivots vanish if those of the last two accepted steps are extrapolated
-    /// along a straight line.
+    /// Time at which the pivots vanish if the pivots of the last two accepted steps are
+    /// extrapolated linearly.
     pub(super) fn expected(&self) -> Option<f64> {
         (self.rate < 0.0).then(|| self.t - self.pivot / self.rate)
     }
@@ -109,7 +109,7 @@ impl Passage {
         entry.a.copy_from_slice(a);
     }
 
-    /// Deletes this state, because velocities jump for another reason.
+    /// Deletes the stored state, because velocities jump for another reason.
     pub(crate) fn forget_entry(&mut self) {
         self.entry = None;
     }

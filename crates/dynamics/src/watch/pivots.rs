@@ -7,8 +7,8 @@ use crate::options::RowChoice;
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
 /// Whether the motion is so close to a singular configuration that stages must satisfy the
-/// constraints: a constraint violation δ causes an error of the accelerations of δ divided by the
-/// relative pivot.
+/// constraints. A constraint violation δ causes an acceleration error of δ divided by the relative
+/// pivot.
 pub(crate) fn are_delicate(rows: &KeptRows) -> bool {
     rows.relative_pivot() < DELICATE
 }
@@ -22,8 +22,8 @@ pub(crate) fn are_worn(equations: &KeptEquations<'_>) -> bool {
     worn(&equations.velocity) || worn(&equations.position) || equations.requested_rows.is_some()
 }
 
-/// Whether output rows satisfy the redundant rows accurately: above this limit no other rows are
-/// considered.
+/// Whether the pivots are so large that output rows satisfy the redundant rows accurately. In this
+/// case no other independent rows are considered for the output rows.
 pub(super) fn are_sound(rows: &KeptRows) -> bool {
     rows.relative_pivot() >= SOUND
 }

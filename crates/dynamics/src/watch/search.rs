@@ -1,5 +1,5 @@
-//! Searches the dense output of an accepted step for singular configurations: their time, and the
-//! number of dependent rows.
+//! Searches the dense output of an accepted step for singular configurations. The result is the
+//! time and the number of dependent rows of each of them.
 
 use model::System;
 use solvability::along::search::{minimum, root};
@@ -98,9 +98,9 @@ impl<'m> SingularitySearch<'m> {
         factored.ok().map(|()| self.rows.relative_pivot())
     }
 
-    /// The singular configuration between t0 and t1, if there is one: at a change of sign of the
-    /// bordered determinant, or at a minimum of the smallest relative pivot below `noise`. `state`
-    /// returns the coordinates at a time.
+    /// The singular configuration between t0 and t1, if there is one. It is at a change of sign of
+    /// the bordered determinant, or at a minimum of the smallest relative pivot below `noise`.
+    /// `state` returns the coordinates at a time.
     pub(crate) fn find(
         &mut self,
         [t0, t1]: [f64; 2],
@@ -139,7 +139,8 @@ impl<'m> SingularitySearch<'m> {
                 let enough = SHARP * (interval[1] - interval[0]);
                 let least = minimum(interval, noise, enough, |t| at(t, self).ok_or(()));
                 let (t, pivot) = least.ok()??;
-                // At an end of the searched interval the pivot falls without rising again.
+                // A pivot that falls up to an end of the searched interval, without rising again,
+                // has no minimum.
                 if pivot > RISES * pivots[k - 1].min(pivots[k + 1]) {
                     return None;
                 }
@@ -158,9 +159,9 @@ impl<'m> SingularitySearch<'m> {
         })
     }
 
-    /// Loss of rank of all rows at a configuration at which the independent rows lose rank: the
-    /// independent rows may become dependent while others replace them. In case of doubt, both
-    /// losses are equal.
+    /// Loss of rank of all rows at a configuration at which the independent rows lose rank. The
+    /// loss may be smaller, because other rows may replace the independent rows that become
+    /// dependent. In case of doubt, both losses count as equal.
     pub(crate) fn rank_lost(
         &mut self,
         Singular { t, dependent }: Singular,
@@ -209,7 +210,7 @@ mod tests {
     use super::*;
 
     /// A pivot that falls to zero like a square root between two instants is steeper there than its
-    /// changes between instants show: by 1/(√3 − 1) if it vanishes in the middle.
+    /// changes between instants show. The factor is 1/(√3 − 1) if it vanishes in the middle.
     #[test]
     fn a_pivot_that_vanishes_as_a_root_is_searched_for() {
         for middle in 0..=10 {

@@ -85,7 +85,7 @@ impl Monitors {
     }
 
     /// Relative pivot below which this run treats a pivot as zero. Steps must not end closer to a
-    /// singular configuration, unless they must end there.
+    /// singular configuration, unless they must end at this time.
     pub(crate) fn nearest(&self) -> f64 {
         (NEAREST_TOLERANCES * self.rtol).clamp(NEAREST, NEAREST_MAX)
     }
@@ -187,7 +187,7 @@ impl Monitors {
     }
 
     /// The redundant row that caused the collapse of the step size at time t. The small steps
-    /// accepted before a contradiction are valid and do not show it.
+    /// accepted before a contradiction are valid and do not show the contradiction.
     pub(crate) fn contradiction(&mut self, t: f64) -> Option<MotionFault> {
         let (end, fault) = self.contradicted.take()?;
         (end - t <= JUST_AHEAD * self.t_end).then_some(fault)
@@ -225,9 +225,9 @@ impl Monitors {
         }
     }
 
-    /// Checks the velocities and accelerations at the end of a step: after a singular configuration
-    /// they must continue those before it. If the motion is still close to it, the check is
-    /// postponed.
+    /// Checks the velocities and accelerations at the end of a step. After a singular configuration
+    /// they must continue the velocities and accelerations before it. If the motion is still close
+    /// to the singular configuration, the check is postponed.
     pub(crate) fn judge_motion(
         &mut self,
         equations: &KeptEquations<'_>,
@@ -249,8 +249,8 @@ impl Monitors {
 
     /// The time of a singular configuration just ahead that was not predicted: its pivots grew up
     /// to the last step and have fallen within this step. The step is repeated with this
-    /// prediction, so that the step over the singular configuration starts farther away, where
-    /// stages are not yet rounding errors.
+    /// prediction, so that the step over the singular configuration starts farther away. There,
+    /// rounding errors do not yet dominate the stages.
     fn came_upon(&self, equations: &KeptEquations<'_>, now: Now<'_>) -> Option<f64> {
         let (before, pivot) = (self.passage.pivot(), equations.velocity.relative_pivot());
         if !GUARDED || self.delicate.is_some() || pivot >= FALLEN * before.min(1.0) {
@@ -303,8 +303,8 @@ mod tests {
     use super::*;
 
     /// A row with a motion error equal to the tolerance has a reaction error of tolerance/pivot.
-    /// Reported reactions keep three digits, if the tolerance is neither loose nor near the
-    /// rounding error. Two digits are enough to distinguish branches.
+    /// Reported reactions are accurate to three digits, if the tolerance is neither loose nor near
+    /// the rounding error. Two digits are enough to distinguish branches.
     #[test]
     fn pivots_are_compared_with_what_the_tolerance_leaves_of_them() {
         for (rtol, nearest, blind) in [
@@ -325,7 +325,7 @@ mod tests {
     }
 
     /// A step that was rejected just ahead of the present time explains why the run cannot
-    /// continue; one farther away does not.
+    /// continue; a step that was rejected farther away does not.
     #[test]
     fn a_contradiction_just_ahead_is_why_a_run_stops() {
         for (ahead, is_why) in [(0.7e-9, true), (1.4e-9, false)] {

@@ -8,7 +8,7 @@ use crate::limits::{DIFFERENCE, OPEN};
 use crate::mechanism::{Joint, JointKind, Model};
 use crate::pose::{JointPlacement, placing, rotation};
 
-/// A degree of freedom by which a joint moves the links after it.
+/// A degree of freedom by which a joint moves the links after this joint.
 #[derive(Clone, Copy)]
 pub(super) struct Freedom {
     joint: usize,
@@ -29,14 +29,14 @@ enum Way {
 pub(super) struct Gap {
     pub(super) name: String,
     miss: Miss,
-    /// Length to which shares refer (m).
+    /// Length by which distances are divided (m).
     size: f64,
 }
 
 /// Rows of one gap.
 #[derive(Default)]
 struct Miss {
-    /// Components of distances, as shares of a length.
+    /// Components of distances, divided by a length.
     shares: Vec<f64>,
     /// Angles (rad).
     angles: Vec<f64>,
@@ -66,7 +66,7 @@ impl Gap {
     }
 }
 
-/// The tree of links with the degrees of freedom that move it.
+/// The tree of links with the degrees of freedom that move the links.
 #[derive(Clone)]
 pub(super) struct Tree {
     pub(super) freedoms: Vec<Freedom>,
@@ -115,8 +115,8 @@ impl Tree {
             let mut add = |kind| freedoms.push(Freedom { joint: k, kind });
             match joint.kind {
                 JointKind::Spherical => (0..3).for_each(|axis| add(Way::Turn(axis))),
-                // Steps out of the plane are corrected only by the loops: planar joints of a tree
-                // do not move.
+                // Planar joints of the tree do not move, so steps out of the plane are corrected
+                // only by the loops.
                 JointKind::Fixed | JointKind::Free | JointKind::Planar => {}
                 kind => (0..kind.measures().len()).for_each(|c| add(Way::Coordinate(c))),
             }
@@ -206,7 +206,8 @@ impl Tree {
         DVector::from_vec(rows)
     }
 
-    /// Gaps of one joint: between points as a share of the size, between directions in rad.
+    /// Gaps of one joint: between points as a share of the size of the model, between directions in
+    /// rad.
     fn miss(&self, model: &Model, joint: &Joint, poses: &[Isometry3<f64>]) -> Miss {
         let of =
             |side: usize| joint.links[side].map_or_else(Isometry3::identity, |link| poses[link]);
@@ -238,8 +239,8 @@ impl Tree {
         }
     }
 
-    /// Derivatives of the residuals with respect to the degrees of freedom, by central differences
-    /// of rigid motions.
+    /// Derivatives of the residuals with respect to the degrees of freedom, computed by central
+    /// differences of rigid motions.
     pub(super) fn jacobian(
         &self,
         model: &Model,
@@ -275,7 +276,8 @@ impl Tree {
         out
     }
 
-    /// Lengths are measured in sizes of the model.
+    /// Unit of a degree of freedom: the size of the model (m) for translations, 1 rad for
+    /// rotations.
     fn unit(&self, model: &Model, freedom: Freedom) -> f64 {
         match freedom.kind {
             Way::Shift(_) => self.size,
@@ -350,12 +352,12 @@ impl Tree {
     }
 }
 
-/// A rigid motion of one degree of freedom, in ground axes.
+/// A rigid motion with one degree of freedom, in ground axes.
 struct Screw {
     point: Vector3<f64>,
     axis: Vector3<f64>,
     turns: bool,
-    /// Metres per radian.
+    /// Advance (m/rad).
     advance: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The keys of the first level of a YAML file, with values and positions.
+//! Reads the keys of the first level of a YAML file, with their values and positions.
 
 use saphyr_parser::{Event, Marker, Parser, Span, StrInput};
 
@@ -85,7 +85,7 @@ impl<'t> Events<'t> {
         byte.copied().unwrap_or(0)
     }
 
-    /// The next event of a document, or the end of the stream.
+    /// Returns the next event of a document, or the end of the stream.
     fn next(&mut self) -> Result<(Event<'t>, usize), Wrong> {
         loop {
             let Some(next) = self.parser.next_event() else {
@@ -103,7 +103,7 @@ impl<'t> Events<'t> {
         }
     }
 
-    /// The next value.
+    /// Reads the next value.
     fn node(&mut self, depth: usize) -> Result<Node, Wrong> {
         match self.next()? {
             (Event::Scalar(text, ..), at) => Ok(Node::Text(text.into_owned(), at)),

@@ -284,7 +284,8 @@ impl<'a> Reader<'a, '_> {
         None
     }
 
-    /// The coordinate in the axes of the file, and the coordinate at which the spring has no load.
+    /// The value of the coordinate at the pose of the file, and the value at which the spring has
+    /// no load.
     fn coordinates_of(&mut self, given: &GivenJoint<'a>, kind: JointKind) -> [f64; 2] {
         let [zero, reference, _] = &given.coordinates;
         let coordinates = [zero, reference].map(|value| numbers_of(self.source.findings, value)[0]);
@@ -300,7 +301,8 @@ impl<'a> Reader<'a, '_> {
         coordinates.map(|x| x * angle)
     }
 
-    /// The load on the coordinate; other loads on it are omitted.
+    /// The supported loads on the coordinate. Other loads on the coordinate are omitted and
+    /// reported.
     fn load_of(
         &mut self,
         given: &GivenJoint<'a>,
@@ -378,7 +380,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Scales all masses, if `<compiler>` gives their sum.
+    /// Scales all masses if `<compiler>` specifies the total mass.
     pub(super) fn finish_masses(&mut self, root: Element<'a>) {
         let Some(total) = self.source.compiler.total_mass else {
             return;
@@ -429,7 +431,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// The numbers of a value; one zero if the value is missing.
+/// The numbers of a value, or a single zero if the value is missing.
 fn numbers_of(findings: &mut Findings, value: &Option<Value<'_>>) -> Vec<f64> {
     let numbers = value.as_ref();
     let numbers = numbers.and_then(|value| findings.numbers(value, [1, 16], NumberKind::Other));

@@ -1,4 +1,4 @@
-//! `<compiler>`: meaning of numbers and angles; and orientations.
+//! Reads `<compiler>`, which defines the meaning of numbers and angles, and reads orientations.
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
@@ -9,7 +9,7 @@ use crate::xml::{Element, Value};
 /// Use of the inertia of geoms.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum FromGeoms {
-    /// If a body has no inertia of its own.
+    /// Geoms are used if a body has no inertia of its own.
     Auto,
     Always,
     Never,
@@ -18,7 +18,7 @@ pub(super) enum FromGeoms {
 pub(super) struct Compiler {
     /// Radians per unit of an angle.
     pub(super) angle: f64,
-    /// Axes of Euler angles: 0, 1, 2, and whether they are fixed.
+    /// Axes of Euler angles (0, 1, 2), and whether each axis is fixed.
     pub(super) euler: [(usize, bool); 3],
     pub(super) from_geoms: FromGeoms,
     /// Groups of geoms that contribute inertia.

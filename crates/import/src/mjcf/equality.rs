@@ -144,7 +144,8 @@ impl<'a> Reader<'a, '_> {
             ),
             None => None,
         };
-        // A quaternion of zeros means the relative pose at the described pose.
+        // If all components of the quaternion are zero, the relative pose at the described pose is
+        // used.
         let given = given.filter(|n| n[3..].iter().any(|x| *x != 0.0));
         let anchor = anchor.unwrap_or_default();
         match given {
@@ -208,8 +209,9 @@ impl<'a> Reader<'a, '_> {
         })
     }
 
-    /// `<tendon>`: L₁ − L₁₀ = P(L₂ − L₂₀) with lengths L = Σ cᵢ·qᵢ of fixed tendons. It is a
-    /// coupling if it contains two coordinates, one of each tendon or both of the first one.
+    /// `<tendon>`: L₁ − L₁₀ = P(L₂ − L₂₀) with lengths L = Σ cᵢ·qᵢ of fixed tendons. The constraint
+    /// is a coupling if it contains two coordinates: one coordinate of each tendon, or two of the
+    /// first tendon.
     fn coupling_of_tendons(&mut self, element: Element<'a>, name: String) -> Option<Coupling> {
         let is_active = self.is_active(element);
         let Some(first) = element.attribute("tendon1") else {

@@ -1,4 +1,4 @@
-//! `<geom>`: only its mass is used; contacts are omitted.
+//! `<geom>`: only the mass is used; contacts are omitted.
 
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 
@@ -20,7 +20,7 @@ enum Weight {
 pub(super) struct Geoms;
 
 impl Geoms {
-    /// Middle, orientation and half length of `fromto`.
+    /// Midpoint, orientation and half length of the segment `fromto`.
     pub(super) fn ends(
         value: &Value,
         findings: &mut Findings,

@@ -5,7 +5,7 @@ use crate::findings::{Fault, NumberKind};
 use crate::mechanism::{JointKind, Keyframe};
 use crate::xml::Element;
 
-/// Numbers of coordinates and velocities of a joint in a keyframe.
+/// Number of coordinates and number of velocities of a joint in a keyframe.
 fn counts(kind: JointKind) -> (usize, usize) {
     match kind {
         JointKind::Free => (7, 6),

@@ -29,8 +29,8 @@ impl<'a> Source<'a, '_> {
             return None;
         };
         let mass = self.findings.not_negative(&mass, NumberKind::Other)?;
-        // The centre of mass is not the position of a joint, so its digits do not show the accuracy
-        // of positions of joints.
+        // The centre of mass is not the position of a joint, so its digits do not indicate the
+        // accuracy of joint positions.
         let centre = match get("pos") {
             Some(value) => self.findings.vector(&value, NumberKind::Other)?,
             None => Vector3::zeros(),

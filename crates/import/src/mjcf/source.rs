@@ -17,7 +17,7 @@ pub(super) struct Source<'a, 'f> {
     pub(super) defaults: Defaults<'a>,
 }
 
-/// An element of a body, with the pose of the frames around it and its class.
+/// An element of a body, with the pose of the surrounding frames and with the class of the element.
 #[derive(Clone)]
 pub(super) struct Item<'a> {
     pub(super) element: Element<'a>,

@@ -1,4 +1,4 @@
-//! Poses relative to each other: links, joints and frames by name.
+//! Named poses of links, joints and frames, each given relative to another pose.
 
 use std::collections::HashMap;
 
@@ -134,8 +134,8 @@ impl Frames {
                 if chain.len() > self.places.len() {
                     let message = format!("the pose of `{name}` is relative to itself");
                     findings.of(Fault::Structure, model, message);
-                    // The names of a cycle get arbitrary poses, so that other names do not report
-                    // it again.
+                    // The names of a cycle get arbitrary poses, so that the cycle is not reported
+                    // again for other names.
                     break;
                 }
                 at = place.base.as_ref();
@@ -196,8 +196,8 @@ impl Frames {
     }
 }
 
-/// Six numbers: position, and angles about fixed axes; or seven numbers with a quaternion (x, y, z,
-/// w).
+/// Reads a pose of six numbers (position, and angles about fixed axes), or of seven numbers
+/// (position, and quaternion x, y, z, w).
 pub(super) fn pose_of(
     element: Element,
     counted: NumberKind,

@@ -1,6 +1,5 @@
-//! Imports files with random changes: each is imported or rejected, and every imported file is
-//! written in a form that the reader of scenes can parse. `PFAFF_FUZZ=100000` sets the number of
-//! files.
+//! Imports files with random changes. Each file must be imported or rejected, and the reader of
+//! scenes must be able to parse every imported scene. `PFAFF_FUZZ=100000` sets the number of files.
 
 use model::Registry;
 use pfaff_import::{Axes, Folder, Options};
@@ -38,7 +37,7 @@ const FILES: [&str; 22] = [
 /// Loop closures of one of the files.
 const LOOPS: &str = "urdf/triangle.yaml";
 
-/// Pieces that are inserted at random positions.
+/// Fragments of text that are inserted at random positions.
 const PIECES: [&str; 34] = [
     "<",
     ">",
@@ -89,8 +88,8 @@ impl Random {
     }
 }
 
-/// Returns a text with one to six changes: inserted pieces, deleted bytes, moved parts, exchanged
-/// numbers.
+/// Returns a text with one to six changes: inserted fragments, deleted bytes, moved parts,
+/// exchanged numbers.
 fn changed(text: &str, random: &mut Random) -> String {
     let mut text = text.to_owned();
     for _ in 0..=random.below(4) {

@@ -30,7 +30,8 @@ fn hostile_files_are_refused() {
 }
 
 /// The cases are an element with 64 000 attributes or name spaces, and a list of loops with 64 000
-/// keys. The element may contain a value, a comment or a section that looks like its end.
+/// keys. In some cases a value, a comment or a section in the element looks like the end of the
+/// element.
 #[test]
 fn many_attributes_cost_no_time() {
     let many = |what: &str| -> String { (0..64_000).map(|k| format!("{what}{k}='1' ")).collect() };
@@ -76,8 +77,8 @@ fn many_attributes_cost_no_time() {
     let circle =
         format!("<sdf version='1.7'><model name='m'><link name='l'/>{circle}</model></sdf>");
     assert_eq!(first(&refused(&circle)).0, "P0609");
-    // The time is proportional to the length: less than a second; a comparison of all pairs takes
-    // minutes here.
+    // The time is proportional to the length of the text and less than a second. A comparison of
+    // all pairs would take minutes.
     assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
 }
 

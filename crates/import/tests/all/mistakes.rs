@@ -97,7 +97,7 @@ fn names_that_no_format_knows_are_refused() {
         assert!(help.contains(near), "{help}");
         assert_eq!(refusal.diagnostics.len(), 1, "{text}");
     }
-    // The test uses all errors of one file, and shortened long names and lists.
+    // All errors of one file are reported, and long names and lists are shortened.
     let long = "n".repeat(500);
     let refusal = refused(&body(&format!("<geom {long}='1' sise='1'/><joint q='1'/>")));
     assert_eq!(refusal.diagnostics.len(), 3);
@@ -106,8 +106,8 @@ fn names_that_no_format_knows_are_refused() {
     assert_eq!(help.matches('`').count(), 2 * 16, "{help}");
 }
 
-/// An element that clearly does not belong to the format is omitted and reported; an element that
-/// it may change is rejected.
+/// An element that clearly does not belong to the format is omitted and reported. An unknown
+/// element that may change supported content is rejected.
 #[test]
 fn extensions_are_told() {
     let text = arm(&[
@@ -144,7 +144,7 @@ fn extensions_are_told() {
     ]);
     let (code, line, message) = first(&refused(&text));
     assert_eq!((code.as_str(), line), ("P0608", 9), "{message}");
-    // A name space that covers all elements is not an extension.
+    // A name space that applies to all elements is not an extension.
     let text = arm(&[("<robot", "<robot xmlns='http://d'")]);
     assert_eq!(import(&text, &Options::default()).counts, [1, 1]);
 }
@@ -213,7 +213,8 @@ fn angles_in_another_unit_are_told() {
     assert!(!told(&says, radians));
 }
 
-/// Constraints that remove freedoms are rejected at their positions, unless they are not active.
+/// Unsupported constraints that remove degrees of freedom are rejected at their positions, unless
+/// they are inactive.
 #[test]
 fn constraints_that_are_not_read_are_refused() {
     let joints = "<joint name='j'/><joint name='k' pos='1 0 0'/><joint name='l' pos='2 0 0'/>\
@@ -375,7 +376,7 @@ fn a_yaml_of_loops_says_what_it_lacks() {
     }
 }
 
-/// A coordinate that is requested twice has no value.
+/// A pose in which a coordinate is requested twice is rejected.
 #[test]
 fn a_pose_names_a_coordinate_once() {
     let file = "urdf/triangle.urdf";

@@ -5,13 +5,13 @@ use pfaff_import::{FixedLinks, Options};
 
 use super::{first, imported, options_of, read, refused, text_of, value};
 
-/// Number of bodies, and of joints and couplings of each file, counted by hand: intermediate bodies
-/// of several joints are bodies, and bodies without joints are merged.
+/// Number of bodies, and number of joints and couplings of each file, counted by hand. Intermediate
+/// bodies between several joints count as bodies, and bodies without joints are merged.
 const FILES: [(&str, [usize; 2]); 8] = [
     ("mjcf/pendulum.xml", [2, 2]),
     ("mjcf/free-and-ball.xml", [3, 2]),
     // The plate has 3 joints, the cross has 2 hinges at right angles, and the wrist has 3 hinges
-    // that do not meet.
+    // whose axes do not intersect.
     ("mjcf/many-joints.xml", [7, 7]),
     ("mjcf/classes.xml", [3, 3]),
     ("mjcf/four-bar.xml", [3, 4]),
@@ -142,7 +142,8 @@ fn bounds_of_the_compiler_hold() {
     let imported = imported("mjcf/bounds.xml");
     let of = |name, key| value(&imported.scene, "body", name, key).expect("there");
     assert_eq!(of("light", "mass"), "0.1");
-    // The moments 0.002, 0.002, 0.01 violate the triangle inequality: each becomes their mean.
+    // The moments 0.002, 0.002, 0.01 violate the triangle inequality, and each is replaced by the
+    // mean of the three.
     let inertia = of("light", "inertia");
     let numbers: Vec<f64> = inertia
         .trim_matches(['[', ']'])
@@ -180,7 +181,8 @@ fn couplings_are_ones_of_changes() {
         Some("[0.05, 0.02, 0.0]")
     );
     assert_eq!(of("bolt", "active").as_deref(), Some("false"));
-    // The lever is described at the position that the cam gives it: rotated by 0.3 rad about z.
+    // The lever is described at the position that its coupling to the cam requires, rotated by 0.3
+    // rad about z.
     let turned = value(&imported.scene, "body", "lever", "orientation").expect("turned");
     let z = turned
         .trim_end_matches("] }")
@@ -228,8 +230,8 @@ fn keyframes_are_starts() {
     assert!(message.contains("`up`"), "{message}");
 }
 
-/// Springs act on the unwrapped angle, which the start of a body does not contain; a coupling
-/// cannot store it.
+/// Springs act on the unwrapped angle. The initial state of a body does not contain full
+/// revolutions, and a coupling cannot store them.
 #[test]
 fn keyframes_beyond_half_a_turn() {
     let text = |equality: &str| {

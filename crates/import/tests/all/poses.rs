@@ -24,7 +24,8 @@ fn follower() -> (String, Options) {
     (text, options)
 }
 
-/// The values of a pose are kept if loops close with them, and dependent joints follow.
+/// The requested values of a pose are used if the loops can be closed with them, and dependent
+/// joints follow.
 #[test]
 fn values_of_a_pose_are_held() {
     let (text, options) = follower();
@@ -80,8 +81,8 @@ fn values_that_cannot_be_held_are_told() {
     }
 }
 
-/// A parallelogram whose crank has an axis of 1.57 rad instead of π/2 does not close; with parallel
-/// axes it closes.
+/// A parallelogram whose crank axis is rotated by 1.57 rad instead of π/2 does not close. After the
+/// axes are made parallel, the loop closes.
 #[test]
 fn axes_are_snapped_before_loops_are_closed() {
     let inertial = "<inertial><origin xyz='0.1 0 0'/><mass value='1'/>\
@@ -188,7 +189,7 @@ fn parts_of_a_joint_have_their_own_names() {
         Some("1.0")
     );
     assert!((about_y(&done.scene, "b") - 0.3).abs() < 1e-15);
-    // Both rotors and their gears are bodies and joints of the scene.
+    // The scene has a body for each of the two rotors, and a joint for each rotor and each gear.
     assert_eq!(done.scene.matches("[[body]]").count(), 1 + 2);
     assert_eq!(done.scene.matches("[[joint]]").count(), 1 + 2 * 2);
 }

@@ -4,7 +4,7 @@ use pfaff_import::{Axes, ImportedScene, Options};
 
 use super::{first, imported, numbers, options_of, read, refused, text_of, value};
 
-/// Number of bodies, and of joints and couplings, counted by hand.
+/// Number of bodies, and number of joints and couplings, counted by hand.
 const FILES: [(&str, [usize; 2]); 8] = [
     ("sdf/four-bar.sdf", [3, 4]),
     ("sdf/tilted.sdf", [3, 4]),

@@ -4,8 +4,8 @@ use pfaff_import::{Base, ImportedScene, Options, Refusal};
 
 use super::{first, imported, numbers, options_of, read, refused, text_of, value};
 
-/// Number of bodies, and of joints and couplings, counted by hand: the root is fixed to the ground
-/// and merged, and so are links behind fixed joints.
+/// Number of bodies, and number of joints and couplings, counted by hand. The root is fixed to the
+/// ground and merged, and links that fixed joints connect are also merged.
 const FILES: [(&str, [usize; 2]); 8] = [
     ("urdf/arm.urdf", [2, 2]),
     ("urdf/gripper.urdf", [3, 5]),
@@ -124,7 +124,8 @@ fn loops_are_closed_from_a_guess() {
         2.0 * q[3].atan2(q[0])
     };
     let turn = 0.6_f64.acos();
-    // At zero the sides are in one line, and the first search cannot begin there.
+    // If all coordinates are zero, the sides are in one line, and the first search fails from this
+    // pose.
     for (pose, sign) in [
         (vec![], None),
         (vec![("A", 0.5)], Some(1.0)),
@@ -163,8 +164,8 @@ fn loops_that_cannot_close_are_refused() {
         message.contains("`tip of three to tip of four`"),
         "{message}"
     );
-    // Sides 3 and 4 reach 7: a third side of 7.0003 leaves a gap of 4e-5 of the size, which may be
-    // rounding; 7.01 leaves a gap of 1e-3.
+    // Sides 3 and 4 have a total length of 7. With a third side of 7.0003 the gap is 4e-5 of the
+    // size, which may be a rounding error. With 7.01 the gap is 1e-3.
     let far = |base: &str| {
         let text = text_of("urdf/triangle.urdf").replace("\"5 0 0\"", &format!("\"{base} 0 0\""));
         pfaff_import::import("far.urdf", &text, &options)

@@ -11,7 +11,7 @@ use lu::Lu;
 use std::error::Error;
 use thiserror::Error;
 
-/// A problem with its own dense Jacobian.
+/// A problem with a dense Jacobian.
 ///
 /// # Examples
 ///

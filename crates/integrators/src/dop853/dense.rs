@@ -9,37 +9,39 @@
 //! p = 1, θ, θ(1 − θ), θ²(1 − θ), θ²(1 − θ)²
 //! ```
 //!
-//! Therefore they pass through the projected states with their own derivatives; k_13 is f1.
+//! Therefore both outputs pass through the projected states, with the derivatives at these states;
+//! k_13 is f1.
 //!
-//! **Order 6.** Thirteen stages are sufficient: the 37 conditions of order ≤ 6 have rank 12, so for
-//! each power of θ there is a solution and one free direction n. Weights Σ θ^m·x_m that satisfy the
-//! conditions and b(1) = b, b'(0) = e_1, b'(1) = e_13 need multiples θ²(α + β·θ)·n of that
-//! direction, which determines α and β. The table was computed with 40 digits; degree 6, three
-//! rows.
+//! **Order 6.** Thirteen stages are sufficient: the 37 conditions of order ≤ 6 have rank 12, so the
+//! conditions for each power of θ have a solution x_m and one free direction n. A multiple θ²(α +
+//! β·θ)·n of this direction is added to the weights Σ θ^m·x_m. The end conditions b(1) = b, b'(0) =
+//! e_1, b'(1) = e_13 determine α and β. The output has degree 6, and its table has three rows,
+//! computed with 40 digits.
 //!
 //! **Order 8.** A combination of stages is called clean if Σ w_i k_i = Σ w_i y'(t0 + c_i h) +
 //! O(h⁸). A polynomial of degree 8 through y0 needs eight independent clean combinations. Thirteen
 //! stages have only three: k_1, k_13 and the step Σ b_i k_i. Bootstrapping (see `rk5::dense`) from
-//! Hairer, Nørsett and Wanner's output of order 7 would take eight evaluations: its three extra
-//! stages, which are not clean, and five clean ones. Six evaluations are enough:
+//! Hairer, Nørsett and Wanner's output of order 7 would take eight evaluations: the three extra
+//! stages of this output, which are not clean, and five clean stages. Six evaluations are enough:
 //!
-//! - Stages 14, 15, 16 have order 6: their arguments are y(t0 + c_i h) + h⁷·δ_i + O(h⁸). Up to
-//!   combinations of the stages before, all such δ lie in a space of four dimensions, in which they
-//!   are moved by the free directions of the conditions: one, two and three of them. Those of
-//!   stages 15 and 16 are used to make δ_15 and δ_16 multiples of δ_14, so that three stages give
-//!   two clean combinations. For stage 15 this is possible only where
-//!   `∫ θ²(1 − θ)²(θ − c_14)²(θ − c_15) dθ = 0` (from 0 to 1).
+//! - Stages 14, 15, 16 have order 6: their arguments are y(t0 + c_i h) + h⁷·δ_i + O(h⁸). Apart from
+//!   combinations of earlier stages, all these δ lie in a space of four dimensions. The conditions
+//!   leave one free direction for stage 14, two for stage 15 and three for stage 16, along which δ
+//!   can be changed. The free directions of stages 15 and 16 are used to make δ_15 and δ_16
+//!   multiples of δ_14, so that three stages give two clean combinations. For stage 15 this is
+//!   possible only if `∫ θ²(1 − θ)²(θ − c_14)²(θ − c_15) dθ = 0` (from 0 to 1).
 //! - The sixteen stages determine weights of order 7 for each θ. Stages 17, 18, 19 use them and are
 //!   clean.
-//! - The eight clean combinations determine the weights of order 8 for each θ: degree 8, five rows.
+//! - The eight clean combinations determine the weights of order 8 for each θ. The output has
+//!   degree 8, and its table has five rows.
 //!
 //! Five evaluations would need a clean stage 14, and thirteen stages are not sufficient for it. The
 //! free parameters are c_14, c_16 to c_19 and one weight of stage 14. They were optimised with two
-//! goals. The error coefficients of order 9 within the step do not exceed those at its end, where
-//! they are those of the method. The weights are small: Σ|b_i(θ)| exceeds its value at the end,
-//! 12.91, by less than 0.1 %, and Σ|a_ij| < 8 in the extra stages (the method itself has values up
-//! to 95). All this is asserted in `order_conditions`. The tables were computed with 40 digits from
-//! the rounded table of the method.
+//! goals. The error coefficients of order 9 within the step do not exceed the error coefficients at
+//! its end, which are those of the method. The weights are small: Σ|b_i(θ)| exceeds its value at
+//! the end, 12.91, by less than 0.1 %, and Σ|a_ij| < 8 in the extra stages (the method itself has
+//! values up to 95). All this is asserted in `order_conditions`. The tables were computed with 40
+//! digits from the rounded table of the method.
 
 use super::Dop853Stages;
 use super::tableau::{A, C, D, FREE, STAGES, STEP_STAGES};
@@ -115,7 +117,7 @@ pub(super) struct Weights<const S: usize> {
     pub(super) stages: [f64; S],
 }
 
-/// Computes the polynomial with the first rows of the products p_r.
+/// Computes the weights at θ from the table; row r is multiplied by θ²(1 − θ)²·p_r(θ).
 pub(super) fn weights<const R: usize, const S: usize>(
     rows: &[[f64; S]; R],
     theta: f64,

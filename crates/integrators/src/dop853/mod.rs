@@ -16,10 +16,11 @@ use crate::method::Method;
 use crate::ode::Ode;
 use tableau::{STAGES, STEP_STAGES};
 
-/// Dormand–Prince 8(5,3): the method for smooth problems at 1e-6 and below. It has order 8. An
-/// accepted step costs twelve evaluations, including the derivative at its end; a rejected step
-/// costs eleven. The dense output has order 6 (local error O(h⁷)) without extra evaluations, and
-/// order 8 (local error O(h⁹), like the step) with six extra evaluations in the step.
+/// Dormand–Prince 8(5,3), the method for smooth problems with tolerances of 1e-6 and below. It has
+/// order 8. An accepted step costs twelve evaluations, including the derivative at its end; a
+/// rejected step costs eleven. The dense output has order 6 (local error O(h⁷)) without extra
+/// evaluations, and order 8 (local error O(h⁹), like the step) with six extra evaluations in the
+/// step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dop853;
 

@@ -4,11 +4,11 @@ use super::dense::weights;
 use super::tableau::{A, C, D, E3, E5, FREE, STAGES, STEP_STAGES};
 use crate::trees::{error_size, violation};
 
-/// Rounding of sums of up to 12 products of size ≤ 50, with weights ≤ 6. With 40 digits, the
-/// rounded table has defects ≤ 7.2e-16.
+/// Bound on the rounding error of sums of up to 12 products of size ≤ 50, with weights ≤ 6.
+/// Computed with 40 digits, the defects of the rounded table are ≤ 7.2e-16.
 const TOLERANCE: f64 = 1e-14;
-/// Corresponding rounding for the dense outputs, whose coefficients go up to 2690 with a factor of
-/// at most 1/256.
+/// The same bound for the dense outputs, whose coefficients of up to 2690 are multiplied by at most
+/// 1/256.
 const DENSE_TOLERANCE: f64 = 3e-14;
 
 fn padded<const S: usize>(weights: &[f64; S]) -> [f64; STAGES] {
@@ -102,7 +102,7 @@ fn error_coefficients_of_the_free_output_are_small() {
     assert!(free < 2.4e-5, "{free:e}");
 }
 
-/// Within the step, the error coefficients do not exceed those at its end.
+/// Within the step, the error coefficients do not exceed the error coefficients at its end.
 #[test]
 fn accurate_output_is_as_accurate_as_the_step() {
     let at_end = error_size(&A, &step_weights(), 9, 1.0);

@@ -52,8 +52,9 @@ impl<O: Ode> Stepper<O> for Dop853Stages {
         Ok(())
     }
 
-    /// Returns `h·err5·(err5 / √(err5² + 0.01·err3²))` in the norm: the estimate of order 5 times a
-    /// factor of about h², so that the result behaves like h⁸; HNW I, II.10, (10.17).
+    /// Returns `h·err5·(err5 / √(err5² + 0.01·err3²))` in the norm. This is the estimate of order 5
+    /// times a factor of about h², so the result is proportional to h⁸; Hairer, Nørsett, Wanner I,
+    /// II.10, (10.17).
     fn error_norm(
         &mut self,
         _ode: &mut O,
@@ -72,8 +73,8 @@ impl<O: Ode> Stepper<O> for Dop853Stages {
                 error_5 += E5[j] * k;
                 error_3 += E3[j] * k;
             }
-            // A component without error needs no weight: the weight of a component that stays 0 may
-            // be 0.
+            // A component without error is skipped, because the weight of a component that stays 0
+            // may be 0.
             if error_5 != 0.0 {
                 sum_5 += (error_5 / scale[i]) * (error_5 / scale[i]);
             }

@@ -1,5 +1,5 @@
-//! The coefficients, to full precision. The module `order_conditions` checks them with trees and
-//! without a table.
+//! The coefficients, to full precision. The module `order_conditions` checks them with order
+//! conditions that are generated from rooted trees, not copied from a table.
 //!
 //! The method and its error estimators are those of the program DOP853 of Hairer and Wanner;
 //! source: Hairer, Nørsett, Wanner I, 2nd ed., II.5. Stages 14 to 19, [`D`] and [`FREE`] were

@@ -7,15 +7,17 @@
 //! u(θ) = p(θ) + D·φ(θ) + θ²(3 − 2θ)·c,   φ(θ) = ∫₀^θ (s − c₁)(s − c₂)(s − 1)/(−c₁c₂) ds
 //! ```
 //!
-//! corrects the start by its defect D = h·f0 − p'(0) and leaves the other values unchanged: φ(1) =
-//! 0, because the Radau quadrature is exact for cubics, and φ' = 0 at the nodes. c is the change of
-//! y1 by a projection. In a stiff problem, rounding of y0 leads to a large D. Therefore D is
-//! filtered by (I − h/u₁·J)⁻¹, which changes it by O(h⁵) if the problem is smooth. The filtered D
-//! is the error estimate (times u₁), which has already been computed.
+//! corrects the start by its defect D = h·f0 − p'(0) and leaves the other values unchanged. The
+//! reason is that φ(1) = 0, because the Radau quadrature is exact for cubics, and that φ' = 0 at
+//! the nodes. Here c is the change of y1 by a projection. In a stiff problem, rounding of y0 leads
+//! to a large D. Therefore D is filtered by (I − h/u₁·J)⁻¹, which changes it by O(h⁵) if the
+//! problem is smooth. The filtered D is the error estimate (times u₁), which has already been
+//! computed.
 //!
-//! **Order 5** (local error O(h⁶)). This output is u plus the quintic that vanishes at both ends
-//! and whose derivative at θ = 0, ¼, ¾ and 1 equals the defects of u, `h·f(t, u) − u'`, filtered in
-//! the same way. It needs two extra evaluations (the same idea as in `dopri5`).
+//! **Order 5** (local error O(h⁶)). This output is the sum of u and a quintic that vanishes at both
+//! ends. The derivatives of the quintic at θ = 0, ¼, ¾ and 1 are the defects of u,
+//! `h·f(t, u) − u'`, filtered in the same way. The output needs two extra evaluations (the same
+//! idea as in `dopri5`).
 
 use super::Radau5Stages;
 use super::newton::dot;

@@ -25,7 +25,7 @@ use crate::method::Method;
 /// The method is L-stable. The error estimate is of order 3. It is compared with `0.1·ρ^(−1/3)`
 /// times the tolerance, where ρ ≤ 10⁻³ is the relative tolerance. The error of the step, which is
 /// of order 5, is therefore proportional to the tolerance. Tolerances below 100 units of rounding
-/// of the state are replaced by 100, because stiff forces amplify rounding to noise.
+/// of the state are replaced by 100 units, because stiff forces amplify the rounding error.
 ///
 /// The dense output has order 4 (local error O(h⁵)) without extra evaluations, and order 5 (local
 /// error O(h⁶), like the step) with two extra evaluations in the step. It is continuous; at the
@@ -58,7 +58,7 @@ pub struct Radau5Stages {
     z: [Vec<f64>; 3],
     /// `h·f0 − u'(0)` of the last trial, filtered: the estimated error times u₁.
     defect: Vec<f64>,
-    /// Filtered defects of the dense output at the positions of `dense`.
+    /// Filtered defects of the dense output at the four positions that the module `dense` defines.
     defects: [Vec<f64>; 4],
     /// Buffer for the argument of a stage.
     y: Vec<f64>,
@@ -67,8 +67,8 @@ pub struct Radau5Stages {
     matrices: Matrices,
     newton: Newton,
     before: Before,
-    /// Whether the estimate is filtered twice, which is needed at the start of a leg and after a
-    /// rejection.
+    /// Whether the estimate is filtered twice, which is needed at the start, after a break time and
+    /// after a rejection.
     filter_twice: bool,
 }
 
@@ -81,11 +81,11 @@ struct Newton {
     /// Derivatives at the stages, then increments of w.
     k: [Vec<f64>; 3],
     convergence: Convergence,
-    /// The step-size factor that it proposes after a failure.
+    /// The step-size factor that is proposed after a failure of the iteration.
     factor_after_failure: Option<f64>,
 }
 
-/// The last accepted step since the start of the leg.
+/// The last accepted step since the start or the last break time.
 #[derive(Debug)]
 struct Before {
     /// The values z of this step, used for starting values.

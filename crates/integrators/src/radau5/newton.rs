@@ -42,8 +42,8 @@ impl Radau5Stages {
         combine(&T_INVERSE, &self.z, &mut self.newton.w);
     }
 
-    /// Iterates until `z` is as accurate as the tolerance requires, or cannot become so. An error
-    /// of f at a stage is an error of the trial.
+    /// Iterates until `z` has the accuracy that the tolerance requires, or until the iteration
+    /// fails. An error of f at a stage is an error of the trial.
     pub(super) fn solve_stages<O: Implicit>(
         &mut self,
         ode: &mut O,

@@ -15,7 +15,7 @@ use crate::statistics::Statistics;
 /// If the step size differs by less than this fraction, the factors are reused: Newton's method
 /// then still converges at a good rate.
 const SAME_SIZE: f64 = 1e-3;
-/// If a step size could increase by less than this factor, it is kept, and with it the factors.
+/// If a step size could increase by less than this factor, the size and the factors are used again.
 const WORTH_GROWING: f64 = 1.2;
 /// Smallest error with which the predictive controller compares.
 const SMALLEST_REFERENCE: f64 = 1e-2;
@@ -168,7 +168,8 @@ impl<O: Implicit> Stepper<O> for Radau5Stages {
 
     /// Returns the smaller of two proposals: the classical one, and the predictive one of
     /// Gustafsson, which continues the trend of the error. Many iterations have the same effect as
-    /// a larger error. If the size would change only slightly, it is kept, and with it the factors.
+    /// a larger error. If the size would change only slightly, the size and the factors are used
+    /// again.
     fn after_acceptance(&mut self, h: f64, error_norm: f64) -> f64 {
         let effort = self.effort();
         let mut next = self.control.accept(h, error_norm * effort.powi(4));

@@ -243,7 +243,7 @@ fn errors(n: u32) -> [f64; 4] {
 }
 
 /// The ends and the accurate output have order 5. The output without extra evaluations has the
-/// local error O(h⁵). The estimate is O(h⁴), like that of order 3.
+/// local error O(h⁵). The estimate is O(h⁴), as for an estimate of order 3.
 #[test]
 fn orders_of_the_step_its_outputs_and_its_estimate() {
     let runs = [16, 32, 64].map(errors);

@@ -9,18 +9,18 @@
 //! ```
 //!
 //! Without projection this is Shampine's formula, Hairer, Nørsett, Wanner I, 2nd ed., II.6. A
-//! projection that moves y1 by c and f1 by g adds θ²(3 − 2θ)·c − h·θ²(1 − θ)·g: the end is the
-//! projected state with its own derivative, and the start is unchanged.
+//! projection that moves y1 by c and f1 by g adds θ²(3 − 2θ)·c − h·θ²(1 − θ)·g. At the end, the
+//! output then has the value and the derivative of the projected state; the start is unchanged.
 //!
 //! **Order 5.** The output is the quintic with u(0) = y0, u(1) = y1, u'(0) = h·f0, u'(1) = h·f1 and
 //! u'(θ) = h·f(t0 + θh, u₄(θ)) at θ = a, b. Here u₄ is the output of order 4, whose error O(h⁵)
 //! enters multiplied by h (bootstrapping; W. H. Enright, K. R. Jackson, S. P. Nørsett, P. G.
 //! Thomsen, ACM Trans. Math. Softw. 12 (1986) 193–218, DOI 10.1145/7921.7923). The positions a =
 //! 1/5, b = 1/2 were chosen for this crate. For Dormand–Prince, the norm of the 20 error
-//! coefficients of order 6 within the step then does not exceed its value at the end, which is that
-//! of the method itself. For Tsitouras, whose steps are more accurate, the norm is at most 1.73
-//! times this value, within 1 % of the minimum over all positions. The module `order_conditions`
-//! asserts both bounds.
+//! coefficients of order 6 within the step then does not exceed its value at the end, the value of
+//! the method itself. For Tsitouras, whose steps are more accurate, the norm is at most 1.73 times
+//! this value, within 1 % of the minimum over all positions. The module `order_conditions` asserts
+//! both bounds.
 
 use super::{Rk5Stages, Tableau};
 use crate::error::Cause;

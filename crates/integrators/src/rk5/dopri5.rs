@@ -1,6 +1,6 @@
 //! Dormand–Prince 5(4): the coefficients, as printed in the paper's table 2 and in Hairer, Nørsett,
-//! Wanner I, 2nd ed., table II.5.2. The module `order_conditions` checks them with trees and
-//! without a table.
+//! Wanner I, 2nd ed., table II.5.2. The module `order_conditions` checks them with order conditions
+//! that are generated from rooted trees.
 //!
 //! Source: J. R. Dormand, P. J. Prince, A family of embedded Runge–Kutta formulae, J. Comput. Appl.
 //! Math. 6 (1980) 19–26, DOI 10.1016/0771-050X(80)90013-3. Dense output: L. F. Shampine, Some

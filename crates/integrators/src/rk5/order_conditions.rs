@@ -6,7 +6,7 @@ use crate::trees::{error_size, violation};
 
 /// Number of stages: seven stages and the two extra evaluations.
 const STAGES: usize = 9;
-/// Rounding of sums of up to 9 products of size ≤ 50.
+/// Bound on the rounding error of sums of up to 9 products of size ≤ 50.
 const TOLERANCE: f64 = 1e-13;
 
 type Weights = [f64; STAGES];
@@ -94,8 +94,8 @@ fn dense_outputs_have_order_four_and_five_everywhere() {
     check_dense::<Tsit5>();
 }
 
-/// Returns the largest error coefficients of the quintic in the step, relative to those of the
-/// step.
+/// Returns the largest error coefficients of the quintic within the step, relative to the error
+/// coefficients at the end of the step.
 fn quintic_over_step<T: Tableau>() -> f64 {
     let a = stage_matrix::<T>();
     let at_end = error_size(&a, &quintic::<T>(1.0), 6, 1.0);

@@ -76,8 +76,8 @@ impl<O: Ode, T: Tableau> Stepper<O> for Rk5Stages<T> {
         for i in 0..n {
             let slopes = e[0] * k1[i] + e[1] * k2[i] + e[2] * k3[i] + e[3] * k4[i];
             let error = h * (slopes + e[4] * k5[i] + e[5] * k6[i] + e[6] * k7[i]);
-            // A component without error needs no weight: the weight of a component that stays 0 may
-            // be 0.
+            // A component without error is skipped, because the weight of a component that stays 0
+            // may be 0.
             if error != 0.0 {
                 sum += (error / scale[i]) * (error / scale[i]);
             }

@@ -22,8 +22,8 @@ const PUBLISHED_ROWS: [(f64, f64, f64); 8] = [
     (16.0, 0.242_711_099_9, -0.389_994_883_3),
 ];
 const PUBLISHED_END: [f64; 2] = [0.994_002_101_6, 8.911_185_692e-6];
-/// Half a unit of the last printed digit is 5e-11 to 5e-10; this orbit amplifies the rounding
-/// errors of another compiler.
+/// Tolerance for the printed values. Half a unit of their last digit is 5e-11 to 5e-10, and this
+/// orbit amplifies the different rounding errors of another compiler.
 const PRINTED: f64 = 1e-9;
 
 #[test]
@@ -130,8 +130,8 @@ fn costs_and_errors_are_as_recorded() {
     check_snapshots("dop853", &Dop853, dop853);
 }
 
-/// Rows are as accurate as steps: the test compares the largest distance of the rows from a much
-/// more accurate run with that of the steps.
+/// Rows are as accurate as steps. The test compares rows and steps with a much more accurate run;
+/// the largest distances must be similar.
 #[test]
 fn rows_are_as_accurate_as_steps() {
     check_rows("dopri5", &Dopri5, 1.5);

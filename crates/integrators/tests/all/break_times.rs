@@ -9,12 +9,13 @@ use std::ops::ControlFlow;
 
 const DECLARED: [f64; 1] = [1.0];
 
-/// The equation y' = |t − 1| has y(2) = 1 from 0, with a polynomial on either side.
+/// The equation y' = |t − 1| has y(2) = 1 from y(0) = 0. On each side of t = 1 the solution is a
+/// polynomial.
 fn kink(t: f64, _y: &[f64], dy: &mut [f64]) {
     dy[0] = (t - 1.0).abs();
 }
 
-/// The equation is y' = −y before t = 1 and +y from t = 1 on: y(2) = 1 from 1.
+/// The equation is y' = −y before t = 1 and y' = y from t = 1 on: y(2) = 1 from y(0) = 1.
 fn jump_with_less(t: f64, y: &[f64], dy: &mut [f64]) {
     dy[0] = if t < 1.0 { -y[0] } else { y[0] };
 }

@@ -82,7 +82,7 @@ fn check(name: &str, method: &impl Method<Plain>) {
     assert!((t - 1.0).abs() < 1e-5, "{name}: {t}");
     assert_eq!(*cause, Cause::NonFinite { component: 0 }, "{name}");
 
-    // One component has no error control, like the work of a mechanism.
+    // One component has no error control, like the work in a run of a mechanism.
     let weights = Options {
         tolerance: Tolerance::PerComponent {
             rtol: vec![1e-9, 1e-9, 0.0],

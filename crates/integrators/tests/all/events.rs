@@ -69,8 +69,8 @@ fn a_pendulum_passes_the_vertical_on_time() {
     );
 }
 
-/// A ball is dropped from 1 m (g = 2 m/s²) and thrown back with half the speed each time: it lands
-/// at 1 s, and 2·v/g = v later each time.
+/// A ball is dropped from 1 m (g = 2 m/s²). After each landing it leaves the ground with half the
+/// speed v. It lands at 1 s, and then 2·v/g = v after each start.
 #[test]
 fn a_bouncing_ball_lands_when_it_should() {
     let mut fall = Function::new(2, |_t, y: &[f64], dy: &mut [f64]| {
@@ -93,8 +93,8 @@ fn a_bouncing_ball_lands_when_it_should() {
         )
         .expect("free fall");
         assert_eq!(end.end, End::Stopped);
-        // Rounding of t and y over some ten steps, amplified by 1/speed at the inversion of the
-        // height.
+        // Rounding error of t and y over some ten steps; the inversion of the height amplifies it
+        // by 1/speed.
         let error = 1e-15 / speed;
         assert!(
             (end.t - landing).abs() < 20.0 * error,
@@ -113,7 +113,7 @@ fn a_bouncing_ball_lands_when_it_should() {
     }
 }
 
-/// Returns the zeros of a function of time in one step from 0 to 1.
+/// Returns the zero crossings of a function of time in one step from 0 to 1.
 fn in_one_step(direction: Direction, g: impl Fn(f64) -> f64) -> Vec<Crossing> {
     let mut clock = Function::new(1, |_t, _y: &[f64], dy: &mut [f64]| dy[0] = 1.0);
     let mut crossings = Crossings::new(direction);

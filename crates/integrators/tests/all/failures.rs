@@ -53,7 +53,7 @@ fn blow_up_is_a_collapse_at_its_time() {
 
 #[test]
 fn nan_is_avoided_by_shorter_steps_or_named() {
-    // The solution √(1 − t) ends at t = 1: f is NaN beyond.
+    // The right-hand side −√(1 − t) is NaN for t > 1, so the solution ends at t = 1.
     let root = |t: f64, _y: &[f64], dy: &mut [f64]| dy[0] = -(1.0 - t).sqrt();
     let failure = fails(root, &Interval::new(0.0, 2.0), &[1.0], &Options::default());
     let IntegrationError::StepSizeCollapsed {
@@ -80,7 +80,8 @@ fn nan_is_avoided_by_shorter_steps_or_named() {
     );
 }
 
-/// The equation is y' = −y if |y − forbidden| ≥ width; otherwise it returns an error.
+/// The equation is y' = −y. For y below `refuses_below`, the first `refusals_left` evaluations
+/// return an error.
 struct Guarded {
     refuses_below: f64,
     refusals_left: u32,
@@ -201,7 +202,7 @@ fn zero_state_with_relative_tolerance_only() {
     let options = Options::with_tolerance(1e-8, 0.0);
     let end = run_function(decay, (0.0, 1.0), &[0.0], &options);
     assert_eq!(end.y, [0.0]);
-    // The state changes from 0 to a value: the weight of the first step is that of its end.
+    // The state starts at 0, so its value at the end of the first step determines the weight.
     let end = run_function(|_, _, dy| dy[0] = 1.0, (0.0, 1.0), &[0.0], &options);
     assert!((end.y[0] - 1.0).abs() < 1e-8);
 }

@@ -158,7 +158,7 @@ fn check_smoothness(name: &str, method: &impl Method<Circle>, h: f64) {
         },
     )
     .expect("smooth problem");
-    // Otherwise the slopes would agree without any projection.
+    // With smaller corrections, the slopes would agree even if the outputs ignored the projection.
     let correction = WEIGHT * end.statistics.largest_correction;
     assert!(correction > 1e-4, "{name}: {correction:e}");
 }
@@ -170,8 +170,8 @@ fn dense_output_passes_smoothly_through_projected_states() {
     check_smoothness("dop853", &Dop853, 2.5);
 }
 
-/// Each method runs for twenty units of time on the circle; `evaluations` is the number per trial,
-/// without that of the hook.
+/// Each method runs for twenty units of time on the circle; `evaluations` is the number of
+/// evaluations per trial, without the evaluation in the hook.
 #[test]
 fn all_methods_stay_on_the_circle() {
     fn check(name: &str, method: &impl Method<Circle>) {

@@ -46,8 +46,8 @@ fn invariants_are_kept_to_the_tolerance() {
     let y = orbit(1e-10).y;
     let energy = 0.5 * (y[2] * y[2] + y[3] * y[3]) - 1.0 / y[0].hypot(y[1]);
     let momentum = y[0] * y[3] - y[1] * y[2];
-    // The conserved quantities are E = −1/(2a) and L = √(1 − e²); there are some hundred steps of
-    // 1e-10 each.
+    // The conserved quantities are E = −1/(2a) and L = √(1 − e²); the run has some hundred steps
+    // with an error of 1e-10 each.
     assert!((energy + 0.5).abs() < 1e-8, "{energy}");
     assert!(
         (momentum - (1.0 - ECCENTRICITY * ECCENTRICITY).sqrt()).abs() < 1e-8,

@@ -23,8 +23,8 @@ fn exact(t: f64) -> f64 {
     t.sin().exp()
 }
 
-/// Largest errors over all steps: at the ends of the steps, and at nine points inside with both
-/// dense outputs.
+/// Largest errors over all steps: at the ends of the steps, and of both dense outputs at nine
+/// points inside.
 struct Errors {
     ends: f64,
     cheap: f64,
@@ -69,7 +69,7 @@ fn largest_errors(
     .expect("smooth problem");
     let s = end.statistics;
     assert_eq!(s.accepted, u64::from(n));
-    // The number is the same in every step, for any number of requested times.
+    // The number of evaluations is the same in every step, for any number of requested times.
     assert_eq!(s.output_evaluations, output_evaluations * u64::from(n));
     errors
 }
@@ -79,8 +79,8 @@ fn halved(method: &impl Method<Plain>, n: u32, output_evaluations: u64) -> [Erro
     [n, 2 * n].map(|n| largest_errors(method, 0.0, 10.0, n, output_evaluations))
 }
 
-/// Summed over all steps, the local errors of order 5 (inside) and 6 (at the ends) of the output
-/// without extra evaluations have the same order.
+/// The output without extra evaluations has order 5, like the steps. Inside a step its local error
+/// is O(h⁵); at the ends, the local errors O(h⁶) of all steps add up to O(h⁵).
 #[test]
 fn pairs_and_both_dense_outputs_converge_with_order_five() {
     for (name, errors) in [
@@ -104,8 +104,8 @@ fn pairs_and_both_dense_outputs_converge_with_order_five() {
     }
 }
 
-/// The local error of order 7 of the output without extra evaluations has the same effect as a
-/// global one; the accurate output is as good as the ends.
+/// The local error of order 7 of the output without extra evaluations leads to a global error of
+/// order 7. The accurate output is as good as the ends.
 #[test]
 fn dop853_and_its_accurate_output_converge_with_order_eight_and_the_cheap_one_with_seven() {
     let errors = halved(&Dop853, 35, 6);

@@ -205,8 +205,8 @@ fn a_failing_extra_evaluation_is_named() {
     assert!(failure.t == 1.0 && (failure.y[0] - 1.0).abs() < 1e-15);
 }
 
-/// The step size of the outcome is the one for a continuation, although the last step was shortened
-/// by the end.
+/// The step size of the outcome is the size for a continuation, although the end of the interval
+/// shortened the last step.
 #[test]
 fn an_integration_goes_on_with_the_step_size_of_its_outcome() {
     let options = Options::with_tolerance(1e-9, 1e-9);

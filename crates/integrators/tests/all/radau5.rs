@@ -99,11 +99,11 @@ fn van_der_pol_keeps_its_jacobian_while_it_is_slow() {
     assert!(relative_error(&end.y, &exact) < 2e-6, "{:?}", end.y);
 }
 
-/// A pendulum of length 1 is on a damped spring of stiffness k in polar coordinates, y = (φ, r, φ',
-/// r'), with φ from the horizontal. With k = 10¹² its extension is 10⁻¹¹, so it moves like the
-/// rigid pendulum of the SUNDIALS examples (period 2), and the rounding noise of the spring force
-/// is k·eps = 2·10⁻⁴. At any tolerance, neither the number of steps nor the error may depend on
-/// this noise.
+/// A pendulum of length 1 consists of a mass on a damped spring of stiffness k. Its polar
+/// coordinates are y = (φ, r, φ', r'), with φ measured from the horizontal. With k = 10¹² the
+/// extension of the spring is 10⁻¹¹. The motion is therefore that of the rigid pendulum of the
+/// SUNDIALS examples (period 2). The rounding noise of the spring force is k·eps = 2·10⁻⁴. At any
+/// tolerance, neither the number of steps nor the error may depend on this noise.
 #[test]
 fn noise_of_a_stiff_spring_neither_stalls_nor_shows() {
     const G: f64 = 13.750_371_636_040_746;

@@ -1,6 +1,6 @@
-//! The numbers that a constraint stores: how they are read and set, and the derivatives with
-//! respect to them. The references are differences through `set_data`, and dual numbers through the
-//! kernels, with the derivatives of the stored numbers that the constraint states.
+//! Tests of the values that a constraint stores: reading, setting, and derivatives with respect to
+//! them. The expected derivatives are differences through `set_data`, and dual numbers through the
+//! kernels; the latter use the derivatives of the stored values that the constraint returns.
 
 use joints::spec::{DatumShape, Unit};
 
@@ -15,13 +15,13 @@ use crate::number::{Dual, with_slopes};
 use crate::state::Along;
 use crate::subject::Subject;
 
-/// Added to each number in turn; no case contains this number by chance.
+/// This number is added to each stored value in turn; no case contains it by chance.
 const ANOTHER: f64 = 0.0625;
 
 /// Each component of a unit vector has the rounding error of a quotient.
 const UNIT: f64 = 4.0 * f64::EPSILON;
 
-/// All kernels that depend on the numbers.
+/// All kernels that depend on the stored values.
 const ALL: [Kernel; 6] = [
     Kernel::Phi,
     Kernel::C,
@@ -32,7 +32,7 @@ const ALL: [Kernel; 6] = [
 ];
 
 impl<S: Bodies> Check<'_, OfConstraint<S>> {
-    /// All checks of the numbers that the constraint stores.
+    /// Performs all tests of the values that the constraint stores.
     pub(super) fn data(&self) -> Result<(), Failure> {
         let numbers = self.numbers();
         self.data_facts(&numbers)?;
@@ -55,7 +55,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         out
     }
 
-    /// The result of `ask` for the constraint with these numbers.
+    /// Returns the result of `ask` for the constraint with these stored values.
     fn with_data<T>(&self, numbers: &[f64], ask: impl Fn(&Check<'_, OfConstraint<S>>) -> T) -> T {
         let made = self.made.with_data(numbers);
         ask(&Check {
@@ -64,7 +64,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         })
     }
 
-    /// Each number belongs to one datum, all of them are listed, and directions are unit vectors.
+    /// Checks that each value belongs to one datum, that all values are listed, and that directions
+    /// are unit vectors.
     fn data_facts(&self, numbers: &[f64]) -> Result<(), Failure> {
         let mut next = 0;
         for datum in self.of.spec.data {
@@ -95,12 +96,13 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         }
     }
 
-    /// `set_data` restores the numbers that `data` returns, and changes nothing else.
+    /// Checks that `set_data` restores the values that `data` returns, and changes nothing else.
     fn data_put_back(&self, numbers: &[f64]) -> Result<(), Failure> {
         let same = self.with_data(numbers, bits);
         let changed = bits(self) != same;
         self.data_fact("kernels after `set_data` of the same numbers", changed)?;
-        // Changes of axes, and of angles stored by cosine and sine, are applied, not stored.
+        // For axes, and for angles stored by cosine and sine, `set_data` applies the values as
+        // changes; it does not store them.
         let is_change = |k: usize| {
             self.of.spec.data.iter().any(|d| {
                 let is_kept_angle = d.shape == DatumShape::Kept(Unit::Angle);
@@ -121,9 +123,9 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Ok(())
     }
 
-    /// The derivatives of `λᵀ·kernel` with respect to all numbers, by differences. The step of a
-    /// small number is a share of the number, because a kernel that divides by it has a pole at
-    /// zero, which no step may cross.
+    /// Computes the derivatives of `λᵀ·kernel` with respect to all stored values by differences.
+    /// The step of a small value is a fraction of the value. A kernel that divides by the value has
+    /// a pole at zero, which must not be inside a step.
     fn by_data(&self, kernel: Kernel, numbers: &[f64], motion: &Motion) -> Block {
         let slope = |number: usize| {
             let unit = match numbers[number].abs() {
@@ -141,8 +143,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Block::column((0..numbers.len()).map(slope).collect())
     }
 
-    /// The derivatives of `λᵀ·kernel` with respect to all numbers, by dual numbers through the
-    /// kernel.
+    /// Computes the derivatives of `λᵀ·kernel` with respect to all stored values by dual numbers in
+    /// the kernel.
     fn by_stored(&self, kernel: Kernel, motion: &Motion) -> Block {
         let plain = self.made.plain();
         let mut stored = Vec::new();

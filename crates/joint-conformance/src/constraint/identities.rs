@@ -1,5 +1,5 @@
-//! Identities between the kernels of a constraint without derivatives: wrench, reference point,
-//! balance of forces, the start.
+//! Tests of identities between the kernels of a constraint without derivatives: wrench, reference
+//! point, balance of forces, initial configuration.
 
 use joints::spec::{Parameter, Role, Shape};
 
@@ -13,8 +13,8 @@ use crate::failure::{DUAL_TOLERANCE, Failure, Property};
 use crate::state::{Along, State};
 use crate::subject::{By, Subject};
 
-/// Time step for differences of cosines and sines: rounding and curvature both change a rate of
-/// order one by less than 1e-8.
+/// Time step for differences of cosines and sines; rounding and curvature each change a rate of
+/// about 1 by less than 1e-8.
 const STEP: f64 = 1e-5;
 /// Largest error of such a rate.
 const OF_DIFFERENCE: f64 = 1e-7;
@@ -24,16 +24,16 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.at(kernel, &self.case.motions[0])
     }
 
-    /// The reference point, unless a body that should touch a plane is parallel to it. Then there
-    /// is no contact point, and the reference point contains a division by zero. In all other cases
-    /// a reference point that is not a number is compared, and the check fails.
+    /// Returns the reference point. It is `None` if a body that should touch a plane is parallel to
+    /// the plane. In this case there is no contact point, and the reference point contains a
+    /// division by zero. In all other cases, NaN is compared like a value, and the check fails.
     fn place_of_reaction(&self) -> Option<Block> {
         let place = self.first(Kernel::Place);
         let nowhere = place.entries().iter().any(|p| p.is_nan());
         (!(nowhere && touches_plane(self.of.spec.common.parameters))).then_some(place)
     }
 
-    /// `F = −C_v`, `T = −C_ω − (place − origin) × F`.
+    /// Checks `F = −C_v`, `T = −C_ω − (place − origin) × F`.
     pub(super) fn wrench(&self) -> Result<(), Failure> {
         let Some(place) = self.place_of_reaction() else {
             return Ok(());
@@ -51,8 +51,9 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.identity(Property::Wrench, &self.first(Kernel::Wrench), &expected)
     }
 
-    /// At most the force of each multiplier, or its torque if it has no force; for a drive, the
-    /// force that does the work: `component·ḟ = b`.
+    /// Checks that the component is at most the force of each multiplier, or the torque of a
+    /// multiplier without a force. For a drive, it checks that the component is the load that does
+    /// work: `component·ḟ = b`.
     pub(super) fn component(&self) -> Result<(), Failure> {
         let wrench = self.first(Kernel::Wrench);
         let found = self.first(Kernel::Component);
@@ -67,12 +68,13 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             squares.sum::<f64>().sqrt()
         };
         let bound = |row| match length(row, 0..S::DIM) {
-            // The torque about a reference point that does not exist at this pose is not checked.
+            // If the reference point does not exist at this pose, the torque about it is not
+            // checked.
             0.0 => length(row, S::DIM..S::N_DOF).max(0.0),
             force => force,
         };
-        // The expected value is the found one if it is within the bound, and otherwise the bound:
-        // the excess is the error.
+        // If the found value is within the bound, it is also the expected value; otherwise the
+        // bound is expected, so that the error is the excess.
         let within = |row| {
             let (value, bound): (f64, f64) = (found.get(row, 0), bound(row));
             if value.is_nan() {
@@ -85,9 +87,9 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.identity(Property::Component, &found, &expected)
     }
 
-    /// The reference point moves with the first body, or with the carrier of wheels that other
-    /// joints support, and with no other body. A body that touches a plane of the ground has
-    /// another contact point after a rotation: then only its translation is checked.
+    /// Checks that the reference point is fixed in the first body, or, if joints support wheels on
+    /// a carrier, in the carrier. If a body touches a plane of the ground, a rotation changes its
+    /// contact point; in this case only translations are checked.
     pub(super) fn place(&self) -> Result<(), Failure> {
         let Some(place) = self.place_of_reaction() else {
             return Ok(());
@@ -112,7 +114,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         self.identity(Property::Place, &found, &expected)
     }
 
-    /// The rate of each unwrapped angle is c·ṡ − s·ċ of its cosine and sine, by differences.
+    /// Checks that the rate of each unwrapped angle is c·ṡ − s·ċ, computed from its cosine and sine
+    /// by differences.
     pub(super) fn turned(&self) -> Result<(), Failure> {
         let angles = self.of.spec.turns.max(usize::from(self.of.spec.turning));
         if self.case.kind != Kind::Ordinary {
@@ -128,7 +131,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
             let [before, now, after] = [-STEP, 0.0, STEP].map(|tau| at(number, tau));
             let slope = |k: usize| (after[k] - before[k]) / (2.0 * STEP);
             let expected = now[0] * slope(1) - now[1] * slope(0);
-            // Off the constraint cosine and sine may be those of a longer vector.
+            // If the constraint is violated, cosine and sine may be components of a vector that is
+            // longer than one.
             let size = (now[0] * now[0] + now[1] * now[1]).max(1.0);
             if (now[2] - expected).abs() > OF_DIFFERENCE * size {
                 let entry = format!("rate of counted angle {number}");
@@ -138,8 +142,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Ok(())
     }
 
-    /// Programs are recorded from the kernels of one constraint and run for all constraints of its
-    /// kind.
+    /// Checks the programs, which are recorded from the kernels of one constraint and run for all
+    /// constraints of its kind.
     pub(super) fn programs(&self) -> Result<(), Failure> {
         let (plain, spec) = (self.made.plain(), self.of.spec);
         let at = Along::Time.state::<S, f64>(self.case, &self.case.motions[0], 0.0);
@@ -202,8 +206,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         }
     }
 
-    /// Checked only if Φ = 0: otherwise the distance between two points that should coincide is a
-    /// lever arm for the pair of forces.
+    /// Checks the balance of the rows only if Φ = 0. Otherwise, the distance between two points
+    /// that should coincide is a lever arm for the two forces.
     pub(super) fn rows_balance(&self) -> Result<(), Failure> {
         let ordinary = self.case.kind == Kind::Ordinary;
         if self.of.spec.holonomic == 0 || !(ordinary && is_internal(self.of)) {
@@ -226,8 +230,8 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         Check { case, ..*self }
     }
 
-    /// The case with its poses moved until Φ is zero or nearly zero. The corrections use one row of
-    /// C after another, which needs no rank.
+    /// Returns the case with its poses changed so that Φ is zero or nearly zero. The corrections
+    /// use one row of C after another, so that no rank is needed.
     fn closed(&self) -> Case<S> {
         const SWEEPS: usize = 100;
         let mut case = self.case.clone();
@@ -252,7 +256,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
         case
     }
 
-    /// Rows that keep an initial value are zero at the start.
+    /// Checks that rows that store an initial value are zero at the initial configuration.
     pub(super) fn start(&self) -> Result<(), Failure> {
         let phi = phi_at_start(self);
         let kept = |row: usize| {
@@ -264,7 +268,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
     }
 }
 
-/// A column of coordinates as a point.
+/// Converts a column of coordinates to a point.
 fn point(place: &Block) -> [f64; 3] {
     std::array::from_fn(|k| {
         if k < place.rows() {
@@ -275,7 +279,7 @@ fn point(place: &Block) -> [f64; 3] {
     })
 }
 
-/// Φ at the start, with functions of time equal to zero.
+/// Returns Φ at the initial configuration, with all functions of time equal to zero.
 pub(super) fn phi_at_start<S: Bodies>(check: &Check<'_, OfConstraint<S>>) -> Block {
     let start = Case {
         x: check.case.start.clone(),
@@ -286,7 +290,8 @@ pub(super) fn phi_at_start<S: Bodies>(check: &Check<'_, OfConstraint<S>>) -> Blo
     check.with(&start).first(Kernel::Phi)
 }
 
-/// Whether a body touches a plane of the ground, according to the parameters of the definition.
+/// Returns whether a body touches a plane of the ground, according to the parameters of the
+/// definition.
 fn touches_plane(parameters: &[Parameter]) -> bool {
     parameters
         .iter()

@@ -1,4 +1,5 @@
-//! Definitions with one wrong entry: the harness must detect each of them and name the fault.
+//! Definitions with one wrong entry; the harness must detect each of them and name the violated
+//! property.
 
 use joints::generated::{
     DistanceLengthDrive, Fixed, KnifeEdge, PinInSlotDisplacementDrive, SpringDamper, Velocity,
@@ -12,7 +13,7 @@ use pfaff_joint_conformance::{Failure, Property, check_constraint, check_force};
 
 use crate::SEED;
 
-/// The wrong kernel, as a constant of the mutant's type.
+/// The wrong kernel is a constant parameter of the type of the mutant.
 mod wrong {
     pub(super) const PHI: u8 = 0;
     pub(super) const C_CONSTANT: u8 = 1;
@@ -39,11 +40,11 @@ mod wrong {
     pub(super) const NORMALISED: u8 = 22;
 }
 
-/// `K` with a change of kernel `WRONG` in its first entry.
+/// The definition `K` with a change in the first entry of the kernel `WRONG`.
 #[derive(Clone)]
 struct Mutant<K, const WRONG: u8>(K);
 
-/// The first entry with the wrong sign, or another number if the entry is zero.
+/// Changes the sign of the first entry, or sets it to another value if it is zero.
 fn change<T: Ring>(out: &mut [T], here: bool) {
     if let (true, Some(first)) = (here, out.first_mut()) {
         *first = T::from(0.125) - *first;
@@ -54,7 +55,7 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     const SPEC: ConstraintSpec = {
         let mut spec = K::SPEC;
         if WRONG == wrong::PATTERN {
-            // With one entry fewer, the derivative with respect to it does not vanish.
+            // The pattern lacks one entry, whose derivative is not zero.
             let (_, rest) = spec.d_residual_dx.split_at(1);
             spec.d_residual_dx = rest;
         }
@@ -62,7 +63,8 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
             spec.rheonomic = !spec.rheonomic;
         }
         if WRONG == wrong::DATUM {
-            // The first datum is a point instead of a unit vector, and the other data are missing.
+            // The first datum has the shape of a unit vector although it is a point, and the other
+            // data are missing.
             const WRONG_SHAPE: [Datum; 1] =
                 [Datum::new("s_i", DatumShape::Direction { slot: 0 }, 0, 2)];
             spec.data = &WRONG_SHAPE;
@@ -212,8 +214,8 @@ impl<K: Constraint, const WRONG: u8> ConstraintKernels for Mutant<K, WRONG> {
     }
 }
 
-/// `K` with a change of Q or of a derivative in its first entry, or all of it with the opposite
-/// sign.
+/// The definition `K` with a change in the first entry of Q or of a derivative, or with the
+/// opposite sign in all entries.
 #[derive(Clone)]
 struct ForceMutant<K, const WRONG: u8>(K);
 
@@ -272,7 +274,7 @@ impl<T: Real, K: Force, const WRONG: u8> ForceElement<T> for ForceMutant<K, WRON
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.element::<T>().q(x, v, f, out);
         if WRONG == wrong_force::Q {
-            // A constant load without a counterpart; no derivative detects it.
+            // A constant load without an opposite load, which checks of derivatives do not detect.
             out[0] = out[0] + T::from(1.0);
         }
         Self::turn_round(out);
@@ -387,14 +389,14 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
     for (found, expected) in cases {
         assert_eq!(found, expected);
     }
-    // The wrench about another point fails before the point itself.
+    // The check of the wrench about a wrong point fails before the check of the point itself.
     let place = found(check_constraint::<Drive<{ wrong::PLACE }>, _>(SEED));
     assert!(matches!(place, P::Wrench | P::Place), "{place:?}");
 }
 
 #[test]
 fn a_wrong_entry_of_a_velocity_row_is_named() {
-    // Γ is derived from C and b, so its check detects an error of either.
+    // Γ is compared with C and b, so this check detects an error in either.
     for found in [
         found(check_constraint::<Mutant<Velocity, { wrong::C }>, _>(SEED)),
         found(check_constraint::<Mutant<Velocity, { wrong::B }>, _>(SEED)),

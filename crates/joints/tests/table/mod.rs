@@ -9,13 +9,13 @@ use pfaff_joints::spec::{Shape, Spec};
 use pfaff_joints::{Argument, Plane, Pose, Space, Space3};
 use serde::Deserialize;
 
-/// One pose with the numbers computed for it.
+/// One pose with the values computed for it.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Golden {
     #[serde(default)]
     parameters: BTreeMap<String, Value>,
-    /// The assembled start, if it differs from the pose.
+    /// The poses of the assembled initial configuration, if they differ from the pose.
     start: Option<Vec<Vec<Scalar>>>,
     x: Vec<Vec<Scalar>>,
     v: Option<Vec<Vec<Scalar>>>,
@@ -34,7 +34,7 @@ pub(crate) struct Golden {
     pub(crate) requirements: Option<Vec<bool>>,
 }
 
-/// A number, or a text like `-3pi/2` or `atan2(3, 4)`.
+/// A number, or an expression such as `-3pi/2` or `atan2(3, 4)`.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Scalar {
@@ -50,15 +50,16 @@ enum Value {
     Two([Vec<f64>; 2]),
 }
 
-/// A space in the notation of the tables.
+/// A space with the notation of the tables.
 pub(crate) trait Tabled: Space {
-    /// Folder of its tables.
+    /// Folder of the tables.
     const FOLDER: &'static str;
     /// Reads a pose: x, y, angle, or x, y, z and a quaternion of any length.
     fn tabled_pose(numbers: &[f64]) -> Self::Pose<f64>;
     /// Reads a point or a vector.
     fn vector(numbers: &[f64]) -> Argument;
-    /// Reads two vectors: points of a line of the ground, or an axis and a vector across it.
+    /// Reads two vectors: points of a line of the ground, or an axis and a vector perpendicular to
+    /// it.
     fn two(vectors: &[Vec<f64>; 2]) -> Argument;
 }
 
@@ -104,7 +105,7 @@ fn directory<S: Tabled>() -> PathBuf {
     planar.join(S::FOLDER)
 }
 
-/// Returns the file for a definition: `PinInSlot` has `pin_in_slot.toml`.
+/// Returns the name of the file for a definition: `pin_in_slot.toml` for `PinInSlot`.
 pub(crate) fn file_name(definition: &str) -> String {
     let mut name = String::new();
     for c in definition.chars() {
@@ -165,7 +166,7 @@ impl Golden {
         poses::<S>(self.start.as_ref().unwrap_or(&self.x))
     }
 
-    /// Returns the velocities, one for each degree of freedom of each slot. They are zero if the
+    /// Returns the velocities, one for each velocity component of each body. They are zero if the
     /// table has no `v`.
     pub(crate) fn v<S: Tabled>(&self) -> Vec<f64> {
         match &self.v {
@@ -185,7 +186,7 @@ impl Golden {
         self.lambda.iter().map(Scalar::value).collect()
     }
 
-    /// Whether the table contains only values that forces have.
+    /// Returns whether the table contains only values for forces.
     pub(crate) fn only_force(&self) -> bool {
         [
             &self.phi,

@@ -1,5 +1,5 @@
-//! The differential equation of a comparator: y = [q; v], accelerations from a [`Solver`], and the
-//! treatment of drift.
+//! The differential equation of a reference method for y = [q; v], with accelerations from a
+//! [`Solver`] and a treatment of drift.
 
 use std::time::Instant;
 
@@ -12,14 +12,14 @@ use super::kept_rows::KeptRows;
 use super::way::Drift;
 use super::{Fault, Saddle, Solver};
 
-/// Largest number of corrections of a projection: Newton's method converges quadratically from the
-/// end of a step.
+/// Largest number of corrections of a projection. A few corrections are sufficient, because
+/// Newton's method converges quadratically from the end of a step.
 const CORRECTIONS: usize = 10;
 
-/// A correction below this fraction of the size of the mechanism is rounding.
+/// A correction below this fraction of the size of the mechanism is a rounding error.
 const SETTLED: f64 = 1e-13;
 
-/// The equations of motion of a mechanism by one formulation.
+/// The equations of motion of a mechanism in one formulation.
 pub struct Equations<'a> {
     mechanism: &'a Mechanism,
     s: Scratch,
@@ -36,17 +36,18 @@ pub struct Equations<'a> {
     pub(super) deadline: Option<Instant>,
 }
 
-/// The saddle equations of an instant in units of the mechanism: lengths are divided by its size.
+/// The saddle equations of an instant in units of the mechanism: lengths are divided by the size of
+/// the mechanism.
 struct Scaled {
     /// The unit of each coordinate, and the masses in these units, n_v each.
     units: Vec<f64>,
     mass: Vec<f64>,
     /// All rows of C; the holonomic rows are those of Φq.
     c: Matrix,
-    /// Q, replaced by the solution (accelerations or a correction), n_v.
+    /// On entry Q, on return the solution (accelerations or a correction), n_v.
     force: Vec<f64>,
     motion: Vec<f64>,
-    /// Multipliers and right-hand sides of all rows.
+    /// Multipliers of all rows, followed by their right-hand sides.
     lambda: Vec<f64>,
     gamma: Vec<f64>,
 }
@@ -70,7 +71,8 @@ impl Scaled {
     }
 }
 
-/// Computes C at a configuration in units of the mechanism: lengths are divided by its size.
+/// Computes C at a configuration in units of the mechanism: lengths are divided by the size of the
+/// mechanism.
 pub(super) fn in_units(mechanism: &Mechanism, s: &Scratch, units: &[f64], c: &mut Matrix) {
     for i in 0..c.nrows() {
         let row = c.row_mut(i);
@@ -82,8 +84,8 @@ pub(super) fn in_units(mechanism: &Mechanism, s: &Scratch, units: &[f64], c: &mu
 }
 
 impl<'a> Equations<'a> {
-    /// Creates the equations; `solver` is constructed from C and M at the start, in units of the
-    /// mechanism.
+    /// Creates the equations; `solver` is constructed from C and M at the initial state, in units
+    /// of the mechanism.
     ///
     /// # Errors
     /// Returns the error of the solver.
@@ -133,7 +135,7 @@ impl<'a> Equations<'a> {
         self.mechanism
     }
 
-    /// Returns n_q and n_v.
+    /// Returns the numbers n_q of coordinates and n_v of velocities.
     pub(super) fn sizes(&self) -> [usize; 2] {
         [self.mechanism.layout().n_q, self.mechanism.layout().n_v]
     }
@@ -201,7 +203,8 @@ impl<'a> Equations<'a> {
         Ok((a, ids.map(of).collect()))
     }
 
-    /// Moves q and v onto the constraints by the smallest corrections in the mass metric.
+    /// Corrects q and v so that they satisfy the constraints. The corrections are the smallest ones
+    /// in the mass metric.
     ///
     /// # Errors
     /// [`Fault::Projection`], or an error of the independent rows.
@@ -308,7 +311,8 @@ impl Ode for Equations<'_> {
         })
     }
 
-    /// At a jump of the prescribed rates the velocities jump, with an impulse of the constraints.
+    /// At a jump of the prescribed rates, the velocities jump because of an impulse of the
+    /// constraints.
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Fault> {
         let (q, v) = y.split_at_mut(self.mechanism.layout().n_q);
         self.project_velocity(t, q, v)

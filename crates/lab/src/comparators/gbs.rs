@@ -1,7 +1,7 @@
-//! Extrapolation of the explicit midpoint rule (Gragg, Bulirsch, Stoer): orders 4 to 18, chosen for
-//! each step together with its size.
+//! Extrapolation of the explicit midpoint rule (Gragg, Bulirsch, Stoer) with orders 4 to 18. Order
+//! and step size are chosen together for each step.
 //!
-//! Column j covers the step with n_j = 2·j equal substeps of the midpoint rule; the results of
+//! Column j divides the step into n_j = 2·j equal substeps of the midpoint rule. The results of
 //! columns 1 to k, extrapolated to infinitely many substeps, have order 2k. The smoothing at the
 //! end of the step is omitted, which saves one evaluation per column. Source: the program ODEX of
 //! E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd
@@ -18,9 +18,9 @@ use super::stepping::{Stepper, Trial};
 use columns::{COLUMNS, substeps};
 use order::{OrderControl, Verdict};
 
-/// Returns weights w of columns `first` to `last`: Σ w_j·c_j is the value at h = 0 of the
-/// polynomial in h² through the c_j at h = 1/n_j: `w_j = Π_{l ≠ j} n_j² / (n_j² − n_l²)`. Weights
-/// of other columns are zero.
+/// Returns weights w of columns `first` to `last`. The sum Σ w_j·c_j is the value at h = 0 of the
+/// polynomial in h² through the points c_j at h = 1/n_j, with
+/// `w_j = Π_{l ≠ j} n_j² / (n_j² − n_l²)`. Weights of other columns are zero.
 fn weights(first: usize, last: usize) -> [f64; COLUMNS] {
     let mut w = [0.0; COLUMNS];
     for j in first..=last {
@@ -60,8 +60,8 @@ impl Gbs {
         }
     }
 
-    /// Computes column j: `z_1 = h_j·f0`, `z_{m+1} = z_{m−1} + 2·h_j·f(t + m·h_j, y0 + z_m)`; z is
-    /// the change of the state.
+    /// Computes column j with `z_1 = h_j·f0`, `z_{m+1} = z_{m−1} + 2·h_j·f(t + m·h_j, y0 + z_m)`,
+    /// in which z is the change of the state.
     fn column(
         &mut self,
         ode: &mut Equations<'_>,
@@ -145,7 +145,7 @@ mod tests {
                     let column = |j: usize| w[j - 1] * (2.0 / substeps(j) as f64).powi(power);
                     (1..=COLUMNS).map(column).sum()
                 };
-                // The bound is the rounding error of weights up to some thousand.
+                // The bound is the rounding error of weights whose values are up to some thousand.
                 assert!((sum(0) - 1.0).abs() < 1e-11);
                 for l in 1..=(last - first) {
                     assert!(sum(2 * l as i32).abs() < 1e-11, "{first} {last} {l}");
@@ -154,8 +154,8 @@ mod tests {
         }
     }
 
-    /// The control uses more columns for a higher accuracy, and begins with the column that the
-    /// tolerance suggests.
+    /// The order control uses more columns for a higher accuracy. The first target column follows
+    /// from the tolerance.
     #[test]
     fn the_column_to_begin_with_follows_the_tolerance() {
         let mut control = OrderControl::new();

@@ -1,5 +1,5 @@
-//! The generalized-α method on the positions (index 3) and independent rows: order 2, with damping
-//! of high frequencies according to ρ∞.
+//! The generalized-α method of order 2, applied to the position constraints (index 3) with
+//! independent rows. The parameter ρ∞ determines the damping of high frequencies.
 //!
 //! ```text
 //! q1 = q0 + h·v0 + h²·((½ − β)·a0 + β·a1),   v1 = v0 + h·((1 − γ)·a0 + γ·a1)
@@ -20,7 +20,8 @@ use super::Fault;
 use super::equations::Equations;
 use super::stepping::{Stepper, Trial};
 
-/// The parameter ρ∞: the factor of an oscillation of infinite frequency over one step.
+/// The parameter ρ∞: the factor by which an oscillation of infinite frequency decreases in one
+/// step.
 const RHO: f64 = 0.8;
 const ALPHA_M: f64 = (2.0 * RHO - 1.0) / (RHO + 1.0);
 const ALPHA_F: f64 = RHO / (RHO + 1.0);
@@ -36,10 +37,10 @@ const OF_VELOCITY: f64 = 1.0 / 12.0 - 0.5 * LAG * LAG;
 
 /// Largest number of Newton iterations of a step.
 const ITERATIONS: usize = 10;
-/// Increments at which Newton's method may stop, relative to the tolerance: an error of Φ is
-/// multiplied by 1/h² in λ.
+/// Largest increment at which Newton's method may stop, relative to the tolerance. The value is
+/// small because an error of Φ is multiplied by 1/h² in λ.
 const PERMITTED: f64 = 1e-6;
-/// Increments below this fraction of the state count as rounding.
+/// Increments below this fraction of the state count as rounding errors.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
 
 /// The state of the method at the end of a step.
@@ -55,14 +56,15 @@ pub(super) struct GeneralizedAlpha<'a> {
     mechanism: &'a Mechanism,
     s: Scratch,
     derivatives: Derivatives,
-    /// Independent rows, and the number of them that are holonomic. The position rows are those of
-    /// Φq.
+    /// Independent rows, and the number of holonomic rows among them. The holonomic rows are the
+    /// rows of Φq.
     kept: Vec<usize>,
     matrix: Matrix,
     lu: Lu,
     from: Memory,
     to: Memory,
-    /// Size of the last accepted step, the derivative of a over it, and y' at its start.
+    /// Size of the last accepted step, the time derivative of a over this step, and y' at the start
+    /// of this step.
     before: Option<(f64, Vec<f64>, Vec<f64>)>,
     /// Derivative y' at both ends of the last trial.
     f0: Vec<f64>,
@@ -71,7 +73,7 @@ pub(super) struct GeneralizedAlpha<'a> {
 }
 
 impl<'a> GeneralizedAlpha<'a> {
-    /// A force that calls a function is rejected.
+    /// Creates the method; returns an error if a force calls a function without derivatives.
     pub(super) fn new(mechanism: &'a Mechanism, kept: &[usize]) -> Result<Self, CalledForce> {
         let (layout, r) = (mechanism.layout(), kept.len());
         let n = layout.n_v + r;
@@ -96,7 +98,7 @@ impl<'a> GeneralizedAlpha<'a> {
         })
     }
 
-    /// Computes positions and velocities at the end, and a there, from v' there.
+    /// Computes positions, velocities and a at the end of the step from v' at the end of the step.
     fn move_to_end(&mut self, trial: &Trial<'_>, a0: &[f64], y1: &mut [f64]) {
         let (h, n_q) = (trial.h, self.mechanism.layout().n_q);
         let (q0, v0) = trial.y0.split_at(n_q);
@@ -152,8 +154,8 @@ impl<'a> GeneralizedAlpha<'a> {
         factored.map_err(|_| Fault::Newton)
     }
 
-    /// Computes the negative residuals; rows of constraints are divided by the factor with which
-    /// v'1 changes them.
+    /// Computes the negative residuals. The residual of a constraint row is divided by the factor
+    /// by which a change of v'1 changes the row.
     fn residual(&mut self, t: f64, y: &[f64], [c_v, c_q]: [f64; 2]) {
         let (mechanism, layout) = (self.mechanism, self.mechanism.layout());
         let (n, (q, v)) = (layout.n_v, y.split_at(layout.n_q));
@@ -223,8 +225,8 @@ impl Stepper for GeneralizedAlpha<'_> {
                 *l += x;
             }
             self.move_to_end(trial, &a0, y1);
-            // The change by the increment, compared with the tolerance and the rounding of the
-            // largest coordinate.
+            // The change by the increment is compared with the tolerance and with the rounding
+            // error of the largest coordinate.
             let largest = y1.iter().fold(1.0, |a: f64, y| a.max(y.abs()));
             let of = |c: f64| {
                 self.x[..n_v]
@@ -242,8 +244,8 @@ impl Stepper for GeneralizedAlpha<'_> {
             }
             before = size;
         }
-        // The error is C·h³·y''', from y' at both ends of the step and at the start of the previous
-        // step, or at the midpoint.
+        // The error is C·h³·y'''. It is computed from y' at both ends of the step and at a third
+        // time: the start of the previous step, or the midpoint.
         ode.rhs(t1, y1, &mut self.f1)?;
         let mut third = vec![0.0; y1.len()];
         if let Some((h_before, _, f_before)) = &self.before {
@@ -268,7 +270,7 @@ impl Stepper for GeneralizedAlpha<'_> {
         Ok(trial.norm(&third, y1))
     }
 
-    /// The rule is that for a method of order 2 with an error estimate of order 2.
+    /// This is the step size rule for a method of order 2 with an error estimate of order 2.
     fn next_size(&mut self, h: f64, error: f64, is_accepted: bool) -> f64 {
         if is_accepted {
             let slopes = self.to.vd.iter().zip(&self.from.vd);

@@ -4,7 +4,8 @@ use linalg::{KeptRowSaddle, SaddleError};
 
 use super::{Fault, Saddle, Solver};
 
-/// The saddle equations on some independent rows; multipliers of all others are zero.
+/// A solver of the saddle equations that uses only independent rows. The multipliers of all other
+/// rows are zero.
 pub struct KeptRows {
     kept: Vec<usize>,
     saddle: KeptRowSaddle,

@@ -1,5 +1,5 @@
-//! Solves with all rows by a complete orthogonal decomposition of fixed rank: accelerations that
-//! satisfy contradicting rows in the sense of least squares, and the multipliers of minimum norm.
+//! Solves with all rows by a complete orthogonal decomposition of fixed rank. The accelerations
+//! satisfy contradicting rows in the sense of least squares, and the multipliers have minimum norm.
 //!
 //! With `Cᵀ·P = [Q₁ Q₂]·[R; ≈0]`, R r × m, and `Rᵀ·P' = Q'·R'`, the pseudo-inverse is
 //! `C⁺ = Q₁·P'·R'⁻¹·Q'ᵀ·Pᵀ`. Source: G. H. Golub, C. F. Van Loan, Matrix Computations, section

@@ -1,16 +1,16 @@
 //! The null-space method: the solutions of `C·a = γ` are `a = a_p + Z·w` with C·Z = 0, and
 //! `(Zᵀ·M·Z)·w = Zᵀ·(f − M·a_p)` contains no multipliers.
 //!
-//! With `Cᵀ·P = [Q₁ Q₂]·R`, pivoted, of fixed rank r: Z = Q₂, and a_p is the solution of minimum
-//! norm of the first r pivoted rows. Source: S. S. Kim, M. J. Vanderploeg, QR decomposition for
-//! state space representation of constrained mechanical dynamic systems, J. Mech. Trans. Autom.
-//! Des. 108 (1986) 183–188, DOI 10.1115/1.3260800.
+//! With the pivoted decomposition `Cᵀ·P = [Q₁ Q₂]·R` of fixed rank r, Z = Q₂, and a_p is the
+//! solution of minimum norm of the first r pivoted rows. Source: S. S. Kim, M. J. Vanderploeg, QR
+//! decomposition for state space representation of constrained mechanical dynamic systems, J. Mech.
+//! Trans. Autom. Des. 108 (1986) 183–188, DOI 10.1115/1.3260800.
 
 use linalg::{Lu, Matrix, PivotedQr};
 
 use super::{Fault, Saddle, Solver, dot};
 
-/// Pivots below this fraction of the first count as rounding.
+/// Pivots below this fraction of the first pivot count as rounding errors.
 const LOST: f64 = 1e-14;
 
 /// A solver for all rows, with a fixed rank; multipliers of rows that the pivoting does not select
@@ -74,7 +74,7 @@ impl Solver for NullSpace {
     fn solve(&mut self, at: &Saddle<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Fault> {
         let (rank, qr) = (self.rank, factored(at.c, self.rank)?);
         let rows = &qr.permutation()[..rank];
-        // Solves R₁ᵀ·y = γ of the first rows, and a_p = Q₁·y.
+        // Solves R₁ᵀ·y = γ for the first rows, and computes a_p = Q₁·y.
         let mut y: Vec<f64> = rows.iter().map(|&i| at.gamma[i]).collect();
         qr.solve_r_transpose(&mut y);
         a.fill(0.0);

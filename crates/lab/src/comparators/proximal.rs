@@ -5,12 +5,12 @@
 //! (M + C̃ᵀ·C̃/μ)·δ = f − M·a − C̃ᵀ·(λ̃ + (C̃·a − γ̃)/μ),   a ← a + δ,   λ̃ ← λ̃ + (C̃·a − γ̃)/μ,   C̃ = W·C
 //! ```
 //!
-//! W makes the diagonal of C̃·M⁻¹·C̃ᵀ one; μ is compared with the eigenvalues σ² of this matrix.
-//! The relative error in a direction with singular value σ is `(μ/(μ + σ²))^k` after k iterations.
-//! A direction whose singular value is zero on the constraints and δ off them gives accelerations
-//! of `k·δ²/μ`, so that a smaller μ is worse there. No rank is needed for a solve. Source: J.
-//! Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of constrained dynamic
-//! equations, Robotics: Science and Systems XVII (2021).
+//! W scales the rows so that the diagonal of C̃·M⁻¹·C̃ᵀ is one. The size of μ is relative to the
+//! eigenvalues σ² of this matrix. The relative error in a direction with singular value σ is
+//! `(μ/(μ + σ²))^k` after k iterations. If the constraints are violated, a zero singular value may
+//! become δ. Its direction then has accelerations of `k·δ²/μ`, so a smaller μ increases this error.
+//! A solve does not need the rank. Source: J. Carpentier, R. Budhiraja, N. Mansard, Proximal and
+//! sparse resolution of constrained dynamic equations, Robotics: Science and Systems XVII (2021).
 
 use linalg::{Lu, Matrix, singular_values};
 
@@ -19,14 +19,14 @@ use super::{Fault, Saddle, Solver, dot};
 /// Ratio of μ to σ_r²: each iteration reduces the error by a factor of eleven.
 const DECADE: f64 = 0.1;
 
-/// Smallest mass by which the computation of the parameters divides, relative to the largest: a
-/// massless body moves with others.
+/// Smallest mass for the computation of the parameters, relative to the largest mass. Smaller
+/// masses are replaced by this value, to avoid a division by zero for massless bodies.
 const LEAST_MASS: f64 = 1e-12;
 
 /// The parameter μ and the number of iterations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tuning {
-    /// The parameter μ, compared with the eigenvalues of C̃·M⁻¹·C̃ᵀ.
+    /// The parameter μ, relative to the eigenvalues of C̃·M⁻¹·C̃ᵀ.
     pub mu: f64,
     /// Number of iterations k.
     pub iterations: usize,
@@ -60,7 +60,7 @@ pub struct Proximal {
 }
 
 impl Proximal {
-    /// Computes weights and parameters for a relative `tolerance` with rows C of this rank and
+    /// Computes weights and parameters for a relative `tolerance`, for a matrix C of this rank and
     /// these masses.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Runs of comparators: from a prepared mechanism to rows at given times.
+//! Runs a prepared mechanism by a reference method, with output rows at given times.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -27,7 +27,7 @@ pub struct Row {
     pub v: Vec<f64>,
     /// Accelerations.
     pub a: Vec<f64>,
-    /// Reactions of all joints and drives; those that are not unique depend on the formulation.
+    /// Reactions of all joints and drives. Reactions that are not unique depend on the formulation.
     pub reactions: Vec<Reaction>,
 }
 
@@ -40,7 +40,7 @@ pub struct Run {
     pub steps: u64,
     /// Rejected steps.
     pub rejected: u64,
-    /// Number of solves for accelerations, including those for rows.
+    /// Number of solves for accelerations, including the solves for output rows.
     pub evaluations: u64,
     /// Number of projected states.
     pub projections: u64,
@@ -124,7 +124,7 @@ pub fn run_within(
     })
 }
 
-/// Returns the row of a state, projected if the method projects.
+/// Returns the output row of a state. The state is projected if the method uses projection.
 fn observed(equations: &mut Equations<'_>, t: f64, y: &[f64]) -> Result<Row, Fault> {
     let mut y = y.to_vec();
     equations.end(t, &mut y)?;

@@ -16,16 +16,16 @@ const SHORTEST: f64 = 16.0;
 /// Factor of the step size after a step that failed.
 const AFTER_FAILURE: f64 = 0.5;
 
-/// A method with its own steps.
+/// An integration method with its own step size control.
 pub(super) trait Stepper {
     /// Deletes the stored previous steps, because the solution may jump at this time.
     fn restart(&mut self);
 
-    /// Performs the step from (t, y0) with y0' = f0 over h to y1; returns its error, at most 1 if
-    /// it is small enough.
+    /// Performs the step of size h from (t, y0), with y0' = f0, to y1. Returns the scaled error,
+    /// which is at most 1 if the step is accurate enough.
     ///
     /// # Errors
-    /// Returns an error if there is no such step.
+    /// Returns an error if the step cannot be computed.
     fn step(
         &mut self,
         equations: &mut Equations<'_>,
@@ -33,8 +33,8 @@ pub(super) trait Stepper {
         y1: &mut [f64],
     ) -> Result<f64, Fault>;
 
-    /// Returns the size of the next step after one of this size and error, which was accepted or
-    /// not.
+    /// Returns the size of the next step after an accepted or rejected step with this size and
+    /// error.
     fn next_size(&mut self, h: f64, error: f64, is_accepted: bool) -> f64;
 }
 
@@ -71,7 +71,7 @@ impl Trial<'_> {
     }
 }
 
-/// Numbers of accepted and rejected steps.
+/// Number of accepted steps and number of rejected steps.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Steps {
     pub(super) accepted: u64,
@@ -150,7 +150,7 @@ pub(super) fn drive(
             match made {
                 Ok(error) if error <= 1.0 => {
                     let next = stepper.next_size(h, error, true);
-                    // A step that was shortened does not predict the size of the next one.
+                    // A step that was shortened gives no estimate of the next step size.
                     wanted = if is_last { next.max(wanted) } else { next };
                     steps.accepted += 1;
                     t = if is_last { stop } else { t + h };

@@ -1,4 +1,4 @@
-//! Tests the orders of the two methods with their own steps, for constant step sizes.
+//! Tests the orders of the two methods with their own step size control, with constant step sizes.
 
 use dynamics::{PreparedMechanism, RowChoice, prepare};
 use integrators::Ode;
@@ -13,7 +13,7 @@ use crate::mechanisms::cranks::cranks;
 
 const END: f64 = 0.4;
 
-/// Three cranks under one coupler, one of them redundant, fall.
+/// Returns three falling cranks under one coupler, one of which is redundant.
 fn falling() -> PreparedMechanism {
     let mut three = cranks(&[0.0, 1.0, 2.0], 0.8, 0.9);
     three.gravity = [0.0, -9.81];
@@ -21,7 +21,7 @@ fn falling() -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("a start")
 }
 
-/// Returns the state at the end after `n` steps of equal size, with a projection after each.
+/// Returns the state at the end after `n` steps of equal size, with a projection after each step.
 fn at_end(p: &PreparedMechanism, stepper: &mut dyn Stepper, tolerance: f64, n: usize) -> Vec<f64> {
     let kept = &p.decision.kept;
     let columns = p.mechanism.layout().n_v;

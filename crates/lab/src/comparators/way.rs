@@ -7,10 +7,10 @@ pub enum Formulation {
     KeptRows,
     /// Null-space method: a basis of the motions that C allows.
     NullSpace,
-    /// All rows by a complete orthogonal decomposition.
+    /// All rows, solved by a complete orthogonal decomposition.
     MinimumNorm,
-    /// All rows by proximal iterations, with parameters for the tolerance of the run, computed at
-    /// the start.
+    /// All rows, solved by proximal iterations. The parameters are computed at the initial state
+    /// for the tolerance of the run.
     Proximal,
 }
 
@@ -46,8 +46,8 @@ pub enum Method {
     Tsit5,
     /// Extrapolated midpoint rule, order 4 to 18.
     Gbs,
-    /// Generalized-α on positions and independent rows, order 2; the formulation is used for the
-    /// first accelerations and those of rows.
+    /// Generalized-α for position constraints and independent rows, order 2. The formulation is
+    /// used only for the initial accelerations and the accelerations in output rows.
     GeneralizedAlpha,
 }
 

@@ -20,8 +20,8 @@ use crate::fuzz::{input, minimise};
 /// Number of inputs that one process tests.
 const CHUNK: u64 = 2000;
 
-/// Time limit for shortening one text: texts that cause an endless loop need a time limit for each
-/// trial.
+/// Time limit for shortening one text. Each trial of a text that causes an endless loop takes as
+/// long as the time limit of a trial.
 const SHORTEN: Duration = Duration::from_secs(20);
 
 /// A set of inputs to test.
@@ -61,7 +61,7 @@ pub struct Found {
     pub first: u64,
     /// The failure.
     pub fault: Fault,
-    /// The file with its shortest text.
+    /// The file with the shortest text that causes the failure.
     pub file: PathBuf,
 }
 
@@ -97,7 +97,7 @@ impl Campaign {
         Ok(tally.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// Tests a range of inputs, in as many processes as necessary.
+    /// Tests a range of inputs. A new process is started after each failure.
     fn stretch(&self, from: u64, to: u64, tally: &Mutex<Tally>) -> io::Result<()> {
         let mut at = from;
         while at < to {
@@ -135,7 +135,7 @@ impl Campaign {
         Ok(())
     }
 
-    /// Stores the first input of each location, shortened.
+    /// Counts a failure. For the first failure at each location, a shortened text is stored.
     fn note(&self, number: u64, fault: Fault, tally: &Mutex<Tally>) -> io::Result<()> {
         let place = fault.place().to_owned();
         {

@@ -1,10 +1,10 @@
-//! Makes random changes of a text: mostly such that it remains valid TOML, so that the reader of
-//! scenes and the later stages are tested.
+//! Makes random changes of a text. After most changes the text is still valid TOML, so that the
+//! reader of scenes and the later stages are tested.
 
 use crate::fuzz::scenes::{EXTREMES, Space};
 use suite::numbers::Numbers;
 
-/// Values of all kinds.
+/// Replacement values of all types.
 const VALUES: [&str; 30] = [
     "true",
     "\"\"",
@@ -130,7 +130,7 @@ fn one_of(words: &[&str], more: &[&str], numbers: &mut Numbers) -> String {
     word.map_or_else(String::new, |word| (*word).to_owned())
 }
 
-/// Characters with a meaning in TOML, and some without.
+/// Characters with a meaning in TOML, and other characters.
 const SIGNS: [&str; 16] = [
     "[", "]", "{", "}", "=", ",", ".", "\"", "'", "\n", "#", "-", "é", "\u{feff}", "𝛗", "\u{0}",
 ];
@@ -202,7 +202,7 @@ fn with_value_of_another(lines: &[String], at: usize, numbers: &mut Numbers) -> 
     }
 }
 
-/// Replaces one of the quoted texts of the line by another one of the file.
+/// Replaces one of the quoted texts of the line by another quoted text of the file.
 fn with_other_name(text: &str, line: &str, numbers: &mut Numbers) -> String {
     let names: Vec<&str> = text.split('"').skip(1).step_by(2).collect();
     let mut parts: Vec<&str> = line.split('"').collect();
@@ -214,7 +214,7 @@ fn with_other_name(text: &str, line: &str, numbers: &mut Numbers) -> String {
     parts.join("\"")
 }
 
-/// Replaces one of the numbers of the line by an extreme or a slightly changed one.
+/// Replaces one of the numbers of the line by an extreme number or a slightly changed number.
 fn with_other_number(line: &str, numbers: &mut Numbers) -> String {
     let is_part = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
     let mut pieces: Vec<String> = Vec::new();

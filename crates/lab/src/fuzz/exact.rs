@@ -1,17 +1,18 @@
-//! Independent tests of verdicts: degenerate scenes are drawn in fractions, moved, written as text
-//! with every number rounded once, and analysed by exact arithmetic. The results of `analyze` for
-//! the text must be those for the fractions: ranks, verdicts, components, rows, dependencies, and
-//! every sentence.
+//! Independent tests of the results of `analyze`. Degenerate scenes are constructed with rational
+//! numbers, moved, and written as text with every number rounded once. Exact arithmetic with the
+//! rational numbers gives the correct results. The results of `analyze` for the text must be the
+//! same: ranks, verdicts, components, rows, dependencies, and every sentence.
 //!
 //! The reference shares no code with the program. Rows are wrenches, derived by virtual work from
-//! points and lines of the drawing. They are not derivatives of Φ with respect to the coordinates
-//! of bodies. Their ranks come from elimination with integers. One oracle examines the mechanisms
-//! of [`space`](crate::fuzz::space) and planar drawings, whose rows are converted to space.
+//! points and lines of the drawing, not from derivatives of Φ with respect to the coordinates of
+//! bodies. Ranks are computed by elimination with integers. The same reference is used for the
+//! mechanisms of [`space`](crate::fuzz::space) and for planar drawings, whose rows are converted to
+//! space.
 //!
 //! | module | content |
 //! | --- | --- |
-//! | [`wrench`] | a mechanism as the wrenches of its rows |
-//! | [`truth`] | elimination, and its results |
+//! | [`wrench`] | a mechanism, represented by the wrenches of its rows |
+//! | [`truth`] | elimination, and the exact results |
 //! | [`expected`] | the correct results as plain data |
 //! | [`answer`] | the answer of the program |
 //! | [`examine`] | comparison of answer and correct results |
@@ -29,11 +30,11 @@
 //! | [`ratio`] | fractions, and sums with one square root |
 //! | [`drawing`] | bodies and joints at one configuration, in fractions |
 //! | [`families`] | families of degenerate drawings, with similar drawings that are not degenerate |
-//! | [`pose`] | writings of a drawing: translated, rotated, swapped, in another order |
+//! | [`pose`] | written forms of a drawing: translated, rotated, swapped, in another order |
 //! | [`text`] | the scene as text |
-//! | [`lift`] | its rows as wrenches in space |
+//! | [`lift`] | the rows of a drawing as wrenches in space |
 //! | [`doubles`] | a drawing in double precision, at any configuration and for any data |
-//! | [`minimax`] | the smallest change of data that satisfies equations, between proved bounds |
+//! | [`minimax`] | proved bounds of the smallest change of data that satisfies given equations |
 //! | [`near`] | the distance of the data from a lower rank, computed with `doubles` and `minimax` |
 //! | [`loads`] | reactions under gravity, in double precision |
 //! | [`within`] | comparison of the answers within a tolerance |
@@ -70,19 +71,19 @@ use drawing::Drawing;
 use families::Family;
 use pose::{Posed, Writing};
 
-/// One scene: a drawing in one writing.
+/// One scene: a drawing in one written form.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Family of the scene.
     pub family: Family,
-    /// Writing of the drawing.
+    /// Written form of the drawing.
     pub writing: Writing,
-    /// The drawing after the move, with its elements in the order of the file.
+    /// The drawing after the motion, with its elements in the order of the file.
     pub posed: Posed,
 }
 
-/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, in the writings of
-/// [`Writing::ALL`].
+/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` contain the same drawing, in the written
+/// forms of [`Writing::ALL`].
 #[must_use]
 pub fn scene(seed: u64, number: u64) -> Scene {
     let ways = Writing::ALL.len() as u64;

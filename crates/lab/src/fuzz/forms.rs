@@ -1,9 +1,9 @@
-//! Sets of quadratic forms with integer coefficients test whether [`solvability::common_zero`]
-//! decides correctly if they have a common zero. An independent decision with integers gives the
-//! correct result.
+//! Tests whether [`solvability::common_zero`] decides correctly whether quadratic forms with
+//! integer coefficients have a common zero. An independent decision with integers gives the correct
+//! result.
 //!
-//! Half of the sets are constructed: with a common zero of integers, with a double zero, or as the
-//! forms of mechanisms at symmetric configurations. The other sets are random.
+//! Half of the sets are constructed: they have a common zero with integer coordinates or a double
+//! zero, or are the forms of mechanisms at symmetric configurations. The other sets are random.
 
 mod polynomial;
 mod truth;
@@ -25,7 +25,7 @@ type Form = Vec<Vec<i64>>;
 pub enum Origin {
     /// Random coefficients.
     Random,
-    /// Forms with a common zero of integers.
+    /// Forms with a common zero that has integer coordinates.
     Zero,
     /// Forms with a common zero at which the gradients are dependent.
     Double,
@@ -33,7 +33,7 @@ pub enum Origin {
     Mechanism,
 }
 
-/// A set of forms, with a constructed zero if there is one.
+/// A set of forms, with the constructed zero if the set has one.
 #[derive(Clone, Debug)]
 pub struct Forms {
     origin: Origin,
@@ -42,7 +42,8 @@ pub struct Forms {
 }
 
 impl Forms {
-    /// Draws the set with this number: two to four unknowns, and every second set is constructed.
+    /// Draws the set with this number. It has two to four unknowns; every second set is
+    /// constructed.
     #[must_use]
     pub fn draw(seed: u64, number: u64) -> Self {
         let mut n = Numbers::new(seed ^ number.wrapping_mul(0x2545_f491_4f6c_dd1d));
@@ -89,7 +90,7 @@ impl Forms {
     fn decided(&self) -> CommonZero {
         let matrix = |f: &Form| Matrix::from_fn(f.len(), f.len(), |i, j| f[i][j] as f64);
         let forms: Vec<Matrix> = self.forms.iter().map(matrix).collect();
-        // Integers are exact.
+        // The error bound is zero, because integers are exact.
         common_zero(&forms, 0.0)
     }
 
@@ -114,8 +115,8 @@ impl Forms {
                 }
             }
             (_, Truth::None) => Outcome::Undecided { is_double: false },
-            // A simple zero of one form is decided; common zeros of two or more forms in two
-            // unknowns are coincident roots.
+            // A simple zero of one form must be decided. A common zero of two or more forms in two
+            // unknowns is a coincident root and may be undecided.
             (_, Truth::Simple) => Outcome::Undecided { is_double: false },
             (_, Truth::Double) => Outcome::Undecided { is_double: true },
             (_, Truth::Open) => Outcome::Undecided { is_double: planted },
@@ -138,7 +139,7 @@ fn random(n: &mut Numbers, unknowns: usize) -> Form {
     form
 }
 
-/// Returns a point with one coordinate that is 1.
+/// Returns a random point with one coordinate equal to 1.
 fn point(n: &mut Numbers, unknowns: usize) -> Vec<i64> {
     let one = n.below(unknowns);
     (0..unknowns)
@@ -152,14 +153,14 @@ fn point(n: &mut Numbers, unknowns: usize) -> Vec<i64> {
         .collect()
 }
 
-/// Returns the form minus `f(p)·x_k²`, with `p_k = 1`, which is zero at p.
+/// Returns the form f minus `f(p)·x_k²`, in which `p_k = 1`. The result is zero at p.
 fn through(mut form: Form, p: &[i64]) -> Form {
     let k = p.iter().position(|x| *x == 1).unwrap_or(0);
     form[k][k] -= value(&form, p);
     form
 }
 
-/// Returns forms through p whose gradients there are parallel: f, and forms like
+/// Returns forms that are zero at p and have parallel gradients at p: f, and forms
 /// `c·f + (∇f(p)·x)²`. A single form is the square of a linear form.
 fn double(n: &mut Numbers, count: usize, p: &[i64]) -> Vec<Form> {
     let unknowns = p.len();
@@ -208,8 +209,8 @@ fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
         }
     };
     match n.below(3) {
-        // A straight chain between two pins has rods that point forward or back: Σ ±(y − y')²/l,
-        // times 12.
+        // The form of a straight chain between two pins, whose rods point forward or backward, is Σ
+        // ±(y − y')²/l, times 12.
         0 => {
             let mut form = zero();
             for k in 0..=unknowns {
@@ -226,8 +227,8 @@ fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
             }
             vec![form]
         }
-        // Platforms on three equal legs have two freedoms each: x² − y² and x·y, described in
-        // rotated axes.
+        // Platforms on three equal legs have two degrees of freedom each and the forms x² − y² and
+        // x·y, here in rotated axes.
         1 => {
             let mut forms = Vec::new();
             for k in 0..unknowns / 2 {
@@ -251,8 +252,8 @@ fn mechanism(n: &mut Numbers, unknowns: usize) -> Vec<Form> {
             }
             forms
         }
-        // A row of four-bars in the singular configuration: (v' − v)·[(v' + v)/L − (v' − v)/d] = 0
-        // for each coupler.
+        // A row of four-bars in the singular configuration has the equation (v' − v)·[(v' + v)/L −
+        // (v' − v)/d] = 0 for each coupler.
         _ => {
             let (length, pitch) = (i64::from(n.between(1, 6)), i64::from(n.between(7, 9)));
             (1..unknowns)
@@ -282,13 +283,13 @@ enum Outcome {
 #[derive(Clone, Debug, Default)]
 pub struct Tally {
     counts: BTreeMap<(usize, Origin, Outcome), u64>,
-    /// Numbers of the sets with a wrong decision, and of the sets in two unknowns that were not
-    /// decided although no roots coincide.
+    /// Indices of the sets with a wrong decision, and of the sets in two unknowns that were not
+    /// decided although no roots coincide, with descriptions.
     pub faults: Vec<(u64, String)>,
 }
 
 impl Tally {
-    /// Tests the sets of a seed, beginning with `from`; `done` is called after each.
+    /// Tests the sets of a seed, beginning with `from`; `done` is called after each set.
     #[must_use]
     pub fn of(seed: u64, from: u64, sets: u64, done: impl Fn()) -> Self {
         let mut tally = Self::default();
@@ -307,8 +308,8 @@ impl Tally {
         tally
     }
 
-    /// Returns how many sets of random forms in this number of unknowns were not decided, and how
-    /// many there are.
+    /// Returns the number of undecided sets of random forms in this number of unknowns, and the
+    /// number of all these sets.
     #[must_use]
     pub fn undecided(&self, unknowns: usize) -> [u64; 2] {
         let random = self.counts.iter();
@@ -320,8 +321,8 @@ impl Tally {
         })
     }
 
-    /// Whether no decision is wrong, only coincident zeros are undecided in two unknowns, and in
-    /// three unknowns at most one of twenty random sets.
+    /// Whether no decision is wrong and few sets are undecided: in two unknowns only sets with
+    /// coincident zeros, in three unknowns at most one of twenty random sets.
     #[must_use]
     pub fn passes(&self) -> bool {
         let [open, all] = self.undecided(3);

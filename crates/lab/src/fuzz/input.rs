@@ -13,7 +13,8 @@ use crate::fuzz::space::text::text as scene_of;
 /// Largest number of changes of one text.
 const DAMAGES: usize = 4;
 
-/// Returns the text of input `number`: a random scene, or a known one; half of them are damaged.
+/// Returns the text of input `number`: a random scene or a known scene. Half of the random scenes
+/// and all known scenes are damaged.
 #[must_use]
 pub fn text(space: Space, seed: u64, number: u64) -> String {
     // Each input has a separate seed from one random number, so that consecutive inputs are
@@ -51,7 +52,8 @@ fn known(space: Space, numbers: &mut Numbers) -> String {
     all[numbers.below(all.len())].clone()
 }
 
-/// The catalogue describes one instant; here the mechanism also moves.
+/// Returns a drawing of the catalogue as a scene. The catalogue describes only one configuration;
+/// the keys for a run are added here, so that the mechanism also moves.
 fn drawn(drawing: &Drawing) -> String {
     scene_of(drawing) + "\n[simulate]\nt_end = 0.2\n"
 }

@@ -1,7 +1,7 @@
 //! Finds the shortest text with the same failure: ranges of lines are removed, long ones first,
 //! then parts of lines (Zeller and Hildebrandt 2002, doi 10.1109/32.988498, without complements).
 
-/// Shortens a text as long as `fails` is true.
+/// Shortens a text while `fails` is true for the shortened text.
 #[must_use]
 pub fn shortest(text: &str, mut fails: impl FnMut(&str) -> bool) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
@@ -23,7 +23,8 @@ pub fn shortest(text: &str, mut fails: impl FnMut(&str) -> bool) -> String {
     }
 }
 
-/// Removes pieces that are not needed, in ranges of half the length each time.
+/// Removes parts that are not needed for the failure. The length of the removed ranges is halved in
+/// each pass.
 fn shorten(pieces: &mut Vec<String>, mut fails: impl FnMut(&[String]) -> bool) {
     let mut length = pieces.len().div_ceil(2);
     while length > 0 {

@@ -1,10 +1,10 @@
 //! Parallelograms rotate at speed through their singular configurations, at which another branch of
-//! motion begins. They are near the origin or a thousand kilometres away from it, and every method
-//! is tested.
+//! motion begins. The parallelograms are near the origin or up to a thousand kilometres away from
+//! it, and every method is tested.
 //!
-//! The correct result has a closed form. All cranks have one angle θ, so the coupler does not
-//! rotate. The energy `½·I·θ̇² + W·sin θ` is constant with `I = Σ (J + m·l²/4) + M·l²` and
-//! `W = g·l·(n·m/2 + M)`; without gravity θ = θ₀ + ω·t.
+//! The correct result has a closed form. All cranks have the same angle θ, so the coupler does not
+//! rotate. The energy `½·I·θ̇² + W·sin θ` is constant, with `I = Σ (J + m·l²/4) + M·l²` and
+//! `W = g·l·(n·m/2 + M)`. Without gravity θ = θ₀ + ω·t.
 
 use std::collections::BTreeMap;
 use std::fmt::{self, Write};
@@ -23,15 +23,16 @@ const FAR: f64 = 1e6;
 /// Duration of the motion (s).
 const SECONDS: f64 = 5.0;
 
-/// A run that stops must report this within this processor time.
+/// Largest processor time after which a run that stops must report the error.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Error bounds of angles and energies in tolerances, and their smallest values: a few dozen
-/// singular configurations, each of which may exceed its tolerance by a factor of ten.
+/// Error bounds of angles and energies as multiples of the tolerance, and the smallest values of
+/// these bounds. A run passes a few dozen singular configurations, and at each the error may be ten
+/// times the tolerance.
 const TOLERANCES: f64 = 1e4;
 
-/// No step of a run ends nearer to a singular configuration than this value (fraction of pivots;
-/// here the angle to it, in radians): a limit of the product, repeated here.
+/// Smallest distance from a singular configuration at which a step of a run can end. This limit of
+/// the product is a fraction of pivots; here it is the angle to the singular configuration (rad).
 const NEAREST: f64 = 1e-3;
 
 /// Acceleration of gravity (m/s²).
@@ -54,7 +55,7 @@ pub struct Parallelogram {
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// The run is on the correct branch at every row.
+    /// The run is on the correct branch at every output row.
     Right,
     /// The run stopped with an error.
     Stopped {
@@ -63,7 +64,7 @@ pub enum Verdict {
         /// Whether the error was reported within a second of processor time.
         in_time: bool,
     },
-    /// A row contradicts the closed form.
+    /// An output row contradicts the closed form.
     Wrong(String),
 }
 
@@ -85,7 +86,8 @@ impl fmt::Display for Parallelogram {
 }
 
 impl Parallelogram {
-    /// Draws the run with this number; every second one is far from the origin.
+    /// Draws the run with this number. In every second run the parallelogram is far from the
+    /// origin.
     #[must_use]
     pub fn draw(seed: u64, number: u64) -> Self {
         let mut n = Numbers::new(seed ^ number.wrapping_mul(0x2545_f491_4f6c_dd1d));
@@ -123,15 +125,15 @@ impl Parallelogram {
         self.origin != [0.0; 2]
     }
 
-    /// Relative change of the speed that rounding of the coordinates may cause.
+    /// Relative change of the speed that rounding errors of the coordinates may cause.
     ///
     /// Coordinates at a distance D from the origin are accurate to `ε·D`, so the angles of cranks
-    /// of length l are accurate to `ε·D/l`. At an angle σ to the singular configuration the ratio
-    /// of their speeds has an error of this value divided by σ. A step that begins or ends there
-    /// transfers the error to the speed of all cranks. Steps end at various values of σ, so the
-    /// singular configuration with the smallest value decides. The angle then has an error of this
-    /// fraction of the rotation, and the energy of twice this fraction. Within 2 m of the origin
-    /// the value is below 3e-12, and on another branch angles have errors of some radians.
+    /// of length l are accurate to `ε·D/l`. At an angle σ from the singular configuration, the
+    /// ratio of the crank speeds then has an error of `ε·D/(l·σ)`. A step that begins or ends at
+    /// this angle transfers the error to the speed of all cranks. The smallest σ at the end of a
+    /// step determines the largest error. The relative error of the rotation angle is then the
+    /// same, and the relative error of the energy is twice as large. Within 2 m of the origin the
+    /// value is below 3e-12. On another branch, angles have errors of some radians.
     fn speed_error(&self) -> f64 {
         let distance = self.origin[0].hypot(self.origin[1]);
         f64::EPSILON * (distance + self.length) / (self.length * NEAREST)
@@ -210,8 +212,8 @@ impl Parallelogram {
     }
 }
 
-/// The time of a thread: its processor time, which other processes do not change, or the wall-clock
-/// time if the system does not report it.
+/// The time of a thread. This is the processor time, which does not depend on other processes. If
+/// the system does not report the processor time, it is the wall-clock time.
 struct Clock {
     wall: Instant,
     processor: Option<Duration>,
@@ -246,12 +248,12 @@ impl Clock {
 pub struct Tally {
     /// Number of correct runs and of all runs, by method and position.
     pub counts: BTreeMap<(String, bool), [u64; 2]>,
-    /// Runs that stopped or were wrong: their numbers, and their results.
+    /// Runs that stopped or were wrong, with their indices and results.
     pub others: Vec<(u64, Parallelogram, Verdict)>,
 }
 
 impl Tally {
-    /// Performs the runs of a seed, beginning with `from`; `done` is called after each.
+    /// Performs the runs of a seed, beginning with `from`; `done` is called after each run.
     #[must_use]
     pub fn of(seed: u64, from: u64, runs: u64, done: impl Fn()) -> Self {
         let mut tally = Self::default();
@@ -322,7 +324,7 @@ impl Tally {
 mod tests {
     use super::*;
 
-    /// The number of runs is the requested one, and every method is among them.
+    /// The number of runs is the requested number, and every method is tested.
     #[test]
     fn parallelograms_pass_their_flat_poses_at_speed() {
         let tally = Tally::of(1, 0, 150, || {});
@@ -330,8 +332,8 @@ mod tests {
         assert_eq!(tally.counts.len(), 8, "{:?}", tally.counts);
     }
 
-    /// Near the origin rounding explains no error, and far away less than a ten-thousandth of a
-    /// radian.
+    /// Rounding errors explain practically no error near the origin, and less than a ten-thousandth
+    /// of a radian far away.
     #[test]
     fn rounding_explains_errors_far_from_the_origin_only() {
         for number in 0..1000 {
@@ -343,8 +345,8 @@ mod tests {
         }
     }
 
-    /// Rounding at a singular configuration far from the origin changes the speed by a relative
-    /// 4e-8, and so the angle by 1.0e-6 rad four seconds later.
+    /// Rounding errors at a singular configuration far from the origin cause a relative change of
+    /// the speed of 4e-8, and a change of the angle of 1.0e-6 rad four seconds later.
     #[test]
     fn a_passage_far_away_is_as_good_as_its_coordinates_are_known() {
         let one = Parallelogram::draw(202, 129);

@@ -1,5 +1,6 @@
-//! A random scene: every joint, drive, force and function of time, on bodies that are mostly placed
-//! on a coarse grid, so that parallel axes, coincident points and redundant loops are frequent.
+//! Random scenes with all types of joints, drives, forces and functions of time. Most bodies are
+//! placed on a coarse grid, so that parallel axes, coincident points and redundant loops are
+//! frequent.
 
 mod draft;
 mod functions;
@@ -16,8 +17,8 @@ use draft::Draft;
 pub use draft::Space;
 pub(crate) use values::{EXTREMES, Values};
 
-/// Returns the text of a random scene. Most scenes can be read, many can be assembled, and some can
-/// move.
+/// Returns the text of a random scene. Most of these scenes can be read, many can be assembled, and
+/// some can move.
 #[must_use]
 pub fn random(space: Space, numbers: &mut Numbers) -> String {
     let mut draft = Draft {

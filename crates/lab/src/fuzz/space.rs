@@ -1,10 +1,10 @@
-//! Independent tests of verdicts in space: mechanisms with planted redundancy are drawn in
-//! fractions, moved, written as text with every number rounded once, and analysed by exact
+//! Independent tests of verdicts in space. Mechanisms with planted redundancy are constructed with
+//! rational numbers, moved, written as text with every number rounded once, and analysed by exact
 //! arithmetic.
 //!
-//! The reference shares no code with the program: its rows are wrenches, derived by virtual work
-//! from the points and axes of the joints in the axes of the ground. The reference uses no
-//! derivatives, and ranks come from elimination with integers.
+//! The reference shares no code with the program. The rows of the reference are wrenches, derived
+//! by virtual work from the points and axes of the joints in the axes of the ground. No derivatives
+//! are used, and ranks are computed by elimination with integers.
 //!
 //! ```
 //! use lab::fuzz::space::{Drawing, Expected, text};
@@ -20,20 +20,20 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`ratio`] | fractions of any size |
-//! | [`vector`] | vectors, rotations and similarities in fractions |
+//! | [`vector`] | vectors, rotations and similarity transformations with rational numbers |
 //! | [`mod@drawing`] | bodies, joints and drives at one configuration |
 //! | [`kind`] | types of joints |
 //! | [`rows`] | constraint rows as screws |
 //! | [`catalogue`] | mechanisms with results derived by hand |
 //! | [`families`] | random mechanisms with planted redundancy |
-//! | [`relatives`] | the same mechanisms with fewer rows in a joint, or with a rotated axis |
-//! | [`pose`] | writings of a drawing: moved, other frames, another order |
+//! | [`relatives`] | the same mechanisms with fewer rows in one joint, or with one rotated axis |
+//! | [`pose`] | written forms of a drawing: moved, with other frames, in another order |
 //! | [`text`] | the scene as text |
 //! | [`mod@examine`] | comparison of the answer of the program with exact arithmetic |
 //! | [`lifted`] | planar scenes converted to space |
 //! | [`graph`] | cycles of the joints that keep bodies in the plane |
-//! | [`permanence`] | whether a redundancy belongs to the mechanism or to its configuration |
-//! | [`within`] | comparison of the answers for few digits |
+//! | [`permanence`] | whether a redundancy exists at all configurations or only at the drawn one |
+//! | [`within`] | comparison of the answers for scenes with few digits |
 
 pub mod catalogue;
 pub mod drawing;
@@ -63,21 +63,21 @@ use families::Family;
 use pose::Writing;
 use text::Precision;
 
-/// One scene: a drawing in one writing.
+/// One scene: a drawing in one written form.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Number of the scene.
     pub number: u64,
     /// Family of the scene.
     pub family: Family,
-    /// Writing of the drawing.
+    /// Written form of the drawing.
     pub writing: Writing,
-    /// The drawing after the move, with its elements in the order of the file.
+    /// The drawing after the motion, with its elements in the order of the file.
     pub drawing: Drawing,
 }
 
-/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, in the writings of
-/// [`Writing::ALL`].
+/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` contain the same drawing, in the written
+/// forms of [`Writing::ALL`].
 #[must_use]
 pub fn scene(seed: u64, number: u64) -> Scene {
     let ways = Writing::ALL.len() as u64;

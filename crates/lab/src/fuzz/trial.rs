@@ -1,7 +1,7 @@
-//! Tests one text by passing it to the library in the same way as the commands: check, analyze,
-//! simulate. The results must be consistent.
+//! Tests one text with the same calls of the library as the commands check, analyze and simulate.
+//! The results must be consistent.
 //!
-//! A failed test panics: each trial runs in a supervised process.
+//! A failed test panics. Each trial runs in a supervised process.
 
 mod judged;
 mod moved;
@@ -21,9 +21,9 @@ use reach::named;
 pub enum Stage {
     /// Read the text.
     Read,
-    /// Assemble the start and choose rows.
+    /// Assemble the initial state and choose independent rows.
     Prepare,
-    /// Compute the verdicts of its reactions.
+    /// Compute the verdicts on the reactions.
     Judge,
     /// Run the motion.
     Move,
@@ -33,7 +33,7 @@ impl Stage {
     /// All stages, in their order.
     pub const ALL: [Self; 4] = [Self::Read, Self::Prepare, Self::Judge, Self::Move];
 
-    /// Returns its letter in the answers of a process.
+    /// Returns the letter of the stage in the answers of a process.
     #[must_use]
     pub fn letter(self) -> char {
         match self {
@@ -82,8 +82,8 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
                 }
                 Err(e) => {
                     named(&e);
-                    // `check` and `analyze` warn of a start that `simulate` rejects, and all accept
-                    // the same inputs.
+                    // All commands accept the same inputs. `check` and `analyze` only warn of an
+                    // initial state that `simulate` rejects.
                     assert!(!e.is_input(), "a start that can be judged is refused: {e}");
                     Reach::NoStart
                 }
@@ -106,7 +106,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     begin(Stage::Move);
     let warning = study.cannot_begin();
     let (reach, rows) = moved::check(&study);
-    // `check` and `analyze` warn of a start that `simulate` rejects.
+    // `check` and `analyze` only warn of an initial state that `simulate` rejects.
     assert!(
         rows > 0 || warning.is_some(),
         "no motion begins, and there was no warning"

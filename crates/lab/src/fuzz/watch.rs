@@ -1,5 +1,5 @@
-//! Processes that test texts, with limits of time and memory. If a process ends too early, or does
-//! not answer in time, this is a failure.
+//! Processes that test texts, with limits of time and memory. A process that ends too early or does
+//! not answer in time is a failure.
 
 use std::io::{self, Read, Write};
 use std::path::PathBuf;
@@ -17,7 +17,7 @@ pub struct Limits {
     pub program: PathBuf,
     /// Longest time for one text.
     pub deadline: Duration,
-    /// Largest memory (MiB); enforced if there is a shell that supports the limit.
+    /// Largest memory (MiB), which is enforced if a shell supports the limit.
     pub memory: u64,
 }
 
@@ -39,7 +39,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Returns the common property of two faults with the same cause.
+    /// Returns the location, which is the same for faults with the same cause.
     #[must_use]
     pub fn place(&self) -> &str {
         match self {
@@ -90,7 +90,7 @@ impl Worker {
             .stderr(Stdio::piped())
             .spawn()?;
         if let (Some(mut stdin), Some(text)) = (child.stdin.take(), input) {
-            // The process may already have ended; then it does not answer.
+            // If the process has already ended, it does not answer, which is detected later.
             let _ = stdin.write_all(text.as_bytes());
         }
         let (send, answers) = channel();
@@ -160,7 +160,7 @@ impl Worker {
 
     /// Ends the process immediately.
     pub fn end(mut self) {
-        // The process may have ended by itself.
+        // This fails if the process has already ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

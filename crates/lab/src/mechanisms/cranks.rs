@@ -6,8 +6,8 @@ use model::{Body, BodyRef, Description, Drive, Function, Joint};
 use super::{revolute, rod};
 
 /// Returns cranks of length `length` at angle θ (from the x-axis) on ground pivots `(x, 0)`, under
-/// one horizontal coupler. Body k is crank k, and the last body is the coupler; joint 2k is the
-/// ground pivot of crank k, joint 2k + 1 its tip.
+/// one horizontal coupler. Body k is crank k, and the last body is the coupler. Joint 2k is the
+/// ground pivot of crank k, and joint 2k + 1 is at the tip of crank k.
 pub fn cranks(pivots: &[f64], length: f64, theta: f64) -> Description {
     cranks_at([0.0; 2], pivots, length, theta)
 }
@@ -68,8 +68,8 @@ pub fn motor(name: &str, k: usize, motion: Function) -> Drive {
     }
 }
 
-/// Returns a parallelogram at θ = 1 with a drive on either crank, `one` and `other`: one drive is
-/// redundant.
+/// Returns a parallelogram at θ = 1 with the drives `one` and `other` on its two cranks. One drive
+/// is redundant.
 pub fn driven_parallelogram(motions: [Function; 2]) -> Description {
     let mut d = cranks(&[0.0, 1.0], 0.5, 1.0);
     let [one, other] = motions;
@@ -77,10 +77,10 @@ pub fn driven_parallelogram(motions: [Function; 2]) -> Description {
     d
 }
 
-/// Returns three vertical cranks of 1 m under a coupler whose frame is at the tip of the third.
-/// Both bodies have an error ε at that tip, so all points coincide, but the crank is not parallel
-/// to the others. In frames with the axes of the ground, ε replaces a zero, so that the constraint
-/// matrix contains it for any value.
+/// Returns three vertical cranks of 1 m under a coupler whose frame is at the tip of the third. In
+/// both bodies, the position of this tip has the same error ε. Therefore all points coincide, but
+/// the crank is not parallel to the others. In frames with the axes of the ground, ε replaces a
+/// zero, so that the constraint matrix contains ε without rounding for any value.
 pub fn misaligned(error: f64) -> Description {
     let body = |name: String, position: [f64; 2]| Body {
         name,

@@ -28,7 +28,8 @@ const REVOLUTES: [(&str, usize, usize, [f64; 2]); 7] = [
     ("G", 4, 5, [-0.2, -0.2]),
 ];
 
-/// Name, body and contact point of the knife edges; all normals are the y-axes of their bodies.
+/// Name, body and contact point of the knife edges. The normal of each edge is the y-axis of its
+/// body.
 const EDGES: [(&str, usize, [f64; 2]); 5] = [
     ("W1", 1, [0.3, 0.0]),
     ("W2", 2, [-0.3, 0.0]),

@@ -1,7 +1,7 @@
-//! Mechanisms drawn at one configuration: joints are given by global points and directions there.
-//! The same drawing gives a mechanism of the `model` and its constraint matrix in exact arithmetic
-//! by an independent method. It also gives the same mechanism in other units, translated, rotated,
-//! or in another order.
+//! Mechanisms drawn at one configuration, at which joints are given by global points and
+//! directions. From the same drawing, the module creates a mechanism of the `model` and, by an
+//! independent method, its constraint matrix in exact arithmetic. It also creates the same
+//! mechanism in other units, translated, rotated, or in another order.
 
 mod change;
 mod rows;
@@ -14,7 +14,7 @@ use joints::{
 };
 use model::{Body, BodyRef, ConstraintKernels, Description, Drive, Function, Joint};
 
-/// A point or vector, global.
+/// A point or vector in global coordinates.
 pub type Vector = [f64; 2];
 
 /// A mechanism at one configuration.
@@ -31,7 +31,7 @@ pub struct Sketch {
 pub struct Link {
     /// Name of the joint or drive.
     pub name: String,
-    /// One body for each slot.
+    /// Bodies in the order of the arguments of the joint or drive.
     pub bodies: Vec<BodyRef>,
     /// Kind and position of the joint or drive.
     pub tie: Tie,
@@ -99,7 +99,7 @@ pub enum Tie {
         /// The normal.
         normal: Vector,
     },
-    /// Rolling of the second body, which the first body carries.
+    /// A wheel, the second body, that rolls and rotates in a bearing of the first body.
     Rolling {
         /// The centre, on the carrier.
         at: Vector,
@@ -122,7 +122,7 @@ pub enum Tie {
 }
 
 impl Sketch {
-    /// Adds a body of unit mass and inertia, and returns it.
+    /// Adds a body with unit mass and unit inertia, and returns a reference to it.
     pub fn body(&mut self, position: Vector, angle: f64) -> BodyRef {
         self.bodies.push(Body {
             name: format!("body {}", self.bodies.len()),
@@ -144,8 +144,8 @@ impl Sketch {
         });
     }
 
-    /// Returns the mechanism for the `model`. Drives come after the joints, each group in its
-    /// order.
+    /// Returns the description for the `model`. Drives come after the joints; the order in each
+    /// group is unchanged.
     ///
     /// # Panics
     /// Panics if a direction is zero or not finite.
@@ -196,7 +196,8 @@ impl Sketch {
             };
             Direction::new(turned.to_local(v)).expect("a direction")
         };
-        // The mechanism computes the initial values.
+        // The mechanism computes initial values such as lengths and angles, so they are not given
+        // here.
         match link.tie {
             Tie::Revolute { at } => Box::new(Revolute {
                 s_i: point(0, at),

@@ -1,5 +1,5 @@
 //! Mechanisms in space whose motion is known: a spinning top, a rolling disk, and linkages that
-//! move although Grübler's formula gives no freedom.
+//! move although Grübler's formula gives zero degrees of freedom.
 
 use joints::space3::{Axes, Direction, GroundPlane, Revolute, Spherical, Wheel, cross};
 use model::{BodyRef, SpatialBody, SpatialDescription};
@@ -15,8 +15,8 @@ pub fn diagonal(moments: [f64; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| if i == j { moments[i] } else { 0.0 }))
 }
 
-/// Returns the heavy top: 15 kg, with its mass centre 1 m from the fixed point and 150 rad/s about
-/// its axis.
+/// Returns the heavy top of 15 kg. The mass centre is 1 m from the fixed point, and the top spins
+/// at 150 rad/s about its axis.
 ///
 /// Source: F. Romano, benchmark of the heavy top; M. Géradin, A. Cardona, Flexible Multibody
 /// Dynamics, 2001.
@@ -122,7 +122,7 @@ const BENNETT: u64 = 11;
 /// A disk that rolls steadily without slip: its centre moves on a circle.
 #[derive(Clone, Copy, Debug)]
 pub struct RollingDisk {
-    /// Angle between its axis and the vertical (rad).
+    /// Angle between the axis of the disk and the vertical (rad).
     pub tilt: f64,
     /// Rate of precession (rad/s).
     pub precession: f64,
@@ -133,7 +133,7 @@ impl RollingDisk {
     pub const MASS: f64 = 15.0;
     /// Radius of the disk (m).
     pub const RADIUS: f64 = 1.0;
-    /// Moments of inertia across the axis, A, and along it, C (kg·m²).
+    /// Moment of inertia A about a diameter, and moment of inertia C about the axis (kg·m²).
     pub const MOMENTS: [f64; 2] = [3.75, 7.5];
     /// Acceleration of free fall (m/s²).
     pub const GRAVITY: f64 = 9.81;
@@ -149,7 +149,7 @@ impl RollingDisk {
         moment / (c + Self::MASS * Self::RADIUS * Self::RADIUS)
     }
 
-    /// Returns the disk on the plane z = 0. Its axis is the z-axis of its body.
+    /// Returns the disk on the plane z = 0. The axis of the disk is the z-axis of the body.
     #[must_use]
     pub fn description(&self) -> SpatialDescription {
         let (sin, cos) = self.tilt.sin_cos();

@@ -16,7 +16,7 @@ pub enum Expected {
     },
     /// An error whose text contains all these parts.
     Refusal {
-        /// Names and words.
+        /// Names and words in the error text.
         parts: Vec<String>,
     },
     /// An answer or an error, because of a documented limit of the program.
@@ -108,7 +108,7 @@ impl Outcome {
         }
     }
 
-    /// Creates an answer that is correct or not: its error is 0 or infinite.
+    /// Creates an answer that is either correct or wrong, with an error of 0 or infinity.
     #[must_use]
     pub fn fact(right: bool, detail: impl Into<String>) -> Self {
         Self::answer(if right { 0.0 } else { f64::INFINITY }, detail)
@@ -122,16 +122,16 @@ pub type Run = Box<dyn Fn() -> Outcome + Send + Sync>;
 pub struct Case {
     /// Name of the case in its family.
     pub name: String,
-    /// The integrator, or the question if there is no integration.
+    /// The integrator, or the examined question if the case has no integration.
     pub method: String,
-    /// Treatment of redundancy; `-` if there is no such treatment.
+    /// Treatment of redundancy; `-` if the case has no treatment of redundancy.
     pub formulation: String,
     /// The correct outcome.
     pub expected: Expected,
-    /// The quantity that is varied, with its value in this case, if the cases of a family can be
-    /// plotted over a number.
+    /// The varied quantity and its value in this case, if the cases of a family can be plotted over
+    /// a quantity.
     pub varied: Option<(&'static str, f64)>,
-    /// Time limit, after which the case counts as hanging.
+    /// Time limit, after which the case counts as an endless loop.
     pub limit: Duration,
     /// Runs the case.
     pub run: Run,
@@ -160,7 +160,7 @@ impl Case {
         }
     }
 
-    /// Uses the case as a point of a figure: `what` is the name of the axis.
+    /// Makes the case a point of a figure; `what` is the name of the horizontal axis.
     #[must_use]
     pub fn at(self, what: &'static str, value: f64) -> Self {
         Self {
@@ -176,12 +176,12 @@ impl Case {
     }
 }
 
-/// Cases of one kind: one section of the report.
+/// Cases of one kind, which form one section of the report.
 #[derive(Clone, Copy)]
 pub struct Family {
     /// Name of the family on the command line.
     pub name: &'static str,
-    /// Question of the family, in one sentence.
+    /// The question that the family examines, in one sentence.
     pub about: &'static str,
     /// Creates the cases.
     pub cases: fn() -> Vec<Case>,

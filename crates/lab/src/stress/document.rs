@@ -1,4 +1,4 @@
-//! Stiff and extreme cases: expected and actual outcomes, as a document.
+//! Expected and actual outcomes of stiff and extreme cases, as a document.
 //!
 //! The cases and their judgement are not part of this module.
 
@@ -51,10 +51,9 @@ pub struct StressRow {
     pub family: &'static str,
     /// The case.
     pub case: String,
-    /// The quantity that was varied, and its value in this case; `None` if the cases differ in
-    /// kind.
+    /// The quantity that was varied, and its value in this case; `None` if no quantity is varied.
     pub varied: Option<(&'static str, f64)>,
-    /// Integrator, or the question if there is no integration.
+    /// Integrator, or the examined question if the case has no integration.
     pub method: String,
     /// Treatment of redundancy.
     pub formulation: String,
@@ -77,7 +76,7 @@ pub struct StressRow {
 pub struct StressFamily {
     /// Name of the family.
     pub name: &'static str,
-    /// Question of the family.
+    /// The question that the family examines.
     pub about: &'static str,
     /// Outcomes of the family.
     pub tally: Tally,

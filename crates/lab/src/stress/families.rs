@@ -1,4 +1,4 @@
-//! The list of families: one line each, with a separate file for each.
+//! The list of families. Each family has one line here and a separate file.
 
 mod accelerations;
 mod bad_numbers;
@@ -56,13 +56,13 @@ pub fn find(name: &str) -> Option<Family> {
     families().into_iter().find(|family| family.name == name)
 }
 
-/// Asserts that all outcomes of a family are correct; prints those that are not.
+/// Asserts that all outcomes of a family are correct; prints the wrong outcomes.
 #[cfg(test)]
 fn assert_passes(family: Family) {
     assert_passes_where(family, |_| true);
 }
 
-/// Asserts this for some of its cases, if all would take too long.
+/// Asserts that the outcomes of selected cases are correct, for families that would take too long.
 #[cfg(test)]
 fn assert_passes_where(family: Family, wanted: impl Fn(&crate::stress::Case) -> bool) {
     let mut failures = String::new();

@@ -1,19 +1,19 @@
-//! Plots errors versus the extreme quantity: one panel for each family and each varied number.
+//! Plots errors over the extreme quantity, with one panel for each family and each varied quantity.
 
 use report::figures::{self, Extremes};
 
 use super::document::{StressFamily, StressRow};
 
-/// Returns the figure of all families that vary a number; the text is empty if no family does. A
-/// dashed line is the bound of all cases of a panel, if they have a common bound. Error messages
-/// have no point.
+/// Returns the figure of all families with a varied quantity; the text is empty if there are no
+/// such families. If all cases of a panel have the same bound, a dashed line shows this bound.
+/// Error messages have no point.
 #[must_use]
 pub fn extremes(families: &[StressFamily]) -> String {
     let panels: Vec<Extremes<'_>> = families.iter().flat_map(panels).collect();
     figures::extremes(&panels)
 }
 
-/// Returns the panels of a family, in the order in which its numbers appear.
+/// Returns the panels of a family, in the order in which the varied quantities first appear.
 fn panels(family: &StressFamily) -> Vec<Extremes<'_>> {
     let varied = family.rows.iter().filter_map(|row| row.varied);
     let panel = |varied: &'static str| {
@@ -33,7 +33,7 @@ fn panels(family: &StressFamily) -> Vec<Extremes<'_>> {
         .collect()
 }
 
-/// Returns one curve for each formulation, or for each method if there is one formulation.
+/// Returns one curve for each formulation, or one for each method if there is only one formulation.
 fn series<'r>(rows: &[&'r StressRow]) -> Vec<(&'r str, Vec<[f64; 2]>)> {
     let alike = rows
         .windows(2)

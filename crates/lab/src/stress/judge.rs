@@ -1,10 +1,10 @@
-//! The judgement of an outcome, which is made only here.
+//! Judges outcomes; no other module makes this decision.
 
 use crate::stress::Judgement;
 
 use crate::stress::case::{Expected, Outcome};
 
-/// Compares an outcome with the expectation. An error that is NaN is not within any bound.
+/// Compares an outcome with the expectation. An error of NaN exceeds every bound.
 ///
 /// ```
 /// use lab::stress::Judgement;

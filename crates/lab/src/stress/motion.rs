@@ -1,5 +1,5 @@
-//! Runs a scene, from its text or from a description by the library, up to the last row of its
-//! motion, by every method.
+//! Runs scenes up to the last output row, by every method. A scene is a text or a description that
+//! was built with the library.
 
 use std::ops::ControlFlow;
 
@@ -35,9 +35,9 @@ pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
     all.filter(|options| options.check().is_ok()).collect()
 }
 
-/// Returns the number of steps that a method of its order needs for a motion by this phase (rad) at
-/// a relative tolerance, up to a factor. The local error of a step h is proportional to h to the
-/// power of the order plus one. The number is used to bound the sum of the errors of all steps.
+/// Returns, up to a factor, the number of steps that a method needs for a motion over this phase
+/// (rad) at a relative tolerance. The local error of a step h is proportional to h to the power of
+/// the order plus one. The number of steps is used to bound the sum of the errors of all steps.
 #[must_use]
 pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
     let order = match method {
@@ -47,7 +47,7 @@ pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
     phase.max(1.0) * rtol.powf(-1.0 / (order + 1.0))
 }
 
-/// Creates a case of a motion with these options.
+/// Creates a case that computes a motion with these options.
 pub fn moving(
     name: impl Into<String>,
     options: MotionOptions,
@@ -59,7 +59,7 @@ pub fn moving(
     Case::new(name, method, FORMULATION, expected, made)
 }
 
-/// Creates a case with a question without integration.
+/// Creates a case that examines a question without integration.
 pub fn asking(
     name: impl Into<String>,
     question: &str,
@@ -70,10 +70,10 @@ pub fn asking(
     Case::new(name, question, "-", expected, made)
 }
 
-/// Reads and prepares a text as the commands do, up to its start.
+/// Reads a text and prepares its initial state in the same way as the commands.
 ///
 /// # Errors
-/// Returns the error, with all its problems.
+/// Returns the error message with all problems.
 pub fn study(text: &str) -> Result<Study, Outcome> {
     Study::read("scene", text, &Registry::standard(), &RunOptions::default())
         .map_err(|e| refused(&e))
@@ -90,12 +90,13 @@ pub fn built<S: BodySpace>(description: &MechanismDescription<S>) -> Result<Mech
     })
 }
 
-/// Builds a described mechanism with its start, without a scene. The velocity of one body is given,
-/// and the velocities of the others follow from the constraints. The correction may reduce the
-/// given one according to the masses; cases about starts are therefore texts.
+/// Builds a described mechanism with its initial state, without a scene. The velocity of one body
+/// is given, and the velocities of the other bodies follow from the constraints. The correction of
+/// velocities may also change the given velocity, depending on the masses. Therefore cases about
+/// initial states use texts.
 ///
 /// # Errors
-/// Returns the errors of the description, or the reason why it cannot move.
+/// Returns the errors of the description, or the reason why the mechanism cannot move.
 pub fn prepared<S: BodySpace>(
     description: &MechanismDescription<S>,
 ) -> Result<PreparedMechanism, Outcome> {
@@ -106,17 +107,18 @@ pub fn prepared<S: BodySpace>(
     prepare(built(description)?, &start, &RowChoice::Automatic).map_err(Outcome::refused)
 }
 
-/// Returns the verdicts of a described mechanism at its described configuration.
+/// Returns the verdicts on a described mechanism at its described configuration.
 ///
 /// # Errors
-/// Returns the errors of the description, or the reason why it cannot be analysed.
+/// Returns the errors of the description, or the reason why the mechanism cannot be analysed.
 pub fn analysed(description: &Description) -> Result<Analysis, Outcome> {
     let mechanism = built(description)?;
     let (q, _) = mechanism.described_state();
     analyse(&mechanism, 0.0, &q).map_err(Outcome::refused)
 }
 
-/// Returns accelerations at the start, as a run with these options computes them.
+/// Returns the accelerations at the initial state, computed in the same way as in a run with these
+/// options.
 ///
 /// # Errors
 /// Returns the reason why there are no accelerations.
@@ -135,10 +137,10 @@ pub fn acceleration(
     }
 }
 
-/// Returns the last row of a motion, with the statistics of the run.
+/// Returns the last output row of a motion, with the statistics of the run.
 ///
 /// # Errors
-/// Returns the reason why it stopped.
+/// Returns the reason why the run stopped.
 pub fn last_row(
     prepared: &PreparedMechanism,
     options: &MotionOptions,
@@ -199,7 +201,7 @@ pub fn outcome_of(
     }
 }
 
-/// Returns an error with all its problems, not only the first.
+/// Returns the outcome for an error, with the text of all problems.
 #[must_use]
 pub fn refused(error: &StudyError) -> Outcome {
     match error {
@@ -211,7 +213,7 @@ pub fn refused(error: &StudyError) -> Outcome {
     }
 }
 
-/// Returns the largest number; NaN if one is NaN.
+/// Returns the largest value; NaN if a value is NaN.
 #[must_use]
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };

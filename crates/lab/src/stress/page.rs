@@ -1,5 +1,5 @@
-//! `report.html` of the stiff and extreme cases: one file that can be opened offline. The cases
-//! that do not pass come first.
+//! Writes `report.html` of the stiff and extreme cases, one file that can be opened offline. The
+//! cases that do not pass come first.
 
 use super::document::{Judgement, StressDocument, StressFamily, StressRow};
 use report::page::{add, close, duration, open, safe, short};
@@ -90,7 +90,7 @@ fn failing(page: &mut String, document: &StressDocument) {
     page.push_str("</table></div>\n");
 }
 
-/// Writes a table with a line for each case and a column for each method with each formulation.
+/// Writes a table with a line for each case and a column for each pair of method and formulation.
 fn section(page: &mut String, family: &StressFamily) {
     let head = format_args!(
         "<h2 id=\"{0}\">{0}</h2>\n<p>{1}</p>\n<p class=\"grey\">{2}, {3} of computing</p>\n",

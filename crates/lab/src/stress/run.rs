@@ -1,6 +1,6 @@
-//! Runs cases on some threads. Each case runs on its own thread, so that a panic or an endless loop
-//! is an outcome of that case only. For the same reason the cases do not share a thread pool with
-//! this module.
+//! Runs several cases at the same time. Each case runs on a separate thread, so that a panic or an
+//! endless loop is an outcome of this case only. For the same reason the cases do not share a
+//! thread pool with this module.
 //!
 //! The judgement of outcomes and the files are not part of this module.
 
@@ -49,7 +49,7 @@ pub fn run(
                     let Some((family, case)) = cases.get(k) else {
                         return;
                     };
-                    // Each case is processed only once, so that a lock is neither contended nor
+                    // Each case is processed only once, so its lock is neither contended nor
                     // poisoned.
                     let case = case.lock().ok().and_then(|mut place| place.take());
                     let Some(case) = case else { return };
@@ -71,8 +71,8 @@ pub fn run(
     rows.into_iter().flatten().collect()
 }
 
-/// Runs one case; `None` if a stop was requested. A case that does not end keeps its thread until
-/// the program ends.
+/// Runs one case; `None` if a stop was requested. If a case does not end, its thread runs until the
+/// program ends.
 fn make(
     family: &'static str,
     case: Case,

@@ -5,7 +5,7 @@ use std::io::Write;
 use super::document::StressRow;
 use report::tables::{Table, TableError};
 
-/// Columns of the table; more may follow.
+/// Columns of the table; future versions may add columns after them.
 const HEADER: [&str; 12] = [
     "family",
     "case",
@@ -21,8 +21,8 @@ const HEADER: [&str; 12] = [
     "seconds",
 ];
 
-/// Writer of one line per case. Each line is passed to the writer immediately, so that an
-/// interruption loses no line.
+/// Writes one line per case. Each line is passed to the writer immediately, so that no line is lost
+/// if the program is interrupted.
 pub struct StressTable<W: Write> {
     table: Table<W>,
 }

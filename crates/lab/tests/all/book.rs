@@ -1,6 +1,6 @@
-//! The book shows the actual behaviour of the laboratory: its commands in `console` blocks of
-//! `docs/book` are run and compared line by line. The tests of `pfaff-cli` compare the output of
-//! other commands.
+//! Tests that the book shows the actual output of the command `lab`. The commands in `console`
+//! blocks of `docs/book` are run, and their output is compared line by line. The tests of
+//! `pfaff-cli` compare the output of other commands.
 
 use std::fs;
 use std::process::Command;
@@ -9,7 +9,7 @@ use super::{Folder, stdout};
 
 const BOOK: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book");
 
-/// The words before those of the laboratory.
+/// The start of the command line, before the arguments of `lab`.
 const COMMAND: &str = "$ cargo run -q --release -p lab -- ";
 
 /// Returns commands of the laboratory with the lines shown below each.
@@ -24,7 +24,7 @@ fn examples(text: &str) -> Vec<(&str, Vec<&str>)> {
         while let Some(line) = lines.next_if(|l| !l.starts_with("$ ") && !l.starts_with("```")) {
             shown.push(line);
         }
-        // The tests of `pfaff-cli` pass it to `pfaff`.
+        // If the output is piped to `pfaff`, the tests of `pfaff-cli` run the command.
         if !command.contains('|') {
             found.push((command, shown));
         }

@@ -1,4 +1,4 @@
-//! A short campaign with a fixed seed, and all inputs that failed in the past.
+//! Tests a short campaign with a fixed seed, and all inputs that failed in the past.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -39,7 +39,7 @@ fn a_short_campaign_finds_nothing() {
 
 #[test]
 fn a_fault_is_seen() {
-    // The program writes no answer and ends, like a crashed process.
+    // This program ends without an answer, like a crashed process.
     let limits = Limits {
         program: PathBuf::from("true"),
         ..limits()

@@ -21,7 +21,7 @@ use suite::numbers::Numbers;
 
 const SEED: u64 = 1;
 
-/// A dozen scenes of each family in each writing.
+/// Twelve scenes of each family in each written form.
 const SCENES: u64 = 384;
 
 #[test]
@@ -31,7 +31,8 @@ fn no_answer_contradicts_exact_arithmetic() {
     assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
 }
 
-/// A program that calls everything redundant, or nothing redundant, is wrong in every family.
+/// A program that reports all scenes as redundant, or all as not redundant, would be wrong in every
+/// family.
 #[test]
 fn every_family_has_members_of_full_rank_and_others() {
     for (place, family) in Family::ALL.into_iter().enumerate() {
@@ -44,7 +45,7 @@ fn every_family_has_members_of_full_rank_and_others() {
     }
 }
 
-/// A point in tenths.
+/// Returns a point whose coordinates are given in tenths.
 fn at(x: i128, y: i128) -> Vector {
     [x, y].map(|x| Ratio::new(x, 10))
 }
@@ -63,8 +64,8 @@ fn exact_arithmetic_finds_what_theory_tells() {
     assert!(answer > 80, "{answer}");
 }
 
-/// For all writings, the result of exact arithmetic is the one found by hand, and the program
-/// returns the same.
+/// Asserts for all written forms that the result of exact arithmetic equals the result found by
+/// hand, and that the program returns the same result.
 fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
     for seed in 0..8 * Writing::ALL.len() as u64 {
         let writing = Writing::ALL[seed as usize % Writing::ALL.len()];
@@ -85,8 +86,8 @@ fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
     }
 }
 
-/// Three distances between three points on a line, and an oblique bar: the line has one redundant
-/// constraint, and the reaction of the oblique bar is unique.
+/// Three distances between three points on a line, and an oblique bar. The distances have one
+/// redundant constraint, and the reaction of the oblique bar is unique.
 #[test]
 fn three_bars_on_a_line_and_an_oblique_one() {
     let mut drawing = Drawing::new();
@@ -101,7 +102,7 @@ fn three_bars_on_a_line_and_an_oblique_one() {
     assert_answer(&drawing, 3, &["j0", "j1", "j2"]);
 }
 
-/// The normals meet in the origin of the body: the body can rotate about it.
+/// The normals meet in the origin of the body, so the body can rotate about this point.
 #[test]
 fn three_edges_whose_normals_meet() {
     for centre in [at(0, 0), at(10, 0), at(3, -11)] {
@@ -119,8 +120,8 @@ fn three_edges_whose_normals_meet() {
     }
 }
 
-/// Wheels at 120° with radial normals have a rotating wheel each: the rows of the wheels add no
-/// rank to that of the three normals, rank 2.
+/// Three edges at 120° with radial normals, each with a rotating wheel. The rank for the three
+/// normals is 2, and the rows of the wheels do not add redundancy.
 #[test]
 fn three_wheels_at_120_degrees() {
     for centre in [at(0, 0), at(10, 0)] {
@@ -139,8 +140,8 @@ fn three_wheels_at_120_degrees() {
     }
 }
 
-/// A wheel is in a bearing at its centre, whose position has an error of one unit in the last
-/// place. The wheel rotates freely for any other constraints.
+/// A wheel is in a bearing at its centre. The position of the bearing has an error of one unit in
+/// the last place. The wheel rotates freely, independently of all other constraints.
 #[test]
 fn a_wheel_pinned_at_its_centre() {
     let mut drawing = Drawing::new();
@@ -156,7 +157,7 @@ fn a_wheel_pinned_at_its_centre() {
     }
 }
 
-/// With ratios of 1/3 and 3, both meshes give the same condition.
+/// With the ratios 1/3 and 3, both meshes give the same condition.
 #[test]
 fn two_meshes_of_the_same_wheels() {
     for (closing, rank) in [(Ratio::whole(3), 1), (Ratio::new(301, 100), 2)] {
@@ -285,8 +286,8 @@ fn of_drawings(suite: Suite, from: u64, drawings: u64) -> Tally {
     Tally::of(suite, SEED, ways * from, ways * drawings, || ())
 }
 
-/// For degenerate drawings with 3 … 16 digits no result contradicts exact arithmetic; with the
-/// largest number of digits and without a tolerance, all are decided.
+/// For degenerate drawings with 3 … 16 digits, no result contradicts exact arithmetic. With the
+/// largest number of digits and without a tolerance, all results are decided.
 #[test]
 fn with_few_digits_no_answer_is_wrong() {
     let tally = of_drawings(Suite::RoundedInPlane, 0, DRAWINGS);
@@ -300,9 +301,10 @@ fn with_few_digits_no_answer_is_wrong() {
     );
 }
 
-/// Drawings for which a scene once had a wrong result. The causes were contradicting rows that
-/// share their residual, starts and refined poses that left the intended configuration, singular
-/// vectors of rounding errors, and coefficients of a tenth that counted as zero.
+/// Drawings with a scene whose result was wrong in the past. The causes were: contradicting rows
+/// that share their residual, initial and refined poses that differ from the intended
+/// configuration, singular vectors that consist of rounding errors, and coefficients of a tenth
+/// that counted as zero.
 #[test]
 fn answers_that_were_wrong_once_are_right() {
     for drawn in [7, 62, 71, 127, 182, 231, 237, 278, 317] {
@@ -319,8 +321,8 @@ fn no_tolerance_below_a_third_makes_a_row_redundant() {
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// The reference for τ* is compared with a closed form: a pin with an error δ is shared by eight
-/// points, each of which must move by an eighth.
+/// Compares the reference for τ* with a closed form: the error δ of a pin can be distributed to
+/// eight points, each of which must move by an eighth of δ.
 #[test]
 fn a_third_crank_is_redundant_from_an_eighth_of_its_misfit_on() {
     for (off, right) in [
@@ -349,14 +351,14 @@ fn a_third_crank_is_redundant_from_an_eighth_of_its_misfit_on() {
             found.low <= 1.02 * right && found.high >= 0.98 * right,
             "{found:?}, {right}"
         );
-        // The gap between the bounds comes from the second-order terms, and from the end of the
-        // iteration.
+        // The bounds differ because of the second-order terms, and because the iteration ends
+        // before convergence.
         assert!(found.high < 1.25 * found.low, "{found:?}");
     }
 }
 
-/// The comparison within a tolerance also finds errors in a changed document: a row too many or too
-/// few, or a reaction that is zero.
+/// The comparison within a tolerance also finds errors in a changed document: a rank that is too
+/// large or too small, or a reaction of zero.
 #[test]
 fn a_changed_document_is_found_out_within_a_tolerance() {
     let mut drawing = Drawing::new();

@@ -1,4 +1,4 @@
-//! Differences between formulations other than the motion: reactions, drift, errors.
+//! Tests how formulations differ in reactions, drift and errors; the motion is the same.
 
 use lab::comparators::{Comparator, Drift, Formulation, Method, run};
 use lab::mechanisms::cranks::cranks;
@@ -50,7 +50,8 @@ fn unique_reactions_are_those_of_every_formulation() {
     }
 }
 
-/// Without projection states drift; Baumgarte's terms reduce the drift.
+/// Without projection, states drift from the constraints. Baumgarte stabilisation reduces the
+/// drift.
 #[test]
 fn drift_is_pulled_back() {
     let mut d = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);

@@ -209,7 +209,7 @@ mod on_linux {
         let file = folder.0.join("scene.toml");
         fs::write(&file, "older").expect("writable");
         let path = file.to_str().expect("UTF-8");
-        // No file accepts a byte.
+        // With a limit of zero for file sizes, no byte can be written into a file.
         let script = "trap '' XFSZ; ulimit -f 0; exec \"$0\" \"$@\"";
         let mut limited = Command::new("sh");
         limited.args(["-c", script, env!("CARGO_BIN_EXE_lab")]);

@@ -1,6 +1,7 @@
-//! Verdicts in space do not depend on the description of a mechanism: position, orientation, units,
-//! order, which body is the first one, frames and mass centres of the bodies. Two descriptions of
-//! one mechanism are compared with each other, without an oracle.
+//! Tests that verdicts in space do not depend on the description of a mechanism: position,
+//! orientation, units, order, exchange of first and second body, frames and mass centres of the
+//! bodies. Two descriptions of one mechanism are compared with each other, without a reference
+//! result.
 
 use std::collections::BTreeMap;
 
@@ -18,18 +19,19 @@ use suite::numbers::Numbers;
 /// Seed of the drawings; proptest selects their numbers.
 const SEED: u64 = 1_111;
 
-/// Number of drawings from which proptest selects: ten of each family.
+/// Number of drawings from which proptest selects: twenty of each family.
 const DRAWINGS: u64 = 240;
 
-/// Longest translation of a near scene: within three times its coordinates, which are below 10 m.
+/// Longest translation of a near scene (m): three times the largest coordinate, which is below 10
+/// m.
 const NEAR: i64 = 30;
 
 /// Longest translation of a far scene (m).
 const FAR: i64 = 1_000_000;
 
-/// Results for a mechanism that do not depend on axes. For each reaction, by name, these are its
-/// verdict and that of its multipliers, and the dimensions of the wrenches that are unique and that
-/// are not always zero.
+/// Results for a mechanism that do not depend on axes. For each reaction, by name: the verdict on
+/// the reaction, the verdict on its multipliers, the number of directions of unique wrenches, and
+/// the number of directions of wrenches that are not always zero.
 #[derive(Debug, PartialEq)]
 struct Said {
     /// Rank, redundancy, rank of the holonomic and of the nonholonomic rows; `None` if undecided.
@@ -60,7 +62,7 @@ fn is_open(verdict: &Verdict) -> bool {
     matches!(verdict, Verdict::Undecided { .. })
 }
 
-/// Whether both results can be true: an open verdict contradicts no other.
+/// Whether both results can be correct. An undecided verdict contradicts no other verdict.
 fn agree(a: &Said, b: &Said) -> bool {
     let same = |a: &Verdict, b: &Verdict| a == b || is_open(a) || is_open(b);
     let names = a.reactions.keys().eq(b.reactions.keys());
@@ -78,7 +80,7 @@ fn agree(a: &Said, b: &Said) -> bool {
             })
 }
 
-/// Quaternions of integers up to 1000: their rotations have entries with all digits.
+/// Quaternions of integers up to 1000, so that the entries of the rotation matrices use all digits.
 fn turns() -> impl Strategy<Value = Rotation> {
     let parts = prop::array::uniform4(-1000_i64..=1000);
     let parts = parts.prop_filter("a rotation", |q| *q != [0; 4]);
@@ -96,7 +98,7 @@ fn shifts(most: i64) -> impl Strategy<Value = Vector> {
     parts.prop_map(move |p| Vector(p.map(|x| Ratio::new((x * most) as i32, 1000))))
 }
 
-/// Returns a drawing in its original writing.
+/// Returns a drawing in its original form.
 fn drawn(number: u64) -> Drawing {
     let ways = Writing::ALL.len() as u64;
     scene(SEED, ways * number).drawing
@@ -105,8 +107,8 @@ fn drawn(number: u64) -> Drawing {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Translated, rotated, or in other units, a mechanism has the same verdicts, and all of them
-    /// are decided.
+    /// If a mechanism is translated, rotated, or described in other units, the verdicts are the
+    /// same, and all of them are decided.
     #[test]
     fn a_place_an_orientation_and_units_change_nothing(
         number in 0..DRAWINGS, turn in turns(), shift in shifts(NEAR), scale in units()
@@ -135,7 +137,8 @@ proptest! {
         prop_assert!(is_decided(&here) && is_decided(&there), "{here:#?}\n{there:#?}");
     }
 
-    /// Far from the origin numbers have fewer digits: each result there is open or the same.
+    /// Far from the origin, coordinates have fewer significant digits. Each result is the same or
+    /// undecided.
     #[test]
     fn far_away_nothing_is_contradicted(
         number in 0..DRAWINGS, turn in turns(), shift in shifts(FAR)

@@ -1,4 +1,5 @@
-//! Compares every comparator with known motions, and with pfaff if the mechanism is redundant.
+//! Compares every reference method with known motions, and with pfaff if the mechanism is
+//! redundant.
 
 use dynamics::{MotionOptions, PreparedMechanism, RowChoice, prepare, simulate};
 use lab::comparators::{Comparator, Drift, Formulation, Method, run};
@@ -13,7 +14,7 @@ pub(crate) fn started(d: &Description) -> PreparedMechanism {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
 }
 
-/// Returns a case of the suite, at its start.
+/// Returns a case of the suite at its initial state, with the known values.
 fn case(name: &str) -> (PreparedMechanism, Vec<Instant>) {
     let case = suite::find(name).expect("a case");
     let registry = model::Registry::standard();
@@ -55,9 +56,10 @@ fn off(p: &PreparedMechanism, row: &lab::comparators::Row, instant: &Instant) ->
     worst
 }
 
-/// Returns every formulation with projection, by every method, then every treatment of drift by one
-/// method. Proximal iterations without any treatment are omitted: a redundant row with a residual δ
-/// causes an acceleration of k·δ²/μ, so that the drift amplifies itself.
+/// Returns all combinations of formulations and methods with projection, then every treatment of
+/// drift with one method. Proximal iterations without a treatment of drift are omitted. There, a
+/// redundant row with a residual δ causes an acceleration of k·δ²/μ, so that the drift increases
+/// itself.
 fn ways() -> Vec<Comparator> {
     let mut ways = Vec::new();
     for formulation in Formulation::ALL {
@@ -84,8 +86,8 @@ fn ways() -> Vec<Comparator> {
     ways
 }
 
-/// Returns the error bound of a run with a tolerance: a multiple of it for the accurate methods,
-/// its power 2/3 for order 2.
+/// Returns the error bound of a run: a multiple of the tolerance for the accurate methods, and a
+/// multiple of the tolerance to the power 2/3 for order 2.
 fn bound(way: Comparator, tolerance: f64, factor: f64) -> f64 {
     match way.method {
         Method::GeneralizedAlpha => factor * tolerance.powf(2.0 / 3.0),
@@ -93,7 +95,8 @@ fn bound(way: Comparator, tolerance: f64, factor: f64) -> f64 {
     }
 }
 
-/// A method of order 2 would need a million steps.
+/// Returns the tolerance of a run. It is looser for a method of order 2, which would otherwise need
+/// a million steps.
 fn tolerance(way: Comparator) -> f64 {
     match way.method {
         Method::GeneralizedAlpha => 1e-6,
@@ -153,8 +156,8 @@ pub(crate) fn gap(a: &[f64], b: &[f64]) -> f64 {
     gaps.fold(0.0, f64::max)
 }
 
-/// The mechanisms are three cranks under gravity and the robot with its drive and break times, both
-/// redundant; unique reactions equal those of pfaff.
+/// The mechanisms are three cranks under gravity, and the robot with its drive and break times.
+/// Both are redundant, and the unique reactions equal the reactions computed by pfaff.
 #[test]
 fn redundant_mechanisms_move_as_the_product_moves_them() {
     let mut swinging = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);

@@ -1,5 +1,5 @@
-//! Large files, and files that are malicious because of their size, are read in time proportional
-//! to their size, or rejected with an error that names the limit.
+//! Tests that large files, and files that are malicious because of their size, are read in time
+//! proportional to their size or rejected with an error that states the limit.
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -9,14 +9,15 @@ use model::{Mechanism, Registry, StartOptions, System, Work};
 use pfaff::scene::{Diagnostic, Scene, Severity};
 use suite::generate::{Kind, Order};
 
-/// Number of cells of a chain with a hundred thousand revolutes.
+/// Number of cells of a chain with a hundred thousand revolute joints.
 const CELLS: usize = 18_750;
 
 /// Time limit for any of these files, on a slow machine, without optimisation. An algorithm of
 /// quadratic time would need hours.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Number of problems that are listed; one more states the number of the others.
+/// Number of problems that are listed. One more message states the number of the remaining
+/// problems.
 const LISTED: usize = 5000;
 
 /// Reads a text with the standard joints and forces.
@@ -68,8 +69,8 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("it rests");
     assert!(found.v.iter().all(|v| *v == 0.0));
-    // One body has a given velocity, and the others follow; in a chain of parallelograms its
-    // neighbours have the same velocity.
+    // The velocity of one body is given, and the velocities of the other bodies follow. In a chain
+    // of parallelograms, the neighbouring bodies have the same velocity.
     given[0] = Some(1.0);
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("the chain moves so");
@@ -122,7 +123,8 @@ fn one_fault_in_a_hundred_thousand_joints_is_named() {
     );
 }
 
-/// The same mistake is in every joint: the first ones are listed, and the others counted.
+/// The same mistake is in every joint. The first mistakes are listed, and the remaining ones are
+/// counted.
 #[test]
 fn a_fault_in_every_joint_is_listed_some_thousand_times() {
     let text = chain(4000);
@@ -217,8 +219,8 @@ fn names_that_are_all_alike_and_bodies_with_themselves() {
     );
 }
 
-/// The scene contains sliders on one another; each is driven, listed in `keep`, in a group, and in
-/// an expression.
+/// The scene is a chain of sliders, each mounted on the previous one. Each slider is driven, listed
+/// in `keep` and in a group, and used in an expression.
 #[test]
 fn a_thing_of_every_kind_for_each_body() {
     const N: usize = 20_000;
@@ -254,7 +256,7 @@ fn a_thing_of_every_kind_for_each_body() {
         "[simulate]\nt_end = 1.0\ndrop = [{}]\n",
         list(Box::new(|k| format!("{}", k + 1)))
     ));
-    // One sum of all components has several lines, which a text may have.
+    // The sum of all components is one expression of several lines, which is allowed.
     let sum: String = (0..N).map(|k| format!(" + j{k}.Fx\n")).collect();
     add(format_args!(
         "[[group]]\nname = \"all\"\ncombine = \"\"\"{sum}\"\"\"\n"
@@ -268,7 +270,8 @@ fn a_thing_of_every_kind_for_each_body() {
     assert_eq!(Work::of(&mechanism).without_turning.len(), N);
 }
 
-/// Levels of a malicious nesting: with recursion, one byte for each level would overflow any stack.
+/// Number of levels of a malicious nesting. Each level needs only one byte in the file, but a
+/// recursive reader would overflow any stack.
 const DEEP: usize = 1_000_000;
 
 #[test]
@@ -374,7 +377,7 @@ fn a_long_line_within_the_limit_is_read() {
     let scene = read(&text).unwrap_or_else(|problems| panic!("{}", problems[0]));
     assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
     assert_eq!(scene.description.n_forces(), 1);
-    // A line contains only invalid numbers: it is searched only for those that are listed.
+    // A line contains only invalid numbers. Positions are computed only for the listed ones.
     let wrong = text.replace("0.", "nan+0.");
     assert!(problems(&wrong).len() <= LISTED + 1);
 }

@@ -1,5 +1,5 @@
-//! Tests of the laboratory: comparators compared with known motions and with pfaff, scenes of any
-//! size, and the command `lab`.
+//! Tests of the laboratory: reference methods, which are compared with known motions and with
+//! pfaff, scenes of any size, and the command `lab`.
 
 mod book;
 mod campaign;

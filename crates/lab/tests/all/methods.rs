@@ -23,8 +23,9 @@ fn falling_cranks() -> Description {
     three
 }
 
-/// Errors are proportional to tolerances, at a cost that depends on the order: a thousandth of the
-/// error needs ten times the steps at order 2, and hardly more at high orders.
+/// Errors are proportional to tolerances, and the number of steps depends on the order. To reduce
+/// the error by a factor of a thousand, a method of order 2 needs ten times as many steps, and
+/// methods of high order need only a few more.
 #[test]
 fn work_grows_with_the_order() {
     let p = started(&falling_cranks());
@@ -45,9 +46,9 @@ fn work_grows_with_the_order() {
     }
 }
 
-/// A spring of k = 10¹⁰ N/m supports the cranks against gravity; it oscillates a hundred thousand
-/// times faster than the steps of generalized-α. With wrong derivatives of its force Newton's
-/// method would diverge; Dormand–Prince would need a million steps.
+/// A spring of k = 10¹⁰ N/m supports the cranks against gravity. The period of its oscillation is a
+/// hundred thousand times shorter than the steps of generalized-α. Newton's method would diverge
+/// with wrong derivatives of the spring force, and Dormand–Prince would need a million steps.
 #[test]
 fn generalized_alpha_steps_over_the_oscillations_of_a_stiff_spring() {
     let mut held = falling_cranks();

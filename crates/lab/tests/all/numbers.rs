@@ -1,6 +1,6 @@
-//! Tests the campaign of numbers: its oracle is compared with closed forms, planted errors must be
-//! found, and a short campaign runs. `cargo run --release -p lab -- fuzz numbers` examines 20 000
-//! mechanisms.
+//! Tests the campaign `fuzz numbers`. The reference solver is compared with closed forms, planted
+//! errors must be found, and a short campaign is run. `cargo run --release -p lab -- fuzz numbers`
+//! examines 20 000 mechanisms.
 
 use lab::fuzz::numbers::examine::{examine, examine_by};
 use lab::fuzz::numbers::findings::{Findings, Kind};
@@ -16,7 +16,8 @@ use pfaff::model::{ConstraintId, Mechanism, Registry, System};
 use pfaff::solvability::{AnalysisError, Compliance, analyse};
 use suite::numbers::Numbers;
 
-/// A leaf of 20 kg has two hinges, 1.5 m apart; the mass centre is 0.4 m away from their line.
+/// A door of 20 kg has two hinges, 1.5 m apart. The mass centre is 0.4 m from the line of the
+/// hinges.
 const DOOR: &str = r#"
 scene = { name = "door", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "leaf", mass = 20.0, inertia = 8.0, position = [0.4, 1.0] }]
@@ -26,8 +27,8 @@ joint = [
 ]
 "#;
 
-/// Three upright cranks; the pivot of one consists of two points on lines. Its sideways force is
-/// determined only at the start.
+/// Three upright cranks. The pivot of one crank consists of two points on lines. The sideways force
+/// in this pivot is determined only at the initial configuration.
 const UPRIGHT: &str = r#"
 scene = { name = "upright", space = "plane", gravity = [0.0, -10.0] }
 body = [
@@ -48,7 +49,7 @@ joint = [
 simulate = { t_end = 0.4, output_step = 0.1 }
 "#;
 
-/// Returns a mechanism on a rotating base: `body` and `joint` are further lines.
+/// Returns a mechanism on a rotating base; `bodies` and `joints` are further tables of the text.
 fn on_a_base(bodies: &str, joints: &str) -> String {
     format!(
         r#"
@@ -84,8 +85,9 @@ fn find<'f>(forms: &'f [Form], group: usize, name: &str) -> &'f Form {
         .expect("a component")
 }
 
-/// Moments about the upper hinge give 1.5·Fx = 0.4·200 N·m. The share of the weight depends on the
-/// choice: without one of the rows the other hinge takes all, and equal hinges take halves.
+/// The moments about the upper hinge give 1.5·Fx = 0.4·200 N·m. The distribution of the weight is
+/// not determined. Without the vertical row of one hinge, the other hinge supports the whole
+/// weight; equal elastic hinges support half of it each.
 #[test]
 fn the_oracle_knows_a_door() {
     let (instant, forms, study) = oracle(DOOR);
@@ -135,7 +137,7 @@ fn the_oracle_knows_a_door() {
     assert!((instant.load - 200.0).abs() < 1e-12, "{}", instant.load);
 }
 
-/// Two collinear bars between two pins move at first order, but they have no finite motion.
+/// Two collinear bars between two pins can move to first order, but they have no finite motion.
 #[test]
 fn an_own_step_does_not_move_what_second_order_blocks() {
     let bars = |y: f64| {
@@ -192,8 +194,8 @@ fn kinds(findings: &Findings) -> Vec<Kind> {
     kinds
 }
 
-/// The product with changed verdicts: `change` receives the verdict at the start and the verdict on
-/// the run.
+/// The product with changed verdicts. The function `change` receives the verdict at the initial
+/// state and the verdict on the run.
 struct Changed<F>(F);
 
 impl<F: Fn(bool, &mut OnRun) + Sync> Judge for Changed<F> {
@@ -217,7 +219,8 @@ fn all_stretches(own: &mut OnRun, word: Word) {
     own.stretches.iter_mut().for_each(|s| s.word = word);
 }
 
-/// This judge uses the verdict of the start for the run, as the product did in the past.
+/// A source of verdicts that uses the verdict at the initial state for the whole run, as earlier
+/// versions of the product.
 #[test]
 fn a_verdict_of_the_start_is_found_out() {
     let of_start = Changed(|is_unique: bool, own: &mut OnRun| {
@@ -234,7 +237,8 @@ fn a_verdict_of_the_start_is_found_out() {
     assert_eq!(kinds(&found), [], "{:?}", found.all);
 }
 
-/// These judges call no number determined, every number determined, or no number ill-determined.
+/// Sources of verdicts that report no value as determined, every value as determined, or no value
+/// as ill-determined.
 #[test]
 fn planted_faults_are_found() {
     let doubled = on_a_base(
@@ -243,7 +247,7 @@ fn planted_faults_are_found() {
     { name = "upper", type = "revolute", bodies = ["base", "leaf"], at = [0.4, 0.2] },
     { name = "lower", type = "revolute", bodies = ["base", "leaf"], at = [0.4, 0.2] },"#,
     );
-    // A pin and a bar that passes it at a distance of 1 mm.
+    // A body on a pin and on a bar whose line passes the pin at a distance of 1 mm.
     let lever = on_a_base(
         r#"    { name = "lever", mass = 2.0, inertia = 0.1, position = [0.9, 0.0] },"#,
         r#"
@@ -271,14 +275,14 @@ fn planted_faults_are_found() {
     }
 }
 
-/// Every piece on every carrier is among the first ones of a campaign.
+/// The first mechanisms of a campaign contain every submechanism on every carrier.
 #[test]
 fn a_short_campaign_finds_nothing() {
     let tally = Tally::of(1, 0, 30, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// Mechanisms that a campaign has found, with the error in each.
+/// Mechanisms for which a campaign has found errors, with a description of each error.
 #[test]
 fn mechanisms_that_were_wrong_once_are_right() {
     let found = [

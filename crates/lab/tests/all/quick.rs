@@ -1,4 +1,4 @@
-//! Runs the families that take little time, in the same way as the command.
+//! Runs the fast families in the same way as the command.
 
 use std::num::NonZeroUsize;
 

@@ -1,5 +1,5 @@
-//! Compares the solvers of the saddle equations with all rows with independent rows, constructed
-//! combinations, and results found by hand.
+//! Tests the solvers of the saddle equations that use all rows. They are compared with the solver
+//! for independent rows, for constructed combinations of rows, and with results found by hand.
 
 use lab::comparators::{Fault, MinimumNorm, NullSpace, Proximal, Saddle, Solver, Tuning};
 use linalg::{KeptRowSaddle, Matrix, singular_values};
@@ -32,17 +32,17 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 proptest! {
-    // The cases are always the same, because the bounds depend only roughly on masses and condition
-    // numbers.
+    // The cases have a fixed seed, because the error bounds are only estimates from masses and
+    // condition numbers.
     #![proptest_config(ProptestConfig {
         rng_seed: RngSeed::Fixed(20130909),
         failure_persistence: None,
         ..ProptestConfig::default()
     })]
 
-    /// With r random rows and p combinations of them, all solvers return the accelerations of the r
-    /// rows, and the constraint forces agree. The λ of minimum norm is perpendicular to the
-    /// constructed combinations.
+    /// For r random rows and p combinations of these rows, all solvers return the accelerations for
+    /// the r rows, and the constraint forces agree. The λ of minimum norm is perpendicular to the
+    /// constructed dependencies.
     #[test]
     fn all_rows_agree_with_independent_ones(
         n in 2..12_usize, r in 1..10_usize, p in 0..4_usize,
@@ -91,15 +91,14 @@ proptest! {
     }
 }
 
-/// Three rows act on a unit mass, and one of them is redundant: x = 0, the same multiplied by two,
-/// and z = 0.
+/// Returns three rows for a unit mass, one of which is redundant: x = 0, 2·x = 0 and z = 0.
 fn twice(delta: f64) -> Matrix {
     Matrix::from_rows(&[[1.0, 0.0, 0.0], [2.0, delta, 0.0], [0.0, 0.0, 1.0]])
 }
 
-/// With a violation δ of the constraints a redundant row is independent by δ. If it is treated as
-/// independent, its direction has an acceleration of order one; with the fixed rank all errors are
-/// of order δ.
+/// If the constraints are violated by δ, a redundant row has an independent component of size δ. If
+/// the row is treated as independent, the acceleration along this component has an error of order
+/// one. With the fixed rank, all errors are of order δ.
 #[test]
 fn noise_off_the_constraints_stays_noise() {
     let gamma = [1.0, 2.0 + 1e-6, 0.5];
@@ -121,7 +120,7 @@ fn noise_off_the_constraints_stays_noise() {
 
 #[test]
 fn massless_bodies_and_motions() {
-    // Masses (1, 0, 0) at positions x, y, z are rigidly connected.
+    // The coordinates x, y, z with masses (1, 0, 0) are rigidly connected.
     let mass = [1.0, 0.0, 0.0];
     let tied = Matrix::from_rows(&[[1.0, -1.0, 0.0], [0.0, 1.0, -1.0], [1.0, 0.0, -1.0]]);
     let mut least = MinimumNorm::new(2);
@@ -129,7 +128,8 @@ fn massless_bodies_and_motions() {
     for x in a {
         assert!((x - 2.0).abs() < 1e-14, "{x}");
     }
-    // λ = (l₁ + s, l₂ + s, −s) with l = (−2, −2): the minimum norm has s = 4/3.
+    // The solutions are λ = (l₁ + s, l₂ + s, −s) with l = (−2, −2). The norm is minimal for s =
+    // 4/3.
     for (l, expected) in lambda.iter().zip([-2.0 / 3.0, -2.0 / 3.0, -4.0 / 3.0]) {
         assert!((l - expected).abs() < 1e-14, "{lambda:?}");
     }
@@ -165,9 +165,10 @@ fn the_response_of_one_direction() {
     }
 }
 
-/// There is a weak direction, σ_r² = 4e-3, and a redundant row with a residual δ, as at a stage of
-/// an integrator. The chosen μ gives an error of order δ; a small μ with few iterations, which is
-/// equally exact on the constraints, gives accelerations of order one.
+/// One direction has a small singular value, σ_r² = 4e-3, and a redundant row has a residual δ, as
+/// at a stage of an integrator. The rule for μ gives an error of order δ. A small μ with few
+/// iterations is equally accurate if the constraints are satisfied, but here it gives accelerations
+/// of order one.
 #[test]
 fn off_the_constraints_the_rule_beats_a_small_mu() {
     let weak = 0.09;

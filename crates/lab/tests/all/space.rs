@@ -1,5 +1,5 @@
-//! Mechanisms in space: the results of the program equal those of exact arithmetic, and planar
-//! scenes in space have the results of the plane.
+//! Tests for mechanisms in space that the results of the program equal the results of exact
+//! arithmetic, and that converted planar scenes have the same results as in the plane.
 //! `cargo run --release -p lab -- fuzz exact --suite space` tests 20 000 of them.
 
 use std::fs;
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 
 const SEED: u64 = 3;
 
-/// Two drawings of each family in each writing.
+/// Two drawings of each family in each written form.
 const SCENES: u64 = 96;
 
 #[test]
@@ -37,7 +37,7 @@ fn the_catalogue_has_its_answers() {
     }
 }
 
-/// The same mechanism is a thousand times smaller or larger: verdicts do not depend on units.
+/// Verdicts are the same if a mechanism is a thousand times smaller or larger.
 #[test]
 fn verdicts_do_not_depend_on_size() {
     for number in (1..SCENES).step_by(8) {
@@ -70,8 +70,8 @@ fn with_few_digits_no_answer_is_wrong() {
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// Drawings with a couple along an axis of the ground, which rounding rotated slightly: the other
-/// components of the couple were wrongly not unique.
+/// Drawings with a couple along an axis of the ground. Rounding rotated the couple slightly, and an
+/// earlier version reported its other components wrongly as not unique.
 #[test]
 fn couples_have_directions_within_a_tolerance() {
     for drawn in [29, 35, 38, 100] {
@@ -80,9 +80,9 @@ fn couples_have_directions_within_a_tolerance() {
     }
 }
 
-/// Bricard's linkages whose data have few digits, which do not determine the configuration of the
-/// linkage on its path. With four digits the rank was reported as full, and the path continued
-/// along another branch.
+/// Bricard's linkages with few digits, which do not determine the configuration of the linkage
+/// along its motion. With four digits, an earlier version reported a full rank, and the path
+/// continued along another branch.
 #[test]
 fn bricard_with_few_digits_is_right_or_undecided() {
     for (seed, drawn, digits) in [(2, 209, 6), (3, 11, 7)] {
@@ -102,9 +102,10 @@ fn bricard_with_few_digits_is_right_or_undecided() {
     }
 }
 
-/// A row that is redundant within the tolerance had to agree with the others at other
-/// configurations as exactly as at the given data. So with 6 to 10 digits couplings, planar
-/// linkages, doors and vehicles were reported as redundant only at this configuration.
+/// An earlier version required that a row that is redundant within the tolerance depends on the
+/// other rows at other configurations as accurately as at the given configuration. Therefore, with
+/// 6 to 10 digits, couplings, planar linkages, doors and vehicles were reported as redundant only
+/// at this configuration.
 #[test]
 fn with_few_digits_a_redundancy_that_lasts_is_the_same_elsewhere() {
     for (seed, drawn) in [(1, 6), (2, 46), (2, 13), (3, 14)] {
@@ -113,8 +114,9 @@ fn with_few_digits_a_redundancy_that_lasts_is_the_same_elsewhere() {
     }
 }
 
-/// Two links are hinged about z, and the second has a knife edge along x at its end. The edge
-/// constrains no motion while the links are in line, but it does elsewhere.
+/// Returns two links with hinges about z; the second link has a knife edge with its normal along x
+/// at its end. The edge constrains no motion at the configuration at which the links are in line,
+/// but it constrains the motion at other configurations.
 fn links_in_line() -> Drawing {
     let mut drawing = Drawing::default();
     let [first, second] = [drawing.body(), drawing.body()];
@@ -135,7 +137,7 @@ fn links_in_line() -> Drawing {
     drawing
 }
 
-/// The comparison finds a wrong claim about other configurations, with all digits and within a
+/// The comparison finds a wrong statement about other configurations, with all digits and within a
 /// tolerance.
 #[test]
 fn a_changed_claim_about_other_poses_is_found_out() {
@@ -188,7 +190,7 @@ fn lifted_scenes_have_the_answers_of_the_plane() {
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 
-/// Scenes of the suite and of the examples that can be converted to space.
+/// Compares the answers for scenes of the suite and of the examples that can be converted to space.
 #[test]
 fn known_scenes_have_the_answers_of_the_plane() {
     let examples = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples");
@@ -271,8 +273,8 @@ fn a_changed_document_is_found_out() {
     }
 }
 
-/// The test finds a violation of the conversion rule for each changed verdict: one verdict across
-/// the plane, one in it.
+/// The comparison finds a violation of the conversion rule for each changed verdict. The changed
+/// verdicts are on an out-of-plane component and on an in-plane component.
 #[test]
 fn a_changed_lift_is_found_out() {
     let text = suite::find("four-bar").map_or_else(

@@ -1,10 +1,10 @@
-//! Tests of `stress`: its list, its files, its last line, its errors.
+//! Tests the command `lab stress`: its list of families, its files, its last line, its errors.
 
 use serde_json::Value;
 
 use super::{Folder, lab, stderr, stdout};
 
-/// The documented columns, in their order; more may follow.
+/// The documented columns, in their order; future versions may add columns after them.
 const COLUMNS: &str =
     "family,case,varied,value,method,formulation,expected,bound,error,judgement,outcome,seconds";
 

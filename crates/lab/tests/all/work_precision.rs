@@ -1,4 +1,4 @@
-//! Tests of one table with pfaff and the comparators.
+//! Tests the table with the methods of pfaff and the reference methods.
 
 use std::time::Duration;
 
@@ -9,8 +9,8 @@ use pfaff::work_precision::{ComparisonPlan, Rival};
 
 use super::{Folder, lab, stderr, stdout};
 
-/// Cases of the suite by every method: all reach the end, and their errors correspond to their
-/// tolerances.
+/// Computes cases of the suite by every method. All runs reach the end, and their errors correspond
+/// to their tolerances.
 #[test]
 fn cases_are_compared_by_every_way() {
     for name in ["sleigh", "three-cranks"] {
@@ -78,7 +78,8 @@ fn a_case_of_the_suite_is_compared_with_its_reference() {
         "{}",
         stdout(&output)
     );
-    // Columns 2 and 4 are method and tolerance, 5 and 6 errors, 15 the status.
+    // Columns 2 and 4 are method and tolerance, columns 5 and 6 are errors, and column 15 is the
+    // status.
     let row = |method: &str, tolerance: &str| {
         let found = rows.iter().find(|r| r[2] == method && r[4] == tolerance);
         found.unwrap_or_else(|| panic!("{method} at {tolerance}: {rows:?}"))
@@ -89,7 +90,7 @@ fn a_case_of_the_suite_is_compared_with_its_reference() {
         let error: f64 = dop853[6].parse().expect("a number");
         assert!(error > 1e-16 && error < bound, "{tolerance}: {error:e}");
     }
-    // This row belongs to a comparator, in the same table.
+    // This row belongs to a reference method in the same table.
     let gbs = row("gbs", "1e-10");
     let error: f64 = gbs[6].parse().expect("a number");
     assert!(error > 1e-16 && error < 1e-8, "{error:e}");

@@ -1,4 +1,4 @@
-//! The reference is integer arithmetic: with integers below 2¹⁰⁶ all results are known exactly.
+//! The reference is integer arithmetic, in which all results for integers below 2¹⁰⁶ are exact.
 
 use proptest::prelude::*;
 
@@ -84,7 +84,7 @@ fn root_of_two_to_thirty_digits() {
     assert!(root * root < 2 * 10i128.pow(30) && (root + 1).pow(2) > 2 * 10i128.pow(30));
     let dd_root = Dd::from(2.0).sqrt();
     assert_eq!(dd_root.hi(), std::f64::consts::SQRT_2);
-    // The low word as published, for example in the table of constants of QD.
+    // The low word is published, for example, in the table of constants of QD.
     assert!((dd_root.lo() + 9.667_293_313_452_913e-17).abs() < Dd::EPSILON);
     let back = dd_root * dd_root - Dd::from(2.0);
     assert!(back.to_f64().abs() < 8.0 * Dd::EPSILON);

@@ -1,4 +1,5 @@
-//! Sine and cosine in double-double, for configurations at which a rank is certified.
+//! Sine and cosine in double-double, which are used at configurations for which a rank is
+//! certified.
 //!
 //! The argument is reduced by multiples of π/2 stored with 159 bits and halved three times; the
 //! remainder is below 0.1, so that its Taylor series converges fast. Doubling the angle uses
@@ -6,14 +7,14 @@
 
 use super::Dd;
 
-/// π/2 as a sum of three numbers: its first 159 bits.
+/// The first 159 bits of π/2, as a sum of three `f64`.
 const HALF_PI: [f64; 3] = [
     std::f64::consts::FRAC_PI_2,
     6.123_233_995_736_766e-17,
     -1.497_384_904_859_169_8e-33,
 ];
 
-/// Number of halvings of the reduced argument.
+/// The number of times that the reduced argument is halved.
 const HALVINGS: i32 = 3;
 
 /// Terms of each series: 0.1³⁸ / 38! is far below the rounding of the format.
@@ -24,9 +25,9 @@ const TERMS: u32 = 11;
 const LARGEST: f64 = 1e15;
 
 impl Dd {
-    /// Returns sine and cosine. The absolute error is below 10⁻³¹·(1 + |x|), the rounding of the
-    /// argument. Above 10¹⁵ it is the error of `f64`. The result is NaN if the argument is not
-    /// finite.
+    /// Returns sine and cosine. The absolute error is below 10⁻³¹·(1 + |x|), the rounding error of
+    /// the argument. For |x| above 10¹⁵, the error is that of `f64`. The result is NaN if the
+    /// argument is not finite.
     ///
     /// ```
     /// use pfaff_linalg::Dd;

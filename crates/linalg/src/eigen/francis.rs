@@ -59,8 +59,8 @@ impl RealSchur {
         }
     }
 
-    /// Returns the first row of the block before `end` whose subdiagonal entries are not zero; the
-    /// entry before it is set to zero if rounding explains it.
+    /// Returns the first row of the block before `end` whose subdiagonal entries are not zero. The
+    /// subdiagonal entry of this row is set to zero if it is not larger than rounding errors.
     fn active(&mut self, end: usize) -> usize {
         let t = &mut self.t;
         for k in (1..end).rev() {
@@ -75,8 +75,8 @@ impl RealSchur {
     }
 
     /// Returns sum and product of the two shifts, which are the eigenvalues of the last 2 × 2
-    /// block. A matrix with eigenvalues of equal size, such as a permutation, may reproduce itself
-    /// in the iteration. Therefore other shifts are used every few steps.
+    /// block. If all eigenvalues have equal absolute values, as for a permutation, a step may leave
+    /// the matrix unchanged. Therefore other shifts are used every few steps.
     fn shifts(&self, begin: usize, end: usize, steps: usize) -> [f64; 2] {
         let t = &self.t;
         if !steps.is_multiple_of(EXCEPTIONAL_EVERY) {
@@ -156,8 +156,8 @@ impl RealSchur {
         self.reflect_within(reflection, first, columns_from..n, rows);
     }
 
-    /// Works like [`Self::reflect`], if T is zero left of `columns` and below the first `rows`
-    /// rows.
+    /// Works like [`Self::reflect`]for a T that is zero left of `columns` and below the first
+    /// `rows` rows.
     fn reflect_within(
         &mut self,
         reflection: &Reflection,

@@ -1,4 +1,4 @@
-//! Compares eigenvalues with closed forms, and checks the residuals of many matrices.
+//! Compares eigenvalues with closed forms, and checks the residuals for many matrices.
 
 use super::*;
 
@@ -82,7 +82,7 @@ fn units_do_not_matter() {
     assert_eq!(eigenpairs(&Matrix::from_rows(&[[f64::NAN]])), None);
 }
 
-/// Numbers in −1 … 1 without a pattern.
+/// Pseudo-random values between −1 and 1.
 struct Numbers(u64);
 
 impl Numbers {
@@ -100,13 +100,13 @@ impl Numbers {
     }
 }
 
-/// A matrix of each kind on which QR algorithms are known to fail, and random ones.
+/// Returns a matrix of a kind on which QR algorithms are known to fail, or a random matrix.
 fn of_kind(kind: usize, numbers: &mut Numbers) -> Matrix {
     let n = 3 + (9.0 + 9.0 * numbers.next()) as usize;
     match kind {
         // A permutation: all eigenvalues have equal size, and a plain step changes nothing.
         0 => Matrix::from_fn(n, n, |i, k| f64::from(u8::from(k == (i + 1) % n))),
-        // Undamped oscillators of one frequency.
+        // Undamped oscillators with the same frequency.
         1 => {
             let square = (1.0 + numbers.next()) * 10.0;
             Matrix::from_fn(2 * n, 2 * n, |i, k| {
@@ -163,7 +163,7 @@ fn of_kind(kind: usize, numbers: &mut Numbers) -> Matrix {
         }
         // Rotations and reflections: all eigenvalues on the unit circle.
         9 => PivotedQr::of_columns(&numbers.matrix(n)).q_columns(0..n),
-        // Large and small numbers.
+        // Large and small entries.
         10 => {
             let unit = 10.0_f64.powf(140.0 * numbers.next());
             let a = numbers.matrix(n);
@@ -216,7 +216,7 @@ fn matrices_of_every_kind_have_small_residuals() {
     }
 }
 
-/// Roots of one and zeros are exact to rounding.
+/// Eigenvalues that are zero or roots of unity are exact to rounding.
 #[test]
 fn permutations_have_roots_of_one() {
     for n in 3..=20 {

@@ -1,5 +1,5 @@
-//! Computes eigenvalues and eigenvectors of a real Schur form, by substitution upwards from the
-//! last row.
+//! Computes eigenvalues and eigenvectors of a real Schur form, by substitution from the last row
+//! upwards.
 
 use super::francis::RealSchur;
 use crate::Matrix;
@@ -78,8 +78,8 @@ impl RealSchur {
         (value, self.vector(value, x, k))
     }
 
-    /// Returns the eigenvector whose entries from row `known` onwards are those of x, in the axes
-    /// of A.
+    /// Returns the eigenvector of A whose entries in the axes of T are, from row `known` onwards,
+    /// those of x.
     fn vector(&self, value: Complex, mut x: Vec<Complex>, known: usize) -> Vec<Complex> {
         let (t, n) = (&self.t, self.t.nrows());
         let least = (f64::EPSILON * t.max_abs()).max(f64::MIN_POSITIVE);
@@ -87,7 +87,7 @@ impl RealSchur {
             let terms = t.row(i)[from..].iter().zip(&x[from..]);
             terms.fold([0.0; 2], |[re, im], (t, [a, b])| [re - t * a, im - t * b])
         };
-        // A number that is zero except for rounding is replaced by rounding.
+        // A divisor that is zero to within rounding is replaced by the size of the rounding error.
         let divisor = |z: Complex| if size(z) < least { [least, 0.0] } else { z };
         let mut k = known;
         while k > 0 {
@@ -126,7 +126,8 @@ impl RealSchur {
     }
 }
 
-/// Solves two complex equations, rows `[a, b, right side]`, by elimination with the larger pivot.
+/// Solves two complex equations, given as rows `[a, b, right side]`, by elimination with the larger
+/// pivot.
 fn of_two([one, other]: [[Complex; 3]; 2], divisor: impl Fn(Complex) -> Complex) -> [Complex; 2] {
     let (pivot, below) = if size(one[0]) >= size(other[0]) {
         (one, other)

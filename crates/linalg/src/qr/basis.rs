@@ -4,8 +4,8 @@ use super::PivotedQr;
 use super::factor::factor_leading;
 use crate::Matrix;
 
-/// A factorisation of r independent rows K of an m×n matrix C, and the other rows D with the same
-/// Q: `C_D = T·C_K + S`, where the rows of S are orthogonal to those of `C_K`.
+/// A factorisation of r independent rows K of an m×n matrix C, and the relation of the other rows D
+/// to them: `C_D = T·C_K + S`, where the rows of S are orthogonal to those of `C_K`.
 ///
 /// ```
 /// use pfaff_linalg::{Matrix, RowBasis};
@@ -27,7 +27,7 @@ pub struct RowBasis {
 }
 
 impl RowBasis {
-    /// Keeps the r rows that a pivoted factorisation of C takes first.
+    /// Creates the basis from the r rows of C that a pivoted factorisation selects first.
     ///
     /// # Panics
     /// Panics if r exceeds the number of rows or of columns.
@@ -61,7 +61,7 @@ impl RowBasis {
         }
     }
 
-    /// Keeps these rows of C, which are independent.
+    /// Creates the basis from these rows of C, which must be independent.
     ///
     /// # Panics
     /// Panics if there are more rows than columns.

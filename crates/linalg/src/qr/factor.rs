@@ -14,7 +14,7 @@ struct Length {
 }
 
 impl Length {
-    /// Returns the length of these entries and of one entry of size `beside`.
+    /// Returns the length of a column with these entries and one further entry of size `beside`.
     fn of(entries: &[f64], beside: f64) -> Self {
         let own = kernels::norm(entries);
         let exact = if beside == 0.0 {
@@ -41,8 +41,8 @@ pub(super) fn factor_leading(a: Matrix, steps: usize) -> PivotedQr {
 
 /// Factors columns with δ·I below them; the columns have zeros at their ends for these entries. The
 /// entry δ of a column is in a separate row, which no other column affects before this column is
-/// the pivot. It is therefore written only at that time, into the first free row, and reflections
-/// end there.
+/// the pivot. The entry is therefore written only when its column becomes the pivot. It is written
+/// into the first free row, where the reflections end.
 pub(super) fn factor_damped(a: Matrix, damping: f64) -> PivotedQr {
     let (m, n) = (a.nrows(), a.ncols() - a.nrows());
     factor_with(a, m, damping, |k, column| {
@@ -52,7 +52,7 @@ pub(super) fn factor_damped(a: Matrix, damping: f64) -> PivotedQr {
 }
 
 /// Performs the factorisation. `begin` completes the column that becomes number k and returns its
-/// end. Before that, the column has an entry of size `beside` that is not in the matrix.
+/// end. Before that, the column has an entry of size `beside` that is not stored in the matrix.
 fn factor_with(
     mut a: Matrix,
     steps: usize,
@@ -117,7 +117,7 @@ pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
         return;
     }
     let s = -tau * (y[0] + kernels::dot(&v[1..], &y[1..]));
-    // Sparse rows are orthogonal to most others.
+    // Sparse rows are orthogonal to most other rows.
     if s == 0.0 {
         return;
     }

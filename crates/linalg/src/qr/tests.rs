@@ -13,8 +13,9 @@ fn any_matrix() -> impl Strategy<Value = Matrix> {
     })
 }
 
-/// Kahan's matrix; the columns shrink by 1e-12 each, so that pivoting keeps their order in spite of
-/// rounding (they are all equal in exact arithmetic).
+/// Kahan's matrix. Its columns shrink by 1e-12 from one to the next, so that rounding does not
+/// change their order in the pivoting (in exact arithmetic, all remaining columns have equal
+/// lengths).
 fn kahan(n: usize, angle: f64) -> Matrix {
     let (s, c) = angle.sin_cos();
     Matrix::from_fn(n, n, |i, j| {

@@ -24,10 +24,10 @@ pub enum SaddleError {
         /// The length it must have.
         expected: usize,
     },
-    /// A column does not exist.
+    /// The column of an entry does not exist.
     #[error("row {row} has an entry in column {column}, need columns below {n}")]
     Column {
-        /// Number of the row.
+        /// Index of the row.
         row: usize,
         /// The column.
         column: usize,
@@ -84,13 +84,13 @@ pub enum SaddleError {
         /// Number of free motions.
         free: usize,
     },
-    /// A kept row depends on the previous rows.
+    /// A row depends on the previous rows.
     #[error(
         "kept row {row} depends on the rows before it: pivot {pivot:.3e} in a row of size \
          {scale:.3e}; the configuration is singular or the kept rows were chosen elsewhere"
     )]
     RankLost {
-        /// Number of the kept row.
+        /// Index of the row.
         row: usize,
         /// Largest remaining entry of the row.
         pivot: f64,

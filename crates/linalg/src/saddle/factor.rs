@@ -7,11 +7,11 @@ use crate::kernels::{extremes, max_abs};
 use crate::limits::{GRADED_BESIDE_MASSLESS, GRADED_MASSES, PIVOT_FLOOR};
 
 impl KeptRowSaddle {
-    /// Computes the factors for the kept rows of C and the masses.
+    /// Computes the factors for the independent rows of C and the masses.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
-    /// | `row` | r calls | `row(k)`: values of the k-th kept row of C in its columns |
+    /// | `row` | r calls | `row(k)`: values of the k-th row of C in its columns |
     /// | `mass` | n | diagonal of M, entries ≥ 0 |
     ///
     /// For rows without zeros, the function costs about n·r² + k·r²/2 + k²·r/2 multiplications. It

@@ -1,11 +1,11 @@
-//! The motions that the rows leave free: a basis N of their null space and the reduced mass
-//! `Nᵀ·M·N`, with a Cholesky factorisation without square roots.
+//! The free motions, which satisfy all rows. This file computes a basis N of them and the reduced
+//! mass `Nᵀ·M·N`, with a Cholesky factorisation without square roots.
 //!
-//! A null vector is one in its free coordinate and zero in the other free coordinates. Its other
-//! entries belong to coordinates that rows couple to the free one. If there are few such entries,
-//! for example if rows of a long mechanism are skipped for an instant, most entries of the reduced
-//! mass are zero. Therefore vectors with few entries come first, and each row of the factor begins
-//! with its first entry.
+//! Each null vector belongs to one free coordinate. Its entry is one in this coordinate and zero in
+//! the other free coordinates. Its other entries belong to coordinates that the rows couple to the
+//! free one. If a null vector has few other entries, for example if rows of a long mechanism are
+//! skipped for an instant, most entries of the reduced mass are zero. Therefore vectors with few
+//! entries come first, and each row of the factor begins with its first entry.
 
 use super::error::SaddleError;
 use super::lists::Entry;

@@ -65,11 +65,11 @@ struct LuFactors {
 struct EliminationRow {
     /// Entries of the row by coordinates; zero between rows.
     x: Vec<f64>,
-    /// Coordinates in which it can have entries, in any order, and whether each coordinate is in
-    /// this list.
+    /// Coordinates in which the row can have entries, in any order, and whether each coordinate is
+    /// in this list.
     touched: Vec<usize>,
     is_touched: Vec<bool>,
-    /// Set of rows with which it must still be eliminated.
+    /// Set of rows with which the row must still be eliminated.
     rows: Vec<u64>,
     /// Entries of U in this row.
     upper: Vec<Entry>,

@@ -26,7 +26,7 @@ impl Order {
     /// are zero now but not at other configurations. Only some coordinates can be pivots, or all.
     pub(super) fn new(n: usize, rows: Vec<Vec<Entry>>, solvable: Option<&[bool]>) -> Self {
         if rows.iter().all(|row| row.len() == n) {
-            // Dense rows fill their triangles in every order.
+            // If all rows are dense, L and U are full in every order.
             return Self {
                 wish: vec![None; rows.len()],
                 rows: (0..rows.len()).collect(),
@@ -59,7 +59,7 @@ struct RemainingRows<'s> {
     /// Rows that have entries in each coordinate.
     rows: Vec<Vec<usize>>,
     is_eliminated: Vec<bool>,
-    /// Each row with its latest work, or with a larger earlier value.
+    /// Each row with its present elimination work, or with a larger earlier value.
     queue: BinaryHeap<Reverse<RowWork>>,
 }
 
@@ -98,7 +98,7 @@ impl<'s> RemainingRows<'s> {
         });
         let others = rarest.map_or(0, |e| self.rows[e.index()].len() - 1);
         let work = others * self.entries[row].len().saturating_sub(1);
-        // Rows without such entries come last.
+        // Rows without an entry that can be a pivot come last.
         let work = if rarest.is_none() { usize::MAX } else { work };
         ((work, self.entries[row].len(), row), rarest)
     }
@@ -138,7 +138,7 @@ impl<'s> RemainingRows<'s> {
                 self.revise(other);
             }
         }
-        // Fewer rows now have entries in its coordinates.
+        // Fewer rows now have entries in the coordinates of the eliminated row.
         for e in own {
             let rows = &self.rows[e.index()];
             if rows.len() <= REVISED {
@@ -237,8 +237,9 @@ mod tests {
         }
     }
 
-    /// The planned pivot coordinate of the first row has no entry later. Its largest entry is then
-    /// in the coordinate of both other rows, and another entry is in a coordinate of its own.
+    /// The planned entry of the first row is later zero. The largest entry of the row is then in
+    /// the coordinate of both other rows, and another entry is in a coordinate that no other row
+    /// contains.
     #[test]
     fn a_row_is_solved_for_what_few_later_rows_have_entries_in() {
         let columns = [vec![0, 1, 4], vec![0, 2, 5, 6], vec![0, 3, 7, 8]];

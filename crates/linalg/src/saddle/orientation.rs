@@ -1,6 +1,6 @@
 //! Distinguishes the two sides of a singular configuration. The determinant of C, bordered by a
 //! fixed basis of its null space, changes its sign if the rows lose their rank by one, even if no
-//! step ends there.
+//! integration step ends at the singular configuration.
 
 use super::KeptRowSaddle;
 use crate::lu::Determinant;

@@ -9,8 +9,8 @@ use super::error::{SaddleError, check_finite, check_length};
 impl KeptRowSaddle {
     /// From the next factorisation onwards, uses these coordinates as pivots: one for each row, in
     /// any order. A good choice is, for example, the first columns of a
-    /// [`PivotedQr`](crate::PivotedQr) of the rows; [`KeptRowSaddle::pivot_ratio`] shows when they
-    /// are no longer a good choice.
+    /// [`PivotedQr`](crate::PivotedQr) of the rows; [`KeptRowSaddle::pivot_ratio`] shows when these
+    /// coordinates are no longer a good choice.
     ///
     /// # Errors
     /// [`SaddleError::Length`], [`SaddleError::Partition`]: the argument does not contain r
@@ -137,8 +137,8 @@ mod tests {
         assert_eq!(solved_for(ROWS[0]), 1);
     }
 
-    /// The corresponding test for a pivot that reduces the work for other rows: coordinate 0 also
-    /// has entries of the others.
+    /// The same test for a pivot that reduces the work for other rows: the other rows also have
+    /// entries in coordinate 0.
     #[test]
     fn a_row_is_solved_for_the_same_entry_while_that_is_large() {
         let columns = [vec![0, 1], vec![0, 2], vec![0, 3]];

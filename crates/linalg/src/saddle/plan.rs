@@ -81,8 +81,9 @@ impl Plan {
         }
     }
 
-    /// Returns the coordinate in which a row affects the other rows least, if the order contains
-    /// one for it, and the number of later rows that can have entries in a coordinate.
+    /// Returns the planned pivot coordinate of a row, in which the row affects the other rows
+    /// least, if there is one. Also returns a function for the number of later rows that can have
+    /// entries in a coordinate.
     pub(super) fn of_row(&self, row: usize) -> (Option<usize>, impl Fn(usize) -> usize) {
         let place = self.place[row];
         let later = move |i: usize| {
@@ -102,8 +103,8 @@ pub(super) struct Choice<'a> {
     spares: bool,
 }
 
-/// The pivot coordinate of a row, and the size with which it is compared: the largest entry, or its
-/// own entry for graded masses.
+/// The pivot coordinate of a row, and the reference size for its entry: the largest entry of the
+/// row or, for graded masses, the entry itself.
 pub(super) type RowPivot = (usize, f64);
 
 impl Choice<'_> {

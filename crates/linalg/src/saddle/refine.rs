@@ -3,7 +3,7 @@
 //! until the solution, which is also double-double, has all digits of an `f64`.
 //!
 //! One round multiplies the error by about the error of the factorisation, so one or two rounds are
-//! enough. The solution is that of the given C, M, f and γ; rounding errors in these remain.
+//! enough. The solution is that of the given C, M, f and γ; rounding errors in these data remain.
 //! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, chapter 12;
 //! the extended iterate after J. Demmel et al., Error bounds from extra-precise iterative
 //! refinement, ACM TOMS 32 (2006) 325–351.
@@ -19,9 +19,9 @@ use crate::limits::{REFINEMENT_NOISE, REFINEMENT_ROUNDS, SETTLED};
 pub struct Refinement {
     a: Unknowns,
     lambda: Unknowns,
-    /// Residual f − M·a − Cᵀ·λ.
+    /// Residual of the forces, f − M·a − Cᵀ·λ.
     force: Vec<Dd>,
-    /// This residual and γ − C·a, rounded.
+    /// The residual of the forces and γ − C·a, rounded to `f64`.
     f: Vec<f64>,
     gamma: Vec<f64>,
 }
@@ -104,7 +104,7 @@ impl KeptRowSaddle {
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
-    /// | `row` | r calls | the rows of C of the last factorisation, as there |
+    /// | `row` | r calls | the rows of C, as in the last factorisation |
     /// | others | | as for [`KeptRowSaddle::solve`] |
     ///
     /// ```
@@ -220,10 +220,10 @@ mod tests {
         saddle
     }
 
-    /// Rounding of zero in double-double if other numbers are as large as 2⁵³.
+    /// Rounding of zero in double-double if other values are as large as 2⁵³.
     const ZERO_LEFT: f64 = 1e-15 * f64::EPSILON;
 
-    /// All numbers are whole and below 2⁵³, so f = M·a + Cᵀ·λ and γ = C·a are exact: every bit of a
+    /// All values are integers below 2⁵³, so f = M·a + Cᵀ·λ and γ = C·a are exact: every bit of a
     /// and λ must be reproduced.
     #[test]
     fn whole_numbers_come_back_exactly() {
@@ -317,7 +317,7 @@ mod tests {
     #[test]
     fn unknowns_that_are_zero_do_not_keep_others_waiting() {
         // The first two rows fix x and y. The third and fourth rows connect z and w to them by
-        // numbers without an exact binary representation.
+        // coefficients without an exact binary representation.
         let c = Matrix::from_rows(&[
             [1.0, 0.0, 0.0, 0.0, 0.0],
             [0.1, 0.3, 0.0, 0.0, 0.0],
@@ -351,8 +351,8 @@ mod tests {
         assert!(!factored(&c, &[1.0, 0.99e6]).wants_refinement());
         assert!(factored(&c, &[1.0, 1.01e6]).wants_refinement());
         assert!(!factored(&c, &[1.0, 0.0]).wants_refinement());
-        // The free coordinates are x and y, which hardly move relative to each other without the
-        // heavy z.
+        // The free coordinates are x and y. Without the heavy z, they hardly move relative to each
+        // other.
         let c = Matrix::from_rows(&[[1.0, 1.0, 1.0]]);
         let mut saddle = KeptRowSaddle::new(3, 1).unwrap();
         saddle.partition(&[2]).unwrap();

@@ -7,14 +7,14 @@ impl KeptRowSaddle {
     /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the last factorisation. The function does not
     /// allocate memory.
     ///
-    /// This is [`KeptRowSaddle::motion`] and [`KeptRowSaddle::multipliers`].
+    /// The function calls [`KeptRowSaddle::motion`] and then [`KeptRowSaddle::multipliers`].
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
     /// | `f` | n | applied forces; 0 for a projection |
-    /// | `gamma` | r | right-hand side of the kept rows; −Φ for a mass-metric projection step |
+    /// | `gamma` | r | right-hand side of the rows; −Φ for a mass-metric projection step |
     /// | `a` | n | overwritten: accelerations (or the correction of the projection) |
-    /// | `lambda` | r | overwritten: multipliers of the kept rows, zero for skipped rows |
+    /// | `lambda` | r | overwritten: multipliers of the rows, zero for skipped rows |
     ///
     /// # Errors
     /// - [`SaddleError::NotFactored`]: there was no successful `factor` before.
@@ -60,8 +60,9 @@ impl KeptRowSaddle {
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
     /// | `f` | n | the forces |
-    /// | `a` | n | their accelerations; 0 for a force without acceleration, such as a row of C that the kept rows imply |
-    /// | `lambda` | r | overwritten: multipliers of the kept rows, zero for skipped rows |
+    /// | `a` | n | their accelerations; 0 for a force without acceleration, such as a row of the
+    /// whole mechanism that depends on the rows of C |
+    /// | `lambda` | r | overwritten: multipliers of the rows, zero for skipped rows |
     ///
     /// # Errors
     /// Same errors as [`KeptRowSaddle::solve`].

@@ -11,8 +11,8 @@ use crate::{SaddleError, SparseMatrix};
 
 impl SchurSaddle {
     /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the rows of the last factorisation. Rows that are
-    /// not satisfied to rounding are corrected with the same factors until they are, or until a
-    /// correction brings no improvement. Skipped rows are ignored.
+    /// not satisfied to rounding are corrected with the same factors until they are satisfied, or
+    /// until a correction brings no improvement. Skipped rows are ignored.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -203,8 +203,8 @@ impl SchurSaddle {
         largest_share(x, size)
     }
 
-    /// Returns the largest residual in x relative to all summed terms. If multipliers balance each
-    /// other, accelerations are only their rounding.
+    /// Returns the largest residual in x relative to all summed terms. If large multipliers balance
+    /// each other, the accelerations are only rounding errors of their sum.
     fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64]) -> f64 {
         let s = &self.structure;
         let SolutionScratch {
@@ -219,7 +219,7 @@ impl SchurSaddle {
         for value in values.as_flattened_mut() {
             *value = value.abs();
         }
-        // The subtraction gives sizes with a minus sign.
+        // The sizes are subtracted below, so the size of the free acceleration is negative, too.
         for (terms, free) in terms.iter_mut().zip(&*free) {
             *terms = -free.abs();
         }

@@ -1,13 +1,14 @@
 //! Data that depend only on the pattern: an order of elimination, fronts, and the positions of all
-//! numbers.
+//! entries.
 //!
-//! Rows that touch the same blocks (bodies) are eliminated together. They are the nodes of a graph
-//! in which each block joins the rows that touch it, ordered by minimum degree. A front is a dense
-//! triangle over the rows that are eliminated in it, its pivots, and the later rows with which they
-//! have non-zero entries. `C_b·M_b⁻¹·C_bᵀ` of a block b is added to the front in which the first of
-//! its rows is a pivot. After elimination, the remainder of a front is added to the front of the
-//! first of its other rows, its parent. A front is merged with its parent if this does not increase
-//! the number of [tiles](super::tiles) of L.
+//! Rows that touch the same blocks (bodies) are eliminated together. Each set of such rows is a
+//! node of a graph in which each block connects the nodes that touch it. The nodes are ordered by
+//! minimum degree. A front is a dense triangular matrix. Its rows are its pivots, which are
+//! eliminated in it, and the later rows with which the pivots have non-zero entries.
+//! `C_b·M_b⁻¹·C_bᵀ` of a block b is added to the front in which the first of its rows is a pivot.
+//! After elimination, the remainder of a front is added to the front of the first of its other
+//! rows, its parent. A front is merged with its parent if this does not increase the number of
+//! [tiles](super::tiles) of L.
 
 use std::ops::Range;
 
@@ -103,8 +104,8 @@ pub(super) struct Size {
     multiplications: f64,
 }
 
-/// Position of a row and its column in a front, as offsets into its numbers that are added: tiles
-/// of the same columns follow each other.
+/// Position of a row and its column in a front, as two offsets whose sum is an index of the values
+/// of the front: tiles of the same columns follow each other.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct InParent {
     /// Start of its column, if there were tiles above the diagonal.

@@ -2,7 +2,7 @@
 
 use crate::{KeptRowSaddle, Matrix, SaddleError, SchurSaddle, SchurStructure, SparseMatrix};
 
-/// Numbers in [−1, 1) that are the same in every run.
+/// Pseudo-random values in [−1, 1) that are the same in every run.
 struct Numbers(u64);
 
 impl Numbers {
@@ -19,8 +19,8 @@ impl Numbers {
     }
 }
 
-/// Rows between random bodies of this many columns each, fewer than columns; one entry of each row
-/// in four is missing.
+/// Fewer rows than columns, between random bodies of this many columns each. About one entry in
+/// four is missing.
 fn random((bodies, width): (usize, usize), numbers: &mut Numbers) -> SparseMatrix {
     let joints = 1 + numbers.below(3 * bodies / 2);
     let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();

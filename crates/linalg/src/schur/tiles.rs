@@ -1,11 +1,11 @@
-//! Tiles: matrices of 4 × 4 numbers, of which fronts and factors consist, and groups of four rows
-//! (lanes) for the columns of elements. Rows are padded with zeros to whole tiles, so that no loop
-//! has a remainder, and the data of a tile stay in registers.
+//! Tiles, which are the 4 × 4 blocks of fronts and factors, and groups of four rows (lanes) for the
+//! columns of elements. Rows are padded with zeros to whole tiles, so that no loop has a remainder,
+//! and the data of a tile stay in registers.
 
 /// Number of rows and columns of a tile.
 pub(super) const SIDE: usize = 4;
 
-/// A number for each of four rows.
+/// One value for each of four rows.
 pub(super) type Lane = [f64; SIDE];
 
 /// Four columns of four rows.
@@ -128,7 +128,7 @@ pub(super) fn times_and_size<const N: usize>(
     }
 }
 
-/// Computes `Σ s_k·x_k²`, number by number.
+/// Computes `Σ s_k·x_k²`, element by element.
 #[inline(never)]
 pub(super) fn squares<const N: usize>(y: &mut Lane, x: &[Lane; N], s: &[f64; N]) {
     *y = [0.0; SIDE];

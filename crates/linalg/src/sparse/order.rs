@@ -60,10 +60,10 @@ struct Cover {
 
 /// A neighbour of the node that is being eliminated.
 struct Neighbour {
-    /// A number that is the same for nodes with the same cliques.
+    /// A key that is equal for nodes with the same cliques.
     key: usize,
     node: usize,
-    /// Bound on its degree without the new clique.
+    /// Bound on the degree of the node without the new clique.
     degree: usize,
 }
 

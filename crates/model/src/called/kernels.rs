@@ -7,13 +7,13 @@ use super::{BodyState, CalledWrench, Wrench};
 use crate::element::ForceKernels;
 use crate::law::UndefinedValue;
 
-/// A space in which called wrenches can act on bodies.
+/// A space in which callbacks can apply wrenches to bodies.
 trait WrenchSpace: Space {
     const SPEC: ForceSpec;
 
     fn state(time: f64, x: &Self::Pose<f64>, v: &Self::Twist<f64>) -> BodyState;
 
-    /// Returns the components of a wrench along the freedoms of the body.
+    /// Returns the components of a wrench along the velocity components of the body.
     fn components(of: &Wrench, x: &Self::Pose<f64>) -> [f64; 6];
 }
 
@@ -80,7 +80,7 @@ impl WrenchSpace for Space3 {
         }
     }
 
-    /// Torques are given in the frame of the body.
+    /// In the equations, torques are in the axes of the body frame.
     fn components(of: &Wrench, x: &space3::Pose) -> [f64; 6] {
         let [a, b, c] = of.torque;
         let own = |k: usize| x.rot[0][k] * a + x.rot[1][k] * b + x.rot[2][k] * c;
@@ -89,7 +89,7 @@ impl WrenchSpace for Space3 {
     }
 }
 
-/// The facts of a called wrench in a space.
+/// The constant properties of a called wrench in a space.
 struct WrenchFacts<S>(std::marker::PhantomData<S>);
 
 impl<S: WrenchSpace> WrenchFacts<S> {
@@ -128,8 +128,8 @@ impl<S: WrenchSpace> ForceElement<f64, S> for CalledWrench {
     }
 }
 
-/// The macro is needed because a downstream crate might define kernels of its own space, which
-/// prevents an implementation for all spaces.
+/// A macro is necessary: a downstream crate might define kernels for its own space, so a generic
+/// implementation for all spaces is not possible.
 macro_rules! force_kernels {
     ($space:ident) => {
         impl ForceKernels<$space> for CalledWrench {

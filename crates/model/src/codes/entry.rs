@@ -9,22 +9,22 @@ use super::{Code, PAGE};
 pub struct Entry {
     /// The code.
     pub code: Code,
-    /// Description of the problem in one line.
+    /// Title of the problem in one line.
     pub title: &'static str,
     /// Advice on how to solve the problem.
     pub advice: &'static str,
-    /// An example that produces this code.
+    /// An example that produces this code, or the reason why there is no example.
     pub example: Example,
 }
 
-/// An example of a code.
+/// An example that produces an error code.
 #[derive(Clone, Copy, Debug)]
 pub enum Example {
-    /// A scene on standard input of the command `pfaff` with these arguments.
+    /// The command `pfaff` with these arguments and a scene on standard input.
     Scene(&'static str, &'static str),
     /// The command `pfaff` with these arguments.
     Command(&'static str),
-    /// Reason why no example can be given in a few lines.
+    /// Reason why no short example is possible.
     None(&'static str),
 }
 
@@ -35,8 +35,8 @@ pub fn entries() -> &'static [Entry] {
     ENTRIES.get_or_init(|| PAGE.split("\n## P").skip(1).filter_map(entry).collect())
 }
 
-/// Returns the entry of a section, which begins after the `P` of its heading. Its paragraphs are
-/// the title, the advice, and an example or the reason why there is no example.
+/// Parses a section of the page; the section begins after the `P` of its heading. Its paragraphs
+/// are the title, the advice, and an example or the reason why there is no example.
 fn entry(section: &'static str) -> Option<Entry> {
     let (number, rest) = section.split_once("\n\n")?;
     let (title, rest) = rest.split_once(".\n\n")?;

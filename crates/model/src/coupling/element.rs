@@ -9,7 +9,7 @@ use super::Coupling;
 use super::side::At;
 use crate::element::{DriveScalar, Kinematics, PoseOf, TwistOf};
 
-/// Both joint coordinates at a pose, with h and its derivatives.
+/// The values of both joint coordinates at a pose, with h and its derivatives.
 struct MeasurePair<T> {
     x: At<T>,
     y: At<T>,
@@ -104,7 +104,7 @@ impl<T: DriveScalar, S: Kinematics> Element<T, S> for Coupling<S> {
     }
 }
 
-/// The reaction is that of the drive of y.
+/// The reaction is the reaction of the drive of y.
 impl<S: Kinematics> Reaction<f64, S> for Coupling<S> {
     fn wrench(&self, x: &[PoseOf<S>], f: &[[f64; 3]], out: &mut [f64]) {
         let (side, at) = (&self.sides[1], self.both(x, f).y);
@@ -118,8 +118,8 @@ impl<S: Kinematics> Reaction<f64, S> for Coupling<S> {
 }
 
 impl<S: Kinematics> ConstraintKernels<S> for Coupling<S> {
-    /// Returns the operation lists of this coupling: couplings differ because their joint
-    /// coordinates differ.
+    /// Returns the operation lists of this coupling; each coupling has its own lists, because the
+    /// joint coordinates differ.
     fn programs(&self) -> &Programs {
         let numbers = self.sides[1].stored.end + self.law.degree();
         self.programs

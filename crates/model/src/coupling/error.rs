@@ -1,6 +1,6 @@
 //! Errors of couplings.
 
-/// Error in the joint coordinates or numbers of a coupling.
+/// Error in the joint coordinates or coefficients of a coupling.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CouplingError {

@@ -1,5 +1,6 @@
-//! Specifications of couplings. The specifications of a definition are constants. The specification
-//! of a coupling depends on its two joint coordinates; it is created once for each pair and stored.
+//! Specifications of couplings. The specification of a definition is a constant. However, the
+//! specification of a coupling depends on its two joint coordinates; it is created once for each
+//! pair of coordinates and stored.
 
 use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
@@ -11,18 +12,18 @@ use joints::spec::{
 /// Type of couplings in scene files.
 pub(crate) const TYPE: &str = "coupling";
 
-/// The specification of a coupling with the patterns of its kernels.
+/// The specification of a coupling, with the patterns of the matrices that its kernels compute.
 pub(super) struct CouplingFacts {
     pub(super) spec: ConstraintSpec,
     /// Number of velocities of a body.
     n_dof: usize,
-    /// The entry of the row for each column.
+    /// The index of the row entry for each column, if the column has an entry.
     entry_of: Vec<Option<usize>>,
 }
 
 impl CouplingFacts {
-    /// Returns the entry of the row for a freedom of a slot; it exists for entries of the joint
-    /// coordinates.
+    /// Returns the index of the row entry for a velocity component `dof` of the body `slot`; it
+    /// exists for the entries of the joint coordinates.
     pub(super) fn entry(&self, slot: usize, dof: usize) -> usize {
         self.entry_of[self.column(slot, dof)].unwrap_or_default()
     }
@@ -31,25 +32,27 @@ impl CouplingFacts {
         self.n_dof * slot + dof
     }
 
-    /// Returns the column of the block for a column of the block of a joint coordinate.
+    /// Converts a column in the block of one joint coordinate to the column in the block of the
+    /// coupling.
     pub(super) fn of_side(&self, slots: [usize; 2], column: usize) -> usize {
         self.column(slots[column / self.n_dof], column % self.n_dof)
     }
 }
 
-/// Names of the slots of a coupling.
+/// Names of the bodies of a coupling.
 const SLOTS: [&str; 4] = ["i", "j", "k", "l"];
 
-/// All created specifications: at most one for each pair of joint coordinates, each way in which
-/// they share bodies, and each degree.
+/// All specifications created so far: at most one for each pair of joint coordinates, each choice
+/// of common bodies, and each degree.
 static KEPT: Mutex<Option<HashMap<Key, &'static CouplingFacts>>> = Mutex::new(None);
 
-/// Addresses of the specifications of both joint coordinates, their slots, and the degree.
+/// The addresses of the specifications of both joint coordinates, the indices of their bodies, and
+/// the degree.
 type Key = ([usize; 2], [[usize; 2]; 2], usize);
 
 /// Returns the specification of the coupling of two joint coordinates by a polynomial of this
-/// degree. The arguments give the slots of their bodies, the total number of slots, and the number
-/// of velocities of a body.
+/// degree. The other arguments are the indices of the bodies of each coordinate, the total number
+/// of bodies, and the number of velocity components of a body.
 pub(super) fn facts(
     measures: [&'static ConstraintSpec; 2],
     slots: [[usize; 2]; 2],
@@ -57,7 +60,7 @@ pub(super) fn facts(
     degree: usize,
 ) -> &'static CouplingFacts {
     // Specifications are constants, so an address identifies the content. Names are not sufficient:
-    // the plane, space and crates of users may have equal names.
+    // definitions of the plane, of space and of other crates may have equal names.
     let place = |spec: &'static ConstraintSpec| std::ptr::from_ref(spec).addr();
     let key = (measures.map(place), slots, degree);
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -91,7 +94,8 @@ fn made(
         facts.entry_of[column] = Some(entry);
     }
     let c = row.iter().map(|k| Entry::varying(0, k / n_dof, k % n_dof));
-    // The gradient of x times itself appears with the curvature of the polynomial.
+    // The second derivative of the polynomial multiplies the product of the gradient of x with
+    // itself.
     let own = &measures[0].c;
     let of_x = |e: &Entry| facts.column(slots[0][e.slot], e.dof);
     let outer = own
@@ -136,7 +140,7 @@ fn made(
     facts
 }
 
-/// Properties that all couplings have in common.
+/// The properties that are equal for all couplings.
 const PLAIN: ConstraintSpec = ConstraintSpec {
     common: Spec {
         name: "Coupling",
@@ -181,7 +185,8 @@ fn sorted(mut pairs: Vec<[usize; 2]>) -> Vec<[usize; 2]> {
     pairs
 }
 
-/// Parameters of both joints, without the motions of their drives, for what asks where points are.
+/// Returns the parameters of both joints without the motions of the drives, for functions that need
+/// the points of the coupling.
 fn common(measures: [&'static ConstraintSpec; 2], slots: [[usize; 2]; 2], n_slots: usize) -> Spec {
     let mut parameters: Vec<Parameter> = Vec::new();
     for (measure, slots) in measures.iter().zip(slots) {
@@ -208,7 +213,7 @@ fn common(measures: [&'static ConstraintSpec; 2], slots: [[usize; 2]; 2], n_slot
     }
 }
 
-/// Computes the numbers of both drives, then ratio and coefficients.
+/// Computes the stored values of both drives, followed by the ratio and the coefficients.
 fn data(
     measures: [&'static ConstraintSpec; 2],
     slots: [[usize; 2]; 2],

@@ -1,4 +1,4 @@
-//! The polynomial by which one joint coordinate follows another.
+//! The polynomial that gives the second joint coordinate as a function of the first.
 
 use joints::Scalar;
 
@@ -34,8 +34,8 @@ impl Polynomial {
         &mut self.coefficients
     }
 
-    /// Returns h and its first three derivatives at x, by Horner's scheme. Programs that read the
-    /// coefficients as stored numbers find them from index `first` onwards.
+    /// Returns h and its first three derivatives at x, by Horner's scheme. If the coefficients are
+    /// read from the stored values of an operation list, the first one has the index `first`.
     pub(super) fn at<T: Scalar>(&self, x: T, first: usize) -> [T; 4] {
         let zero = T::from(0.0);
         let mut h = [zero; 4];
@@ -47,7 +47,7 @@ impl Polynomial {
             }
             h[0] = h[0] * x + c;
         }
-        // The loop has left the quotient h(x)/x with its derivatives.
+        // After the loop, `h` contains the quotient h(x)/x and its derivatives.
         for k in (1..4).rev() {
             h[k] = h[k] * x + factors[k] * h[k - 1];
         }

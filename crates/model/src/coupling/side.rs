@@ -1,5 +1,5 @@
-//! One joint coordinate of a coupling: the kernels of its drive, and their position in the kernels
-//! of the coupling.
+//! One joint coordinate of a coupling: the kernels of its drive, and the indices that relate them
+//! to the coupling.
 
 use joints::Ring;
 
@@ -8,21 +8,22 @@ use crate::element::{
     BodySpace, ConstraintKernels, DriveScalar, Kinematics, PoseOf, RowsAt, TwistOf, stored,
 };
 
-/// Number of velocities of two bodies.
+/// Number of velocity components of two bodies in space.
 pub(super) const MOST: usize = 12;
 
 /// One joint coordinate.
 pub(super) struct Side<S: BodySpace> {
     pub(super) drive: Box<dyn ConstraintKernels<S>>,
-    /// Slots of its two bodies in the coupling.
+    /// Indices of the two bodies in the list of bodies of the coupling.
     pub(super) slots: [usize; 2],
-    /// Range of its data in the data of the coupling.
+    /// Range of the data of the drive in the data of the coupling.
     pub(super) data: std::ops::Range<usize>,
-    /// Index in `f` of the data of its unwrapped angle, if it has one.
+    /// Index in `f` of the values of the unwrapped angle, if the coordinate has one.
     turn: Option<usize>,
-    /// The entry of the row of the coupling for each entry of its own row.
+    /// For each entry of the row of the drive, the index of the entry in the row of the coupling.
     pub(super) entries: Vec<usize>,
-    /// Range of the numbers for its operation lists in those of the coupling.
+    /// Range of the values for the operation lists of the drive in the values for those of the
+    /// coupling.
     pub(super) stored: std::ops::Range<usize>,
 }
 
@@ -39,20 +40,21 @@ impl<S: BodySpace> Clone for Side<S> {
     }
 }
 
-/// A side evaluated at a pose.
+/// The joint coordinate evaluated at a pose.
 pub(super) struct At<T> {
     /// The joint coordinate since the start.
     pub(super) measure: T,
-    /// The row of its drive: the joint coordinate, or its remainder without the known part.
+    /// The row of the drive: the joint coordinate, or the remaining angle without the known part.
     left: T,
-    /// Gradient of the joint coordinate: the entries of the row of its drive.
+    /// Gradient of the joint coordinate, which has the entries of the row of the drive.
     pub(super) gradient: [T; MOST],
-    /// Values that its drive receives in place of a motion.
+    /// Values passed to the drive in place of a motion.
     pub(super) f: [[T; 3]; 2],
 }
 
 impl<S: Kinematics> Side<S> {
-    /// Creates a side. In the data of unwrapped angles, `turn` angles precede those of this side.
+    /// Creates a side. `turn` is the number of unwrapped angles that come before the angle of this
+    /// side.
     pub(super) fn new(
         drive: Box<dyn ConstraintKernels<S>>,
         slots: [usize; 2],
@@ -73,12 +75,12 @@ impl<S: Kinematics> Side<S> {
         }
     }
 
-    /// Returns its two values from the values of all slots.
+    /// Selects the values of the two bodies from the values of all bodies.
     pub(super) fn own<P: Copy>(&self, all: &[P]) -> [P; 2] {
         self.slots.map(|slot| all[slot])
     }
 
-    /// Returns the joint coordinate and its gradient at poses of its bodies.
+    /// Returns the joint coordinate and its gradient at poses of the two bodies.
     pub(super) fn at<T: DriveScalar>(&self, x: &[PoseOf<S, T>; 2], f: &[[T; 3]]) -> At<T> {
         let zero = T::from(0.0);
         let mut known = zero;
@@ -117,7 +119,7 @@ impl<S: Kinematics> Side<S> {
         })
     }
 
-    /// Returns the gradient times velocities or accelerations of its bodies.
+    /// Returns the gradient times the velocities or accelerations of the two bodies.
     pub(super) fn times<T: Ring>(&self, gradient: &[T], v: &[TwistOf<S, T>; 2]) -> T {
         let spec = self.drive.spec();
         let entries = spec.c.iter().zip(gradient);
@@ -128,8 +130,8 @@ impl<S: Kinematics> Side<S> {
     }
 
     /// Computes Γ of the joint coordinate. The row of an unwrapped angle is sin ε, where ε is the
-    /// remaining angle without its known part. The Γ of this row contains ε·rate², which the Γ of
-    /// the angle does not contain.
+    /// difference between the angle and its known part. The Γ of this row contains the term
+    /// ε·rate², which the Γ of the angle does not contain.
     pub(super) fn gamma<T: DriveScalar>(
         &self,
         at: &At<T>,

@@ -1,5 +1,5 @@
-//! Compares the kernels of couplings with difference quotients, at poses where axes are parallel.
-//! The known part of an angle follows the poses, as in a mechanism.
+//! Compares the kernels of couplings with difference quotients, at poses with parallel axes. The
+//! known part of an angle follows the poses, as in a mechanism.
 
 use joints::space3::{
     Axes, CylindricalAngleDrive, CylindricalDisplacementDrive, DistanceLengthDrive, Pose,
@@ -11,7 +11,7 @@ use super::*;
 use crate::BodyRef::{Body, Ground};
 use crate::space::SpaceKind;
 
-/// Step of differences of fourth order: an error of H⁴ and of rounding divided by H.
+/// Step of differences of fourth order: the error is H⁴ plus the rounding error divided by H.
 const H: f64 = 1e-3;
 const CLOSE: f64 = 2e-8;
 
@@ -71,12 +71,12 @@ fn couplings() -> Vec<AttachedConstraint<Space3>> {
     placed.into_iter().map(|p| p.expect("coupled")).collect()
 }
 
-/// A number between −1 and 1 for each seed.
+/// Returns a value between −1 and 1 for each seed.
 fn noise(seed: usize) -> f64 {
     (seed as f64 * 12.9898 + 4.1).sin()
 }
 
-/// Poses and twists of some slots, and the motion of the poses.
+/// Poses and twists of some bodies, and the change of the poses with time.
 struct State {
     q: Vec<f64>,
     v: Vec<f64>,
@@ -101,7 +101,7 @@ impl State {
         q.chunks(7).map(pose).collect()
     }
 
-    /// Makes body j rotate like body i, and in addition about their common axis at this rate.
+    /// Makes body j rotate like body i, plus a rotation about their common axis at this rate.
     fn keep_parallel(&mut self, [i, j]: [usize; 2], rate: f64) {
         let poses = self.poses(&self.still());
         let arguments = arguments();
@@ -127,7 +127,7 @@ fn twists(v: &[f64]) -> Vec<Twist> {
     v.chunks(6).map(twist).collect()
 }
 
-/// Values of the unwrapped angles at some poses.
+/// Returns the values of the unwrapped angles at some poses.
 fn given(kernels: &Kernels, x: &[Pose]) -> Vec<[f64; 3]> {
     let still = vec![Twist::zero(); x.len()];
     let of = |k: usize| {
@@ -144,7 +144,7 @@ fn product(a: Quaternion, b: Quaternion) -> Quaternion {
     crate::space::quaternion_product(a, b)
 }
 
-/// The quaternion of axes u, v, w.
+/// Returns the quaternion of the axes u, v, w.
 fn of_axes(axes: Axes) -> Quaternion {
     let [u, v, w] = axes.uvw();
     let scalar = 0.5 * (1.0 + u[0] + v[1] + w[2]).sqrt();
@@ -152,7 +152,8 @@ fn of_axes(axes: Axes) -> Quaternion {
     [scalar, part(v[2], w[1]), part(w[0], u[2]), part(u[1], v[0])]
 }
 
-/// Rotates the body of slot j such that its axis is along that of slot i, at some angle.
+/// Rotates body j so that its axis is parallel to the axis of body i, at some angle about this
+/// axis.
 fn aligned(q: &mut [f64], [i, j]: [usize; 2], angle: f64) {
     let at = |slot: usize| 7 * slot + 3..7 * slot + 7;
     let arguments = arguments();
@@ -240,7 +241,7 @@ fn close(found: &[f64], expected: &[f64], what: &str) {
 }
 
 fn cases() -> Vec<Case> {
-    // Slots of the angles of each coupling.
+    // Indices of the two bodies of each angle, for each coupling.
     let angles: [&[[usize; 2]]; 3] = [&[[2, 3]], &[[0, 1]], &[[0, 2], [0, 1]]];
     let case = |(seed, (bodies, mut kernels)): (usize, AttachedConstraint<Space3>)| {
         let state = |number: usize| {
@@ -261,7 +262,7 @@ fn cases() -> Vec<Case> {
     couplings().into_iter().enumerate().map(case).collect()
 }
 
-/// A row of the block from a sparse one.
+/// Converts a row of the block from sparse to dense storage.
 fn row(pattern: &[[usize; 2]], values: &[f64], columns: usize) -> Vec<f64> {
     let mut row = vec![0.0; columns];
     for (&[_, k], value) in pattern.iter().zip(values) {
@@ -278,7 +279,7 @@ fn kernels_agree_with_differences() {
         let (v, a) = (twists(&state.v), twists(&state.a));
         let what = |name: &str| format!("coupling {number}: {name}");
         close(&case.dense(&x), &case.slopes(|x| case.phi(x)), &what("C"));
-        // Γ = −d(C·v)/dt along x + τ·v.
+        // Checks Γ = −d(C·v)/dt along the motion x + τ·v.
         let moved = |h: f64| {
             let d: Vec<f64> = state.v.iter().map(|v| h * v).collect();
             dot(&case.dense(&state.poses(&d)), &state.v)
@@ -371,8 +372,8 @@ fn derivatives_by_data_agree_with_differences() {
     }
 }
 
-/// In all cases, only the load along y, −C, acts on the second body of the joint of y. Its opposite
-/// acts on the first body of that joint, even if the joint of x also loads that body.
+/// In all cases, the load along y, −C, is the only load on the second body of the joint of y. The
+/// opposite load acts on the first body of this joint, even if the joint of x loads this body, too.
 #[test]
 fn the_wrench_is_the_load_along_the_measure_that_follows() {
     for case in cases() {

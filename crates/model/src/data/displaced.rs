@@ -1,13 +1,13 @@
-//! Mechanisms with other data: the displaced values of a point, a direction or a number, and a
-//! mechanism that stores other numbers.
+//! Mechanisms with changed data: the changed values of a point, a direction or a scalar, and a
+//! mechanism that stores these values.
 
 use super::{Across, Data, DataBlock};
 use crate::mechanism::Mechanism;
 use crate::space::norm;
 
 impl DataBlock {
-    /// Returns the number of independent directions in which the datum may be displaced: two for a
-    /// point of the plane, two for a direction of space, one for a number.
+    /// Returns the number of independent directions in which the datum may change: two for a point
+    /// in the plane, two for a direction in space, one for a scalar.
     ///
     /// ```
     /// use joints::Revolute;
@@ -31,9 +31,10 @@ impl DataBlock {
         }
     }
 
-    /// Returns its numbers after a displacement (in its unit), of which the first
-    /// [`Self::directions`] components count. A direction rotates by the angle of that size and
-    /// keeps its length. For axes, the displacement is a rotation vector.
+    /// Returns the values of the datum after a change `by` (in the unit of the datum); only the
+    /// first [`Self::directions`] components of `by` are used. For a direction, the change is a
+    /// rotation by this angle, so its length is constant. For axes, the change is a rotation
+    /// vector.
     #[must_use]
     pub fn displaced(&self, own: &[f64], by: [f64; 3]) -> Vec<f64> {
         match (self.across, own) {
@@ -58,8 +59,9 @@ impl DataBlock {
 }
 
 impl DataBlock {
-    /// Returns the unit vector along which [`Self::displaced`] changes a value with this gradient
-    /// (with respect to all numbers) most. It is zero if no displacement changes the value.
+    /// Returns the unit vector along which a change by [`Self::displaced`] has the largest effect
+    /// on a quantity with this gradient (with respect to all stored values). The vector is zero if
+    /// no change of the datum has an effect on the quantity.
     #[must_use]
     pub fn steepest(&self, gradient: &[f64]) -> [f64; 3] {
         let part = self.part(gradient);
@@ -86,7 +88,7 @@ fn perpendicular(n: [f64; 3]) -> [[f64; 3]; 2] {
 }
 
 impl Data<'_> {
-    /// Returns all numbers that the constraints store, in the order of [`DataBlock::numbers`]. The
+    /// Returns all values that the constraints store, in the order of [`DataBlock::numbers`]. The
     /// function allocates memory.
     #[must_use]
     pub fn numbers(self) -> Vec<f64> {
@@ -99,9 +101,9 @@ impl Data<'_> {
 }
 
 impl Mechanism {
-    /// Returns a mechanism whose constraints store other numbers, in the order of
-    /// [`Data::numbers`]. These also replace the numbers that the constraints have taken from the
-    /// start. Rows, names, tolerances and forces do not change, and no configuration is computed.
+    /// Returns a mechanism whose constraints store other values, in the order of [`Data::numbers`].
+    /// The new values also replace the stored initial values. Rows, names, tolerances and forces do
+    /// not change, and no configuration is computed.
     ///
     /// # Panics
     /// Panics if the number of values differs from [`Data::count`].
@@ -156,7 +158,7 @@ mod tests {
         Mechanism::build(&d).expect("it builds")
     }
 
-    /// Constant entries of C depend on the direction of a slot of the ground.
+    /// The direction on the ground determines constant entries of C.
     #[test]
     fn a_mechanism_with_other_numbers_is_the_one_built_with_them() {
         let old = slider(Direction::X, [0.0, 0.0]);
@@ -230,7 +232,8 @@ mod tests {
         let changed = door.with_numbers(&numbers);
         changed.pose(0.0, &q, &mut s);
         changed.phi(&mut s);
-        // The axes of the two bodies now differ by a milliradian, and the points have not moved.
+        // The directions of the axes of the two bodies now differ by 1 mrad, and the points have
+        // not moved.
         let largest = s.phi.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         assert!((largest - 1e-3).abs() < 1e-9, "{:?}", s.phi);
     }

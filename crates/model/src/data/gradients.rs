@@ -1,9 +1,9 @@
-//! Many gradients with respect to the numbers of the constraints at one instant, with a single
-//! evaluation of the kernels.
+//! Many gradients with respect to the values stored by the constraints at one instant, with a
+//! single evaluation of the kernels.
 //!
 //! `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q. Therefore its
-//! gradient with respect to the numbers of one constraint is a small matrix times the few entries
-//! that belong to that constraint.
+//! gradient with respect to the values of one constraint is a small matrix times the entries of y,
+//! y_λ, w_v and w_q for this constraint.
 
 use std::ops::Range;
 
@@ -11,14 +11,14 @@ use super::Data;
 use crate::rows::RowRanges;
 use crate::system::Scratch;
 
-/// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` with respect to all numbers of the
-/// constraints, for any y, y_λ, w_v and w_q.
+/// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` with respect to all values stored by
+/// the constraints, for any y, y_λ, w_v and w_q.
 #[derive(Clone, Debug)]
 pub struct DataGradients {
     each: Vec<OfConstraint>,
     /// Matrices by columns, constraint by constraint.
     values: Vec<f64>,
-    /// Whether any velocity is not zero.
+    /// Whether any velocity component is not zero.
     moves: bool,
 }
 
@@ -32,7 +32,7 @@ struct OfConstraint {
 }
 
 impl Data<'_> {
-    /// Returns the gradients at the configuration and the velocities of the scratch, for
+    /// Returns the gradients at the configuration and the velocities in the work space, for
     /// multipliers (m + h), accelerations a and velocities v (n_v). The function allocates memory.
     #[must_use]
     pub fn gradients(self, s: &Scratch, lambda: &[f64], a: &[f64], v: &[f64]) -> DataGradients {
@@ -95,7 +95,7 @@ impl Data<'_> {
 }
 
 impl DataGradients {
-    /// Computes one gradient and overwrites `out`; y has n_v values; y_λ, w_v and w_q have m + h
+    /// Computes one gradient and writes it to `out`; y has n_v values; y_λ, w_v and w_q have m + h
     /// values.
     ///
     /// # Panics

@@ -1,4 +1,5 @@
-//! Derivatives of the rows with respect to the numbers of the constraints at one configuration.
+//! Derivatives of the rows with respect to the values stored by the constraints at one
+//! configuration.
 
 use std::cell::OnceCell;
 
@@ -9,8 +10,9 @@ use crate::element::PlacedConstraint;
 use crate::rows::RowRanges;
 use crate::system::Scratch;
 
-/// The derivatives of Φ and C with respect to the numbers of the constraints at the configuration
-/// of a scratch. The derivatives of a constraint are computed on the first request and stored.
+/// The derivatives of Φ and C with respect to the values stored by the constraints, at the
+/// configuration in a work space. The derivatives of a constraint are computed at the first request
+/// and stored.
 pub struct DataSlopes<'a> {
     data: Data<'a>,
     s: &'a Scratch,
@@ -19,7 +21,7 @@ pub struct DataSlopes<'a> {
 }
 
 impl<'m> Data<'m> {
-    /// Returns the derivatives of the rows with respect to all numbers of the constraints.
+    /// Returns the derivatives of the rows with respect to all values stored by the constraints.
     #[must_use]
     pub fn slopes<'a>(self, s: &'a Scratch) -> DataSlopes<'a>
     where
@@ -36,8 +38,8 @@ impl<'m> Data<'m> {
 }
 
 impl DataSlopes<'_> {
-    /// Adds the gradient of `λᵀ·C·v` with respect to all numbers of the constraints, times
-    /// `factor`, to `out`; `lambda` has m + h values, `v` n_v.
+    /// Adds `factor` times the gradient of `λᵀ·C·v` with respect to all values stored by the
+    /// constraints to `out`; `lambda` has m + h values, `v` n_v.
     pub fn add_power(&self, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
         let mut rates = Vec::new();
         self.add(
@@ -52,8 +54,8 @@ impl DataSlopes<'_> {
         );
     }
 
-    /// Adds the gradient of `λᵀ·Φ` with respect to all numbers of the constraints, times `factor`,
-    /// to `out`; `lambda` has at least m values.
+    /// Adds `factor` times the gradient of `λᵀ·Φ` with respect to all values stored by the
+    /// constraints to `out`; `lambda` has at least m values.
     pub fn add_phi(&self, lambda: &[f64], factor: f64, out: &mut [f64]) {
         let of_phi = |rows: &RowRanges| RowRanges {
             holonomic: rows.holonomic.clone(),
@@ -65,8 +67,8 @@ impl DataSlopes<'_> {
         });
     }
 
-    /// Adds gradients that `kernel` writes for constraint k and the multipliers of some of its
-    /// rows, times `factor`, to `out`.
+    /// Adds `factor` times a gradient to `out`; `kernel` computes the gradient for constraint k and
+    /// the multipliers of some of its rows.
     fn add(
         &self,
         (lambda, some): (&[f64], fn(&RowRanges) -> RowRanges),

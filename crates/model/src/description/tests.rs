@@ -1,4 +1,5 @@
-//! Drives with force laws, and forces that call a function, in a description and in its mechanism.
+//! Tests drives with force laws, and forces with callbacks, in a description and in the built
+//! mechanism.
 
 use joints::{Direction, Revolute, RevoluteAngleDrive, Torque, Translational};
 use joints::{TranslationalDisplacementDrive, space3};
@@ -9,7 +10,7 @@ use crate::system::System;
 
 const O: [f64; 2] = [0.0, 0.0];
 
-/// A wheel with a force-law drive, a crank and a carriage with motions, and a torque.
+/// A wheel with a force-law drive, a crank and a carriage with prescribed motions, and a torque.
 fn described() -> Description {
     let mut d = Description::new("bench");
     let [wheel, crank, carriage] =

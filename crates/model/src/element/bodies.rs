@@ -1,4 +1,5 @@
-//! Poses of all bodies: positions of their centres of mass and orientations, from coordinates.
+//! Poses of all bodies, computed from coordinates: positions of the centres of mass, and
+//! orientations.
 
 use joints::plane::{Pose, Twist};
 use joints::{Ring, space3};
@@ -6,11 +7,11 @@ use joints::{Ring, space3};
 use crate::body::{Body, BodyRecord, DescribedBody, SpatialBody};
 use crate::space::{self, Number, PlanarSpace, Space, SpaceKind, in_plane, normalised, quaternion};
 
-/// Largest change by rounding of an angle that the constraints keep constant.
+/// Largest change of an angle that counts as rounding if the constraints keep the angle constant.
 const HELD: f64 = 4.0 * f64::EPSILON;
 
-/// One value for each body or slot, in the space of the mechanism. The list of the other space is
-/// empty.
+/// One value for each body of the mechanism, or for each body of each element, in the space of the
+/// mechanism. The list for the other space is empty.
 #[derive(Clone, Debug)]
 pub(crate) struct InEach<P, S> {
     pub(super) plane: Vec<P>,
@@ -30,9 +31,9 @@ impl<P: Copy, S: Copy> InEach<P, S> {
     }
 }
 
-/// Poses of bodies or slots.
+/// Poses, one for each body of the mechanism or of each element.
 pub(crate) type Poses<T> = InEach<Pose<T>, space3::Pose<T>>;
-/// Twists of slots.
+/// Twists, one for each body of each element.
 pub(crate) type Twists<T> = InEach<Twist<T>, space3::Twist<T>>;
 
 impl<P, S> Default for InEach<P, S> {
@@ -44,13 +45,13 @@ impl<P, S> Default for InEach<P, S> {
     }
 }
 
-/// The poses of all bodies of a mechanism: positions of their centres of mass, and orientations.
+/// The poses of all bodies of a mechanism: positions of the centres of mass, and orientations.
 ///
 /// Methods panic if the body does not exist.
 #[derive(Clone, Debug)]
 pub struct Bodies<T: Ring = f64> {
     pub(super) poses: Poses<T>,
-    /// Angles for which sine and cosine were computed; initially NaN.
+    /// Angles for which sine and cosine were last computed; initially NaN.
     turned_to: Vec<f64>,
 }
 
@@ -81,8 +82,8 @@ impl Bodies {
         }
     }
 
-    /// Sets the coordinates q. Sines and cosines of unchanged angles are kept; `turns` is called
-    /// for each recomputed angle.
+    /// Sets the coordinates q. Sines and cosines of unchanged angles are not recomputed; `turns` is
+    /// called for each recomputed angle.
     #[inline]
     pub(crate) fn take(
         &mut self,
@@ -128,7 +129,7 @@ impl Bodies {
         }
     }
 
-    /// Returns the centre of mass of a body (m), ground axes.
+    /// Returns the centre of mass of a body (m), in ground axes.
     #[must_use]
     pub fn origin(&self, body: usize) -> [f64; 3] {
         match self.of(body) {
@@ -154,7 +155,7 @@ impl Bodies {
         }
     }
 
-    /// Returns a vector of a body, transformed from body axes to ground axes.
+    /// Transforms a vector from the axes of a body to ground axes.
     #[must_use]
     pub fn turned(&self, body: usize, v: [f64; 3]) -> [f64; 3] {
         match self.of(body) {
@@ -163,8 +164,8 @@ impl Bodies {
         }
     }
 
-    /// Returns a point of a body, transformed from coordinates relative to its centre of mass to
-    /// ground coordinates.
+    /// Transforms a point of a body from coordinates relative to its centre of mass to ground
+    /// coordinates.
     #[must_use]
     pub fn to_global(&self, body: usize, point: [f64; 3]) -> [f64; 3] {
         match self.of(body) {
@@ -176,8 +177,8 @@ impl Bodies {
         }
     }
 
-    /// Returns a point of the ground, transformed to coordinates relative to the centre of mass of
-    /// a body, in its axes.
+    /// Transforms a point from ground coordinates to coordinates relative to the centre of mass of
+    /// a body, in the axes of the body.
     #[must_use]
     pub fn to_local(&self, body: usize, point: [f64; 3]) -> [f64; 3] {
         match self.of(body) {
@@ -189,8 +190,9 @@ impl Bodies {
         }
     }
 
-    /// Returns the angle of a body relative to the ground (rad). In the plane it is not reduced to
-    /// one revolution. In space it is 0, because a rotation has no such angle.
+    /// Returns the angle of a body relative to the ground (rad). In the plane, the angle includes
+    /// full revolutions. In space, the result is 0, because a rotation does not define such an
+    /// angle.
     #[must_use]
     pub fn angle(&self, body: usize) -> f64 {
         match self.of(body) {
@@ -199,7 +201,8 @@ impl Bodies {
         }
     }
 
-    /// Returns the position of a body along a freedom: a coordinate (m) or an angle (rad).
+    /// Returns the position of a body for one of its velocity components: a coordinate (m) or an
+    /// angle (rad).
     pub(crate) fn position(&self, body: usize, dof: usize) -> f64 {
         match self.of(body) {
             Either::Plane(pose) => match dof {
@@ -243,7 +246,8 @@ enum Either<P, S> {
 }
 
 impl Body {
-    /// Returns the pose at the start: position of the centre of mass, with the axes of its frame.
+    /// Returns the initial pose: the position of the centre of mass, with the axes of the body
+    /// frame.
     #[must_use]
     pub fn pose(&self) -> Pose {
         let [x, y] = self.position;
@@ -257,7 +261,8 @@ impl Body {
 }
 
 impl SpatialBody {
-    /// Returns the pose at the start: position of the centre of mass, with the axes of its frame.
+    /// Returns the initial pose: the position of the centre of mass, with the axes of the body
+    /// frame.
     #[must_use]
     pub fn pose(&self) -> space3::Pose {
         let origin = space3::Pose::new(self.position, self.orientation);
@@ -269,7 +274,7 @@ impl SpatialBody {
 }
 
 impl BodyRecord {
-    /// Returns the coordinates of the body at the start.
+    /// Returns the initial coordinates of the body.
     pub(crate) fn coordinates(&self, space: SpaceKind, q: &mut [f64]) {
         match &self.described {
             DescribedBody::Plane(body) => {
@@ -306,14 +311,13 @@ impl BodyRecord {
     }
 }
 
-/// Returns the angle of a body in the plane, from its own coordinates (rad), not reduced; 0 in
-/// space.
+/// Returns the angle of a body in the plane (rad) from the coordinates of the body, including full
+/// revolutions; 0 in space.
 pub(crate) fn angle_at(space: SpaceKind, q: &[f64]) -> f64 {
     in_plane!(space, S => <S as PlanarSpace>::angle(q), 0.0)
 }
 
-/// Returns a vector in the axes of a body, transformed to ground axes with the coordinates of the
-/// body.
+/// Transforms a vector from the axes of a body to ground axes; `q` are the coordinates of the body.
 pub(crate) fn turned_at(space: SpaceKind, q: &[f64], v: [f64; 3]) -> [f64; 3] {
     in_plane!(space, S => {
         let (sin, cos) = <S as PlanarSpace>::sin_cos(q);
@@ -321,7 +325,7 @@ pub(crate) fn turned_at(space: SpaceKind, q: &[f64], v: [f64; 3]) -> [f64; 3] {
     }, spatial_pose(q).direction_to_global(v))
 }
 
-/// Returns the axes of a body, from its own coordinates, in ground components.
+/// Returns the axes of a body in ground components; `q` are the coordinates of the body.
 pub(crate) fn axes_at(space: SpaceKind, q: &[f64]) -> [[f64; 3]; 3] {
     let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     units.map(|axis| turned_at(space, q, axis))
@@ -343,9 +347,9 @@ pub(super) fn spatial_pose<T: Number>(q: &[T]) -> space3::Pose<T> {
     }
 }
 
-/// Returns whether a body keeps its sine and cosine when its angle changes. If rows fix the angle,
-/// a change by rounding is not a rotation. Otherwise every bit counts: the sine of −0 differs from
-/// that of 0.
+/// Returns whether the stored sine and cosine of a body are still used after its angle has changed.
+/// If rows fix the angle, a change that is not larger than rounding is ignored. Otherwise every bit
+/// is significant: for example, the sine of −0 differs from the sine of 0.
 fn stays(is_held: bool, from: f64, to: f64) -> bool {
     if is_held {
         (to - from).abs() <= HELD * from.abs().max(1.0)

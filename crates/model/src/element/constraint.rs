@@ -10,17 +10,17 @@ use super::slots::{Kinematics, Rates, Site, Slots};
 use super::{AnyConstraint, Bodies, BodySpace, stored, with};
 use crate::rows::RowRanges;
 
-/// A constraint in the axes in which its bodies move.
+/// A constraint in the axes of the coordinates of its bodies, which may be principal axes.
 #[derive(Clone)]
 pub(crate) struct FramedConstraint {
     element: AnyConstraint,
-    /// Axes u, v and w of its joint, fixed in the first body, in the axes of the body frame.
+    /// Axes u, v and w of the joint, fixed in the first body, in the axes of the body frame.
     axes: Option<[[f64; 3]; 3]>,
 }
 
 impl FramedConstraint {
-    /// Creates the constraint from its description; `turn` transforms it to the axes in which its
-    /// bodies move.
+    /// Creates the constraint from its description; `turn` transforms it to the axes of the
+    /// coordinates of its bodies.
     pub(crate) fn new(mut element: AnyConstraint, turn: impl FnOnce(&mut AnyConstraint)) -> Self {
         let axes = with!(AnyConstraint, &element, element, _S => element.axes());
         turn(&mut element);
@@ -32,13 +32,13 @@ impl FramedConstraint {
     }
 }
 
-/// A constraint with its indices in the mechanism. Kernels need the poses of their slots and, if
-/// they depend on them, the velocities; `out` is overwritten.
+/// A constraint with its indices in the mechanism. The kernels need the poses of the bodies and, if
+/// they depend on velocities, also the velocities; `out` is overwritten.
 #[derive(Clone)]
 pub(crate) struct PlacedConstraint {
     framed: FramedConstraint,
     pub(crate) site: Site,
-    /// Entries of C of the constraint in the scratch.
+    /// Range of the entries of C of this constraint in the work space.
     pub(crate) entries: Range<usize>,
     /// Indices of the varying entries, relative to `entries`.
     pub(crate) varying: Vec<usize>,
@@ -75,14 +75,14 @@ impl PlacedConstraint {
         &self.framed
     }
 
-    /// Returns the axes u, v and w of its joint, fixed in the first body, in the axes of the body
+    /// Returns the axes u, v and w of the joint, fixed in the first body, in the axes of the body
     /// frame.
     pub(crate) fn axes(&self) -> Option<[[f64; 3]; 3]> {
         self.framed.axes
     }
 
-    /// Returns the axes of its first two bodies that its rows keep parallel, as three unit vectors
-    /// each, in ground axes.
+    /// For the axes of the first two bodies that the rows keep parallel, returns three unit vectors
+    /// for each body, in ground axes.
     pub(crate) fn parallel_axes(&self, s: &Slots) -> Option<[[[f64; 3]; 3]; 2]> {
         let element = &self.framed.element;
         let own = with!(AnyConstraint, element, element, _S => element.parallel_axes())?;
@@ -94,24 +94,24 @@ impl PlacedConstraint {
         self.framed.element.spec()
     }
 
-    /// Returns whether its block of C depends on the configuration.
+    /// Returns whether the block of C of this constraint depends on the configuration.
     pub(crate) fn has_varying_entries(&self) -> bool {
         !self.varying.is_empty()
     }
 
-    /// Returns whether b and Φt of its rows may differ from zero.
+    /// Returns whether b and Φt of the rows may differ from zero.
     pub(crate) fn depends_on_time(&self) -> bool {
         self.spec().rheonomic
     }
 
-    /// Returns whether Γ of its rows may differ from zero. C of the other rows is constant, so
+    /// Returns whether Γ of the rows may differ from zero. In the other rows, C is constant, so
     /// `C·v̇ = 0`.
     pub(crate) fn has_gamma(&self) -> bool {
         self.has_varying_entries() || self.depends_on_time()
     }
 
-    /// Returns the cosine, sine and rate of an unwrapped angle at these poses and twists of its
-    /// slots in space.
+    /// Returns the cosine, sine and rate of an unwrapped angle in space, at these poses and twists
+    /// of the bodies.
     pub(crate) fn counted(&self, number: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
         match &self.framed.element {
             AnyConstraint::Space3(element) => element.turned(number, x, v),
@@ -119,7 +119,7 @@ impl PlacedConstraint {
         }
     }
 
-    /// Stores other numbers, in the order of its specification.
+    /// Stores other values, in the order of the specification.
     pub(crate) fn set_data(&mut self, numbers: &[f64]) {
         with!(AnyConstraint, &mut self.framed.element, element, _S => element.set_data(numbers));
     }
@@ -130,7 +130,7 @@ impl PlacedConstraint {
         });
     }
 
-    /// Returns the first requirement of its definition that is not met at these poses.
+    /// Returns the first requirement of the definition that these poses do not satisfy.
     pub(crate) fn unmet_requirement(&self, bodies: &Bodies) -> Option<&'static str> {
         let words = self.spec().common.requirements;
         let unmet = with!(AnyConstraint, &self.framed.element, element, S => {
@@ -184,14 +184,14 @@ impl PlacedConstraint {
         });
     }
 
-    /// Returns the reference point of its reaction (m), in ground axes.
+    /// Returns the reference point of the reaction (m), in ground axes.
     pub(crate) fn place(&self, s: &Slots) -> [f64; 3] {
         with!(AnyConstraint, &self.framed.element, element, S => {
             S::point(element.place(self.site.x::<S>(s)))
         })
     }
 
-    /// Returns the origin of its first body (m), ground axes.
+    /// Returns the origin of the first body (m), in ground axes.
     pub(crate) fn first_origin(&self, s: &Slots) -> [f64; 3] {
         with!(AnyConstraint, &self.framed.element, _element, S => {
             S::first_origin(self.site.x::<S>(s))
@@ -225,21 +225,22 @@ impl PlacedConstraint {
         });
     }
 
-    /// Returns the derivatives of Φ with respect to its numbers.
+    /// Returns the derivatives of Φ with respect to the stored values.
     pub(crate) fn slopes_of_phi(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
             element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::Phi)
         })
     }
 
-    /// Returns the derivatives of C.
+    /// Returns the derivatives of C with respect to the stored values.
     pub(crate) fn slopes_of_c(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
             element.slopes(self.site.x::<S>(s), self.site.f(s), SlopedOutputs::C)
         })
     }
 
-    /// Returns the derivatives of Φ, C, and of Γ at the velocities of the slots.
+    /// Returns the derivatives of Φ, of C, and of Γ at the current velocities, with respect to the
+    /// stored values.
     pub(crate) fn slopes(&self, s: &Slots) -> Slopes {
         with!(AnyConstraint, &self.framed.element, element, S => {
             let v = self.site.v::<S>(&s.rates);
@@ -247,7 +248,7 @@ impl PlacedConstraint {
         })
     }
 
-    /// Sizes of the terms of C.
+    /// Computes the sizes of the terms of C.
     pub(crate) fn magnitude_c(&self, s: &Slots, out: &mut [Magnitude]) {
         let jets = self.site.f(s).iter();
         let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();

@@ -6,7 +6,7 @@ use super::bodies::Bodies;
 use super::constraint::PlacedConstraint;
 use super::kernels::{AnyConstraint, stored, with};
 
-/// Poses of all bodies, and further arguments of kernels, in double-double.
+/// Poses of all bodies, and the other arguments of kernels, in double-double.
 pub(crate) struct ExtendedSlots {
     pub(crate) bodies: Bodies<Dd>,
     pub(crate) jets: Vec<[Dd; 3]>,

@@ -17,7 +17,7 @@ pub(crate) struct PlacedForce {
     pub(crate) name: String,
     element: AnyForce,
     pub(crate) site: Site,
-    /// Rotations between its kernels and the bodies.
+    /// Rotations between the axes of the kernels and the axes of the coordinates of the bodies.
     turned: Option<TurnedSlots>,
     /// Column of Q for each value of the kernel; `None` for the ground.
     pub(crate) columns: Vec<Option<usize>>,
@@ -70,8 +70,8 @@ impl PlacedForce {
         turned.map_or(self.spec().dq_dv, TurnedSlots::pairs)
     }
 
-    /// Returns the points at which it acts, with their bodies, in the axes in which these bodies
-    /// move.
+    /// Returns the points at which the force acts, with their bodies, in the axes of the
+    /// coordinates of these bodies.
     pub(crate) fn points(&self) -> Vec<(BodyRef, [f64; 3])> {
         let own = |slot: usize, point: [f64; 3]| {
             let turned = self.turned.as_ref();
@@ -83,7 +83,8 @@ impl PlacedForce {
         placed.collect()
     }
 
-    /// Returns the kernels in space, if there is a rotation between them and the bodies.
+    /// Returns the kernels in space, if their axes differ from the axes of the coordinates of the
+    /// bodies.
     fn between(&self) -> Option<(&TurnedSlots, &dyn ForceKernels<Space3>)> {
         match (&self.turned, &self.element) {
             (Some(turned), AnyForce::Space3(kernels)) => Some((turned, kernels.as_ref())),
@@ -91,8 +92,8 @@ impl PlacedForce {
         }
     }
 
-    /// Returns the cosine, sine and rate of an unwrapped angle at these poses and twists of its
-    /// slots in space.
+    /// Returns the cosine, sine and rate of an unwrapped angle in space, at these poses and twists
+    /// of the bodies.
     pub(crate) fn counted(&self, number: usize, x: &[Pose], v: &[Twist]) -> [f64; 3] {
         match (&self.turned, &self.element) {
             (Some(turned), AnyForce::Space3(kernels)) => {
@@ -122,7 +123,7 @@ impl PlacedForce {
         });
     }
 
-    /// Returns the first requirement of its definition that these poses do not satisfy.
+    /// Returns the first requirement of the definition that these poses do not satisfy.
     pub(crate) fn unmet_requirement(&self, bodies: &Bodies) -> Option<&'static str> {
         let words = self.spec().common.requirements;
         let unmet = match self.between() {
@@ -175,7 +176,7 @@ impl PlacedForce {
         });
     }
 
-    /// Returns the force along the joint coordinate of a force-law drive.
+    /// Returns the force along the joint coordinate, if this is a drive with a force law.
     pub(crate) fn drive(&self, s: &Slots) -> Option<DriveForce> {
         if let Some((turned, kernels)) = self.between() {
             let f = self.site.f(s);
@@ -187,7 +188,7 @@ impl PlacedForce {
         })
     }
 
-    /// Returns the reason why its called function has no value.
+    /// Returns the reason why the callback has no value, if this is the case.
     pub(crate) fn undefined(&self, s: &Slots) -> Option<UndefinedValue> {
         if let Some((turned, kernels)) = self.between() {
             let f = self.site.f(s);

@@ -12,12 +12,12 @@ use crate::coupling::CouplingError;
 use crate::law::{DriveForce, Law, LawError, UndefinedValue};
 use crate::space::SpaceKind;
 
-/// A space of kernels in which bodies are described: the plane, or space.
+/// A space for kernels and for descriptions of bodies: the plane, or three-dimensional space.
 pub trait BodySpace: joints::Space + Sized {
     /// Description of a body.
     type Body: Clone + std::fmt::Debug + Into<DescribedBody>;
 
-    /// The space of a mechanism of such bodies.
+    /// The kind of this space in a mechanism.
     const KIND: SpaceKind;
 
     /// Wraps kernels for use in a mechanism.
@@ -28,19 +28,21 @@ pub trait BodySpace: joints::Space + Sized {
     #[doc(hidden)]
     fn any_force(kernels: Box<dyn ForceKernels<Self>>) -> AnyForce;
 
-    /// Returns a point of a body with three coordinates.
+    /// Returns a point of a body as three components.
     #[doc(hidden)]
     fn point(point: Self::Vector<f64>) -> [f64; 3];
 
-    /// Returns the components of a vector in this space.
+    /// Returns the vector of this space with these components.
     #[doc(hidden)]
     fn vector(components: [f64; 3]) -> Self::Vector<f64>;
 
-    /// Returns a global point relative to the centre of mass of a body, in its axes.
+    /// Converts a point in ground axes to a point relative to the centre of mass of a body, in the
+    /// axes of the body.
     #[doc(hidden)]
     fn to_local(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
 
-    /// Returns a force law on the joint coordinate of a drive, in place of its motion.
+    /// Returns a force law on the joint coordinate of a drive, which replaces the motion of the
+    /// drive.
     #[doc(hidden)]
     fn law<K: Constraint<Self>>(
         drive: K,
@@ -51,7 +53,7 @@ pub trait BodySpace: joints::Space + Sized {
     #[doc(hidden)]
     fn wrench(wrench: CalledWrench) -> Box<dyn ForceKernels<Self>>;
 
-    /// Returns the constraint by which the second joint coordinate follows the first.
+    /// Returns the constraint that makes the second joint coordinate a polynomial of the first.
     #[doc(hidden)]
     fn couple(
         measures: [AttachedMeasure<Self>; 2],
@@ -79,7 +81,7 @@ pub enum AnyForce {
     Space3(Box<dyn ForceKernels<Space3>>),
 }
 
-/// Evaluates an expression in which `$element` is bound to the kernels, and `$space` to their
+/// Evaluates an expression in which `$element` stands for the kernels, and `$space` for their
 /// space.
 macro_rules! with {
     ($any:ident, $kernels:expr, $element:ident, $space:ident => $body:expr) => {
@@ -103,10 +105,10 @@ pub type AttachedMeasure<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S
 /// A constraint with its bodies.
 pub type AttachedConstraint<S = Plane> = (Vec<BodyRef>, Box<dyn ConstraintKernels<S>>);
 
-/// Arguments for the evaluation of the rows of a constraint.
+/// Arguments of a drive for the evaluation of its rows.
 pub(crate) struct RowsAt<'a, S: Space, T: Ring> {
     pub(crate) kernels: &'a dyn ConstraintKernels<S>,
-    /// The numbers that its operation lists read.
+    /// The values that the operation lists read.
     pub(crate) stored: &'a [T],
     pub(crate) x: &'a [S::Pose<T>],
     pub(crate) f: &'a [[T; 3]],
@@ -118,11 +120,11 @@ impl<'a, S: Space, T: Ring> RowsAt<'a, S, T> {
     }
 }
 
-/// A number type in which a force law and a coupling evaluate the rows of a drive: `f64` uses its
-/// kernels, and recording numbers use its operation lists.
+/// A number type in which force laws and couplings evaluate the rows of a drive. With `f64`, the
+/// kernels are used; with recording numbers, the operation lists.
 pub(crate) trait DriveScalar: Scalar {
-    /// Returns the numbers that the operation lists read, each created from its value and its
-    /// index. The list is empty for kernels, which read their own numbers.
+    /// Returns the values that the operation lists read, each created from its value and its index.
+    /// The list is empty for kernels, which read the values stored in them.
     fn stored_by<S: Space>(
         kernels: &dyn ConstraintKernels<S>,
         number: impl Fn(f64, usize) -> Self,
@@ -195,7 +197,7 @@ impl DriveScalar for RecordedNumber {
     }
 }
 
-/// Returns the numbers that the operation lists of a constraint read, in any number type.
+/// Returns the values that the operation lists of a constraint read, in any number type.
 pub(crate) fn stored<S: Space, T: From<f64>>(kernels: &dyn ConstraintKernels<S>) -> Vec<T> {
     let mut numbers = Vec::new();
     kernels.stored(&mut numbers);
@@ -204,7 +206,7 @@ pub(crate) fn stored<S: Space, T: From<f64>>(kernels: &dyn ConstraintKernels<S>)
 
 /// The kernels of a force as a trait object.
 pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
-    /// Computes the entries of Q, evaluated with numbers that record their operations.
+    /// Evaluates the entries of Q with a number type that records its operations.
     fn recorded_q(
         &self,
         x: &[S::Pose<RecordedNumber>],
@@ -212,18 +214,19 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
         f: &[[RecordedNumber; 3]],
         out: &mut [RecordedNumber],
     );
-    /// Returns a copy.
+    /// Returns a copy of the kernels.
     fn boxed(&self) -> Box<dyn ForceKernels<S>>;
-    /// Returns whether this is a force-law drive.
+    /// Returns whether this is a drive with a force law.
     fn is_law(&self) -> bool {
         false
     }
-    /// Returns whether it calls a function that returns only values. If so, its derivatives are
-    /// NaN.
+    /// Returns whether the force is computed by a callback, which returns only values. If so, its
+    /// derivatives are NaN.
     fn is_called(&self) -> bool {
         false
     }
-    /// Computes the reason why its called function has no value, if this is the cause.
+    /// Returns the reason why the callback has no value, if the force is undefined because of the
+    /// callback.
     fn undefined(
         &self,
         _x: &[S::Pose<f64>],
@@ -232,13 +235,13 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
     ) -> Option<UndefinedValue> {
         None
     }
-    /// Returns this drive with another force law of the same joint coordinate. The coordinate is
-    /// counted from the start if that of the present law is. Returns `None` if this is not a
-    /// force-law drive.
+    /// Returns this drive with another force law for the same joint coordinate. The new law uses
+    /// the change since the start if the present law does. Returns `None` if this is not a drive
+    /// with a force law.
     fn with_law(&self, _law: &Law) -> Option<Box<dyn ForceKernels<S>>> {
         None
     }
-    /// Computes the force along the joint coordinate of a force-law drive.
+    /// Computes the force along the joint coordinate of a drive with a force law.
     fn drive(
         &self,
         _x: &[S::Pose<f64>],

@@ -20,7 +20,7 @@ pub enum Input {
     /// The sine of the coordinate with this index in q.
     Sin(usize),
     /// An entry of the matrix that transforms vectors from the principal axes of a spatial body to
-    /// ground axes. It is computed from the quaternion among its coordinates, which may have any
+    /// ground axes. The matrix is computed from the quaternion of the body, which may have any
     /// length.
     Rotation {
         /// Index of the body.
@@ -59,7 +59,7 @@ pub(crate) struct RecordedSlots {
 }
 
 impl RecordedSlots {
-    /// Inputs of a mechanism; `input` gives the number of each.
+    /// Creates the inputs of a mechanism; `input` returns the recorded number of each input.
     pub(crate) fn new(
         space: SpaceKind,
         bodies: usize,

@@ -1,4 +1,5 @@
-//! Arguments of kernels: poses, velocities and functions of time of the slots of all elements.
+//! Arguments of the kernels of all elements: poses and velocities of their bodies, and functions of
+//! time.
 
 use std::ops::Range;
 
@@ -11,18 +12,18 @@ use super::turned::lent;
 use crate::body::BodyRef;
 use crate::space::SpaceKind;
 
-/// Number of bodies of an element up to which no memory is allocated; no joint of the library has
-/// more.
+/// For elements with up to this number of bodies, no memory is allocated; no joint of the library
+/// has more bodies.
 const FEW: usize = 4;
 
-/// Data of bodies that the kernels of a space use.
+/// A space whose kernels can be evaluated for the bodies of a mechanism.
 pub(crate) trait Kinematics: BodySpace {
     fn ground<T: Ring>() -> Self::Pose<T>;
     fn poses<T: Ring>(all: &Poses<T>) -> &[Self::Pose<T>];
     fn poses_mut<T: Ring>(all: &mut Poses<T>) -> &mut [Self::Pose<T>];
     fn twists<T: Ring>(all: &Twists<T>) -> &[Self::Twist<T>];
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Self::Twist<T>];
-    /// Returns the sizes of the contributions of a pose to a polynomial.
+    /// Returns the sizes of the terms of a polynomial that depend on a pose.
     fn magnitude(pose: &Self::Pose<f64>) -> Self::Pose<Magnitude>;
     fn first_origin(poses: &[Self::Pose<f64>]) -> [f64; 3];
 }
@@ -43,7 +44,7 @@ impl Kinematics for Plane {
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [Twist<T>] {
         &mut all.plane
     }
-    /// Cosine and sine are accurate to the rounding of their angle.
+    /// Cosine and sine are accurate to the rounding error of the angle.
     fn magnitude(pose: &Pose) -> Pose<Magnitude> {
         let turned = Magnitude::from(pose.angle.abs().max(1.0));
         Pose {
@@ -75,7 +76,7 @@ impl Kinematics for Space3 {
     fn twists_mut<T: Ring>(all: &mut Twists<T>) -> &mut [space3::Twist<T>] {
         &mut all.space3
     }
-    /// Every entry of a rotation is accurate to the rounding of 1.
+    /// Every entry of a rotation matrix is accurate to the rounding error of 1.
     fn magnitude(pose: &space3::Pose) -> space3::Pose<Magnitude> {
         space3::Pose {
             r: pose.r.map(Magnitude::from),
@@ -108,7 +109,7 @@ fn twist_of<S: Kinematics>(body: BodyRef, v: &[f64]) -> S::Twist<f64> {
     }
 }
 
-/// Evaluates an expression in which `$kernels` is the space of kernels of a [`SpaceKind`].
+/// Evaluates an expression in which `$kernels` stands for the space of a [`SpaceKind`].
 macro_rules! in_kernels {
     ($kind:expr, $kernels:ident => $body:expr) => {
         match $kind {
@@ -124,13 +125,13 @@ macro_rules! in_kernels {
     };
 }
 
-/// Arguments of the kernels of all elements, one after the other: constraints, then forces.
+/// Arguments of the kernels of all elements in sequence: first the constraints, then the forces.
 #[derive(Clone, Debug)]
 pub(crate) struct Slots {
     space: SpaceKind,
-    /// Poses of the bodies in their slots.
+    /// Poses of the bodies of each element.
     pub(super) poses: Poses<f64>,
-    /// Velocities of these slots.
+    /// Velocities of these bodies.
     pub(crate) rates: Rates,
     /// Values of the functions of time.
     pub(crate) jets: Vec<[f64; 3]>,
@@ -161,7 +162,7 @@ impl Slots {
     }
 }
 
-/// Velocities or accelerations of slots.
+/// Velocities or accelerations of the bodies of each element.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Rates {
     space: SpaceKind,
@@ -192,7 +193,7 @@ impl Rates {
     }
 }
 
-/// Indices of an element: its bodies, and its ranges in [`Slots`].
+/// Indices of an element: its bodies, and its ranges in the lists of [`Slots`].
 #[derive(Clone)]
 pub(crate) struct Site {
     pub(crate) space: SpaceKind,
@@ -212,8 +213,8 @@ impl Site {
         &S::twists(&all.twists)[self.slots.clone()]
     }
 
-    /// Returns the poses of its bodies in space at the coordinates q, and their twists at
-    /// velocities v or at rest.
+    /// Calls a function with the poses of the bodies in space at the coordinates q, and their
+    /// twists at velocities v or at rest.
     pub(crate) fn with_spatial<R>(
         &self,
         (q, v): (&[f64], Option<&[f64]>),
@@ -244,8 +245,8 @@ impl Site {
         &all.jets[self.functions.clone()]
     }
 
-    /// Returns the poses of its bodies in any number type, selected from the poses of all bodies.
-    /// The function allocates memory.
+    /// Selects the poses of the bodies of the element from the poses of all bodies, in any number
+    /// type. The function allocates memory.
     pub(super) fn poses<S: Kinematics, T: Ring>(&self, all: &Bodies<T>) -> Vec<S::Pose<T>> {
         let bodies = self.bodies.iter();
         bodies.map(|&b| pose_of::<S, T>(&all.poses, b)).collect()
@@ -256,8 +257,8 @@ impl Site {
         self.bodies.iter().filter_map(|b| b.moving())
     }
 
-    /// Computes the velocities or accelerations of its slots, selected from those of all bodies
-    /// (n_v values); zero for the ground.
+    /// Selects the velocities or accelerations of the bodies of the element from those of all
+    /// bodies (n_v values); they are zero for the ground.
     pub(crate) fn own_rates(&self, all: &[f64], out: &mut Vec<f64>) {
         out.clear();
         for body in &self.bodies {
@@ -268,7 +269,7 @@ impl Site {
         }
     }
 
-    /// Returns the column of C for a column of its block; `None` for the ground.
+    /// Converts a column of the block of the element to a column of C; `None` for the ground.
     pub(crate) fn column(&self, k: usize) -> Option<usize> {
         let body = self.bodies[self.space.body_of(k)].moving()?;
         Some(self.space.n_v() * body + self.space.dof_of(k))

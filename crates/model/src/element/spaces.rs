@@ -1,4 +1,5 @@
-//! The plane and space as spaces of kernels: of joints, laws, called wrenches and couplings.
+//! Implementations of the traits of kernels for the plane and for space: joints, force laws, called
+//! wrenches and couplings.
 
 use joints::{Constraint, ConstraintKernels, Plane, Space3};
 

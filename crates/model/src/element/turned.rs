@@ -1,6 +1,7 @@
-//! Forces on bodies with products of inertia. Bodies move in principal axes ([`crate::principal`]).
-//! The components of a force may be given in the axes of body frames. Therefore the force is
-//! evaluated with the frames of its bodies, and its torques and derivatives are rotated.
+//! Forces on bodies with products of inertia. The coordinates of these bodies refer to principal
+//! axes ([`crate::principal`]). However, the components of a force may be given in the axes of the
+//! body frames. Therefore the force is evaluated with the body frames, and its torques and
+//! derivatives are then rotated to the principal axes.
 
 use joints::space3::{N_DOF, Pose, Twist};
 use joints::{RecordedNumber, Ring, Space3};
@@ -8,20 +9,20 @@ use joints::{RecordedNumber, Ring, Space3};
 use super::ForceKernels;
 use crate::principal::Principal;
 
-/// Number of bodies of a force up to which no memory is allocated; no force of the library has more
-/// than two.
+/// For forces with up to this number of bodies, no memory is allocated; no force of the library has
+/// more than two.
 const FEW: usize = 2;
 
-/// The principal axes of the bodies of a force, if they differ from the axes of the frames.
+/// The principal axes of the bodies of a force, if they differ from the axes of the body frames.
 #[derive(Clone)]
 pub(crate) struct TurnedSlots {
     principal: Vec<Option<Principal>>,
-    /// All pairs of columns, row by row: the pattern of the derivatives.
+    /// All pairs of columns, row by row; they are the pattern of the derivatives.
     pairs: Vec<[usize; 2]>,
 }
 
 impl TurnedSlots {
-    /// Creates the rotations; `None` if the frames of all bodies are along principal axes.
+    /// Creates the rotations; `None` if the axes of all body frames are principal axes.
     pub(crate) fn new(principal: Vec<Option<Principal>>) -> Option<Self> {
         principal.iter().flatten().next()?;
         let n = N_DOF * principal.len();
@@ -30,7 +31,7 @@ impl TurnedSlots {
         Some(Self { principal, pairs })
     }
 
-    /// Returns the columns of Q: all columns.
+    /// Returns the columns of Q, which are all columns of the block.
     pub(super) fn columns(&self) -> std::ops::Range<usize> {
         0..self.n()
     }
@@ -44,19 +45,20 @@ impl TurnedSlots {
         N_DOF * self.principal.len()
     }
 
-    /// Returns the rotated slots, with their first rotation in the block.
+    /// Returns the bodies whose frames are rotated, with the index of their first rotation in the
+    /// block.
     fn turned(&self) -> impl Iterator<Item = (usize, &Principal)> {
         let slots = self.principal.iter().enumerate();
         slots.filter_map(|(slot, of)| Some((N_DOF * slot + 3, of.as_ref()?)))
     }
 
-    /// Returns the points of bodies in the axes in which they move, transformed from the frames.
+    /// Transforms a point from the body frame to the axes of the coordinates of the body.
     pub(super) fn own_point(&self, slot: usize, point: [f64; 3]) -> [f64; 3] {
         let principal = self.principal.get(slot).and_then(Option::as_ref);
         principal.map_or(point, |of| of.own(point))
     }
 
-    /// Transforms poses of the principal axes to poses of the frames.
+    /// Transforms poses of the principal axes to poses of the body frames.
     pub(super) fn poses<T: Ring>(&self, x: &mut [Pose<T>]) {
         for (pose, of) in x.iter_mut().zip(&self.principal) {
             if let Some(of) = of {
@@ -65,7 +67,7 @@ impl TurnedSlots {
         }
     }
 
-    /// Transforms twists of the principal axes to twists of the frames.
+    /// Transforms twists from the principal axes to the body frames.
     fn twists<T: Ring>(&self, v: &mut [Twist<T>]) {
         for (twist, of) in v.iter_mut().zip(&self.principal) {
             if let Some(of) = of {
@@ -74,7 +76,7 @@ impl TurnedSlots {
         }
     }
 
-    /// Writes the values of a force, each of which belongs to a column, into all columns.
+    /// Writes the values of a force for the columns of a pattern into a list of all columns.
     fn write<T: Ring>(&self, pattern: &[usize], values: &[T], out: &mut [T]) {
         out.fill(T::from(0.0));
         for (&column, value) in pattern.iter().zip(values) {
@@ -87,7 +89,7 @@ impl TurnedSlots {
         }
     }
 
-    /// Calls `kernel` with the poses and twists of the frames.
+    /// Calls `kernel` with the poses and twists of the body frames.
     pub(super) fn with_frames<R>(
         &self,
         (x, v): (&[Pose], &[Twist]),
@@ -104,7 +106,7 @@ impl TurnedSlots {
         kernel(poses, twists)
     }
 
-    /// Computes Q of a force, all columns.
+    /// Computes Q of a force for all columns.
     pub(super) fn q(
         &self,
         kernels: &dyn ForceKernels<Space3>,
@@ -119,7 +121,7 @@ impl TurnedSlots {
         self.write(pattern, values, out);
     }
 
-    /// Computes Q of a force with recording numbers, all columns.
+    /// Computes Q of a force for all columns with recording numbers.
     pub(super) fn recorded_q(
         &self,
         kernels: &dyn ForceKernels<Space3>,
@@ -135,8 +137,8 @@ impl TurnedSlots {
         self.write(pattern, &values, out);
     }
 
-    /// Computes a derivative of Q for all pairs of columns, from the derivative of the kernels with
-    /// this pattern.
+    /// Computes a derivative of Q for all pairs of columns; `pattern` is that of the derivative
+    /// from the kernels.
     pub(super) fn derivative(
         &self,
         pattern: &[[usize; 2]],
@@ -167,7 +169,7 @@ impl TurnedSlots {
     }
 }
 
-/// Lends `n` numbers of an array if it is large enough, otherwise of a vector.
+/// Returns `n` values of the array `few` if it is large enough, otherwise of a vector.
 pub(super) fn lent<'a, T: Copy, const N: usize>(
     few: &'a mut [T; N],
     many: &'a mut Vec<T>,

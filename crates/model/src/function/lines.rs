@@ -1,7 +1,7 @@
 //! Piecewise linear functions through the points of a table. If two points have the same time, the
 //! value jumps.
 
-/// Points in the order of time; times may repeat once, but not at the ends.
+/// Points in the order of time; a time may occur twice, but not at the ends.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Lines {
     times: Vec<f64>,
@@ -26,12 +26,13 @@ impl Lines {
         &self.times
     }
 
-    /// Times and values.
+    /// Returns the times and values of the points.
     pub(super) fn points(&self) -> (&[f64], &[f64]) {
         (&self.times, &self.values)
     }
 
-    /// Returns the value and derivatives. At a point, they are those of the line that begins there.
+    /// Returns the value and the derivatives at t. At a point, they are those of the line that
+    /// starts there.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let (x, y) = (&self.times, &self.values);
         let behind = x.partition_point(|&x| x <= t);

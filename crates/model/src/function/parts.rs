@@ -3,7 +3,7 @@
 use super::spline::Spline;
 use super::{Function, TimeLaw, points};
 
-/// The kind of a function, with its numbers.
+/// The kind of a function, with its parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Parts<'a> {
     /// `Σ c[k]·tᵏ`
@@ -35,8 +35,8 @@ pub enum Parts<'a> {
         /// Second derivatives at these times.
         curvatures: &'a [f64],
     },
-    /// Straight lines through points. If a time occurs twice, the second value applies at this
-    /// time.
+    /// Straight lines through points. If two points have the same time, the value of the second one
+    /// applies at this time.
     Lines {
         /// Times of the points.
         times: &'a [f64],
@@ -58,7 +58,7 @@ impl Parts<'_> {
         }
     }
 
-    /// Returns all its numbers: the coefficients; amplitude, omega, phase and offset; the start and
+    /// Returns all parameters: the coefficients; amplitude, omega, phase and offset; the start and
     /// each step; time, value and curvature of each point; or time and value of each point.
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
@@ -91,9 +91,9 @@ impl Parts<'_> {
 }
 
 impl Function {
-    /// Returns the function of the same kind with these numbers, in the order of
-    /// [`Parts::numbers`]. Returns `None` if their count is wrong, or if they are invalid for a
-    /// function of this kind.
+    /// Returns the function of the same kind with these parameters, in the order of
+    /// [`Parts::numbers`]. Returns `None` if the number of parameters is wrong, or if they are
+    /// invalid for a function of this kind.
     ///
     /// ```
     /// let f = pfaff_model::Function::harmonic(2.0, 3.0, 0.1, 0.5).unwrap();
@@ -134,7 +134,7 @@ impl Function {
         }
     }
 
-    /// Returns the kind of the function, with its numbers.
+    /// Returns the kind of the function, with its parameters.
     ///
     /// ```
     /// use pfaff_model::{Function, function::Parts};

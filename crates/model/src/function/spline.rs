@@ -24,7 +24,7 @@ impl Spline {
         let slope = |k: usize| (values[k + 1] - values[k]) / step(k);
         let mut curvatures = vec![0.0; n];
         let mut upper = vec![0.0; n];
-        // Elimination from the first inner point on; the matrix is diagonally dominant.
+        // The elimination starts at the first inner point; the matrix is diagonally dominant.
         for k in 1..n - 1 {
             let diagonal = 2.0 * (step(k - 1) + step(k)) - step(k - 1) * upper[k - 1];
             upper[k] = step(k) / diagonal;
@@ -54,12 +54,13 @@ impl Spline {
         &self.times
     }
 
-    /// Times, values and second derivatives.
+    /// Returns the times, values and second derivatives.
     pub(super) fn points(&self) -> (&[f64], &[f64], &[f64]) {
         (&self.times, &self.values, &self.curvatures)
     }
 
-    /// Returns the value and derivatives. Outside the table, the tangents at the ends continue.
+    /// Returns the value and the derivatives at t. Outside the table, the spline continues along
+    /// the tangents at its ends.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let last = self.times.len() - 1;
         if t < self.times[0] || t > self.times[last] {
@@ -75,7 +76,7 @@ impl Spline {
         self.inner(at, t)
     }
 
-    /// Returns the cubic between points `k` and `k + 1`.
+    /// Returns the value and the derivatives of the cubic between points `k` and `k + 1`.
     fn inner(&self, k: usize, t: f64) -> [f64; 3] {
         let h = self.times[k + 1] - self.times[k];
         let (a, b) = ((self.times[k + 1] - t) / h, (t - self.times[k]) / h);

@@ -1,12 +1,12 @@
-//! A force law on a joint coordinate as an applied force: `Q = law(measure, rate, t)·∂measure/∂x`.
-//! It uses the kernels of the drive of this coordinate, so that every coordinate of every joint can
-//! have a force law.
+//! A force law of a joint coordinate acts as an applied force:
+//! `Q = law(measure, rate, t)·∂measure/∂x`. It uses the kernels of the drive of this coordinate.
+//! Therefore every coordinate of every joint can have a force law.
 //!
 //! A drive defines its coordinate by a row Φ(x, m) = 0, where m is the change since the start. If
 //! the row is coordinate − initial coordinate − m, the gradient of the coordinate is C. If the row
-//! of the joint contains m, it is at most quadratic in m: Φ(x, m) = Φ(x, 0) − s₀·m − ½·s₁·m² with s
-//! = −∂Φ/∂m = s₀ + s₁·m, the component of the drive. Then m = 2Φ/(s₀ + s) with s = √(s₀² + 2·s₁·Φ)
-//! and Φ at m = 0, and the gradient is C/s. For a distance, s = |d|/L.
+//! of the joint itself contains m, it is at most quadratic in m: Φ(x, m) = Φ(x, 0) − s₀·m −
+//! ½·s₁·m². Here s = −∂Φ/∂m = s₀ + s₁·m is the component of the drive. Then m = 2Φ/(s₀ + s) with
+//! s = √(s₀² + 2·s₁·Φ) and Φ at m = 0, and the gradient is C/s. For a distance, s = |d|/L.
 
 use joints::spec::{ConstraintSpec, ForceSpec};
 use joints::{
@@ -20,7 +20,7 @@ use crate::element::{BodySpace, DriveScalar, ForceKernels, Kinematics, PoseOf, R
 /// Largest number of bodies of a joint with a force law; no joint of the library has more than
 /// three.
 const MOST_BODIES: usize = 4;
-/// Largest number of velocities of these bodies: six in space.
+/// Largest number of velocity components of these bodies: six for each body in space.
 const MOST: usize = MOST_BODIES * 6;
 
 /// The force law of one coordinate of a joint.
@@ -32,16 +32,16 @@ pub(crate) struct LawDrive<S: BodySpace> {
     measured: MeasureReading,
 }
 
-/// How the row of the drive defines its joint coordinate.
+/// The method that computes the joint coordinate from the row of the drive.
 #[derive(Clone, Copy)]
 enum MeasureReading {
-    /// The joint coordinate is Φ itself, without motion.
+    /// The joint coordinate is Φ evaluated without a motion.
     ByRow,
-    /// The row of the joint contains the change of the joint coordinate since the start, when the
-    /// coordinate had this value.
+    /// The row of the joint contains the change of the joint coordinate since the start; this is
+    /// the initial value of the coordinate.
     Kept(f64),
-    /// The joint coordinate is an unwrapped angle in space since the start, when the angle of the
-    /// axes had this value.
+    /// The joint coordinate is the unwrapped angle in space since the start; this is the initial
+    /// angle of the axes.
     Turn(f64),
 }
 
@@ -76,13 +76,15 @@ where
     }))
 }
 
-/// Name of the datum with the initial value of a joint coordinate that has its own row.
+/// Name of the datum with the initial value of a joint coordinate, if the drive has a separate row
+/// for the coordinate.
 const OF_ROW: &str = "measure_0";
 
 impl<S: Kinematics> Definition<S> for LawDrive<S> {
     fn initialise(&mut self, x: &[PoseOf<S>]) {
         if let MeasureReading::Turn(start) = self.measured {
-            // The angle is relative to the previously known start, which was zero at first.
+            // The unwrapped angle is computed relative to the previous start; the first start has
+            // the angle zero.
             let still = vec![S::twist(&[0.0; 6]); x.len()];
             let [cos, sin, _] = self.drive.turned(0, x, &still);
             self.drive.initialise(x);
@@ -100,7 +102,7 @@ impl<S: Kinematics> Definition<S> for LawDrive<S> {
                     MeasureReading::ByRow
                 }
                 Some(datum) if datum.name == OF_ROW => {
-                    // The row of the drive is then the joint coordinate itself.
+                    // With this value zero, the row of the drive is the joint coordinate itself.
                     numbers[datum.first] = 0.0;
                     self.drive.set_data(&numbers);
                     MeasureReading::ByRow
@@ -128,9 +130,9 @@ impl<S: Kinematics> Definition<S> for LawDrive<S> {
 struct Along<T> {
     measure: T,
     gradient: [T; MOST],
-    /// s and s₁ if the row of the joint takes the change of the measure.
+    /// s and s₁ if the row of the joint contains the change of the coordinate.
     kept: Option<[T; 2]>,
-    /// The value that the drive receives in place of a motion.
+    /// The value passed to the drive in place of a motion.
     motion: [[T; 3]; 2],
 }
 
@@ -147,7 +149,7 @@ impl<T: Smooth> Along<T> {
 
 impl<S: Kinematics> LawDrive<S> {
     /// Returns the joint coordinate at these poses. `f` contains the time, and for an angle in
-    /// space also the data of this angle.
+    /// space also the values of the unwrapped angle.
     fn along<T: Smooth + DriveScalar>(&self, x: &[PoseOf<S, T>], f: &[[T; 3]]) -> Along<T> {
         let kernels = self.drive.as_ref();
         let stored = T::stored_by(kernels, |value, _| T::from(value));
@@ -225,13 +227,13 @@ impl<S: Kinematics> LawDrive<S> {
     }
 }
 
-/// The specification of a force law on the coordinate of a drive.
+/// The specification of a force law on the joint coordinate of a drive.
 struct LawFacts<K, S>(std::marker::PhantomData<(K, S)>);
 
 impl<K: Constraint<S>, S: Kinematics> LawFacts<K, S> {
     const SPEC: ForceSpec = Self::spec();
 
-    /// The specification lists all columns; the columns of C determine which of them vanish.
+    /// The specification lists all columns; the columns of C determine which of them are zero.
     const fn spec() -> ForceSpec {
         let spec: &ConstraintSpec = &K::SPEC;
         let n = S::N_DOF * spec.common.slots.len();
@@ -265,7 +267,8 @@ impl<S: Kinematics> ForceElement<f64, S> for LawDrive<S> {
         };
         let n = S::N_DOF * spec.common.slots.len();
         let (s, turn) = along.kept.map_or((1.0, 0.0), |[s, s_1]| (s, s_1 / s));
-        // ∂rate/∂x and F·∂g/∂x, both without and with the change of s.
+        // The derivatives ∂rate/∂x and F·∂g/∂x. The kernels compute them for constant s; the terms
+        // with `turn` add the effect of a change of s.
         let mut values = [0.0; MOST * MOST];
         let mut of_rate = [0.0; MOST];
         element.d_velocity_dx(x, v, &along.motion, &mut values);
@@ -295,9 +298,9 @@ impl<S: Kinematics> ForceElement<f64, S> for LawDrive<S> {
     }
 }
 
-/// The kernels of a force law as kernels of a force in one space. The macro is needed because a
-/// downstream crate might define kernels of its own space, which prevents an implementation for all
-/// spaces.
+/// The kernels of a force law as kernels of a force in one space. A macro is necessary: a
+/// downstream crate might define kernels for its own space, so a generic implementation for all
+/// spaces is not possible.
 macro_rules! force_kernels {
     ($space:ident) => {
         impl ForceKernels<$space> for LawDrive<$space> {

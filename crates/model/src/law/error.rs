@@ -1,22 +1,23 @@
 //! Errors in the operations of a force law.
 
-/// Largest number of values on the stack of a law. The nesting of expressions has a lower limit.
+/// Largest number of values on the stack of a law. The nesting of expressions in scenes has a lower
+/// limit, so scenes never reach this one.
 pub(super) const DEEPEST: usize = 64;
 
 /// Error in the operations of a law.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LawError {
-    /// An operation has too few operands, or several numbers remain at the end.
+    /// An operation has too few operands, or several values remain at the end.
     #[error("the operations of a law leave {left} numbers, need 1")]
     Incomplete {
         /// Number of remaining values.
         left: usize,
     },
-    /// Too many numbers on the stack.
+    /// There are too many values on the stack.
     #[error("a law is nested deeper than {DEEPEST}")]
     Deep,
-    /// A force law requires a drive with one row and few bodies.
+    /// A force law requires a drive with one row and at most `most` bodies.
     #[error(
         "`{definition}` has {rows} rows and {slots} bodies; a law needs 1 row and at most {most} bodies"
     )]

@@ -1,4 +1,4 @@
-//! Numbers for the evaluation of laws: doubles, dual numbers, and numbers that record their
+//! Number types for the evaluation of laws: doubles, dual numbers, and numbers that record their
 //! operations.
 
 use joints::{Real, RecordedNumber};
@@ -9,32 +9,32 @@ use super::{Join, UnaryFunction, UndefinedValue};
 
 /// A number type for the evaluation of laws.
 pub(crate) trait LawNumber: Copy + From<f64> {
-    /// Returns the value, if it has one.
+    /// Returns the value; `None` if the type records operations only.
     fn number(self) -> Option<f64>;
 
-    /// Applies a function to the number.
+    /// Applies a function of one variable.
     fn apply(self, f: UnaryFunction) -> Self;
 
-    /// Applies a function to the number and another number.
+    /// Applies a function of two variables; the second is `b`.
     fn join(self, j: Join, b: Self) -> Self;
 }
 
-/// A number type with derivatives of these functions.
+/// A number type for which these functions have derivatives.
 pub(crate) trait Smooth: LawNumber + Real {
-    /// Returns the derivative of a function at the number.
+    /// Returns the derivative of a function at this value.
     fn slope(self, f: UnaryFunction) -> Self;
 
-    /// Returns the derivatives of a function of two numbers with respect to both numbers.
+    /// Returns the derivatives of a function of two variables with respect to both variables.
     fn slopes(self, j: Join, b: Self) -> [Self; 2];
 
-    /// Returns the value of a called function, which accepts only doubles.
+    /// Returns the value of a callback, which accepts only doubles.
     fn called(
         function: &CalledFunction<DriveState, f64>,
         inputs: [Self; 3],
     ) -> Result<Self, UndefinedValue>;
 }
 
-/// Functions and derivatives that exist in a ring with roots.
+/// Returns the functions and derivatives that need only ring operations and roots.
 fn arithmetic<T: Real>(a: T, f: UnaryFunction) -> Option<T> {
     Some(match f {
         UnaryFunction::Negate => -a,
@@ -157,8 +157,8 @@ impl Smooth for f64 {
     }
 }
 
-/// Arithmetic and roots are recorded. All other functions give NaN, because code generators reject
-/// laws.
+/// Arithmetic and roots are recorded. All other functions give NaN; code generators reject laws
+/// with these functions.
 impl LawNumber for RecordedNumber {
     fn number(self) -> Option<f64> {
         None
@@ -187,7 +187,7 @@ impl Smooth for RecordedNumber {
     }
 }
 
-/// A number with its derivatives with respect to the joint coordinate and its rate.
+/// A value with its derivatives with respect to the joint coordinate and its rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Slope<T> {
     pub(crate) value: T,

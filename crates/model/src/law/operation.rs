@@ -1,9 +1,9 @@
 //! Operations of force laws.
 
-/// One operation on a stack of numbers.
+/// One operation on a stack of values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Operation {
-    /// Pushes a number.
+    /// Pushes a constant.
     Number(f64),
     /// Pushes the joint coordinate (m or rad).
     Measure,
@@ -11,16 +11,16 @@ pub enum Operation {
     Rate,
     /// Pushes the time (s).
     Time,
-    /// Replaces the last number by a function of it.
+    /// Replaces the last value by a function of this value.
     Apply(UnaryFunction),
-    /// Replaces the last two numbers by a result.
+    /// Replaces the last two values by a function of both.
     Join(Join),
 }
 
-/// A function of one number.
+/// A function of one variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnaryFunction {
-    /// The negative number, `−a`.
+    /// The negative `−a`.
     Negate,
     /// An integer power `aⁿ`, computed as a product.
     Whole(i32),
@@ -46,7 +46,7 @@ pub enum UnaryFunction {
     Log,
 }
 
-/// A function of two numbers.
+/// A function of two variables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Join {
     /// The sum `a + b`.
@@ -61,8 +61,8 @@ pub enum Join {
     Power,
     /// The angle of the point (b, a).
     Angle,
-    /// The smaller number.
+    /// The smaller of two values.
     Least,
-    /// The larger number.
+    /// The larger of two values.
     Largest,
 }

@@ -1,16 +1,16 @@
-//! A law as operations on a stack of numbers: doubles, dual numbers, or numbers that record their
-//! operations.
+//! A law as operations on a stack. The values are doubles, dual numbers, or numbers that record
+//! their operations.
 
 use super::error::{DEEPEST, LawError};
 use super::number::{LawNumber, Slope, Smooth};
 use super::{Operation, UndefinedValue};
 
-/// Operations that produce one number.
+/// A sequence of operations with one result.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Program(Box<[Operation]>);
 
 impl Program {
-    /// Checks that the operations produce one number.
+    /// Checks that the operations have one result.
     pub(super) fn new(operations: &[Operation]) -> Result<Self, LawError> {
         let mut left: usize = 0;
         for operation in operations {
@@ -31,7 +31,7 @@ impl Program {
         }
     }
 
-    /// Returns the value with its derivatives. A derivative without a finite value is 0.
+    /// Returns the value with its derivatives. A derivative that is not finite is replaced by 0.
     pub(super) fn slope<T: Smooth>(
         &self,
         [measure, rate, t]: [T; 3],
@@ -65,7 +65,7 @@ impl Program {
                 Operation::Join(_) => 2,
                 _ => 0,
             };
-            // The number of values was checked when the law was created.
+            // The stack is large enough: its depth was checked when the law was created.
             top -= taken;
             let (a, b) = (stack[top], stack[(top + 1).min(DEEPEST - 1)]);
             let result = match operation {

@@ -33,7 +33,7 @@ fn every_function_has_its_value_and_its_derivative() {
         (F::Atan, 1.0, 1.0_f64.atan(), 0.5),
         (F::Exp, 0.0, 1.0, 1.0),
         (F::Log, 2.0, 2.0_f64.ln(), 0.5),
-        // The derivative is zero, because it only guides implicit methods.
+        // The derivative is not finite and therefore replaced by zero.
         (F::Root, 0.0, 0.0, 0.0),
     ];
     for (f, at, value, slope) in of_one {
@@ -43,7 +43,7 @@ fn every_function_has_its_value_and_its_derivative() {
         assert!((by_measure - slope).abs() < 1e-15, "{f:?}: {by_measure}");
         assert_eq!(by_rate, 0.0);
     }
-    // Columns: j of joint coordinate 2 and rate 4, value and both derivatives.
+    // Columns: j of joint coordinate 2 and rate 4, the value, and both derivatives.
     let ln = 2.0_f64.ln();
     let of_two = [
         (J::Add, 6.0, [1.0, 1.0]),
@@ -78,7 +78,7 @@ fn what_has_no_value_is_named() {
     assert_eq!(told(&[Measure, Apply(F::Log)], -1.0), "log(-1)");
     assert_eq!(told(&[Measure, Apply(F::Root)], -2.5), "sqrt(-2.5)");
     assert_eq!(told(&[Measure, Apply(F::Exp)], 1e3), "exp(1000)");
-    // The error also occurs if a later operation would make the value finite again.
+    // The error also occurs if a later operation makes the value finite again.
     let hidden = [&quotient[..], &[Apply(F::Atan)]].concat();
     assert_eq!(told(&hidden, 0.0), "division by zero");
 }
@@ -129,7 +129,7 @@ fn at_start() -> [Pose; 2] {
     [Pose::new(0.3, -0.2, 0.4), Pose::new(1.1, 0.7, -0.9)]
 }
 
-/// The three kinds of joint coordinates, each at a value that differs from its start.
+/// The three kinds of joint coordinates, each at a value that differs from its initial value.
 fn forces() -> [Box<dyn ForceKernels>; 3] {
     let pair = |x, y| Argument::Pair([x, y]);
     let (s_i, s_j, axis) = (pair(0.2, 0.1), pair(-0.3, 0.4), pair(0.6, 0.8));
@@ -144,8 +144,8 @@ fn forces() -> [Box<dyn ForceKernels>; 3] {
 }
 
 /// Manual calculation: two points on the x axis have a distance of 2 at the start and 3 now. The
-/// distance grows with 0.5. The force is −81 + 0.5·(2 − 3) + 0.5 = −81, so the points attract each
-/// other.
+/// distance grows at a rate of 0.5. The force is −3·27 + 0.5·(2 − 3) + 0.5 = −81, so the points
+/// attract each other.
 #[test]
 fn a_law_of_a_length_acts_along_it() {
     let origin = Argument::Pair([0.0; 2]);
@@ -169,13 +169,13 @@ fn a_law_of_a_length_acts_along_it() {
     }
     let found = force.drive(&x, &v, &TIME).expect("a law");
     assert!((found.measure - 3.0).abs() < 1e-15 && (found.rate - 0.5).abs() < 1e-15);
-    // Without a distance there is no direction.
+    // At distance zero, the direction is not defined.
     force.q(&[Pose::GROUND; 2], &v, &TIME, &mut q);
     let why = force.drive(&[Pose::GROUND; 2], &v, &TIME).expect("a law");
     assert!(q[3].is_nan() && why.force == Err(UndefinedValue::Input));
 }
 
-/// Central differences with h = 1e-5: an error of h² and of the rounding divided by h.
+/// Central differences with h = 1e-5: the error is h² plus the rounding error divided by h.
 #[test]
 fn derivatives_of_the_force_agree_with_differences() {
     const H: f64 = 1e-5;
@@ -274,7 +274,7 @@ fn what_a_function_does_not_give_is_named() {
     assert!(law == law.clone() && law != some_function());
 }
 
-/// A law of the change since the start remains one, even if the new law differs.
+/// If the law uses the change since the start, its replacement does so as well.
 #[test]
 fn a_law_is_replaced_on_its_measure() {
     let origin = Argument::Pair([0.0; 2]);

@@ -1,4 +1,4 @@
-//! Reasons why a law or a called function has no finite value.
+//! Reasons why a law or a callback has no finite value.
 
 use super::operation::{Join, UnaryFunction};
 
@@ -6,23 +6,23 @@ use super::operation::{Join, UnaryFunction};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum UndefinedValue {
-    /// A function of one number.
+    /// The value of a function of one variable is not finite.
     Apply(UnaryFunction, f64),
-    /// A function of two numbers.
+    /// The value of a function of two variables is not finite.
     Join(Join, f64, f64),
-    /// The joint coordinate has no direction, or a number is not finite.
+    /// The joint coordinate has no gradient at this state, or an argument is not finite.
     Input,
-    /// A called function returned this, which is not a finite number.
+    /// A callback returned this value, which is not finite.
     Returned(String),
-    /// A called function failed, with this message.
+    /// A callback failed with this message.
     Failed(String),
-    /// A caller requests more than the value of a called function.
+    /// A method needs derivatives of a callback, which returns only values.
     ValueAlone,
 }
 
 impl UndefinedValue {
-    /// Returns whether a called function is the cause. If so, another state does not remove the
-    /// error.
+    /// Returns whether a callback is the cause. If so, the error does not disappear at another
+    /// state.
     #[must_use]
     pub fn is_of_function(&self) -> bool {
         matches!(self, Self::Returned(_) | Self::Failed(_))

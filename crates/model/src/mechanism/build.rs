@@ -1,4 +1,4 @@
-//! Builds a mechanism from a description. All faults of a description are found together.
+//! Builds a mechanism from a description and reports all errors of the description together.
 
 use std::ops::Range;
 
@@ -24,7 +24,7 @@ use crate::tolerance::Tolerance;
 
 /// Descriptions that [`Mechanism::build`] accepts: in the plane, in space, or either.
 pub trait Buildable {
-    /// Returns the mechanism, or all faults of the description.
+    /// Returns the mechanism, or all errors of the description.
     #[doc(hidden)]
     fn built(&self) -> Result<Mechanism, Vec<BuildError>>;
 }
@@ -97,16 +97,16 @@ impl Buildable for AnyDescription {
 }
 
 impl Mechanism {
-    /// Assembles a mechanism. Initial values are those of the described configuration until
-    /// [`crate::start::assemble`] has found a consistent one.
+    /// Assembles a mechanism. Initial values are taken from the described configuration. Later,
+    /// [`crate::start::assemble`] replaces them by the values at a consistent configuration.
     ///
     /// # Errors
-    /// All faults of the description.
+    /// Returns an error with all errors of the description.
     pub fn build(d: &impl Buildable) -> Result<Self, Vec<BuildError>> {
         d.built()
     }
 
-    /// Sets the tolerance of the data, unless a tolerance is stated for their joint or body.
+    /// Sets the tolerance of the data for which neither the joint nor the body states a tolerance.
     ///
     /// # Errors
     /// [`BuildError::Tolerance`]: the tolerance is not a finite number > 0. In this case the
@@ -117,7 +117,8 @@ impl Mechanism {
         Ok(())
     }
 
-    /// Returns the mechanism with numbers that are accurate to their rounding.
+    /// Returns the mechanism without tolerances: the uncertainty of its values is their rounding
+    /// error.
     #[must_use]
     pub fn without_tolerances(mut self) -> Self {
         self.tolerance = Tolerance::default();
@@ -134,7 +135,7 @@ impl Mechanism {
     }
 }
 
-/// Extends the lists of a mechanism, element by element.
+/// Builds the lists of a mechanism, element by element.
 pub(super) struct Builder {
     elements: Elements,
     pub(super) layout: Layout,
@@ -215,9 +216,9 @@ impl Builder {
         self.elements.forces.push(placed);
     }
 
-    /// Numbers the rows of all constraints, with their labels, owners and patterns: the holonomic
-    /// ones in the order of the constraints, then the nonholonomic ones in the order of this list
-    /// of all constraints.
+    /// Numbers the rows of all constraints and adds their labels, owners and patterns. The
+    /// holonomic rows come first, in the order of the constraints; the nonholonomic rows follow in
+    /// the order of the argument, which lists all constraints.
     pub(super) fn number_rows(&mut self, nonholonomic: &[usize]) {
         let constraints = &mut self.elements.constraints;
         let mut next = 0;
@@ -273,8 +274,9 @@ impl Builder {
         }
     }
 
-    /// Returns the next slots, for these bodies and functions of time. `offset` is subtracted from
-    /// the functions, which enter by cosine and sine if `turning` is true.
+    /// Returns the indices of the next element, which has these bodies and functions of time.
+    /// `offset` is subtracted from the functions. If `turning` is true, the kernels receive the
+    /// cosine and the sine of the functions.
     fn site(
         &mut self,
         bodies: &[BodyRef],
@@ -308,7 +310,7 @@ impl Builder {
         }
     }
 
-    /// Adds the unwrapped angles of an element, after its functions of time.
+    /// Adds the unwrapped angles of an element; they come after its functions of time.
     fn count(&mut self, owner: Owner, turns: usize, site: &mut Site) {
         for number in 0..turns {
             let first = self.elements.given.len();
@@ -326,8 +328,8 @@ impl Builder {
         site.functions.end = self.elements.given.len();
     }
 
-    /// Returns the mechanism of these bodies and of constraints whose rows are numbered; initial
-    /// values and arms are not yet set.
+    /// Returns the mechanism with these bodies and with constraints whose rows are numbered;
+    /// initial values and arms are set later.
     pub(super) fn finish(
         mut self,
         name: &str,
@@ -356,7 +358,7 @@ impl Builder {
     }
 }
 
-/// Returns the diagonal of M of a body.
+/// Returns the entries of a body on the diagonal of M.
 fn inertia(body: &BodyRecord) -> Vec<f64> {
     let m = body.mass;
     match &body.described {

@@ -1,4 +1,4 @@
-//! Faults of a description, with messages.
+//! Errors in a description, with messages.
 
 use joints::LARGEST;
 
@@ -6,7 +6,7 @@ use crate::codes::Code;
 use crate::observed::MeasureKind;
 use crate::tolerance::ToleranceScope;
 
-/// One fault of a description.
+/// One error in a description.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {
@@ -19,17 +19,17 @@ pub enum BuildError {
         /// The name.
         name: String,
     },
-    /// The name of the ground is reserved.
+    /// A body has the name of the ground, which is reserved.
     #[error("`ground` is the name of the ground and is always there")]
     Ground,
-    /// A number of a body is NaN or infinite.
+    /// A property of a body is NaN or infinite.
     #[error("body `{body}`: {field} is {value:?}, need finite numbers up to {LARGEST:e}")]
     NotFinite {
         /// The body.
         body: String,
-        /// Name of the number.
+        /// Name of the property.
         field: &'static str,
-        /// The number.
+        /// The value.
         value: f64,
     },
     /// A given velocity refers to a point other than the centre of mass, but the required angular
@@ -46,9 +46,9 @@ pub enum BuildError {
     Negative {
         /// The body.
         body: String,
-        /// Name of the number.
+        /// Name of the property.
         field: &'static str,
-        /// The number.
+        /// The value.
         value: f64,
     },
     /// Gravity is NaN or infinite.
@@ -57,7 +57,7 @@ pub enum BuildError {
         /// Components of gravity (m/s²).
         gravity: Vec<f64>,
     },
-    /// A quaternion of length zero.
+    /// The length of a quaternion is zero.
     #[error("body `{body}`: the quaternion of its orientation is zero")]
     NoOrientation {
         /// The body.
@@ -82,21 +82,21 @@ pub enum BuildError {
     /// A tolerance is not a finite number > 0 up to [`LARGEST`].
     #[error("{of}: {field} is {value:?}, need a finite number > 0 up to {LARGEST:e}")]
     Tolerance {
-        /// The item of the tolerance.
+        /// The item for which the tolerance is stated.
         of: ToleranceScope,
-        /// Name of the number.
+        /// Name of the tolerance.
         field: &'static str,
-        /// The number.
+        /// The value.
         value: f64,
     },
-    /// A joint, drive or force has another number of bodies than its definition.
+    /// The number of bodies of a joint, drive or force differs from that of its definition.
     #[error("`{name}` connects {found} bodies, `{definition}` needs {expected}")]
     BodyCount {
         /// The joint, drive or force.
         name: String,
         /// Definition of the joint, drive or force.
         definition: &'static str,
-        /// Number of slots.
+        /// Number of bodies in the definition.
         expected: usize,
         /// Number of given bodies.
         found: usize,
@@ -133,7 +133,7 @@ pub enum BuildError {
         /// Components of the point.
         point: Vec<f64>,
     },
-    /// A number of a marker is NaN or infinite.
+    /// A property of a marker is NaN or infinite.
     #[error(
         "marker `{name}` is at {point:?}, turned by {angle:?}, need finite numbers up to {LARGEST:e}"
     )]
@@ -157,13 +157,13 @@ pub enum BuildError {
         /// Number of markers.
         n_markers: usize,
     },
-    /// A measure refers a marker to itself.
+    /// Both markers of a measure are the same.
     #[error("measure `{name}` is between a place and itself")]
     SameMarker {
         /// The measure.
         name: String,
     },
-    /// The measure does not exist in this space.
+    /// The kind of the measure does not exist in this space.
     #[error("measure `{name}`: there is no `{}` {}", kind.name(), match kind {
         MeasureKind::Z => "in the plane",
         _ => "between bodies that turn in space; measure `angular-velocity`, or drive the joint",
@@ -174,14 +174,14 @@ pub enum BuildError {
         /// Kind of the measure.
         kind: MeasureKind,
     },
-    /// A drive is in the list of joints, or a joint in the list of drives.
+    /// A drive is in the list of joints, or a joint is in the list of drives.
     #[error("`{name}` is in the list of {list}, but `{definition}` does not belong there")]
     Role {
         /// The joint or drive.
         name: String,
         /// Definition of the joint or drive.
         definition: &'static str,
-        /// The list that contains it.
+        /// The list in which it was found.
         list: &'static str,
     },
     /// The number of functions of time differs from that of the definition.

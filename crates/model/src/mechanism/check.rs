@@ -1,4 +1,4 @@
-//! Finds all faults of a description.
+//! Finds all errors in a description.
 
 use std::collections::HashSet;
 
@@ -13,7 +13,7 @@ use crate::observed::Observables;
 use crate::principal::Principal;
 use crate::tolerance::{Tolerance, ToleranceScope};
 
-/// Returns all faults of a description; `records` are its bodies.
+/// Returns all errors in a description; `records` are its bodies.
 pub(super) fn faults<S: BodySpace>(
     d: &MechanismDescription<S>,
     records: &[BodyRecord],
@@ -27,7 +27,7 @@ pub(super) fn faults<S: BodySpace>(
     errors
 }
 
-/// Returns whether a number is not a valid tolerance.
+/// Returns whether a value is not a valid tolerance.
 fn is_wrong(value: &f64) -> bool {
     !(is_usable(*value) && *value > 0.0)
 }
@@ -150,11 +150,11 @@ fn spatial_numbers(b: &SpatialBody) -> Vec<(&'static str, f64)> {
     .concat()
 }
 
-/// Relative limit (share of the trace) by which principal moments may violate the triangle
+/// Relative limit (fraction of the trace) by which principal moments may violate the triangle
 /// inequality.
 const TRIANGLE: f64 = 1e-2;
 
-/// Returns the faults of a spatial body with finite numbers.
+/// Returns the errors of a spatial body whose values are finite.
 fn check_spatial(b: &SpatialBody) -> Vec<BuildError> {
     let mut errors = Vec::new();
     let body = || b.name.clone();
@@ -222,7 +222,7 @@ fn check_places<S: BodySpace>(
     for j in &d.joints {
         let (spec, points) = constraint(j.element.as_ref());
         check_role(&j.name, spec, Role::Joint, "joints", errors);
-        // A named component is that of the force on the first slot only.
+        // A named component is the component of the force on the first body only.
         let on_ground = j.bodies.split_first().is_some_and(|(first, others)| {
             *first == BodyRef::Ground && others.contains(&BodyRef::Ground)
         });

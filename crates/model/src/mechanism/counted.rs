@@ -1,8 +1,9 @@
-//! Unwrapped angles in space, which include full revolutions. A rotation determines an angle only
-//! up to full revolutions, but a screw, a gear or a spring needs the unwrapped angle. Therefore the
-//! configuration has one coordinate for each such angle, after the coordinates of the bodies: the
-//! angle since the start. The coordinate changes with the rate of the angle, and only its number of
-//! revolutions is used. It therefore need not be exact: the angle itself follows from the poses.
+//! Unwrapped angles in space. A rotation determines an angle only up to full revolutions, but a
+//! screw, a gear or a spring needs the angle including full revolutions. Therefore the
+//! configuration has one coordinate for each of these angles, after the coordinates of the bodies:
+//! the change of the angle since the start. The time derivative of the coordinate is the rate of
+//! the angle, and only the number of revolutions is taken from the coordinate. The coordinate need
+//! not be exact, because the angle within the revolution is computed from the poses.
 
 use std::f64::consts::TAU;
 
@@ -12,8 +13,9 @@ use super::elements::{CountedAngle, Elements, Owner};
 use crate::element::{Site, Slots};
 use crate::group::ConstraintGroup;
 
-/// Returns the angle with this cosine and sine that is closest to an approximately known angle
-/// (rad). Both are zero if the axes are perpendicular; then the known angle is returned.
+/// Returns the angle with this cosine and sine that is closest to an approximate value `known`
+/// (rad). If the axes are perpendicular, both are zero; then the function returns the approximate
+/// value.
 fn closest(cos: f64, sin: f64, known: f64) -> f64 {
     if cos == 0.0 && sin == 0.0 {
         return known;
@@ -28,7 +30,7 @@ fn closest(cos: f64, sin: f64, known: f64) -> f64 {
 }
 
 impl Elements {
-    /// Returns the name of the joint, drive or force of unwrapped angle `k`.
+    /// Returns the name of the joint, drive or force to which unwrapped angle `k` belongs.
     pub(super) fn counted_name<'a>(&'a self, k: usize, groups: &'a [ConstraintGroup]) -> &'a str {
         match self.counted[k].owner {
             Owner::Constraint(k) => &groups[k].name,
@@ -66,8 +68,8 @@ impl Elements {
         }
     }
 
-    /// Sets the unwrapped angles of the kernels at the poses of the slots, with the revolutions of
-    /// these approximately known angles.
+    /// Sets the unwrapped angles of the kernels at the current poses; the numbers of revolutions
+    /// are taken from the approximate angles `known`.
     #[inline]
     pub(super) fn count_turns(&self, known: &[f64], slots: &mut Slots) {
         for (angle, &known) in self.counted.iter().zip(known) {
@@ -81,7 +83,7 @@ impl Elements {
         }
     }
 
-    /// Rates of the unwrapped angles at velocities v.
+    /// Computes the rates of the unwrapped angles at velocities v.
     #[inline]
     pub(super) fn rate_of_angles(&self, q: &[f64], v: &[f64], rates: &mut [f64]) {
         for (rate, angle) in rates.iter_mut().zip(&self.counted) {
@@ -90,8 +92,8 @@ impl Elements {
         }
     }
 
-    /// Changes the unwrapped angles, from index `first` of q, by their rotation along d. Their
-    /// bodies have not yet moved.
+    /// Changes the unwrapped angles by the rotations of a displacement d; they start at index
+    /// `first` of q. The coordinates of the bodies in q are still those before the displacement.
     #[inline]
     pub(super) fn displace_angles(&self, first: usize, q: &mut [f64], d: &[f64]) {
         for (k, angle) in (first..).zip(&self.counted) {
@@ -100,8 +102,8 @@ impl Elements {
         }
     }
 
-    /// Sets the unwrapped angles, from index `first` of q, to those of the bodies, with their
-    /// revolutions.
+    /// Computes the unwrapped angles from the poses of the bodies and keeps their numbers of
+    /// revolutions; they start at index `first` of q.
     #[inline]
     pub(crate) fn settle_angles(&self, first: usize, q: &mut [f64]) {
         for (k, angle) in (first..).zip(&self.counted) {

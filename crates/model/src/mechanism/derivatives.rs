@@ -1,8 +1,9 @@
 //! Derivatives of the equations of motion, assembled from the derivative kernels of joints and
-//! forces: needed by implicit methods and sensitivities, but not by explicit methods.
+//! forces. Implicit methods and sensitivities need them, but explicit methods do not.
 //!
-//! All derivatives are taken along velocity directions, so that every block has n_v columns. `∂/∂q`
-//! means the change with q as the mechanism moves with a velocity.
+//! All derivatives are directional derivatives along the velocity components, so every block has
+//! n_v columns. `∂/∂q` means the derivative with respect to a displacement along each velocity
+//! component.
 
 use super::{CalledForce, Mechanism};
 use crate::element::Rates;
@@ -24,17 +25,17 @@ pub struct Derivatives {
     pub gamma_dv: Sparse,
     /// Derivative of the velocity residuals, `∂(C·v − b)/∂q`, (m + h) × n_v.
     pub velocity_dq: Sparse,
-    /// Accelerations of the slots.
+    /// Accelerations of the bodies of each element.
     slots: Rates,
     /// Multipliers of one constraint.
     own_lambda: Vec<f64>,
 }
 
-/// A matrix as a sum of entries, ordered by the elements to which they belong. The pattern is
-/// fixed.
+/// A matrix stored as a list of entries that are added, ordered by the elements of the mechanism.
+/// The pattern is fixed.
 #[derive(Clone, Debug, Default)]
 pub struct Sparse {
-    /// Row, column and index of the value; entries of the ground are omitted.
+    /// Row, column and index of the value; entries in columns of the ground are omitted.
     entries: Vec<(usize, usize, usize)>,
     values: Vec<f64>,
 }
@@ -60,15 +61,15 @@ impl Sparse {
         }
     }
 
-    /// Returns the row, column and value of each entry. A position may occur several times; its
-    /// values are added.
+    /// Returns the row, column and value of each entry. A pair of row and column may occur several
+    /// times; the values must then be added.
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         self.entries
             .iter()
             .map(|&(row, column, at)| (row, column, self.values[at]))
     }
 
-    /// Adds space for one more block.
+    /// Adds entries for one more block.
     fn push_block(
         &mut self,
         pattern: &[[usize; 2]],
@@ -84,7 +85,7 @@ impl Sparse {
         }
     }
 
-    /// Returns the values of blocks, one after the other.
+    /// Returns the values of the blocks in sequence.
     fn blocks<'s>(&'s mut self) -> impl FnMut(usize) -> &'s mut [f64] {
         let mut rest = self.values.as_mut_slice();
         move |n| {
@@ -99,7 +100,7 @@ impl Derivatives {
     /// Allocates the derivatives of a mechanism; the values are zero.
     ///
     /// # Errors
-    /// Returns an error if a force or a law calls a function, which has no derivatives.
+    /// Returns an error if a force or a force law uses a callback, which has no derivatives.
     pub fn of(mechanism: &Mechanism) -> Result<Self, CalledForce> {
         let [force_dq, force_dv] = force_patterns(mechanism)?;
         Ok(Self {
@@ -135,7 +136,7 @@ impl Derivatives {
         d
     }
 
-    /// Computes the derivatives at the configuration and the velocities of the scratch, for
+    /// Computes the derivatives at the configuration and the velocities in the work space, for
     /// accelerations `a` (n_v) and multipliers `lambda` (m + h). The function does not allocate
     /// memory.
     ///
@@ -162,14 +163,14 @@ impl Derivatives {
     /// ```
     ///
     /// # Panics
-    /// Panics if a slice is too short, or the storage belongs to another mechanism.
+    /// Panics if a slice is too short, or if the derivatives were allocated for another mechanism.
     pub fn differentiate(&mut self, mechanism: &Mechanism, a: &[f64], lambda: &[f64], s: &Scratch) {
         self.differentiate_constraints(mechanism, a, lambda, s);
         differentiate_forces(mechanism, s, [&mut self.force_dq, &mut self.force_dv]);
     }
 
-    /// Works like [`Derivatives::differentiate`], only for the constraints. The function does not
-    /// allocate memory.
+    /// Works like [`Derivatives::differentiate`], but only for the constraints. The function does
+    /// not allocate memory.
     ///
     /// # Panics
     /// Panics under the same conditions as [`Derivatives::differentiate`].
@@ -195,8 +196,8 @@ impl Derivatives {
         }
     }
 
-    /// Computes only `∂Q/∂q` and `∂Q/∂v`, at the configuration and the velocities of the scratch.
-    /// The function allocates memory.
+    /// Computes only `∂Q/∂q` and `∂Q/∂v`, at the configuration and the velocities in the work
+    /// space. The function allocates memory.
     ///
     /// # Errors
     /// Same errors as [`Derivatives::of`].
@@ -207,7 +208,7 @@ impl Derivatives {
     }
 }
 
-/// Returns storage for `∂Q/∂q` and `∂Q/∂v`, if all forces have them.
+/// Allocates `∂Q/∂q` and `∂Q/∂v`, if all forces have derivatives.
 fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], CalledForce> {
     mechanism
         .applied_forces()
@@ -231,7 +232,7 @@ fn force_patterns(mechanism: &Mechanism) -> Result<[Sparse; 2], CalledForce> {
 /// Pattern of the derivative of `−ω × J·ω` with respect to ω in principal axes.
 const GYROSCOPIC: [[usize; 2]; 6] = [[0, 1], [0, 2], [1, 2], [1, 0], [2, 0], [2, 1]];
 
-/// Bodies with a gyroscopic torque: all bodies in space.
+/// Returns the bodies with a gyroscopic torque; in space these are all bodies.
 fn gyroscopic(mechanism: &Mechanism) -> std::ops::Range<usize> {
     match mechanism.space() {
         SpaceKind::Space3 => 0..mechanism.bodies.len(),

@@ -1,4 +1,4 @@
-//! The elements of a mechanism: lists of constraints and forces, with the arguments of their
+//! The elements of a mechanism: the lists of constraints and forces, with the arguments of their
 //! kernels.
 
 use super::time_function::TimeFunction;
@@ -9,19 +9,19 @@ use crate::element::{PlacedConstraint, PlacedForce, Site};
 pub(crate) struct Elements {
     pub(crate) constraints: Vec<PlacedConstraint>,
     pub(crate) forces: Vec<PlacedForce>,
-    /// Arguments of kernels in addition to poses and velocities, element by element.
+    /// Arguments of kernels in addition to poses and velocities, in the order of the elements.
     pub(crate) given: Vec<KernelInput>,
-    /// The unwrapped angles: those of constraints, then those of forces.
+    /// The unwrapped angles: first those of constraints, then those of forces.
     pub(crate) counted: Vec<CountedAngle>,
-    /// Constant entries of C, zero elsewhere.
+    /// The constant entries of C; the other entries are zero.
     pub(crate) entries: Vec<f64>,
     pub(crate) n_slots: usize,
-    /// Largest number of values of the kernel of a force.
+    /// Largest number of values that the kernel of a force computes.
     pub(crate) block: usize,
 }
 
 impl Elements {
-    /// Returns the sites of all constraints and forces.
+    /// Returns the indices of all constraints and forces.
     pub(crate) fn sites(&self) -> impl Iterator<Item = &Site> {
         let constraints = self.constraints.iter().map(|c| &c.site);
         constraints.chain(self.forces.iter().map(|f| &f.site))
@@ -38,7 +38,7 @@ impl Elements {
 pub(crate) enum KernelInput {
     /// A function of time.
     Function(TimeFunction),
-    /// One of three values of an unwrapped angle, which [`System::pose`] sets.
+    /// One of the three values of an unwrapped angle; [`System::pose`] sets these values.
     ///
     /// [`System::pose`]: crate::System::pose
     Counted,
@@ -57,13 +57,13 @@ impl KernelInput {
 #[derive(Clone)]
 pub(crate) struct CountedAngle {
     pub(super) owner: Owner,
-    /// Number of this angle among the unwrapped angles of the element.
+    /// Index of this angle among the unwrapped angles of its element.
     pub(super) number: usize,
-    /// The index of its first value among the arguments of kernels; it has three values.
+    /// The index of the first of its three values among the arguments of kernels.
     pub(crate) first: usize,
 }
 
-/// The element of an unwrapped angle.
+/// The element to which an unwrapped angle belongs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Owner {
     Constraint(usize),

@@ -1,5 +1,5 @@
-//! The applied forces of a mechanism without the weight: their data for drawings, and their values
-//! at a state.
+//! The applied forces of a mechanism without gravity: their data for drawings, and their values at
+//! a state.
 
 use joints::spec::{ForceSpec, Unit};
 
@@ -9,7 +9,7 @@ use crate::element::PlacedForce;
 use crate::law::{DriveForce, UndefinedValue};
 use crate::system::Scratch;
 
-/// The applied forces of a mechanism, without the weight.
+/// The applied forces of a mechanism, without gravity.
 #[derive(Clone, Copy)]
 pub struct AppliedForces<'m>(&'m [PlacedForce]);
 
@@ -22,18 +22,18 @@ pub struct AppliedForce<'m> {
     pub spec: &'static ForceSpec,
     /// Bodies of the force.
     pub bodies: &'m [BodyRef],
-    /// Points at which it acts, each in the frame of its body (m).
+    /// Points at which the force acts, each in the frame of its body (m).
     pub points: Vec<(BodyRef, [f64; 3])>,
 }
 
-/// A force or a law that calls a function, which has no derivatives.
+/// A force or a force law that uses a callback and therefore has no derivatives.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{kind} `{name}` calls a function, which has no derivatives", kind = self.kind())]
 #[non_exhaustive]
 pub struct CalledForce {
     /// Name of the force or drive.
     pub name: String,
-    /// Whether it is a force-law drive.
+    /// Whether it is a drive with a force law.
     pub is_drive: bool,
 }
 
@@ -55,7 +55,7 @@ pub enum UndefinedForce {
         /// Name of the force.
         name: String,
     },
-    /// A force that calls a function.
+    /// A force that is computed by a callback.
     #[error("the force `{name}` ({why})")]
     Called {
         /// Name of the force.
@@ -63,7 +63,7 @@ pub enum UndefinedForce {
         /// The reason.
         why: UndefinedValue,
     },
-    /// A force-law drive.
+    /// A drive with a force law.
     #[error("the law of drive `{name}` ({why}, at measure = {measure:.6}, rate = {rate:.6})")]
     Law {
         /// The drive.
@@ -86,7 +86,7 @@ impl UndefinedForce {
         }
     }
 
-    /// Returns whether a called function is the cause.
+    /// Returns whether a callback is the cause.
     #[must_use]
     pub fn is_of_function(&self) -> bool {
         match self {
@@ -96,7 +96,7 @@ impl UndefinedForce {
     }
 }
 
-/// The change of Q for a change of a function of time of a force.
+/// The change of Q if a function of time of a force changes.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Push<'m> {
@@ -110,12 +110,12 @@ pub struct Push<'m> {
     pub q: Vec<f64>,
 }
 
-/// Share of a function, or of one, by which it is changed. The difference of two values is exact if
-/// Q is linear or quadratic in the function.
+/// The change of a function, relative to its value or to 1. The central difference is exact if Q is
+/// linear or quadratic in the function.
 const PUSH: f64 = 1.0 / 256.0;
 
 impl Mechanism {
-    /// Returns the applied forces, without the weight.
+    /// Returns the applied forces, without gravity.
     #[must_use]
     pub fn applied_forces(&self) -> AppliedForces<'_> {
         AppliedForces(&self.elements.forces)
@@ -123,7 +123,8 @@ impl Mechanism {
 }
 
 impl<'m> AppliedForces<'m> {
-    /// Returns whether there are no applied forces. If so, only drives can add or remove energy.
+    /// Returns whether there are no applied forces. In this case, only drives can add or remove
+    /// energy.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.0.is_empty()
@@ -143,11 +144,12 @@ impl<'m> AppliedForces<'m> {
     }
 
     /// Returns the change of Q for a unit change of each function of time, at the configuration and
-    /// the velocities of the scratch. The function allocates memory.
+    /// the velocities in the work space. The function allocates memory.
     #[must_use]
     pub fn pushes(self, s: &mut Scratch) -> Vec<Push<'m>> {
         let mut all = Vec::new();
-        // Force laws and called functions receive the time, but this time is not varied.
+        // Force laws and callbacks have the time as an argument, but it is not one of these
+        // functions.
         let of_time = |force: &&PlacedForce| !force.is_law() && !force.is_called();
         for force in self.0.iter().filter(of_time) {
             let functions = force.spec().common.functions();
@@ -175,7 +177,7 @@ impl<'m> AppliedForces<'m> {
         all
     }
 
-    /// Returns the forces that call a function, and therefore have no derivatives, in the order of
+    /// Returns the forces that use a callback and therefore have no derivatives, in the order of
     /// the forces.
     pub fn called(self) -> impl Iterator<Item = CalledForce> {
         let called = self.0.iter().filter(|force| force.is_called());
@@ -185,8 +187,8 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// Returns the first force without a finite value at the configuration and the velocities of
-    /// the scratch.
+    /// Returns the first force without a finite value at the configuration and the velocities in
+    /// the work space.
     #[must_use]
     pub fn undefined(self, s: &mut Scratch) -> Option<UndefinedForce> {
         self.0.iter().find_map(|force| {
@@ -215,8 +217,8 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// Returns the contribution of each force to Q at the configuration and the velocities of the
-    /// scratch, n_v values each, with its name. The function allocates memory.
+    /// Returns the contribution of each force to Q at the configuration and the velocities in the
+    /// work space, n_v values each, with the name of the force. The function allocates memory.
     pub fn parts(self, s: &mut Scratch) -> impl Iterator<Item = (&'m str, Vec<f64>)> {
         let n = s.force.len();
         self.0.iter().map(move |force| {
@@ -231,8 +233,8 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// Returns the names of the force-law drives and the kind of their load, "force" or "torque",
-    /// in the order of the forces.
+    /// Returns the names of the drives with force laws and the kind of the load, "force" or
+    /// "torque", in the order of the forces.
     pub fn law_drives(self) -> impl Iterator<Item = (&'m str, &'static str)> {
         let laws = self.0.iter().filter(|f| f.is_law());
         laws.map(|force| {
@@ -242,8 +244,8 @@ impl<'m> AppliedForces<'m> {
         })
     }
 
-    /// Returns the forces and torques of the force-law drives at the configuration and the
-    /// velocities of the scratch. Each acts on the second body along the joint coordinate;
+    /// Returns the forces and torques of the drives with force laws at the configuration and the
+    /// velocities in the work space. Each load acts on the second body along the joint coordinate;
     /// undefined values are NaN.
     pub fn of_laws(self, s: &Scratch) -> impl Iterator<Item = f64> {
         let forces = self.0.iter().filter_map(|force| force.drive(&s.slots));

@@ -1,5 +1,5 @@
 //! The points at which joints and drives act on bodies, computed from their parameters for
-//! drawings, and the coordinates and values that drives prescribe.
+//! drawings. The module also returns the coordinates that drives prescribe, and their values.
 //!
 //! The reference point of a reaction is defined by [`crate::Reactions::place`].
 
@@ -9,9 +9,10 @@ use crate::group::ConstraintId;
 use crate::system::Scratch;
 
 impl Mechanism {
-    /// Returns the points at which a joint or drive acts (m), each relative to the centre of mass
-    /// of its body, in the axes of its coordinates. [`crate::Frames::vector`] transforms them to
-    /// the axes of the body frame. Points of the ground are global.
+    /// Returns the points at which a joint or drive acts (m). Each point is relative to the centre
+    /// of mass of its body, in the axes of the coordinates of the body. [`crate::Frames::vector`]
+    /// transforms them to the axes of the body frame. Points of the ground are in ground
+    /// coordinates.
     ///
     /// ```
     /// use joints::Revolute;
@@ -40,8 +41,8 @@ impl Mechanism {
     }
 
     /// Returns the joint whose coordinate a drive prescribes, and the name of the coordinate. It is
-    /// a joint with the same bodies and points whose definition has this drive. Returns `None` if
-    /// there is no such joint, or if the argument is not a drive.
+    /// the joint with the same bodies and points whose definition contains this drive. Returns
+    /// `None` if this joint does not exist, or if the argument is not a drive.
     ///
     /// ```
     /// use joints::{Revolute, RevoluteAngleDrive};
@@ -78,8 +79,8 @@ impl Mechanism {
     }
 
     /// Returns value, rate and second derivative of each function of time of a joint or drive, at
-    /// the time of the scratch. For a drive they describe the change of its joint coordinate since
-    /// the start.
+    /// the time in the work space. For a drive they are those of the change of the joint coordinate
+    /// since the start.
     ///
     /// # Panics
     /// Panics if the joint or drive does not exist.

@@ -1,5 +1,6 @@
-//! Values taken from the initial configuration of a mechanism: those stored by definitions, and the
-//! arms of its bodies, which are the length scales of their positions if they are at the origin.
+//! Values taken from the initial configuration of a mechanism: the initial values stored by
+//! definitions, and the arms of the bodies. The arms are the length scales of positions near the
+//! origin.
 //!
 //! The module [`crate::arms`] computes the arms, and [`crate::size`] computes the size of the whole
 //! mechanism.
@@ -9,7 +10,7 @@ use crate::arms::longest_arms;
 use crate::element::Bodies;
 use crate::system::System;
 
-/// Takes initial values of joints, drives and forces from a configuration.
+/// Takes the initial values of joints, drives and forces from a configuration.
 pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
     let bodies = Bodies::at(mechanism.space(), mechanism.of_bodies(q));
     for c in &mut mechanism.elements.constraints {
@@ -24,8 +25,8 @@ pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
     mechanism.reach = longest_arms(mechanism, &s);
 }
 
-/// Returns the first requirement of a definition that a configuration does not satisfy: name of the
-/// element, and the requirement.
+/// Returns the first requirement of a definition that a configuration does not satisfy, with the
+/// name of the element.
 pub(crate) fn unmet_requirement(
     mechanism: &Mechanism,
     q: &[f64],
@@ -43,8 +44,8 @@ pub(crate) fn unmet_requirement(
     of_constraints.next().or_else(|| of_forces.next())
 }
 
-/// Returns the rows of the constraints with a requirement that a configuration does not satisfy,
-/// ascending.
+/// Returns the rows of the constraints with a requirement that a configuration does not satisfy, in
+/// ascending order.
 pub(crate) fn unmet_rows(mechanism: &Mechanism, q: &[f64]) -> Vec<usize> {
     let bodies = Bodies::at(mechanism.space(), mechanism.of_bodies(q));
     let constraints = mechanism.elements.constraints.iter();

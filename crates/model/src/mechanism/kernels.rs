@@ -1,6 +1,7 @@
-//! The kernels of an assembled mechanism: they evaluate all elements in storage of the caller.
-//! Values that do not change between calls are not recomputed: functions at the same time, sines
-//! and cosines of unchanged angles, constant entries of C, and Γ of rows that are linear in q.
+//! The kernels of an assembled mechanism. They evaluate all elements and write the results to
+//! storage of the caller. Values that do not change between calls are not recomputed: functions at
+//! the same time, sines and cosines of unchanged angles, constant entries of C, and Γ of rows that
+//! are linear in q.
 
 use joints::Ring;
 
@@ -145,7 +146,7 @@ impl System for Mechanism {
     }
 }
 
-/// Returns −ω × J·ω in principal axes: the part of Q that keeps the angular momentum of a body.
+/// Returns −ω × J·ω in principal axes, the gyroscopic term in Q.
 pub(crate) fn gyroscopic<T: Ring>([jx, jy, jz]: [f64; 3], [x, y, z]: [T; 3]) -> [T; 3] {
     [
         T::from(jy - jz) * (y * z),
@@ -163,7 +164,7 @@ pub(super) enum WorkKind {
     Function,
 }
 
-/// Counts one piece of work, in tests of this crate only.
+/// Counts one evaluation of this kind, in tests of this crate only.
 #[inline]
 fn note(work: WorkKind) {
     #[cfg(test)]

@@ -1,6 +1,6 @@
-//! Splits a mechanism into independent mechanisms: bodies belong together if a joint, a drive or a
-//! force connects them. The ground does not connect bodies, because it does not move under any
-//! force.
+//! Splits a mechanism into independent mechanisms. Two bodies belong to the same one if a joint, a
+//! drive or a force connects them. The ground does not connect bodies, because it does not move
+//! under any force.
 
 use linalg::DisjointSets;
 
@@ -13,13 +13,14 @@ use crate::function::Function;
 /// A mechanism that is a part of another one.
 #[derive(Clone)]
 pub struct Part {
-    /// The part. Its rows have the names and numbers of the whole mechanism.
+    /// The part as a mechanism. Its rows have the names and indices that they have in the whole
+    /// mechanism.
     pub mechanism: Mechanism,
     /// Indices of the elements of the part in the whole mechanism.
     pub places: Places,
 }
 
-/// Indices of the elements of a part in the whole mechanism; all lists are ascending.
+/// Indices of the elements of a part in the whole mechanism; all lists are in ascending order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Places {
@@ -31,12 +32,13 @@ pub struct Places {
     pub velocities: Vec<usize>,
     /// Indices of the rows of C of the part.
     pub rows: Vec<usize>,
-    /// Indices of its joints and drives in the list of groups.
+    /// Indices of the joints and drives of the part in the list of groups.
     pub groups: Vec<usize>,
 }
 
 impl Mechanism {
-    /// Returns the sets of connected bodies, each ascending, ordered by their first bodies.
+    /// Returns the sets of connected bodies. Each set is in ascending order, and the sets are
+    /// ordered by their first bodies.
     ///
     /// ```
     /// use joints::Revolute;
@@ -63,9 +65,9 @@ impl Mechanism {
         connected(self.bodies.len(), self.elements.sites())
     }
 
-    /// Returns sets of bodies connected by these joints and drives, in the same order. A body
-    /// without such joints is a separate set. Forces do not count: a spring does not connect two
-    /// machines.
+    /// Works like [`Mechanism::components`], but only these joints and drives connect bodies. A
+    /// body without any of these joints and drives is a separate set. Forces are not used: a spring
+    /// between two machines does not connect them here.
     ///
     /// ```
     /// use joints::{Revolute, TorsionSpringDamper};
@@ -91,13 +93,13 @@ impl Mechanism {
         connected(self.bodies.len(), constraints.map(|c| &c.site))
     }
 
-    /// Returns the mechanism of some bodies with all joints, drives and forces on them, which must
-    /// not act on other bodies. The bodies are one or several sets of [`Mechanism::components`].
-    /// Initial values are those of the whole mechanism.
+    /// Returns the mechanism of some bodies with all joints, drives and forces on these bodies,
+    /// which must not act on other bodies. The bodies are one or more sets of
+    /// [`Mechanism::components`]. Initial values are those of the whole mechanism.
     ///
     /// # Panics
-    /// Panics if the bodies are not ascending, do not exist, or a joint, drive or force connects
-    /// them to others.
+    /// Panics if the bodies are not in ascending order, do not exist, or are connected to other
+    /// bodies by a joint, drive or force.
     #[must_use]
     pub fn part(&self, bodies: &[usize]) -> Part {
         assert!(
@@ -119,12 +121,12 @@ impl Mechanism {
         )
     }
 
-    /// Returns the mechanism of some joints and drives (ascending) with the bodies that they
-    /// connect, for the analysis of constraints. It has no forces. Initial values are those of the
-    /// whole mechanism. The work is proportional to the size of the part.
+    /// Returns the mechanism of some joints and drives (in ascending order) with the bodies that
+    /// they connect, for the analysis of constraints. The result has no forces. Initial values are
+    /// those of the whole mechanism. The computing time is proportional to the size of the part.
     ///
     /// # Panics
-    /// Panics if the groups are not ascending or do not exist.
+    /// Panics if the groups are not in ascending order or do not exist.
     #[must_use]
     pub fn part_of_groups(&self, groups: &[usize]) -> Part {
         assert!(
@@ -211,7 +213,7 @@ fn assembled<'a>(
     Part { mechanism, places }
 }
 
-/// Functions of time of an element.
+/// Returns the functions of time of an element.
 fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
     let given = whole.elements.given[site.functions.clone()].iter();
     let functions = given.filter_map(KernelInput::function);
@@ -219,8 +221,8 @@ fn laws(whole: &Mechanism, site: &Site) -> Vec<Function> {
     whole.map(|f| f.function.clone()).collect()
 }
 
-/// Returns the sets of bodies, each ascending, ordered by their first bodies; the bodies of each
-/// site belong together.
+/// Returns the sets of connected bodies; the bodies of each element are connected. Each set is in
+/// ascending order, and the sets are ordered by their first bodies.
 fn connected<'a>(bodies: usize, sites: impl Iterator<Item = &'a Site>) -> Vec<Vec<usize>> {
     let mut sets = DisjointSets::new(bodies);
     for site in sites {

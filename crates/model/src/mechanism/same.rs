@@ -5,11 +5,11 @@ use crate::record::RecordedEquations;
 use crate::space::SpaceKind;
 
 impl Mechanism {
-    /// Returns whether joints, drives and forces of another mechanism have the same numbers,
-    /// tolerances and initial values, and its bodies the same sizes. All results about the
-    /// constraints at a configuration are then equal. Masses, moments of inertia and weights may
-    /// differ. The result is also `false` if the comparison is not possible, for mechanisms with
-    /// unwrapped angles.
+    /// Returns whether the joints, drives and forces of another mechanism have the same stored
+    /// values, tolerances and initial values, and its bodies the same sizes. In this case, all
+    /// results about the constraints at a configuration are equal for both mechanisms. Masses,
+    /// moments of inertia and weights may differ. The result is also `false` for mechanisms with
+    /// unwrapped angles, which cannot be compared.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism};
@@ -44,8 +44,8 @@ impl Mechanism {
     }
 }
 
-/// Returns whether two recordings have one shape, and the same numbers in joints, drives, forces
-/// and functions of time.
+/// Returns whether two recordings have the same shape, and the same values in joints, drives,
+/// forces and functions of time.
 fn same_numbers(a: &RecordedEquations, b: &RecordedEquations) -> bool {
     if a.shape() != b.shape() {
         return false;

@@ -1,4 +1,4 @@
-//! Functions of time in the form in which kernels use them.
+//! Functions of time in the form required by the kernels.
 
 use joints::Ring;
 use linalg::Dd;
@@ -9,17 +9,17 @@ use crate::function::Function;
 #[derive(Clone, Debug)]
 pub struct TimeFunction {
     pub(super) function: Function,
-    /// The value f(0) for drives, which follow f(t) − f(0); otherwise zero.
+    /// The value f(0) for drives, whose motion is f(t) − f(0); otherwise zero.
     pub(super) offset: f64,
     pub(super) form: FunctionForm,
 }
 
-/// The form in which a function enters.
+/// The form in which a function of time is passed to a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FunctionForm {
     /// The function itself.
     Value,
-    /// The cosine of the function; the next function is the sine.
+    /// The cosine of the function; the next argument is the sine.
     Cosine,
     /// The sine of the function.
     Sine,
@@ -32,14 +32,14 @@ impl TimeFunction {
         (&self.function, self.offset)
     }
 
-    /// Returns the form in which the difference enters: drives of angles in space take its cosine
-    /// and its sine.
+    /// Returns the form in which the difference is passed to the kernel: drives of angles in space
+    /// receive its cosine and its sine.
     #[must_use]
     pub fn form(&self) -> FunctionForm {
         self.form
     }
 
-    /// Returns the numbers of the function ([`crate::function::Parts::numbers`]), then the value
+    /// Returns the parameters of the function ([`crate::function::Parts::numbers`]), then the value
     /// that is subtracted from it.
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
@@ -48,8 +48,9 @@ impl TimeFunction {
         numbers
     }
 
-    /// Returns the time function with these numbers, in the order of [`TimeFunction::numbers`].
-    /// `None` if their count is wrong, or if they are invalid for the function.
+    /// Returns the time function with these parameters, in the order of [`TimeFunction::numbers`].
+    /// Returns `None` if the number of parameters is wrong, or if they are invalid for the
+    /// function.
     #[must_use]
     pub fn with_numbers(&self, numbers: &[f64]) -> Option<Self> {
         let (&offset, numbers) = numbers.split_last()?;
@@ -74,7 +75,7 @@ impl TimeFunction {
         self.formed(jet, Dd::sin_cos)
     }
 
-    /// Returns the form of a value with two derivatives.
+    /// Converts a value with two derivatives to this form.
     fn formed<T: Ring>(&self, [f, d, dd]: [T; 3], sin_cos: impl Fn(T) -> (T, T)) -> [T; 3] {
         if self.form == FunctionForm::Value {
             return [f, d, dd];

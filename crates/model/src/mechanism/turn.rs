@@ -1,4 +1,5 @@
-//! Constraints on bodies with products of inertia: their points and directions in principal axes.
+//! Transforms the points and directions of constraints on bodies with products of inertia to
+//! principal axes.
 
 use joints::Space3;
 use joints::spec::DatumShape;
@@ -7,14 +8,15 @@ use crate::body::{BodyRecord, BodyRef};
 use crate::element::{AnyConstraint, ConstraintKernels, FramedConstraint};
 use crate::principal::Principal;
 
-/// Returns the principal axes of the body in each slot of an element, if they differ from the axes
-/// of its frame.
+/// Returns the principal axes of each body of an element, if they differ from the axes of the body
+/// frame.
 pub(super) fn principal(bodies: &[BodyRecord], slots: &[BodyRef]) -> Vec<Option<Principal>> {
     let of = |body: &BodyRef| bodies.get(body.moving()?)?.principal.clone();
     slots.iter().map(of).collect()
 }
 
-/// Returns a constraint of the description, with its data in the principal axes of its bodies.
+/// Returns a constraint of the description with its data transformed to the principal axes of its
+/// bodies.
 pub(super) fn constraint(
     element: AnyConstraint,
     bodies: &[BodyRecord],

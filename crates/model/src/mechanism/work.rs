@@ -1,17 +1,17 @@
-//! The work of the kernels of a mechanism at each evaluation, and the work that its structure makes
-//! unnecessary. The kernels use the same criteria.
+//! Counts the operations of the kernels of a mechanism in each evaluation, and the operations that
+//! its structure makes unnecessary. The kernels skip operations by the same criteria.
 
 use super::{Elements, Mechanism};
 use crate::element::PlacedConstraint;
 use crate::system::Layout;
 
-/// Amount of work at each evaluation.
+/// Number of operations in each evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Bodies whose angle the constraints keep at its initial value, ascending. Their sine and
-    /// cosine do not change.
+    /// Bodies whose angle the constraints keep at its initial value, in ascending order. The sine
+    /// and cosine of these angles do not change.
     pub without_turning: Vec<usize>,
-    /// Number of entries of C without the columns of the ground.
+    /// Number of entries of C, without the columns of the ground.
     pub entries: usize,
     /// Number of entries that depend on the configuration.
     pub varying_entries: usize,
@@ -21,13 +21,13 @@ pub struct Work {
     pub rows_of_gamma: usize,
     /// Number of functions of time.
     pub functions: usize,
-    /// Number of applied forces, without the weight.
+    /// Number of applied forces, without gravity.
     pub forces: usize,
 }
 
 impl Work {
-    /// Counts the work of the kernels of a mechanism at each evaluation. The function allocates
-    /// memory.
+    /// Counts the operations of the kernels of a mechanism in each evaluation. The function
+    /// allocates memory.
     ///
     /// ```
     /// use joints::{Direction, Translational};
@@ -68,10 +68,10 @@ impl Work {
     }
 }
 
-/// Returns, for each body, whether its angle keeps its initial value: a holonomic row that does not
-/// depend on time connects it with the ground, or with bodies that have this property. Only rows
-/// that contain angles alone, with constant entries, are examined, so some such bodies may not be
-/// found.
+/// Returns for each body whether its angle keeps its initial value. This is the case if a holonomic
+/// row that does not depend on time connects the body with the ground, or with bodies that have
+/// this property. Only rows that contain angles alone, with constant entries, are examined.
+/// Therefore some bodies with this property may not be found.
 pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -> Vec<bool> {
     let constraints = elements.constraints.iter();
     let rows: Vec<Vec<usize>> = constraints
@@ -86,7 +86,7 @@ pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -
     }
     let mut held = vec![false; bodies];
     let mut free: Vec<usize> = rows.iter().map(Vec::len).collect();
-    // Rows with one free body, whose angle they fix.
+    // Rows in which all angles except one are fixed; these rows fix the remaining angle.
     let mut holding: Vec<usize> = (0..rows.len()).filter(|&k| free[k] == 1).collect();
     while let Some(k) = holding.pop() {
         let Some(&body) = rows[k].iter().find(|&&body| !held[body]) else {
@@ -103,7 +103,8 @@ pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -
     held
 }
 
-/// Bodies in a row of a constraint with constant entries, without those whose entry is zero.
+/// Returns the bodies in a row of a constraint with constant entries, without the bodies whose
+/// entry is zero.
 fn constant_row(
     elements: &Elements,
     layout: &Layout,

@@ -1,4 +1,5 @@
-//! One body described in two frames: its principal axes, and rotated axes with products of inertia.
+//! Tests one body in two descriptions: with a frame along its principal axes, and with a rotated
+//! frame and products of inertia.
 
 use joints::space3::{Axes, BodyPointForce, Pose, Revolute, SpringDamper};
 
@@ -8,16 +9,15 @@ use crate::mechanism::{Derivatives, Mechanism, Sparse};
 use crate::reaction::ConstraintId;
 use crate::system::System;
 
-/// A rotation by a multiple of 3-4-5 angles about two axes, from the second frame to the principal
-/// axes.
+/// A rotation by 3-4-5 angles about two axes, from the second frame to the principal axes.
 const BETWEEN: [f64; 4] = [0.48, 0.36, -0.64, 0.48];
 
 const MOMENTS: [f64; 3] = [0.7, 1.1, 1.6];
 
-/// A rotating body on a hinge and a spring, whose frame is rotated relative to its principal axes.
+/// A rotating body with a hinge and a spring; its frame is rotated relative to its principal axes.
 fn described(between: [f64; 4]) -> Mechanism {
     let turn = Pose::new([0.0; 3], between);
-    // A vector of the principal axes in the frame.
+    // Transforms a vector from the principal axes to the body frame.
     let framed = |v: [f64; 3]| turn.to_local(v);
     let inertia = [0, 1, 2].map(|i| {
         [0, 1, 2].map(|j| {
@@ -51,7 +51,7 @@ fn described(between: [f64; 4]) -> Mechanism {
         .map(|(of, p)| d.local(of, p));
     let spring = SpringDamper::new(s_i, s_j, 3.0, 0.5).with_free_length(0.7);
     d.force("spring", &[BodyRef::Ground, body], spring);
-    // A thrust of 5 N along a direction of the body.
+    // A force of 5 N along a direction fixed in the body.
     let push = BodyPointForce {
         s: d.local(body, [0.3, 0.1, 0.2]),
     };
@@ -76,7 +76,7 @@ fn a_body_is_the_same_in_any_frame() {
         m.c(&mut s);
         m.gamma(&mut s);
         m.force(&mut s);
-        // Force and torque, the gyroscopic one included, in ground axes.
+        // Force and torque in ground axes, including the gyroscopic torque.
         let axes = s.bodies.axes(0);
         let torque = [0, 1, 2].map(|k| (0..3).map(|a| axes[a][k] * s.force[3 + a]).sum::<f64>());
         let frame = m.frames().body(0, &q, &v);
@@ -96,7 +96,7 @@ fn a_body_is_the_same_in_any_frame() {
         );
         numbers.extend(marker.place);
         numbers.extend((0..6).flat_map(|i| wrench.row(i).to_vec()));
-        // The moments may differ only in their order.
+        // The principal moments may be in another order.
         let mut mass = m.mass().to_vec();
         mass[3..].sort_by(f64::total_cmp);
         numbers.extend(mass);
@@ -117,7 +117,7 @@ fn a_body_is_the_same_in_any_frame() {
     assert!(p.iter().zip(BETWEEN).all(|(a, b)| close(*a, b)), "{p:?}");
 }
 
-/// The derivatives of the force agree with its difference quotients in both frames.
+/// The derivatives of the force agree with difference quotients in both frames.
 #[test]
 fn derivatives_of_forces_are_their_slopes() {
     for between in [[1.0, 0.0, 0.0, 0.0], BETWEEN] {

@@ -44,7 +44,8 @@ fn the_total_on_a_body_is_the_opposite_of_the_reaction_of_its_only_other_joint()
     mechanism.c(&mut s);
     let lambda: Vec<f64> = (0..10).map(|k| f64::from(k * k) - 7.5).collect();
     let reactions = mechanism.reactions(&s);
-    // Only the second hinge acts on the second body; its reaction is reported on the first body.
+    // Only the second hinge acts on the second body, but its reaction is reported for the first
+    // body.
     let second = ConstraintId(1);
     let place = reactions.place(second);
     let total = reactions.body_wrench_map(1, place).expect("a body");

@@ -1,4 +1,4 @@
-//! Common structure of two recordings that differ only in their numbers.
+//! Compares the structure of two recordings that may differ in their stored values.
 
 use joints::recorded::{Operation, RecordedNumber};
 
@@ -32,9 +32,9 @@ impl Digest {
 }
 
 impl RecordedEquations {
-    /// Returns a digest of everything except the numbers: operations, inputs, results, and the
-    /// kinds of the functions of time. It is the same on every machine and in every build of one
-    /// version.
+    /// Returns a digest of everything except the stored values: operations, inputs, results, and
+    /// the kinds of the functions of time. The digest is the same on every machine and in every
+    /// build of one version.
     ///
     /// ```
     /// use pfaff_model::{Body, Description, Mechanism, RecordedEquations};

@@ -1,9 +1,9 @@
-//! Number types with angles.
+//! Number types in which angles can be computed.
 
 use joints::Ring;
 use linalg::Dd;
 
-/// A number type with angles.
+/// A number type in which angles can be computed.
 pub trait Number: Ring + std::ops::Div<Output = Self> {
     /// Returns √self.
     #[must_use]
@@ -21,7 +21,7 @@ pub trait Number: Ring + std::ops::Div<Output = Self> {
     #[must_use]
     fn atan2(y: Self, x: Self) -> Self;
 
-    /// Returns the vector (x, y) scaled to length one; it must not be zero.
+    /// Returns the vector (x, y) scaled to length one; the vector must not be zero.
     #[must_use]
     fn normalised(x: Self, y: Self) -> (Self, Self);
 }
@@ -62,8 +62,8 @@ impl Number for Dd {
         Dd::sin_cos(self)
     }
 
-    /// Returns the angle in `f64`, corrected by the remaining angle, whose square is below the last
-    /// digit.
+    /// Computes the angle in `f64` and adds the remaining angle, whose square is smaller than the
+    /// last digit.
     fn atan2(y: Self, x: Self) -> Self {
         let (x, y) = Self::normalised(x, y);
         let near = Self::from(y.to_f64().atan2(x.to_f64()));

@@ -1,11 +1,12 @@
-//! The plane, and the plane with a point of the unit circle in place of the angle.
+//! The plane with angles as coordinates, and the plane with points of the unit circle in place of
+//! angles.
 
 use joints::Ring;
 
 use super::number::Number;
 use super::traits::{MOST_COORDINATES, PlanarSpace, Space};
 
-/// Output numbers of a planar frame.
+/// Names of the output values of a planar frame.
 const PLANE_COLUMNS: &[&str] = &["x", "y", "angle", "vx", "vy", "omega"];
 const PLANE_DIRECTIONS: &[&str] = &["x", "y", "angle"];
 const PLANE_COMPONENTS: &[&str] = &["Fx", "Fy", "T"];
@@ -68,12 +69,12 @@ impl PlanarSpace for Plane {
 }
 
 /// The plane with a point of the unit circle in place of the angle: q = (x, y, cos φ, sin φ), so
-/// that n_q = 4. This space is only for tests. Its coordinates and velocities differ, like
-/// quaternions and angular velocities.
+/// that n_q = 4. This space is only for tests. Its coordinates and velocities have different
+/// dimensions, like quaternions and angular velocities.
 ///
-/// Only the direction of (c, s) counts, so a stage of an integrator may leave the circle; a
-/// displacement keeps the point on the circle. Angles are determined only up to full revolutions,
-/// so rows that contain them are valid only within half a revolution.
+/// Only the direction of (c, s) is used, so at a stage of an integrator the point may leave the
+/// circle; a displacement puts the point on the circle. Angles are determined only up to full
+/// revolutions, so rows that contain angles are valid only within half a revolution.
 #[cfg(feature = "unit-circle")]
 #[derive(Clone, Copy, Debug)]
 pub struct UnitCircle;

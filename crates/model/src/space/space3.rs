@@ -6,11 +6,12 @@ use super::number::Number;
 use super::traits::{MOST_COORDINATES, Space};
 use super::vector::norm;
 
-/// Space: q = (x, y, z, w, x', y', z') with the quaternion of the axes of the body, v = (ẋ, ẏ, ż,
-/// ω) with ω in these axes.
+/// Space: q = (x, y, z, w, x', y', z') with the quaternion of the body axes, v = (ẋ, ẏ, ż, ω) with
+/// ω in the body axes.
 ///
-/// Only the direction of the quaternion counts, so a stage of an integrator may leave the sphere; a
-/// displacement keeps it on the sphere. A quaternion and its negative are one pose.
+/// Only the direction of the quaternion is used, so at a stage of an integrator it may leave the
+/// unit sphere; a displacement puts it on the sphere. A quaternion and its negative represent the
+/// same pose.
 #[derive(Clone, Copy, Debug)]
 pub struct Space3;
 
@@ -35,7 +36,7 @@ impl Space for Space3 {
     const JOINT_COMPONENTS: &'static [&'static str] = &["Fu", "Fv", "Fw", "Tu", "Tv", "Tw"];
     const EDGE_COMPONENTS: &'static [&'static str] = &["Fn", "Ft", "Fb", "Tn", "Tt", "Tb"];
 
-    /// A rotation has no angle that includes full revolutions, so the value is zero.
+    /// A rotation does not define an angle that includes full revolutions, so the value is zero.
     fn position(q: &[f64], dof: usize) -> f64 {
         if dof < 3 { q[dof] } else { 0.0 }
     }
@@ -49,7 +50,7 @@ impl Space for Space3 {
         }
     }
 
-    /// Computes ω = 2·ē∘ė/|e|² (vector part).
+    /// Computes the vector part of ω = 2·ē∘ė/|e|².
     fn velocity_from_rate(q: &[f64], dof: usize) -> [f64; MOST_COORDINATES] {
         let [w, x, y, z] = quaternion(q);
         let twice = 2.0 / (w * w + x * x + y * y + z * z);
@@ -68,7 +69,7 @@ impl Space for Space3 {
         Some([0.0, 0.0, 0.0, w, x, y, z])
     }
 
-    /// Computes e∘exp(½·θ), where θ is the rotation vector in the axes of the body.
+    /// Computes e∘exp(½·θ), where θ is the rotation vector in the body axes.
     fn displace<T: Number>(q: &mut [T], d: &[T]) {
         for (q, d) in q.iter_mut().zip(&d[..3]) {
             *q = *q + *d;
@@ -83,7 +84,8 @@ impl Space for Space3 {
         }
         let [w, x, y, z] = quaternion(from);
         let [w, x, y, z] = quaternion_product([w, -x, -y, -z], quaternion(q));
-        // Of a quaternion and its negative, the one with the shorter rotation is used.
+        // A quaternion and its negative represent the same rotation; the one with the smaller angle
+        // is used.
         let sign = 1.0_f64.copysign(w);
         let length = norm(&[x, y, z]);
         let angle = 2.0 * length.atan2(w.abs());
@@ -93,8 +95,8 @@ impl Space for Space3 {
         }
     }
 
-    /// Every rotational freedom copies the whole orientation, because rotations do not add up along
-    /// single axes.
+    /// For every rotational component, the whole orientation is copied, because rotations cannot be
+    /// added along single axes.
     fn take(q: &mut [f64], from: &[f64], dof: usize) {
         match dof {
             0..3 => q[dof] = from[dof],
@@ -120,15 +122,15 @@ pub(crate) fn quaternion_product<T: Ring>(a: [T; 4], b: [T; 4]) -> [T; 4] {
     ]
 }
 
-/// Returns a quaternion scaled to length one; it must not be zero.
+/// Returns a quaternion scaled to length one; the quaternion must not be zero.
 pub(crate) fn normalised<T: Number>(e: [T; 4]) -> [T; 4] {
     let [w, x, y, z] = e;
     let length = (w * w + x * x + y * y + z * z).root();
     e.map(|part| part / length)
 }
 
-/// Below this square of half an angle, sine and cosine are summed as series: six terms are exact to
-/// the last digit of double-double there.
+/// If the square of half an angle is below this value, sine and cosine are summed as series; six
+/// terms are then exact to the last digit of double-double.
 const SERIES: f64 = 1e-4;
 
 /// Returns the unit quaternion of a rotation vector: (cos ½|θ|, sin ½|θ|·θ/|θ|).

@@ -1,4 +1,4 @@
-//! Properties of the coordinates and velocities of one body in a space.
+//! Properties of the coordinates and velocities of one body in the plane and in space.
 
 use joints::Ring;
 
@@ -8,42 +8,42 @@ use super::number::Number;
 pub(super) const MOST_COORDINATES: usize = 7;
 
 /// A space in which bodies move. All slices belong to one body: `q` has [`Space::N_Q`] values, `v`
-/// and `d` have [`Space::N_V`], and the translations come first. A force on a body has a component
-/// for each translation, a torque one for each rotation.
+/// and `d` have [`Space::N_V`]; translations come first. A force on a body has one component for
+/// each translation, a torque one for each rotation.
 pub trait Space {
     /// Number of coordinates of a body; the position comes first.
     const N_Q: usize;
 
-    /// Number of velocities of a body.
+    /// Number of velocity components of a body.
     const N_V: usize;
 
-    /// Number of velocities of a body that are translations.
+    /// Number of velocity components of a body that are translations.
     const N_TRANSLATIONS: usize;
 
     /// Names of the coordinates.
     const COORDINATES: &'static [&'static str];
 
-    /// Names of the output numbers of a frame: its position and orientation, then its
-    /// [`Space::N_V`] velocities.
+    /// Names of the output values of a frame: its position and orientation, then its [`Space::N_V`]
+    /// velocity components.
     const COLUMNS: &'static [&'static str];
 
-    /// Names of the directions in which a body moves, in the order of its velocities.
+    /// Names of the directions in which a body moves, in the order of its velocity components.
     const DIRECTIONS: &'static [&'static str];
 
-    /// Names of the components of a force and a torque, in the order of the velocities.
+    /// Names of the components of a force and a torque, in the order of the velocity components.
     const COMPONENTS: &'static [&'static str];
 
-    /// Names of these components in the axes of a body.
+    /// Names of these components in the axes of the body.
     const BODY_COMPONENTS: &'static [&'static str];
 
-    /// Names of these components in the axes of a joint.
+    /// Names of these components in the axes of the joint.
     const JOINT_COMPONENTS: &'static [&'static str];
 
-    /// Names of these components in axes whose first direction is that of the only force of a
-    /// joint.
+    /// Names of these components in axes whose first direction is that of the force, for joints
+    /// with exactly one force.
     const EDGE_COMPONENTS: &'static [&'static str];
 
-    /// Returns the position of a body in the direction of one freedom: a coordinate (m) or an angle
+    /// Returns the position of a body for one velocity component: a coordinate (m) or an angle
     /// (rad).
     #[must_use]
     fn position(q: &[f64], dof: usize) -> f64;
@@ -51,30 +51,31 @@ pub trait Space {
     /// Computes q̇ = T(q)·v.
     fn rate<T: Ring>(q: &[T], v: &[T], qd: &mut [T]);
 
-    /// Returns the velocity of one freedom, below [`Space::N_V`], as factors of q̇ = T(q)·v.
-    /// Components of q̇ that change no pose are ignored. Factors beyond the coordinates are zero.
+    /// Returns one velocity component (index below [`Space::N_V`]) as a linear form of q̇ = T(q)·v;
+    /// the result contains the coefficients of q̇. Components of q̇ that do not change the pose are
+    /// ignored. Coefficients beyond the number of coordinates are zero.
     #[must_use]
     fn velocity_from_rate(q: &[f64], dof: usize) -> [f64; MOST_COORDINATES];
 
-    /// Returns the unit direction of q̇ along which no pose changes; `None` if every q̇ belongs to
-    /// a velocity.
+    /// Returns the unit direction of q̇ that does not change the pose; `None` if every q̇ changes
+    /// the pose.
     #[must_use]
     fn normal(_q: &[f64]) -> Option<[f64; MOST_COORDINATES]> {
         None
     }
 
-    /// Moves q by d: a translation along the axes of the ground (m), and a rotation (rad).
+    /// Displaces q by d: a translation along the ground axes (m), and a rotation (rad).
     fn displace<T: Number>(q: &mut [T], d: &[T]);
 
-    /// Returns the d by which [`Space::displace`] moves `from` to `q`.
+    /// Returns the d with which [`Space::displace`] maps `from` to `q`.
     fn difference(q: &[f64], from: &[f64], d: &mut [f64]);
 
-    /// Copies one freedom of velocity from another configuration exactly; a difference would have
-    /// rounding errors.
+    /// Copies the coordinates of one velocity component from another configuration exactly; a
+    /// difference would have rounding errors.
     fn take(q: &mut [f64], from: &[f64], dof: usize);
 }
 
-/// A space with planar poses, for any coordinates.
+/// A space with planar poses; it may have any coordinates.
 pub trait PlanarSpace: Space {
     /// Returns the angle of a body (rad).
     #[must_use]

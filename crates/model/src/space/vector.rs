@@ -1,7 +1,8 @@
-//! Vectors with three components, or any number of them.
+//! Operations on vectors with three components, or with any number of components.
 
 /// Returns the unit vector along an axis of the ground (0 for x to 2 for z) times a vector:
-/// `e × a`. It is the velocity at this arm of a body that rotates at 1 rad/s about this axis.
+/// `e × a`. The result is the velocity of a point at the position `a` of a body that rotates about
+/// this axis at 1 rad/s.
 #[must_use]
 pub fn unit_cross(axis: usize, a: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|k| match (k + 3 - axis) % 3 {
@@ -23,7 +24,8 @@ pub fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 pub fn norm(x: &[f64]) -> f64 {
     match x {
         [x, others @ ..] => others.iter().fold(x.abs(), |norm, x| match *x {
-            // Most vectors of planar mechanisms have zeros, and square roots are expensive.
+            // Zeros are skipped: most vectors of planar mechanisms contain zeros, and square roots
+            // are expensive.
             0.0 => norm,
             x if norm == 0.0 => x.abs(),
             x => norm.hypot(x),

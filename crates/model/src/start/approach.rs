@@ -1,9 +1,10 @@
-//! Approaches the constraints from a distant start by damped least squares of the joint violations.
-//! Violations are lengths; angles are multiplied by the size of the mechanism. Masses have no
-//! influence: otherwise a light body could rotate far and end on the opposite side of its joint.
+//! Computes a configuration near the constraints from a distant initial configuration, by damped
+//! least squares of the violations of the joints. Violations are lengths; angles are multiplied by
+//! the size of the mechanism. Masses have no influence. Otherwise, a light body could rotate far
+//! and end on the opposite side of its joint.
 //!
-//! Source: Levenberg–Marquardt, as in J. Nocedal, S. Wright, Numerical Optimization, 2nd ed.,
-//! section 10.3, with corrections of minimum norm, so that rows may be redundant.
+//! Source: Levenberg–Marquardt method, as in J. Nocedal, S. Wright, Numerical Optimization, 2nd
+//! ed., section 10.3, with corrections of minimum norm, so that rows may be redundant.
 
 use linalg::{Matrix, least_squares_step};
 
@@ -13,35 +14,38 @@ use super::parallel::Parallel;
 use crate::mechanism::{Mechanism, unmet_rows};
 use crate::system::{Scratch, System};
 
-/// Joints whose violation is below this fraction of the worst one are not named.
+/// Joints are not listed in messages if their violation is below this fraction of the largest one.
 const NAMED_MISFIT: f64 = 1e-2;
 
-/// Largest number of steps. A start with an error of 20 % and 20° needs about ten.
+/// Largest number of steps. An initial configuration with errors of 20 % and 20° needs about ten
+/// steps.
 const ITERATIONS: usize = 200;
 
-/// Largest rotation of one step (rad), and its largest displacement as a fraction of the size.
-/// Linearised rows are not accurate beyond it.
+/// Largest rotation in one step (rad), and largest displacement in one step as a fraction of the
+/// size. For larger steps, the linearised rows are not accurate.
 const LARGEST_STEP: f64 = 0.5;
 
-/// The constraints count as reached if all rows are violated by less than this fraction of the size
-/// (of a radian). From there, the iteration of [`super::nearest`] converges.
+/// The constraints count as approximately satisfied if every row is violated by less than this
+/// fraction of the size (or of a radian). From such a configuration, the iteration of
+/// [`super::nearest`] converges.
 const REACHED: f64 = 1e-9;
 
-/// Damping at the beginning, its smallest value, and the value at which no step helps any more,
-/// relative to rows of size one.
+/// Initial damping, smallest damping, and the damping at which the iteration stops, relative to
+/// rows of size one.
 const DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-12;
 const MOST_DAMPING: f64 = 1e8;
 
-/// Damping changes by this factor.
+/// The damping is multiplied or divided by this factor.
 const FACTOR: f64 = 10.0;
 
-/// A step that reduces the residual by less than this fraction ends the iteration.
+/// The iteration ends if a step reduces the residual by less than this fraction.
 const STILL: f64 = 1e-10;
 
-/// Residuals of rows at a configuration, and their derivatives by velocities.
+/// Residuals of rows at a configuration, and their derivatives with respect to displacements along
+/// the velocity components.
 struct Linearisation {
-    /// Residuals in metres; angles are multiplied by the size.
+    /// Residuals in metres; residuals of angles are multiplied by the size of the mechanism.
     residual: Vec<f64>,
     /// One row for each residual.
     c: Matrix,
@@ -53,8 +57,8 @@ impl Linearisation {
     }
 }
 
-/// Returns the residuals of these rows at q. Rotation vectors replace products of directions, so
-/// that an axis with the opposite direction does not satisfy its rows.
+/// Returns the residuals of these rows at q. Rotation vectors replace products of directions.
+/// Therefore the rows are not satisfied by an axis with the opposite direction.
 fn linearised(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -99,9 +103,9 @@ fn linearised(
     Ok(Linearisation { residual, c })
 }
 
-/// Returns whether all axes that the joints keep parallel at q have the described direction, not
-/// the opposite one, and all requirements of definitions are satisfied (for example, a wheel is
-/// above the ground).
+/// Returns whether the axes that the joints keep parallel have the described direction at q, not
+/// the opposite one. All requirements of definitions must also be satisfied (for example, a wheel
+/// is above the ground).
 pub(super) fn is_meant(mechanism: &Mechanism, s: &mut Scratch, q: &[f64]) -> bool {
     if !unmet_rows(mechanism, q).is_empty() {
         return false;
@@ -112,8 +116,8 @@ pub(super) fn is_meant(mechanism: &Mechanism, s: &mut Scratch, q: &[f64]) -> boo
     axes.all(|axes| axes.is_as_described())
 }
 
-/// Returns whether the violation of the rows at q is within the correction of a start that is
-/// permitted by default.
+/// Returns whether the violation of the rows at q is within the default limit for corrections of
+/// the initial configuration.
 pub(super) fn is_near(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -128,11 +132,11 @@ pub(super) fn is_near(
     })
 }
 
-/// Returns a configuration near another one that satisfies the rows to [`REACHED`]; coordinates of
-/// weight zero do not move.
+/// Returns a configuration near another one that satisfies the rows to [`REACHED`]; coordinates
+/// with weight zero do not change.
 ///
 /// # Errors
-/// [`StartError::NoAssembly`]: the joint violations have a minimum that is not zero.
+/// [`StartError::NoAssembly`]: the violations of the joints have a minimum that is not zero.
 pub(super) fn approach(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -184,8 +188,8 @@ pub(super) fn approach(
     })
 }
 
-/// Returns the joints and drives that are violated at the configuration of the scratch, the worst
-/// first.
+/// Returns the joints and drives that are violated at the configuration in the work space, the
+/// largest violation first.
 pub(super) fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<Misfit> {
     let size = crate::size::size_of(mechanism, s);
     let groups = mechanism.layout().groups.iter();
@@ -216,7 +220,7 @@ pub(super) fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec
     });
     let excess = |m: &Misfit| {
         let excess = (m.distance / size).max(m.angle);
-        // A value that is not a number counts as the largest.
+        // NaN counts as the largest value.
         if (m.distance + m.angle).is_nan() {
             f64::INFINITY
         } else {

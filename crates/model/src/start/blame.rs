@@ -1,5 +1,5 @@
-//! Determines which given velocity is impossible, which rows it contradicts, and which velocities
-//! to omit.
+//! Finds the given velocity that is impossible, the rows that contradict it, and the velocities to
+//! remove from the scene.
 
 use rank::Circuit;
 
@@ -11,10 +11,10 @@ use super::velocity::{Hold, Miss, Start};
 use crate::space::SpaceKind;
 use crate::system::{RowLabel, System};
 
-/// Largest number of velocities to omit that are searched for.
+/// Largest number of velocities that the search proposes to remove.
 const LEFT_OUT: usize = 40;
 
-/// Returns the names in their order, without repetition.
+/// Returns the names in the given order, without repetition.
 fn each_once<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     let mut once: Vec<String> = Vec::new();
     for name in names {
@@ -25,23 +25,23 @@ fn each_once<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
     once
 }
 
-/// A velocity that the rows do not permit.
+/// A velocity that contradicts the rows.
 struct Fault {
     column: usize,
-    /// The rows; those that prescribe a motion come first.
+    /// The contradicting rows; rows that prescribe a motion come first.
     rows: Vec<RowLabel>,
-    /// The drives among these rows.
+    /// The names of the drives in these rows.
     drives: Vec<String>,
-    /// Whether other held velocities contribute.
+    /// Whether other given or kept velocities contribute to the contradiction.
     with_others: bool,
 }
 
 impl Start<'_> {
-    /// Returns the reason why some rows have no acceptable velocities; `miss` is the first problem
-    /// that was found.
+    /// Returns a description of the contradiction, if some rows have no acceptable velocities;
+    /// `miss` is the first problem that was found.
     ///
     /// # Errors
-    /// [`StartError::NoVelocity`]: the rows have no velocities, for any given velocities.
+    /// [`StartError::NoVelocity`]: the rows do not permit any velocities.
     pub(super) fn conflict(
         &self,
         rows: &[usize],
@@ -66,8 +66,9 @@ impl Start<'_> {
             .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
             .is_none();
         let (leave_out, hold, is_enough) = self.leave_out(rows, &columns)?;
-        // From the candidates, the search selects the one whose velocity, if omitted, is farthest
-        // from the given one. The others are not wrong.
+        // The candidates are velocities whose value, if they are not given, differs from the given
+        // value. The search selects the candidate with the largest difference. Given velocities
+        // without a difference are correct.
         let mut candidates = vec![column];
         if is_enough && self.solve(rows, &hold, self.limit, &mut v)?.is_none() {
             let by = |j: usize| self.equations.arm(j) * (v[j] - self.written[j]).abs();
@@ -104,8 +105,8 @@ impl Start<'_> {
         })
     }
 
-    /// Returns the bodies of these velocities, if the independent rows permit only zero velocities
-    /// for them.
+    /// Returns the bodies of these velocities and the joints of these rows, if the independent rows
+    /// permit only zero velocities.
     fn locked(&self, rows: &[usize], columns: &[usize]) -> Option<LockedBodies> {
         let Equations { mechanism, s, .. } = &self.equations;
         if rows.len() < columns.len() || rows.iter().any(|&i| s.b[i] != 0.0) {
@@ -122,10 +123,10 @@ impl Start<'_> {
         })
     }
 
-    /// Returns the name of a velocity of a centre of mass or of a rotation, its given value and its
-    /// value in other velocities. Scenes define rotations in space about the axes of the ground.
-    /// Therefore the function selects the component about these axes that differs most in the
-    /// closest compatible velocities.
+    /// Returns the name of a velocity component, its given value and its value in the velocities
+    /// `other`. Scenes contain angular velocities in space in ground axes. Therefore, the function
+    /// selects the ground component that differs most between the given velocities and the closest
+    /// compatible velocities.
     fn as_written(
         &self,
         column: usize,
@@ -152,15 +153,17 @@ impl Start<'_> {
         (name, [given[farthest], other[farthest]])
     }
 
-    /// Returns whether a column is a rotation that is kept without the others of its body.
+    /// Returns whether a column is a rotation of a body that is kept while other rotations of the
+    /// same body are not.
     fn is_component(&self, column: usize) -> bool {
         let space = self.equations.mechanism.space();
         let mut rotations = space.rotations_of(space.body_of(column));
         self.hold[column] == Hold::Kept && rotations.any(|j| self.hold[j] != Hold::Kept)
     }
 
-    /// Returns the held velocity that is farthest from the closest compatible velocities if all may
-    /// change; `None` if there are no compatible velocities. Writes the compatible velocities.
+    /// Returns the given or kept velocity that differs most from the closest compatible velocities,
+    /// which are computed as if no velocity were kept. Returns `None` if there are no compatible
+    /// velocities. Writes the compatible velocities to `nearest`.
     fn culprit(
         &self,
         rows: &[usize],
@@ -190,8 +193,8 @@ impl Start<'_> {
             .or_else(|| held().max_by(farthest)))
     }
 
-    /// Returns the first of these velocities that the rows do not permit while the other held
-    /// velocities do not change.
+    /// Returns the first of these velocities that contradicts the rows while the other given or
+    /// kept velocities do not change.
     fn fault(&self, rows: &[usize], candidates: &[usize]) -> Result<Fault, StartError> {
         let of = &self.equations;
         let mut v = self.written.clone();
@@ -220,7 +223,7 @@ impl Start<'_> {
                 let with_others = others.any(|j| takes_part(circuit, j));
                 (column, circuit.rows.clone(), with_others)
             }
-            // For large sets no circuits are computed; the violated rows are used instead.
+            // For large sets, circuits are not computed; the violated rows are used instead.
             None => {
                 let is_open = |&i: &usize| of.residual(i, &v).abs() > of.rounding(i, &v);
                 let open = rows.iter().copied().filter(is_open);
@@ -247,9 +250,9 @@ impl Start<'_> {
         })
     }
 
-    /// Returns the given velocities to omit so that the others are possible, the farthest first;
-    /// none of them can be kept. The function also returns the velocities that are then held, and
-    /// whether the omission is sufficient.
+    /// Returns the given velocities to remove so that the remaining ones are possible, the largest
+    /// difference first. Each of them must be removed. The function also returns which velocities
+    /// remain given or kept, and whether the removal is sufficient.
     fn leave_out(
         &self,
         rows: &[usize],
@@ -274,7 +277,8 @@ impl Start<'_> {
             for &(j, was) in &before {
                 tried[j] = was;
             }
-            // If the velocity of a `keep` entry is omitted, the entry would hold zero.
+            // If the given velocity of a `keep` entry is removed, the entry would keep the value
+            // zero.
             let is_other = |&(j, was): &(usize, Hold)| {
                 was == Hold::Kept && hold[j] == Hold::No && self.is_written[j]
             };
@@ -290,8 +294,8 @@ impl Start<'_> {
         Ok((needed, hold, true))
     }
 
-    /// Frees a velocity by removing something that the author of a scene can remove; returns how
-    /// the freed velocities were held.
+    /// Frees a velocity by removing one entry of the scene; also returns the previous states of the
+    /// freed velocities.
     fn free(&self, column: usize, hold: &mut [Hold]) -> (HeldVelocity, Vec<(usize, Hold)>) {
         let mechanism = self.equations.mechanism;
         let (space, at) = (mechanism.space(), mechanism.space().body_of(column));
@@ -302,14 +306,15 @@ impl Start<'_> {
         } else {
             space.translations_of(at)
         };
-        // An entry of `keep` is removed before its velocity, because otherwise it would hold zero.
+        // A `keep` entry is removed before the given velocity, because otherwise the entry would
+        // keep the value zero.
         if let Some(kept) = own.clone().find(|&j| hold[j] == Hold::Kept) {
             let to = if self.is_written[kept] {
                 Hold::Given
             } else {
                 Hold::No
             };
-            // An angular velocity that is kept as a whole is one entry.
+            // If all components of an angular velocity are kept, the scene has one entry for them.
             let is_whole = turns && own.clone().all(|j| self.hold[j] == Hold::Kept);
             let (coordinate, entry) = if is_whole {
                 ("omega", own)

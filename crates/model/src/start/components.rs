@@ -1,12 +1,13 @@
-//! Bodies in space with single kept components of the angular velocity, in ground axes.
+//! Transforms the angular velocities of bodies in space if only some of their ground components are
+//! kept.
 //!
-//! Columns of C belong to angular velocities in the axes in which a body moves, where its inertia J
-//! is diagonal. For such a body, y with `ω = E·y` replaces the angular velocity. The kept
-//! components are numbers of y. The kinetic energy has no products of a kept number with a
-//! dependent number, nor of two dependent numbers. Let a be the kept directions of the ground, in
-//! the axes of the body. For one direction, `e₁ = J⁻¹·a/(aᵀ·J⁻¹·a)`, and e₂, e₃ are perpendicular
-//! to a with `e₂ᵀ·J·e₃ = 0`. For two directions, e₃ is the third direction, and
-//! `e_k = a_k − (a_kᵀ·J·e₃/e₃ᵀ·J·e₃)·e₃`.
+//! The columns of C for rotations refer to the axes in which the inertia J of the body is diagonal.
+//! For a body with kept components, the angular velocity is replaced by y with `ω = E·y`. The kept
+//! components are components of y. The kinetic energy contains neither products of a kept with a
+//! dependent component nor products of two different dependent components. Let a be the directions
+//! of the kept components, in the axes of J. For one direction, `e₁ = J⁻¹·a/(aᵀ·J⁻¹·a)`, and e₂, e₃
+//! are perpendicular to a with `e₂ᵀ·J·e₃ = 0`. For two directions, e₃ is the direction of the third
+//! ground axis, and `e_k = a_k − (a_kᵀ·J·e₃/e₃ᵀ·J·e₃)·e₃`.
 
 use std::ops::Range;
 
@@ -20,16 +21,17 @@ use crate::system::{Scratch, System};
 /// The transformed angular velocity of one body.
 pub(super) struct Components {
     columns: Range<usize>,
-    /// Columns e of E, in the axes in which the body moves.
+    /// Columns e of E, in the axes of J.
     basis: [[f64; 3]; 3],
     /// Rows of E⁻¹.
     inverse: [[f64; 3]; 3],
-    /// Inertia along each column.
+    /// The inertia eᵀ·J·e for each column.
     inertia: [f64; 3],
 }
 
 impl Components {
-    /// Returns the bodies with one or two kept components; `weights` is the diagonal of M⁻¹.
+    /// Returns the bodies with one or two kept components of the angular velocity; `weights` is the
+    /// diagonal of M⁻¹.
     pub(super) fn kept(
         mechanism: &Mechanism,
         options: &StartOptions,
@@ -49,7 +51,7 @@ impl Components {
                 })
             });
             let [x, y, z] = s.bodies.axes(body);
-            // Directions of the ground in the axes of the body.
+            // Directions of the ground axes in the axes of the body.
             let ground = [0, 1, 2].map(|axis| [x[axis], y[axis], z[axis]]);
             let inertia = [0, 1, 2].map(|k| weights[columns.start + k].recip());
             let (basis, inverse) = match kept.iter().filter(|kept| **kept).count() {
@@ -75,7 +77,7 @@ impl Components {
         bodies.filter_map(of_body).collect()
     }
 
-    /// Transforms entries of C, which must be in the scratch, and weights.
+    /// Transforms the entries of C in the work space, and the weights.
     pub(super) fn take_over(&self, mechanism: &Mechanism, s: &mut Scratch, weights: &mut [f64]) {
         for (k, j) in self.columns.clone().enumerate() {
             weights[j] = self.inertia[k].recip();
@@ -130,11 +132,11 @@ fn product(inertia: [f64; 3], e: [f64; 3]) -> [f64; 3] {
 
 type Pair = ([[f64; 3]; 3], [[f64; 3]; 3]);
 
-/// Returns the basis in which number `at` is the component along the unit vector a.
+/// Returns the basis in which component `at` of y is the component of ω along the unit vector a.
 fn one(at: usize, a: [f64; 3], inertia: [f64; 3]) -> Pair {
     let along = [0, 1, 2].map(|k| a[k] / inertia[k]);
     let first = along.map(|x| x / dot(a, along));
-    // Two directions perpendicular to a, rotated so that J has no product of them.
+    // Two directions perpendicular to a, rotated so that the product of inertia of the two is zero.
     let least = (1..3).fold(0, |k, j| if a[j].abs() < a[k].abs() { j } else { k });
     let unit = [0, 1, 2].map(|k| if k == least { 1.0 } else { 0.0 });
     let p = cross(a, unit);
@@ -158,8 +160,8 @@ fn one(at: usize, a: [f64; 3], inertia: [f64; 3]) -> Pair {
     (basis, inverse)
 }
 
-/// Returns the basis in which all numbers except number `at` are components along directions of the
-/// ground.
+/// Returns the basis in which all components of y except component `at` are components along ground
+/// axes.
 fn two(at: usize, ground: [[f64; 3]; 3], inertia: [f64; 3]) -> Pair {
     let free = ground[at];
     let own = product(inertia, free);
@@ -182,8 +184,8 @@ mod tests {
     const INERTIA: [f64; 3] = [0.3, 1.7, 0.9];
     const AXES: [[f64; 3]; 3] = [[0.48, 0.64, 0.6], [-0.8, 0.6, 0.0], [-0.36, -0.48, 0.8]];
 
-    /// E⁻¹·E is the identity, kept numbers are components, and the energy has no products with the
-    /// dependent numbers.
+    /// Checks that E⁻¹·E is the identity, that kept components are ground components, and that the
+    /// energy has no products with dependent components.
     fn check((basis, inverse): Pair, kept: &[usize]) {
         for k in 0..3 {
             for l in 0..3 {

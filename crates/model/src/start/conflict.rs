@@ -3,43 +3,43 @@
 use crate::system::RowLabel;
 use crate::words::rough;
 
-/// Given velocities that contradict the constraints, or prescribed motions.
+/// Given velocities that contradict the constraints or prescribed motions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}; {}", self.what(), self.advice())]
 #[non_exhaustive]
 pub struct VelocityConflict {
-    /// The body of the wrong velocity: the velocity that would be farthest from its given value if
-    /// it and the other wrong velocities were omitted.
+    /// The body of the wrong velocity. Among all wrong velocities, it is the one with the largest
+    /// difference from its given value if none of them is given.
     pub body: String,
     /// Name of the velocity: `vx`, `vy` or `omega`; in space `vx` to `wz`, in ground axes.
     pub coordinate: &'static str,
     /// The given value.
     pub given: f64,
-    /// Whether `keep` holds the velocity.
+    /// Whether the velocity is in `keep`.
     pub is_kept: bool,
-    /// Value of the coordinate in compatible velocities: if the given value is omitted, or
-    /// otherwise in the closest velocities in the mass metric.
+    /// Value of the velocity if the wrong velocities are not given; if such velocities do not
+    /// exist, its value in the closest compatible velocities in the mass metric.
     pub nearest: f64,
-    /// Largest allowed difference (m/s, rad/s).
+    /// Largest permitted difference (m/s, rad/s).
     pub limit: f64,
-    /// Rows that contradict the velocity; rows that prescribe a motion come first.
+    /// Rows that contradict the given velocity; rows that prescribe a motion come first.
     pub rows: Vec<RowLabel>,
-    /// Whether the rows contradict it only together with other held velocities.
+    /// Whether the contradiction involves other given or kept velocities.
     pub with_others: bool,
     /// Drives, and joints that prescribe a velocity, among these rows.
     pub drives: Vec<String>,
-    /// Velocities to omit so that the others are possible.
+    /// Velocities to remove so that the remaining ones are possible.
     pub leave_out: Vec<HeldVelocity>,
-    /// Whether omitting `leave_out` is sufficient. It is not sufficient if more velocities
-    /// contradict the constraints than the search covers.
+    /// Whether the removal of `leave_out` is sufficient. It is not sufficient if more velocities
+    /// contradict the constraints than the search can find.
     pub is_enough: bool,
-    /// Whether velocities compatible with those that `keep` holds exist.
+    /// Whether compatible velocities exist that contain all velocities in `keep`.
     pub can_be_corrected: bool,
     /// The locked bodies, if only zero velocities are possible.
     pub locked: Option<LockedBodies>,
 }
 
-/// Bodies whose independent rows permit no velocity, with mobility 0.
+/// Bodies whose independent rows permit only zero velocities, so that the mobility is 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct LockedBodies {
@@ -49,7 +49,7 @@ pub struct LockedBodies {
     pub joints: Vec<String>,
 }
 
-/// The scene entry that holds a velocity.
+/// The entry of a scene that prescribes an initial velocity.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum HeldVelocity {
@@ -82,15 +82,16 @@ impl std::fmt::Display for HeldVelocity {
     }
 }
 
-/// Largest number of rows, and of velocities to omit, that a message names.
+/// Largest number of rows, and of velocities to remove, in a message.
 const NAMED: usize = 6;
 
-/// A velocity does not contribute to a sum of rows if its term is below this fraction: the
-/// remainder is rounding, even far from the origin.
+/// A velocity does not contribute to a sum of rows if its coefficient is below this fraction of the
+/// terms of the sum. The coefficient is then only rounding, even far from the origin.
 pub(super) const CANCELLED: f64 = 1e-10;
 
 impl VelocityConflict {
-    /// Merges conflicts: the worst one, with all velocities to omit.
+    /// Merges several conflicts into the one with the largest difference, with all velocities to
+    /// remove.
     pub(super) fn merged(conflicts: Vec<Self>) -> Option<Self> {
         let off = |c: &Self| (c.nearest - c.given).abs() / c.limit;
         conflicts.into_iter().reduce(|mut a, mut b| {
@@ -126,7 +127,7 @@ impl VelocityConflict {
         } else {
             format!(", more than {} off", rough(self.limit))
         };
-        // The value has the format of the scene.
+        // The value is written in the format of scenes.
         let given_as = match (format!("{given}"), format!("{given:?}")) {
             (plain, scientific) if scientific.len() < plain.len() => scientific,
             (plain, _) => plain,
@@ -193,7 +194,7 @@ impl VelocityConflict {
             [only] => ways.push(format!(
                 "leave out {only}, so that it follows from the others"
             )),
-            // All of them are listed, because fewer would not be sufficient.
+            // All of them are listed, because removing fewer would not be sufficient.
             [first @ .., last] => ways.push(format!(
                 "leave out {} and {last}, so that they follow from the others",
                 first.join(", ")
@@ -212,7 +213,8 @@ impl VelocityConflict {
     }
 }
 
-/// Formats a velocity with five digits; zero if it is rounding relative to another velocity.
+/// Formats a velocity with five digits; the result is zero if the velocity is not larger than the
+/// rounding error of `beside`.
 fn short(x: f64, beside: f64) -> String {
     let x = if x.abs() <= CANCELLED * beside.abs() {
         0.0
@@ -222,7 +224,7 @@ fn short(x: f64, beside: f64) -> String {
     crate::words::digits(x, 5)
 }
 
-/// Returns the first names, and the number of the others.
+/// Returns the first names as a list, and the number of the remaining ones.
 fn named(all: &[String]) -> String {
     let first = all
         .iter()

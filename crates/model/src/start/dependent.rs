@@ -1,12 +1,13 @@
-//! Computes dependent velocities: the velocities with the least kinetic energy that satisfy rows of
-//! C, `½·vᵀ·M·v → min` under `C·v = b`.
+//! Computes dependent velocities. They satisfy rows of C and have the smallest kinetic energy:
+//! `½·vᵀ·M·v → min` under `C·v = b`.
 //!
-//! Rows without common dependent velocities are solved separately. Small sets are solved directly,
-//! after the rank of their columns has been decided; the remaining rows are circuits, whose sums of
-//! right-hand sides show whether such velocities exist. Large sets are solved by their Schur
-//! complement. Other modules select the dependent velocities, and handle impossible ones.
+//! Sets of rows that have no dependent velocity in common are solved separately. Small sets are
+//! solved directly, after the rank of their columns has been determined. The remaining rows form
+//! circuits; the sums of their right-hand sides determine whether the velocities exist. Large sets
+//! are solved with their Schur complement. Other modules select the dependent velocities, and
+//! process velocities that are impossible.
 //!
-//! The rank of the columns of these velocities is not the rank of the mechanism.
+//! The rank of these columns is not the rank of the constraints.
 
 use std::collections::HashMap;
 
@@ -26,39 +27,42 @@ use crate::space::norm;
 use crate::system::{Scratch, System};
 use crate::uncertainty::ConfigurationAccuracy;
 
-/// Larger sets of rows are solved by their Schur complement, because dense factors would take
-/// seconds.
+/// Sets with more rows than this are solved with their Schur complement, because dense
+/// factorisations would take seconds.
 pub(super) const DENSE_ROWS: usize = 300;
 
-/// In large sets, rows whose remaining part is below this fraction count as dependent on other
-/// rows, because the Schur complement has the square of their condition number.
+/// In large sets, a row counts as dependent on other rows if its remaining part is below this
+/// fraction. The limit is large because the condition number of the Schur complement is the square
+/// of that of the rows.
 const LEFT: f64 = 1e-7;
 
 /// In large sets, a row is ignored if its entries are below this multiple of their uncertainties.
-/// After scaling to size one, such entries would be noise.
+/// After scaling to size one, these entries would be noise.
 const SIGNIFICANT: f64 = 1e3;
 
-/// Largest number of repetitions of a solution. Each gains all digits except for rounding, and for
-/// damping if a metric hides that rows are independent.
+/// Largest number of repetitions of the solution. A repetition removes all errors except rounding
+/// errors. If the metric makes independent rows appear dependent, the effect of the damping remains
+/// as well.
 const REPETITIONS: usize = 6;
 
 /// A repetition has to reduce the residuals to less than this fraction.
 const PROGRESS: f64 = 0.5;
 
-/// The equations `C·v = b` of a start.
+/// The equations `C·v = b` of an initial state.
 pub(super) struct Equations<'m> {
     pub(super) mechanism: &'m Mechanism,
     pub(super) q: Vec<f64>,
     pub(super) s: Scratch,
     pub(super) size: f64,
-    /// Diagonal of M⁻¹; velocities without mass have the weight of the smallest one with mass.
+    /// Diagonal of M⁻¹; velocities without mass have the weight of the smallest mass.
     pub(super) weights: Vec<f64>,
-    /// Bodies with single kept components of the angular velocity, whose columns are transformed.
+    /// Bodies for which only some components of the angular velocity are kept; their columns are
+    /// transformed.
     components: Vec<Components>,
-    /// A velocity that is zero to rounding moves by less than a hundred roundings of the position
-    /// in the reciprocal of this rate (1/s).
+    /// The reciprocal of this rate (1/s) is a time. A velocity counts as zero if it changes
+    /// positions during this time by less than 100 times their rounding error.
     rest_rate: f64,
-    /// Uncertainty of the entries of C, by its pattern; computed when needed.
+    /// Uncertainty of the entries in the pattern of C; computed on request.
     known: Option<Vec<f64>>,
 }
 
@@ -85,19 +89,19 @@ impl<'m> Equations<'m> {
             size,
             weights,
             components,
-            // The second is the unit of time of a scene. A body that falls under its weight has a
-            // shorter characteristic time.
+            // The default time is one second. For a mechanism that falls under gravity, the time
+            // √(size/g) is used if it is shorter.
             rest_rate: (gravity / size).sqrt().max(1.0),
             known: None,
         }
     }
 
-    /// Replaces velocities of the mechanism by velocities of these equations.
+    /// Converts velocities of the mechanism to the variables of these equations.
     pub(super) fn take(&self, v: &mut [f64]) {
         self.components.iter().for_each(|body| body.replace(v));
     }
 
-    /// Returns the velocities of the mechanism, computed from those of these equations.
+    /// Converts the variables of these equations to velocities of the mechanism.
     pub(super) fn velocities(&self, v: &[f64]) -> Vec<f64> {
         let mut v = v.to_vec();
         self.components.iter().for_each(|body| body.restore(&mut v));
@@ -109,8 +113,8 @@ impl<'m> Equations<'m> {
         self.mechanism.layout().velocity_residual(&self.s, i, v)
     }
 
-    /// Returns the largest residual of row `i` that is rounding: of its terms, and of the positions
-    /// of its bodies, which rotate with the fastest of them.
+    /// Returns the largest residual of row `i` that counts as rounding. It contains the rounding
+    /// error of the terms, and that of the positions of the bodies times the largest rate.
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
         let fastest = self.fastest(row.map(|(j, _)| j), v);
@@ -119,8 +123,8 @@ impl<'m> Equations<'m> {
         ROUNDINGS * f64::EPSILON * (terms + fastest * places)
     }
 
-    /// Returns the fastest rate of some velocities (1/s): rotations, and translations divided by
-    /// the longest arm of their body.
+    /// Returns the largest rate of some velocity components (1/s): rotations, and translations
+    /// divided by the longest arm of the body.
     pub(super) fn fastest(&self, columns: impl Iterator<Item = usize>, v: &[f64]) -> f64 {
         let space = self.mechanism.space();
         let arm = |j: usize| {
@@ -133,8 +137,8 @@ impl<'m> Equations<'m> {
         columns.map(|j| v[j].abs() / arm(j)).fold(0.0, f64::max)
     }
 
-    /// Returns the permitted residual of row `i` at velocities with the rounding of this rate
-    /// (1/s), and at rest.
+    /// Returns the permitted residual of row `i` if all velocities have the rounding error of this
+    /// rate (1/s), or are at rest.
     pub(super) fn slack(&self, i: usize, rate: f64) -> f64 {
         let places = self.mechanism.scales(&self.s).position(i);
         ROUNDINGS * f64::EPSILON * (ROUNDINGS * self.rest_rate + rate) * places
@@ -146,7 +150,7 @@ impl<'m> Equations<'m> {
     }
 
     /// Returns the limit below which velocity `j` counts as zero if other bodies move at this rate
-    /// (1/s): it includes the rounding of numbers that are computed together with theirs.
+    /// (1/s). The limit includes the rounding errors of a common solution for all these velocities.
     pub(super) fn rest_at(&self, j: usize, rate: f64) -> f64 {
         let body = self.mechanism.space().body_of(j);
         let place = norm(&self.s.bodies.origin(body)).max(self.size);
@@ -154,8 +158,8 @@ impl<'m> Equations<'m> {
         rest / self.arm(j)
     }
 
-    /// Returns the factor that converts a velocity into that of a point: for rotations, it is the
-    /// size of the mechanism.
+    /// Returns the factor that converts a velocity component to the velocity of a point; for
+    /// rotations, it is the size of the mechanism.
     pub(super) fn arm(&self, j: usize) -> f64 {
         if self.mechanism.space().is_rotation(j) {
             self.size
@@ -164,7 +168,7 @@ impl<'m> Equations<'m> {
         }
     }
 
-    /// Returns the velocities of some rows, ascending.
+    /// Returns the velocity components in some rows, in ascending order.
     pub(super) fn columns(&self, rows: &[usize]) -> Vec<usize> {
         let layout = self.mechanism.layout();
         let all = rows.iter().flat_map(|&i| layout.row(&self.s, i));
@@ -174,8 +178,9 @@ impl<'m> Equations<'m> {
         columns
     }
 
-    /// Returns the sets of rows with common velocities, each ascending, in the order of their first
-    /// rows. Only velocities for which `joins` returns `true` count.
+    /// Returns the sets of rows that have velocity components in common. Each set is in ascending
+    /// order, and the sets are in the order of their first rows. Only velocity components for which
+    /// `joins` returns `true` connect rows.
     pub(super) fn sets(&self, rows: &[usize], joins: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let layout = self.mechanism.layout();
         let mut sets = DisjointSets::new(rows.len());
@@ -189,7 +194,7 @@ impl<'m> Equations<'m> {
         sets.sets().into_iter().map(of_rows).collect()
     }
 
-    /// Returns these rows and columns of C. The function allocates memory.
+    /// Returns the submatrix of C with these rows and columns. The function allocates memory.
     pub(super) fn matrix(&self, rows: &[usize], columns: &[usize]) -> Matrix {
         let mut c = Matrix::zeros(rows.len(), columns.len());
         for (k, &i) in rows.iter().enumerate() {
@@ -202,7 +207,8 @@ impl<'m> Equations<'m> {
         c
     }
 
-    /// Uncertainties of the entries of the pattern of C.
+    /// Computes the uncertainties of the entries in the pattern of C, if this has not been done
+    /// before.
     pub(super) fn learn(&mut self) {
         let Self {
             mechanism,
@@ -227,15 +233,15 @@ impl<'m> Equations<'m> {
     }
 }
 
-/// Returns whether a size is above a limit, or not a number.
+/// Returns whether a size is above a limit, or NaN.
 pub(super) fn exceeds(size: f64, limit: f64) -> bool {
     size > limit || size.is_nan() || limit.is_nan()
 }
 
-/// Rows, and the velocities that depend on them.
+/// Rows, and the velocity components that are computed from them.
 pub(super) struct DependentVelocities {
     parts: Vec<RowBlock>,
-    /// The remaining combinations of rows of small sets: no dependent velocity changes these sums.
+    /// The circuits of small sets: sums of rows that do not depend on the dependent velocities.
     pub(super) circuits: Vec<Circuit>,
 }
 
@@ -253,7 +259,8 @@ enum Solver {
 }
 
 impl DependentVelocities {
-    /// Prepares some rows and the velocities for which `follows` returns `true`.
+    /// Prepares the solution of some rows for the velocity components for which `follows` returns
+    /// `true`.
     ///
     /// # Errors
     /// Returns an error if C is not finite.
@@ -313,7 +320,7 @@ impl DependentVelocities {
         Ok(dependent)
     }
 
-    /// Adds a correction to the dependent velocities in v that removes the residuals of the rows.
+    /// Corrects the dependent velocities in v so that the residuals of the rows become zero.
     ///
     /// # Errors
     /// Returns an error if a row is not finite.
@@ -323,7 +330,7 @@ impl DependentVelocities {
             .try_for_each(|part| part.follow(of, v))
     }
 
-    /// Circuits whose sum of residuals is above the rounding of its terms.
+    /// Returns the circuits whose sum of residuals is larger than the rounding error of the terms.
     pub(super) fn open<'t>(
         &'t self,
         of: &'t Equations<'_>,
@@ -340,8 +347,8 @@ impl DependentVelocities {
 }
 
 impl RowBlock {
-    /// Prepares a large set. Returns `None` if no row of the set has significant entries in these
-    /// columns.
+    /// Prepares the solution of a large set. Returns `None` if no row of the set has significant
+    /// entries in these columns.
     pub(super) fn schur(
         of: &Equations<'_>,
         set: &[usize],
@@ -402,8 +409,8 @@ impl RowBlock {
             let rows = self.rows.iter().zip(&residual).enumerate();
             let ratios = rows.filter(|(k, _)| used(*k)).map(|(_, row)| ratio(row));
             let worst = ratios.fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
-            // The iteration continues as long as it makes progress, because the results have their
-            // own rounding.
+            // The iteration ends when the residual no longer decreases, because the results have
+            // their own rounding errors.
             if worst == 0.0 || exceeds(worst, PROGRESS * best) {
                 return Ok(());
             }
@@ -416,7 +423,7 @@ impl RowBlock {
         Ok(())
     }
 
-    /// Returns the shortest velocities that remove these residuals.
+    /// Returns the velocity correction of smallest norm that removes these residuals.
     fn step(&mut self, of: &Equations<'_>, residual: &[f64]) -> Result<Vec<f64>, StartError> {
         match &mut self.solver {
             Solver::Dense(c) => {
@@ -436,9 +443,9 @@ impl RowBlock {
     }
 }
 
-/// Returns the shortest step in the metric of these inverse masses that removes residuals of rows.
-/// It is exact if the rows are independent to working precision, even for very different masses;
-/// otherwise it is damped.
+/// Returns the step of smallest norm that removes the residuals of the rows; the metric is given by
+/// inverse masses. The step is exact if the rows are independent to working precision, even for
+/// very different masses; otherwise it is damped.
 pub(super) fn shortest(
     c: &Matrix,
     residual: &[f64],

@@ -1,4 +1,4 @@
-//! Reasons why no consistent start was found.
+//! Reasons why no consistent initial state was found.
 
 use crate::words::{quantity, short};
 use std::fmt;
@@ -11,7 +11,7 @@ use super::conflict::VelocityConflict;
 use super::options::KeepLevel;
 use crate::system::RowLabel;
 
-/// Reason why no consistent start was found.
+/// Reason why no consistent initial state was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StartError {
@@ -22,7 +22,7 @@ pub enum StartError {
         list(misfits)
     )]
     NoAssembly {
-        /// The violated joints and drives, the worst first.
+        /// The violated joints and drives, the largest violation first.
         misfits: Vec<Misfit>,
         /// Number of iterations.
         iterations: usize,
@@ -33,7 +33,7 @@ pub enum StartError {
          as described, these miss: {}; correct the scene, or set `allow_correction = true` in `[start]`",
         few(misfits), correction = quantity(*correction, unit), limit = short(*limit))]
     LargeCorrection {
-        /// The body that moves most.
+        /// The body with the largest displacement.
         body: String,
         /// Name of the coordinate.
         coordinate: &'static str,
@@ -41,15 +41,16 @@ pub enum StartError {
         correction: f64,
         /// The largest permitted correction.
         limit: f64,
-        /// Unit of both: m or rad.
+        /// Unit of the correction and the limit: m or rad.
         unit: &'static str,
-        /// The joints and drives that the described configuration violates, the worst first.
+        /// The joints and drives that are violated at the described configuration, the largest
+        /// violation first.
         misfits: Vec<Misfit>,
     },
-    /// The given velocities, or those held by `keep`, are impossible.
+    /// The given or kept velocities are impossible.
     #[error(transparent)]
     Velocities(#[from] Box<VelocityConflict>),
-    /// A requirement of a definition is not satisfied at the start.
+    /// The initial configuration does not satisfy a requirement of a definition.
     #[error("`{name}` requires at the start: {requirement}")]
     Requirement {
         /// The joint, drive or force.
@@ -69,7 +70,7 @@ pub enum StartError {
         /// Number of bodies.
         bodies: usize,
     },
-    /// A body with a start pose does not exist, or moves in another space.
+    /// A body with an initial pose does not exist, or the pose belongs to another space.
     #[error(
         "a pose of the start is that of body {body}; bodies are 0..{bodies}, with poses of their space"
     )]
@@ -79,8 +80,8 @@ pub enum StartError {
         /// Number of bodies.
         bodies: usize,
     },
-    /// A coordinate of a frame with an origin outside the centre of mass is kept without its
-    /// rotation.
+    /// The origin of a body frame is in `keep` without the rotation of the body, but it is not the
+    /// centre of mass.
     #[error(
         "`keep` holds the origin of the frame of body `{body}`, which is not its centre of mass; {}",
         needed(body, *level, rotation)
@@ -93,7 +94,7 @@ pub enum StartError {
         /// Name of the rotation of the body in `keep`.
         rotation: &'static str,
     },
-    /// The rows permit no velocities, for any given velocities.
+    /// The rows do not permit any velocities, whatever the given velocities are.
     #[error(
         "no velocities satisfy the constraints: row {worst} is violated by {residual}; dependent or nearly dependent rows require different velocities: correct or delete one of them", residual = short(*residual))]
     NoVelocity {
@@ -102,7 +103,7 @@ pub enum StartError {
         /// Residual of the row.
         residual: f64,
     },
-    /// The start requires a correction whose matrix is too large for the memory.
+    /// The initial configuration requires a correction whose matrix is too large for the memory.
     #[error(
         "the start has to be corrected, which takes a dense matrix of {rows} × {columns} numbers, more than {most:e}; \
          describe positions and velocities that satisfy the constraints"
@@ -112,10 +113,10 @@ pub enum StartError {
         rows: usize,
         /// Number of coordinates.
         columns: usize,
-        /// Largest number of entries of a matrix.
+        /// Largest permitted number of entries of a matrix.
         most: f64,
     },
-    /// C at the start is not finite.
+    /// C at the initial configuration is not finite.
     #[error("the start cannot be corrected: {0}")]
     Rank(#[from] RankError),
     /// The velocities of a large mechanism could not be computed.
@@ -154,9 +155,9 @@ impl StartError {
 pub struct Misfit {
     /// The joint or drive.
     pub joint: String,
-    /// Distance of its points from their required positions (m).
+    /// Distance of the points of the joint from their required positions (m).
     pub distance: f64,
-    /// Angle of its axes from their required directions (rad).
+    /// Angle between the axes of the joint and their required directions (rad).
     pub angle: f64,
 }
 
@@ -198,8 +199,8 @@ fn first(misfits: &[Misfit], most: usize) -> String {
     }
 }
 
-/// Largest number of joints named in a message.
+/// Largest number of joints in a message.
 const NAMED: usize = 20;
 
-/// Largest number of joints named together with a correction.
+/// Largest number of joints in a message about a correction.
 const FEW: usize = 4;

@@ -1,4 +1,5 @@
-//! Common parts of all steps of a start: weights, bounds, matrices of a few rows.
+//! Functions for all steps of the computation of an initial state: weights, bounds, matrices of a
+//! few rows.
 
 use linalg::Matrix;
 
@@ -6,21 +7,22 @@ use super::error::StartError;
 use crate::mechanism::Mechanism;
 use crate::system::{Layout, Scratch, System};
 
-/// Rows that restrict a start, and the inverse weights of its coordinates.
+/// Rows that restrict the initial configuration, and the inverse weights of the coordinates.
 pub(super) type Restricting<'a> = (&'a [usize], &'a [f64]);
 
-/// Damping of the least-squares step, relative to rows of size one: small compared with any
-/// significant row, large compared with rounding.
+/// Damping of the least-squares step, relative to rows of size one. It is small compared with every
+/// significant row and large compared with rounding errors.
 pub(super) const DAMPING: f64 = 1e-10;
 
-/// Fraction of the size of the scene (and of a radian, and of the fastest velocity) by which a
-/// start may be corrected by default.
+/// Default limit of corrections of the initial state, as a fraction of the size of the scene, of a
+/// radian, or of the largest velocity.
 pub(super) const SMALL_CORRECTION: f64 = 1e-3;
 
-/// A row counts as satisfied below this many roundings of its terms.
+/// A row counts as satisfied if its residual is below this multiple of the rounding error of its
+/// terms.
 pub(super) const ROUNDINGS: f64 = 10.0;
 
-/// Largest number of entries of the matrix of a correction: 1 GB.
+/// Largest number of entries of the matrix for a correction; this is 1 GB.
 const MOST_ENTRIES: usize = 1 << 27;
 
 /// Returns a dense matrix of these rows of C. The function allocates memory.
@@ -53,20 +55,20 @@ pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) 
 }
 
 /// Masses, and inertias divided by the square of the size, are raised to this fraction of the
-/// largest one. Lighter bodies have no effect on heavy ones, but the square of their weight would
-/// overflow.
+/// largest value. Lighter bodies have no effect on heavy ones, but the squares of their weights
+/// would overflow.
 const LIGHTEST: f64 = 1e-30;
 
-/// Returns the inverse weights of the coordinates in the metric of lengths, with angles times the
-/// size.
+/// Returns the inverse weights of the coordinates in the metric of lengths, in which angles are
+/// multiplied by the size.
 pub(super) fn lengths(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let turns = |j| mechanism.space().is_rotation(j);
     let weight = |j| if turns(j) { 1.0 / (size * size) } else { 1.0 };
     (0..mechanism.layout().n_v).map(weight).collect()
 }
 
-/// Returns the inverse weights of the coordinates in the mass metric; coordinates without mass or
-/// inertia have the weight of the smallest one with mass or inertia.
+/// Returns the inverse weights of the coordinates in the mass metric. Coordinates without mass or
+/// inertia have the weight of the smallest mass or inertia.
 pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let turns = |j: usize| mechanism.space().is_rotation(j);
     let unit = |j: usize| if turns(j) { size * size } else { 1.0 };

@@ -1,26 +1,26 @@
-//! Options of a start.
+//! Options for the computation of the initial state.
 
 use super::error::StartError;
 use crate::body::FramePose;
 use crate::mechanism::Mechanism;
 use crate::space::SpaceKind;
 
-/// Options of a start.
+/// Options for the computation of the initial state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartOptions {
-    /// Coordinates and velocities that keep their described values exactly. A velocity that is not
-    /// given stays zero.
+    /// Coordinates and velocities that exactly keep their described values. A kept velocity that is
+    /// not given is zero.
     pub keep: Vec<Coordinate>,
-    /// Whether a correction by more than a thousandth of the size of the scene is accepted, or a
-    /// correction of given velocities by more than a thousandth of the fastest ones coupled with
-    /// them.
+    /// Whether larger corrections are accepted: of positions by more than a thousandth of the size
+    /// of the scene, or of given velocities by more than a thousandth of the largest velocity
+    /// coupled with them.
     pub correction: CorrectionLimit,
-    /// Bodies that do not start at their described poses. Reference points, initial values and the
-    /// zeros of joint coordinates remain those of the described start.
+    /// Bodies whose initial poses differ from their described poses. Reference points, initial
+    /// values and the zeros of joint coordinates are still taken from the described poses.
     pub poses: Vec<StartPose>,
 }
 
-/// The pose at which a body starts, if it does not start at its described pose.
+/// The initial pose of a body, if it differs from the described pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartPose {
     /// Index of the body in the list.
@@ -29,11 +29,12 @@ pub struct StartPose {
     pub frame: FramePose,
 }
 
-/// Limit of the corrections of a start.
+/// Limit for corrections of the initial state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CorrectionLimit {
-    /// Corrections up to a thousandth of the size of the scene, and a thousandth of a radian. Given
-    /// velocities are corrected up to a thousandth of the fastest one.
+    /// Positions may be corrected by up to a thousandth of the size of the scene, and angles by a
+    /// thousandth of a radian. Given velocities may be corrected by up to a thousandth of the
+    /// largest velocity.
     #[default]
     Small,
     /// Corrections of any size.
@@ -45,9 +46,9 @@ pub enum CorrectionLimit {
 pub struct Coordinate {
     /// Index of the body in the list.
     pub body: usize,
-    /// Index of its velocity: in the plane 0 for x, 1 for y, 2 for the angle; in space 0 to 2 for
-    /// x, y and z, then the rotations. Single components of an angular velocity are those about the
-    /// axes of the ground. The components of a rotation cannot be kept separately.
+    /// Index of the velocity component: in the plane 0 for x, 1 for y, 2 for the angle; in space 0
+    /// to 2 for x, y and z, then the rotations. Single components of an angular velocity refer to
+    /// ground axes. For positions, the components of a rotation cannot be kept separately.
     pub dof: usize,
     /// Position or velocity.
     pub level: KeepLevel,
@@ -63,7 +64,7 @@ pub enum KeepLevel {
     Velocity,
 }
 
-/// Returns the columns that are kept at a level.
+/// Returns the columns that are kept for positions or for velocities.
 pub(super) fn kept_columns(
     mechanism: &Mechanism,
     options: &StartOptions,

@@ -1,11 +1,11 @@
-//! Rotation vectors for axes that joints in space keep parallel, at configurations that violate the
-//! joints.
+//! Rotation vectors for axes that joints in space keep parallel, for configurations that violate
+//! these joints.
 //!
 //! The rows of a joint are products of directions. The equations `u·w' = v·w' = 0` are satisfied
-//! for w' = w and for w' = −w, and three such products vanish for four orientations. During the
-//! assembly of a start, the rotation vector of the remaining rotation replaces the products. It is
-//! zero only if the axes have the described direction, and near this orientation it is equal to the
-//! products.
+//! for w' = w and for w' = −w, and three products of this kind are zero for four orientations.
+//! During the assembly, the rotation vector of the remaining rotation replaces these products. The
+//! vector is zero only if the axes have the described directions; near this orientation it is equal
+//! to the products.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -13,24 +13,25 @@ use std::ops::Range;
 use crate::element::PlacedConstraint;
 use crate::system::Scratch;
 
-/// Below this value, the sine of an angle counts as the angle, because the next term is negligible.
+/// Below this value, the angle is used in place of its sine, because the next term of the series is
+/// negligible.
 const SERIES: f64 = 1e-4;
 
-/// Rows of one joint that keep axes parallel.
+/// The rows of one joint that keep axes parallel.
 pub(super) struct Parallel {
     /// The rows: two if the bodies may rotate about the axis, otherwise three.
     pub(super) rows: Range<usize>,
     /// The remaining angle (rad), 0 to π.
     pub(super) angle: f64,
-    /// The residual of each row, with replaced products of directions (rad), and its derivative
-    /// with respect to the angular velocity of the second body relative to the first, in ground
-    /// axes.
+    /// For each row, the residual with the products of directions replaced (rad), and its
+    /// derivative with respect to the angular velocity of the second body relative to the first, in
+    /// ground axes.
     pub(super) each: [(f64, [f64; 3]); 3],
 }
 
 impl Parallel {
-    /// Returns the rows of a joint at the configuration of the scratch; `None` if the joint keeps
-    /// no axes parallel.
+    /// Returns the rows of a joint at the configuration in the work space; `None` if the joint does
+    /// not keep axes parallel.
     pub(super) fn of(joint: &PlacedConstraint, s: &Scratch) -> Option<Self> {
         let [own, other] = joint.parallel_axes(&s.slots)?;
         let names = joint.spec().rows;
@@ -49,7 +50,7 @@ impl Parallel {
         })
     }
 
-    /// Returns whether the axes have the described direction, if the rows of the joint are
+    /// Returns whether the axes have the described direction; the rows of the joint must be
     /// satisfied.
     pub(super) fn is_as_described(&self) -> bool {
         self.angle < 0.5 * PI
@@ -58,14 +59,14 @@ impl Parallel {
 
 type Residuals = (f64, [(f64, [f64; 3]); 3]);
 
-/// Returns the smallest rotation of w to `other`: the components `α/sin α·(u·w', v·w')` of its
+/// For the smallest rotation of w to `other`, returns the components `α/sin α·(u·w', v·w')` of the
 /// rotation vector along v and −u.
 fn swing([u, v, w]: [[f64; 3]; 3], other: [f64; 3]) -> Residuals {
     let (along_u, along_v, cos) = (dot(u, other), dot(v, other), dot(w, other));
     let sin = along_u.hypot(along_v);
     let angle = sin.atan2(cos);
     if sin < SERIES && cos < 0.0 {
-        // Half a revolution, about any perpendicular direction.
+        // If the angle is half a revolution, any perpendicular direction may be the axis.
         let back = u.map(|x| -x);
         return (angle, [(angle, v), (0.0, back), (0.0, [0.0; 3])]);
     }
@@ -85,8 +86,8 @@ fn swing([u, v, w]: [[f64; 3]; 3], other: [f64; 3]) -> Residuals {
     (angle, [row(along_u, u), row(along_v, v), (0.0, [0.0; 3])])
 }
 
-/// Returns the components along v, −u and w of the vector θ of the rotation of the axes to `other`.
-/// With ω in these axes, `θ̇ = ω − ½·θ×ω + β·θ×(θ×ω)`, `β = (1 − ½θ·cot ½θ)/θ²`.
+/// Returns the components along v, −u and w of the rotation vector θ of the rotation from these
+/// axes to `other`. With ω in these axes, `θ̇ = ω − ½·θ×ω + β·θ×(θ×ω)`, `β = (1 − ½θ·cot ½θ)/θ²`.
 fn whole_rotation(own: [[f64; 3]; 3], other: [[f64; 3]; 3]) -> Residuals {
     let [w, e @ ..] = quaternion(own.map(|a| other.map(|b| dot(a, b))));
     let half = norm(e).atan2(w);
@@ -116,11 +117,11 @@ fn whole_rotation(own: [[f64; 3]; 3], other: [[f64; 3]; 3]) -> Residuals {
     (angle, [v, minus(u), w])
 }
 
-/// Returns the unit quaternion of a rotation matrix, by rows, with w ≥ 0: from its largest
+/// Returns the unit quaternion with w ≥ 0 of a rotation matrix (by rows), computed from the largest
 /// component.
 fn quaternion(r: [[f64; 3]; 3]) -> [f64; 4] {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = r;
-    // Row k is 4·e_k·e.
+    // Row k is 4·e_k·e, where e is the quaternion.
     let rows = [
         [1.0 + xx + yy + zz, zy - yz, xz - zx, yx - xy],
         [zy - yz, 1.0 + xx - yy - zz, xy + yx, xz + zx],
@@ -151,7 +152,7 @@ mod tests {
 
     use super::*;
 
-    /// Step and bound of difference quotients.
+    /// Step and error bound of difference quotients.
     const STEP: f64 = 1e-6;
     const AGREES: f64 = 1e-7;
 
@@ -173,7 +174,7 @@ mod tests {
             })
     }
 
-    /// The rotation vector of nalgebra, and its difference quotients.
+    /// Compares with the rotation vector of `nalgebra`, and with its difference quotients.
     #[test]
     fn a_whole_rotation_is_told_by_its_vector() {
         for (own, turn) in cases() {
@@ -196,8 +197,8 @@ mod tests {
         }
     }
 
-    /// The remaining angle of two axes, compared with difference quotients; a rotation about the
-    /// axis does not count.
+    /// Compares the remaining angle of two axes with difference quotients; a rotation about the
+    /// axis has no effect.
     #[test]
     fn a_swing_is_told_by_the_angle_of_the_axes() {
         for (own, turn) in cases() {
@@ -224,7 +225,7 @@ mod tests {
         }
     }
 
-    /// Neither half a revolution of an axis nor of a body counts as aligned.
+    /// A rotation by half a revolution of an axis or of a body does not count as aligned.
     #[test]
     fn half_a_turn_is_no_zero() {
         let own = Rotation3::from_scaled_axis(Vector3::new(0.3, 0.2, 0.1));

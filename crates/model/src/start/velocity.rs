@@ -1,16 +1,17 @@
-//! Velocities of a start. Given velocities are used, and the others follow from these and from
-//! prescribed motions, with the least kinetic energy.
+//! Initial velocities. The other velocities are computed from the given ones and from prescribed
+//! motions, with the smallest kinetic energy.
 //!
-//! Given velocities may be rounded to some digits. If they are impossible, the closest ones in the
-//! mass metric are used, and the others follow from these. If the closest ones differ from the
-//! given ones by more than the allowed correction, the error names the wrong velocities. Velocities
-//! held by `keep` are not changed.
+//! Given velocities may be rounded to a few digits. If they are impossible, they are replaced by
+//! the closest possible ones in the mass metric. If these differ from the given velocities by more
+//! than the permitted correction, the error names the wrong velocities. Velocities in `keep` do not
+//! change.
 //!
-//! Residuals are compared with the rounding of their own terms, and velocities at rest with the
-//! rounding of positions. They are not compared with a solution, because it may be zero.
+//! Residuals are compared with the rounding errors of their own terms, and velocities at rest with
+//! the rounding errors of positions. They are not compared with a solution, because the solution
+//! may be zero.
 //!
-//! A single least-squares problem for all velocities was rejected: a crank with a given rate of 10
-//! rad/s slowed down because of the bodies attached to it.
+//! We rejected a single least-squares problem for all velocities: a crank with a given rate of 10
+//! rad/s slowed down because of the bodies connected to it.
 
 use linalg::Matrix;
 
@@ -26,39 +27,40 @@ use crate::mechanism::Mechanism;
 pub struct StartVelocity {
     /// The velocities.
     pub v: Vec<f64>,
-    /// The velocities minus the given ones; zero for those that are not given.
+    /// The velocities minus the given ones; zero for velocities that are not given.
     pub correction: Vec<f64>,
 }
 
-/// Whether a velocity is free or held.
+/// Whether a velocity is computed, given or kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Hold {
-    /// The velocity follows from the others.
+    /// The velocity is computed from the others.
     No,
-    /// The velocity is given, to its digits.
+    /// The velocity is given, and its accuracy is that of its digits.
     Given,
-    /// The velocity is given and exact.
+    /// The velocity is given as an exact value.
     Kept,
 }
 
 /// Number of corrections of given velocities. Each correction after the first removes the rounding
-/// of the previous one.
+/// error of the previous one.
 const PASSES: usize = 5;
 
-/// In large sets, the weight of dependent velocities relative to given ones. It is so small that it
-/// has no effect.
+/// In large sets, the weight of dependent velocities relative to that of given velocities. This
+/// weight is so small that it has no effect on the result.
 const CHEAP: f64 = 1e-6;
 
-/// Entries of a sum of rows below this fraction of its terms are rounding.
+/// Entries of a sum of rows count as rounding if they are below this fraction of the terms of the
+/// sum.
 const CANCELLED: f64 = 1e-12;
 
-/// Returns velocities that satisfy `C·v = b` in the kept rows at an assembled configuration. Given
-/// velocities are used, and the others follow with the least kinetic energy, `M·v = Cᵀ·μ`.
-/// Velocities without mass or inertia have the weight of the smallest one with mass or inertia.
+/// Returns velocities that satisfy `C·v = b` in the rows `kept` at an assembled configuration.
+/// Given velocities are used, and the others have the smallest kinetic energy, `M·v = Cᵀ·μ`.
+/// Velocities without mass or inertia have the weight of the smallest mass or inertia.
 ///
-/// Given velocities that are compatible to rounding do not change. Others are corrected by the
-/// least amount in the mass metric. Those that `options` keep, which need not be given, are held
-/// exactly.
+/// Given velocities that are compatible up to rounding do not change. Otherwise, they are corrected
+/// by the smallest change in the mass metric. Velocities that `options` keep do not change; they
+/// need not be given.
 ///
 /// ```
 /// use joints::Revolute;
@@ -81,8 +83,8 @@ const CANCELLED: f64 = 1e-12;
 /// # Errors
 /// - [`StartError::Velocities`]: the given velocities are impossible, or need a larger correction
 ///   than `options` allow.
-/// - [`StartError::NoVelocity`]: the rows allow no velocities.
-/// - [`StartError::NoCoordinate`]: a velocity that `options` keep does not exist.
+/// - [`StartError::NoVelocity`]: the rows do not permit any velocities.
+/// - [`StartError::NoCoordinate`]: `options` refer to a velocity that does not exist.
 pub fn consistent_velocity(
     mechanism: &Mechanism,
     options: &StartOptions,
@@ -93,7 +95,7 @@ pub fn consistent_velocity(
     let mut start = Start::new(mechanism, options, q, given)?;
     let mut v = start.written.clone();
     let mut conflicts: Vec<VelocityConflict> = Vec::new();
-    // A consistent start needs no matrix.
+    // If the velocities are already consistent, no matrix is necessary.
     if start.misses(kept, &v) {
         start.equations.learn();
         for rows in start.equations.sets(kept, |_| true) {
@@ -120,16 +122,16 @@ pub fn consistent_velocity(
     })
 }
 
-/// Requirements on the velocities of a start.
+/// Requirements for the initial velocities.
 pub(super) struct Start<'m> {
     pub(super) equations: Equations<'m>,
-    /// Given velocities in the variables of the equations; zero if not given.
+    /// Given velocities in the variables of the equations; zero for velocities that are not given.
     pub(super) written: Vec<f64>,
-    /// Whether each is given in the scene.
+    /// For each velocity, whether the scene gives it.
     pub(super) is_written: Vec<bool>,
     pub(super) hold: Vec<Hold>,
     pub(super) limit: CorrectionLimit,
-    /// The fastest rate of the given velocities (1/s).
+    /// The largest rate of the given velocities (1/s).
     fastest: f64,
 }
 
@@ -138,7 +140,7 @@ pub(super) struct Start<'m> {
 pub(super) enum Miss {
     /// The closest velocities are too far from the given ones.
     Far,
-    /// There are no velocities; this row has the largest residual.
+    /// The rows do not permit any velocities; this row has the largest residual.
     Open(usize),
 }
 
@@ -167,18 +169,18 @@ impl<'m> Start<'m> {
         })
     }
 
-    /// Returns whether one of these rows has a residual larger than rounding.
+    /// Returns whether one of these rows has a residual that is larger than rounding.
     fn misses(&self, rows: &[usize], v: &[f64]) -> bool {
         let of = &self.equations;
         rows.iter()
             .any(|&i| exceeds(of.residual(i, v).abs(), of.rounding(i, v)))
     }
 
-    /// Finds the velocities of some rows, which include all rows that have a velocity in common
-    /// with them. Returns the reason if there are no acceptable velocities.
+    /// Computes the velocities for some rows; the rows must include all rows that have a velocity
+    /// in common with them. Returns the reason if there are no acceptable velocities.
     ///
     /// # Errors
-    /// Returns an error if a number is not finite.
+    /// Returns an error if a value is not finite.
     pub(super) fn solve(
         &self,
         rows: &[usize],
@@ -214,8 +216,8 @@ impl<'m> Start<'m> {
             }
             dependent.follow(of, v)?;
         }
-        // A velocity given as zero to rounding is set to zero: the iteration for a locked part
-        // would reduce it without end.
+        // A velocity that is given as zero up to rounding is set to zero. Otherwise, the iteration
+        // for a locked part would reduce it in every step without an end.
         let is_still = |&j: &usize| v[j].abs().max(self.written[j].abs()) <= of.rest_of(j);
         if columns.iter().all(is_still) && rows.iter().all(|&i| of.s.b[i] == 0.0) {
             for &j in columns.iter().filter(|&&j| hold[j] != Hold::Kept) {
@@ -227,7 +229,8 @@ impl<'m> Start<'m> {
             .or_else(|| self.far(&columns, hold, limit, v)))
     }
 
-    /// Adds the shortest correction of given velocities that makes the sums over circuits vanish.
+    /// Adds the smallest correction of the given velocities for which the sums over circuits become
+    /// zero.
     fn correct(
         &self,
         dependent: &DependentVelocities,
@@ -246,7 +249,7 @@ impl<'m> Start<'m> {
                     .sum::<f64>()
             };
             let largest = (0..given.len()).map(terms).fold(0.0, f64::max);
-            // Rows that involve only kept velocities: no given velocity can correct them.
+            // These rows contain only kept velocities, so given velocities cannot correct them.
             if sum.iter().all(|x| x.abs() <= CANCELLED * largest) {
                 continue;
             }
@@ -265,8 +268,8 @@ impl<'m> Start<'m> {
         Ok(())
     }
 
-    /// Works like [`Self::correct`], for many rows: the other velocities move with the given ones
-    /// at almost no weight.
+    /// Works like [`Self::correct`], for many rows: the other velocities are variables with almost
+    /// zero weight.
     fn correct_many(&self, rows: &[usize], hold: &[Hold], v: &mut [f64]) -> Result<(), StartError> {
         let of = &self.equations;
         let mut columns = of.columns(rows);
@@ -284,12 +287,13 @@ impl<'m> Start<'m> {
         Ok(())
     }
 
-    /// Returns the row with the largest residual above rounding and rest.
+    /// Returns the row with the largest residual, if it exceeds the limits for rounding and rest.
     fn open(&self, rows: &[usize], columns: &[usize], v: &[f64]) -> Option<Miss> {
         let of = &self.equations;
-        // All velocities computed together are accurate to the rounding of the fastest.
+        // Velocities that are computed together are accurate to the rounding error of the largest
+        // one.
         let rate = of.fastest(columns.iter().copied(), v);
-        // The rounding may be slightly larger than that of the terms of one row.
+        // The rounding error may be slightly larger than that of the terms of one row.
         let excess = |i: usize| {
             of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.slack(i, rate))
         };
@@ -318,9 +322,9 @@ impl<'m> Start<'m> {
             .then_some(Miss::Far)
     }
 
-    /// Returns the largest permitted correction of a given velocity: a thousandth of the fastest
-    /// velocity with common rows, with rotations times the size of the mechanism, plus the limit of
-    /// rest relative to the fastest of all velocities.
+    /// Returns the largest permitted correction of a given velocity. It is a thousandth of the
+    /// largest velocity with common rows, plus the limit of rest for the largest of all velocities.
+    /// Rotations are multiplied by the size of the mechanism.
     pub(super) fn allowed(&self, j: usize, columns: &[usize], hold: &[Hold], v: &[f64]) -> f64 {
         let of = &self.equations;
         if hold[j] == Hold::Kept {

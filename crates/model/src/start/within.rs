@@ -1,9 +1,9 @@
-//! Starts of mechanisms with a stated tolerance: rows may have residuals that the data explain, and
-//! no body is moved far to remove such a residual.
+//! Initial configurations of mechanisms with stated tolerances. Rows may have residuals that the
+//! data explain, and no body is moved far to remove these residuals.
 //!
-//! Two sliders on one line that differ by a rounding coincide if one of them is rotated by the
-//! square root of the rounding, or is far away. Such a configuration satisfies all rows but is not
-//! the intended one.
+//! Suppose that two sliders on one line differ by a rounding error. They coincide if one of them is
+//! rotated by the square root of this error, or if it is far away. This configuration satisfies all
+//! rows, but it is not the intended one.
 
 use linalg::{Matrix, small_svd};
 
@@ -15,24 +15,26 @@ use crate::rounding::ROUNDING;
 use crate::size::size_of;
 use crate::system::{Scratch, System};
 
-/// If data within the tolerance move a body by more than this many tolerances, they do not
-/// determine its position, and residuals along that motion are not removed. Lever arms are
-/// determined by two points, so this must not exceed two by much: with ten, arms of 0.7 mm caused
-/// by polishing were reported as non-zero within 0.1 mm.
+/// If a change of the data within the tolerance moves a body by more than this multiple of the
+/// tolerance, the data do not determine the position of the body. Residuals along this motion are
+/// not removed. A lever arm is determined by two points, so this limit must not be much larger than
+/// two. With ten, for a tolerance of 0.1 mm, arms of 0.7 mm that only the refinement of the
+/// configuration had caused were reported as nonzero.
 const AMPLIFIED: f64 = 3.0;
 
-/// Largest number of rows for which such directions are searched for: the work grows with the cube.
+/// Largest number of rows for which these directions are computed; the computing time is
+/// proportional to the cube of the number.
 const ROWS: usize = 200;
 
 /// Largest number of iterations. Except along the omitted directions, each iteration doubles the
 /// number of correct digits.
 const ITERATIONS: usize = 20;
 
-/// A step below this fraction of the tolerance counts as zero.
+/// A step is negligible below this fraction of the tolerance.
 const STILL: f64 = 1e-6;
 
-/// Returns the largest tolerance of lengths and of angles. The wrong data are not known, so the
-/// largest tolerance counts.
+/// Returns the largest tolerance of lengths and of angles. It is not known which data are wrong, so
+/// the largest tolerance is used.
 fn largest(blocks: &[DataBlock]) -> [f64; 2] {
     [DataUnit::Length, DataUnit::Angle].map(|unit| {
         let of_unit = blocks.iter().filter(|b| b.unit == unit);
@@ -40,7 +42,7 @@ fn largest(blocks: &[DataBlock]) -> [f64; 2] {
     })
 }
 
-/// Returns the effect of data within the tolerance on each of these rows.
+/// Returns for each of these rows the largest change that data within the tolerance can cause.
 fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
     let blocks = mechanism.data().blocks(s);
     let [length, angle] = largest(&blocks);
@@ -68,8 +70,9 @@ pub(super) fn is_within(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> b
     each.all(|(&row, reach)| s.phi[row].abs() <= SHARED * reach)
 }
 
-/// Returns the displacement of a body along each column of C by one tolerance: lengths, and angles
-/// that move a point at the size of the mechanism by as much.
+/// Returns the displacement of a body along each column of C that corresponds to one tolerance: the
+/// tolerance for translations, and for rotations the angle that moves a point at the distance of
+/// the size by this tolerance.
 fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     let [length, angle] = largest(&mechanism.data().blocks(s));
     let length = match length {
@@ -93,7 +96,7 @@ fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
     shares.fold(0.0, f64::max)
 }
 
-/// Returns whether a tolerance is stated, and these coordinates are farther apart than the
+/// Returns whether a tolerance is stated and the distance of these coordinates exceeds the
 /// uncertainty of the positions.
 pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[f64]) -> bool {
     mechanism.has_tolerances()
@@ -105,9 +108,9 @@ pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[
         ) > AMPLIFIED
 }
 
-/// Returns the intended configuration, given that `found` satisfies the rows as well as possible.
-/// It is `found`, unless `found` is farther than the uncertainty of positions from a configuration
-/// whose residuals the data explain completely.
+/// Returns the intended configuration; `found` is the configuration that satisfies the rows as well
+/// as possible. The result is `found`, unless another configuration exists whose residuals the data
+/// explain completely and whose distance from `found` exceeds the uncertainty of positions.
 pub(super) fn within_data(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -134,10 +137,10 @@ pub(super) fn within_data(
     }
 }
 
-/// Returns the closest configuration, in the mass metric, that satisfies the rows in the directions
-/// in which the data determine the positions. Singular directions along which one tolerance moves a
-/// body by many tolerances are omitted. Returns `None` if a row has a larger residual than the data
-/// explain.
+/// Returns the closest configuration in the mass metric that satisfies the rows, but only along the
+/// directions in which the data determine the positions. A singular direction is omitted if one
+/// tolerance moves a body along it by many tolerances. Returns `None` if a row has a larger
+/// residual than the data explain.
 fn truncated(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -204,10 +207,10 @@ mod tests {
     use crate::start::{CorrectionLimit, assemble};
     use crate::{Body, BodyRef, Description, Joint, Mechanism, StartOptions, Tolerance};
 
-    /// Returns a body with a point that slides on the x-axis. The origin of the ground slides in a
-    /// slot of the body, which is displaced by 0.1 µm from that point. The equations are `y = 0`
-    /// and `x·sin θ + 1e-7·cos θ = 0`. Both hold only if the body is rotated or shifted by the
-    /// square root of 0.1 µm.
+    /// Assembles a body with a point that slides on the x-axis. The origin of the ground slides in
+    /// a slot of the body; the slot is displaced from this point by 0.1 µm. The equations are
+    /// `y = 0` and `x·sin θ + 1e-7·cos θ = 0`. Both equations are satisfied only if the body is
+    /// rotated or displaced by the square root of 0.1 µm.
     fn assembled(tolerance: f64) -> Vec<f64> {
         let slot = |name: &str, bodies: [BodyRef; 2], x: f64, y: f64| {
             let slot = PinInSlot {

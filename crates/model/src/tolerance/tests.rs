@@ -1,4 +1,4 @@
-//! Precedence of stated tolerances, and invalid tolerances.
+//! Tests which stated tolerance takes precedence, and tests invalid tolerances.
 
 use joints::{Direction, Gear, KnifeEdge, Line, PointOnLine, Revolute, RevoluteAngleDrive};
 
@@ -6,8 +6,8 @@ use super::*;
 use crate::description::Description;
 use crate::{Body, BodyRef, DataBlock, Function, Mechanism, System};
 
-/// The distance between the bodies (m). All joints are inside, so this is the size of the
-/// mechanism.
+/// The distance between the bodies (m). All joints are between the bodies, so this is the size of
+/// the mechanism.
 const SIZE: f64 = 4.0;
 
 fn body(name: &str, x: f64) -> Body {
@@ -17,7 +17,7 @@ fn body(name: &str, x: f64) -> Body {
     }
 }
 
-/// A pin with a motor between two bodies, a gear, and on the second body a roller on a line of the
+/// A pin with a motor between two bodies and a gear; the second body has a roller on a line of the
 /// ground and a knife edge.
 fn description() -> Description {
     let mut d = Description::new("stated");
@@ -50,8 +50,8 @@ fn blocks(mechanism: &Mechanism) -> Vec<DataBlock> {
     mechanism.data().blocks(&s)
 }
 
-/// Tolerances of the data of a joint or drive, in their order: for a line its point, then its
-/// direction.
+/// Returns the tolerances of the data of a joint or drive, in the order of the data: for a line
+/// first the point, then the direction.
 fn stated(mechanism: &Mechanism, joint: &str) -> Vec<Option<f64>> {
     let groups = &mechanism.layout().groups;
     let own = blocks(mechanism).into_iter();
@@ -82,13 +82,13 @@ fn a_joint_goes_before_a_body_and_a_body_before_the_scene() {
     let whole = built(&d);
     assert_eq!(stated(&whole, "pin"), [scene; 2]);
     assert_eq!(stated(&whole, "roller"), [scene, scene, scene_angle]);
-    // A ratio counts as an angle.
+    // A ratio has the tolerance of an angle.
     assert_eq!(stated(&whole, "mesh"), [scene_angle; 2]);
     assert_eq!(stated(&whole, "edge"), [scene, scene_angle]);
     assert_eq!(stated(&whole, "motor"), [scene, scene, scene_angle]);
 
-    // The tolerance applies to points and directions in the frame of the body, but not to numbers
-    // or to the line of the ground.
+    // The tolerance applies to points and directions in the body frame, but not to scalars or to
+    // the line of the ground.
     d.bodies[1].tolerance = Some(2e-4);
     let (body, body_angle) = (Some(2e-4), Some(2e-4 / SIZE));
     let measured = built(&d);
@@ -164,7 +164,7 @@ fn parts_have_the_tolerances_of_the_whole() {
             );
         }
     }
-    // Only the knife edge, with its body.
+    // The part consists of the knife edge and its body.
     let edge = whole.part_of_groups(&groups[4..]).mechanism;
     assert_eq!(stated(&edge, "edge"), [Some(2e-4), Some(1e-6)]);
 }

@@ -1,4 +1,4 @@
-//! Options of the command line about the numbers of a scene: other values, and their accuracy.
+//! Options of the command line that change values of a scene, or the accuracy of its data.
 
 use std::str::FromStr;
 

@@ -22,7 +22,7 @@ fn words(name: &str, more: &[&str]) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// Chebyshev's linkage on an exact line has one freedom of first order, and cannot move.
+/// Chebyshev's linkage on an exact line has one degree of freedom to first order, but cannot move.
 #[test]
 fn a_mechanism_locked_at_second_order_is_warned_of() {
     let d = analysis("chebyshev", &[]);
@@ -43,7 +43,7 @@ fn a_mechanism_locked_at_second_order_is_warned_of() {
     assert_eq!(analysis("four-bar", &[])["warnings"], json!([]));
 }
 
-/// A door on two hinges has no freedom; a four-bar can move, and a drive moves a crank.
+/// A door on two hinges has no degree of freedom; a four-bar can move, and a drive moves a crank.
 #[test]
 fn what_cannot_move_is_told_so() {
     for (name, cannot_move) in [
@@ -117,8 +117,8 @@ fn what_a_reaction_leaves_out_is_noted() {
     assert_eq!(analysis("four-bar", &[])["notes"], json!([]));
 }
 
-/// A number as `motion` is accepted, with a note that it keeps the joint coordinate constant; the
-/// syntax that the note recommends is accepted without a note.
+/// A constant as `motion` is accepted, with a note that the drive then keeps the joint coordinate
+/// constant; the syntax that the note recommends is accepted without a note.
 #[test]
 fn a_constant_motion_is_said_to_hold_the_measure() {
     let scene = |motion: &str| {
@@ -235,7 +235,7 @@ fn sums_have_numbers() {
     }
 }
 
-/// A number is shown only if it is the same in every solution, or for a chosen solution.
+/// A value is shown only if it is the same in every solution, or for a chosen solution.
 #[test]
 fn a_sum_that_is_not_unique_has_a_number_by_choice_only() {
     let sum = ["--combine", "out-1.T - out-2.T"];
@@ -418,7 +418,7 @@ fn the_advice_on_velocities_works() {
     }
 }
 
-/// The words are those of other programs for commands and options.
+/// If a user types the word of another program for a command or option, our word is suggested.
 #[test]
 fn what_others_call_it_is_suggested() {
     for (words, expected) in [

@@ -1,5 +1,5 @@
-//! `check`, `analyze` and `simulate` use one decision whether redundant rows are consistent: the
-//! exit codes are the same, and if one command warns, the others do not continue.
+//! `check`, `analyze` and `simulate` use the same decision on whether redundant rows are
+//! consistent. Their exit codes are equal, and if one command warns, the others do not continue.
 
 use super::{Folder, stderr, stdout, with_scene};
 

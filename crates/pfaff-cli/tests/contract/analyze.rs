@@ -201,7 +201,7 @@ fn exactly_the_reactions_that_are_not_unique_are_explained() {
                 .as_array()
                 .is_some_and(|list| !list.is_empty());
             assert_eq!(drawn, open, "{time}: {r:#}");
-            // The numbers confirm the verdicts that follow from the structure.
+            // The values confirm the verdicts that follow from the structure.
             assert!(r["settled"].is_null() || r["verdict"] == "unique", "{r:#}");
         }
     }
@@ -423,7 +423,7 @@ fn a_whole_motion_has_one_verdict_and_exceptions() {
     );
 }
 
-/// Returns the verdicts on a reaction and its components here, and those that hold at nearly all
+/// Returns the verdicts on a reaction and its components here, and the verdicts at nearly all
 /// configurations.
 fn here_and_generic(document: &Value, reaction: &str) -> Vec<(String, Value, Value)> {
     let reactions = document["reactions"].as_array().expect("a list");
@@ -666,7 +666,7 @@ fn help_shows_examples() {
     );
 }
 
-/// Two edges are parallel except for ε: they are independent for the given numbers, and reported as
+/// Two edges are parallel except for ε: they are independent for the given data, and reported as
 /// nearly dependent.
 #[test]
 fn nearly_parallel_edges_are_told() {

@@ -1,5 +1,5 @@
-//! Every invalid input gives one clear message that names the invalid entry and its numbers, and
-//! the correct exit code.
+//! Every invalid input gives one clear message that names the invalid entry and its values, and the
+//! correct exit code.
 
 use super::{Folder, ROBOT, pfaff, stderr, with_scene};
 
@@ -395,7 +395,7 @@ fn negative_numbers_of_the_command_line_are_values() {
     );
 }
 
-/// The pendulum has velocities that its pivot does not allow: the rule is the same as for
+/// The pendulum has velocities that its pivot does not allow. The same rule applies as for
 /// positions. The given velocities are kept, and the others are computed.
 #[test]
 fn velocities_that_contradict_the_constraints_are_refused_by_name() {

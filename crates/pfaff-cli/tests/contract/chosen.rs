@@ -94,7 +94,7 @@ fn each_choice_has_its_table() {
             add(&mut fx, of("Fx"));
             add(&mut fy, of("Fy"));
         }
-        // Together they turn the velocity of the cart: m·a = 5 N towards the centre.
+        // The three forces together turn the velocity of the cart: m·a = 5 N towards the centre.
         for (k, t) in times.iter().enumerate() {
             let angle = 0.5 * t;
             assert!((fx[k] + 5.0 * angle.sin()).abs() < 1e-8, "{file} at {t} s");
@@ -150,7 +150,7 @@ fn each_choice_has_its_table() {
     assert_eq!(names, expected);
 }
 
-/// The numbers of a row equal those of `analyze` at its time.
+/// The values of a row equal the values that `analyze` prints for the time of the row.
 #[test]
 fn rows_of_a_choice_are_those_of_analyze() {
     let folder = Folder::new("chosen-robot");

@@ -1,7 +1,7 @@
-//! Tests couplings in loops: their own force, with its verdict, in every output. The arm hangs from
-//! its pivot at rest, and the seat at its end does not turn. The coupling carries the weight of the
-//! seat at its lever arm of a quarter of a metre, 3 kg · 10 m/s² · 0.25 m. This torque acts on the
-//! arm between them twice, in opposite directions.
+//! Tests couplings in loops. Every output contains the force of the coupling itself, with the
+//! verdict on its uniqueness. The arm hangs from its pivot at rest, and the seat at its end does
+//! not turn. The coupling carries the weight of the seat at its lever arm of a quarter of a metre,
+//! 3 kg · 10 m/s² · 0.25 m. This torque acts on the arm between them twice, in opposite directions.
 
 use serde_json::Value;
 
@@ -71,7 +71,7 @@ fn a_coupling_in_a_loop_has_the_force_along_what_follows() {
     assert_eq!(components(level), [unique("T"), unique("load")]);
     let value = d["groups"][0]["values"][0]["value"].as_f64();
     assert!(value.is_some_and(|x| (x - LOAD).abs() < 1e-12), "{value:?}");
-    // Both are the same number, so they have the same sensitivity to the data.
+    // Both values are equal, so they have the same sensitivity to the data.
     let of = |k: usize| level["components"][k]["sensitivity"].as_f64();
     assert!(
         of(0).is_some_and(|x| x > 0.0) && of(0) == of(1),

@@ -110,7 +110,7 @@ fn an_answer_removes_what_an_earlier_one_has_left() {
     }
 }
 
-/// The matrix of inputs of one mechanism would be next to those of another.
+/// Otherwise the matrix of inputs of one mechanism would be next to matrices of another mechanism.
 #[test]
 fn matrices_in_a_directory_are_of_one_mechanism() {
     let folder = Folder::new("directory-matrices");

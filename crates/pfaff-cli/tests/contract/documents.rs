@@ -217,7 +217,7 @@ fn simulate_writes_the_files_of_the_contract() {
     let choice = &summary["choice"][0];
     assert_eq!(choice["deleted_rows"], serde_json::json!([20, 21]));
     // Up to 1 s the edges are parallel to x, and so are the determined components. The table
-    // contains these numbers and no others, and the choice contains all numbers.
+    // contains only the determined components, and the choice contains all components.
     let b = &summary["reactions"]["B"];
     assert_eq!(b["verdict"], "not_unique");
     let along = &b["components"]["Fx"];

@@ -96,8 +96,8 @@ fn send(signal: &str, child: &Child) {
     assert!(sent.is_ok_and(|status| status.success()));
 }
 
-/// Checks that every row of a table has as many numbers as the header has names; returns the number
-/// of rows and the first number of the last row.
+/// Checks that every row of a table has as many values as the header has names; returns the number
+/// of rows and the first value of the last row.
 fn rows(path: &Path) -> (usize, f64) {
     let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     assert!(
@@ -632,8 +632,8 @@ fn mishaps(name: &str, count: u32) {
     let out = Folder(folder.0.join("out"));
     let short = ["simulate", &scene, "--t-end", "0.5", "--out", out.text()];
     assert_eq!(pfaff(&short).status.code(), Some(0));
-    // The numbers come from Wichmann's multiplicative generator, so that the events are the same
-    // each time.
+    // The random numbers come from Wichmann's multiplicative generator, so that the events are the
+    // same each time.
     let mut seed: u64 = 171;
     for k in 0..count {
         seed = seed * 171 % 30_269;

@@ -1,5 +1,5 @@
-//! The five-minute test of docs/reports/first-minutes: the scene that the page describes, its
-//! numbers by closed forms, and each mistake with the message that the page quotes.
+//! The five-minute test of docs/reports/first-minutes: the results of the scene that the page
+//! describes, compared with closed forms, and each mistake with the message that the page quotes.
 
 use std::fs;
 use std::path::PathBuf;

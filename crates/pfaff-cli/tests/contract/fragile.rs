@@ -402,8 +402,8 @@ fn robots_of_a_fleet_are_as_fragile_as_one() {
 }
 
 /// A weight is between a wall and a slope that is almost as steep: both push with 10/0.0001 N
-/// against each other, and together they carry the weight. A sum of ill-determined numbers may be
-/// ill-determined, or not.
+/// against each other, and together they carry the weight. A sum of ill-determined components may
+/// be ill-determined, or not.
 const WEDGED: &str = r#"
 scene = { name = "wedged", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "weight", mass = 1.0, inertia = 1.0 }]

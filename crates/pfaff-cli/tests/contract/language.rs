@@ -79,7 +79,7 @@ t_end = "500 ms"
 output_step = 0.05
 "#;
 
-/// The same numbers in metres and radians: sin ψ = √3/6, cos ψ = √33/6.
+/// The same values in metres and radians: sin ψ = √3/6, cos ψ = √33/6.
 fn in_metres() -> String {
     let (cos, sin) = (0.5, 3_f64.sqrt() / 2.0);
     let (r, l) = (0.1, 0.3);
@@ -172,7 +172,7 @@ fn a_drawing_moves_as_the_same_scene_in_metres() {
     }
 }
 
-/// Every command that reads a scene accepts other numbers for it.
+/// Every command that reads a scene accepts changed values for it.
 #[test]
 fn set_changes_the_scene_of_every_command() {
     let folder = Folder::new("language-commands");
@@ -282,7 +282,7 @@ fn wrong_settings_say_what_there_is() {
     // For a text that is not TOML the message is the same as without settings.
     let said = stderr(&with_scene(&["check", "-", "--set", "L=1"], "[scene"));
     assert!(said.contains("<stdin>"), "{said}");
-    // A scene of format 1 accepts numbers.
+    // A scene of format 1 accepts changed values.
     let old = ["check", "-", "--set", "body.bob.mass=3"];
     assert_eq!(with_scene(&old, PENDULUM).status.code(), Some(0));
     let old = ["check", "-", "--set", "body.bob.mass=3 kg"];

@@ -1,5 +1,5 @@
-//! The results of the library equal the files of the command: one format, key by key and number by
-//! number.
+//! The results of the library equal the files of the command: the format is the same, key by key
+//! and value by value.
 
 use std::ops::ControlFlow;
 

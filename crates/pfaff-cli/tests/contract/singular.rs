@@ -116,8 +116,8 @@ fn edges_that_differ_by_a_rounding_are_judged_and_named() {
     }
 }
 
-/// A slider-crank is at its dead centre: no rate of the slider rotates the crank there. A single
-/// drive cannot contradict another one.
+/// A slider-crank is at its dead centre: no velocity of the slider determines the rate of the crank
+/// there. A single drive cannot contradict another one.
 #[test]
 fn a_drive_at_a_dead_centre_is_told_that_the_configuration_is_singular() {
     let scene = |motion: &str| {

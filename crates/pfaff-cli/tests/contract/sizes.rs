@@ -12,8 +12,8 @@ fn document(arguments: &[&str], scene: &str) -> Value {
     serde_json::from_slice(&output.stdout).expect("a document")
 }
 
-/// Eighty parallelograms in a row, two of three with a third crank: each is a part, and the results
-/// equal those for one of them alone.
+/// Eighty parallelograms in a row, two of three with a third crank. Each parallelogram is a
+/// separate part, and the results equal the results for one parallelogram alone.
 #[test]
 fn options_answer_by_parts() {
     let scene = super::generated(Kind::Parallelograms, 80);
@@ -55,8 +55,8 @@ fn options_answer_by_parts() {
         let row = &way["rows"][0];
         assert!(!own.as_array().expect("a list").contains(row), "{row}");
     }
-    // There are twelve for each of more than fifty cells: more sets than can be counted, and the
-    // first sets differ in the last cell.
+    // There are twelve sets for each of more than fifty cells, so there are more combinations than
+    // can be counted, and the first sets differ in the last cell.
     let eliminations = &asked["eliminations"];
     assert!(
         eliminations["reason"]
@@ -153,7 +153,8 @@ fn what_is_asked_of_all_parts_is_told_of_all() {
     );
     let label = chosen["choices"][0]["label"].as_str().expect("a label");
     assert!(label.ends_with(&format!("and {} more", p - 3)), "{label}");
-    // The number equals the degree of redundancy, and all of them are in the first parts.
+    // The number of rows equals the degree of redundancy, but all these rows are in the first
+    // parts.
     let many: Vec<String> = (1..=p).map(|row| row.to_string()).collect();
     for (option, asked, expected) in [
         (

@@ -14,7 +14,7 @@ use serde_json::Value;
 use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
-/// The documented first columns; those of bodies and reactions follow.
+/// The documented first columns; the columns of bodies and reactions follow.
 const COLUMNS: &str = "status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,fragile,seconds,\
 max_position_residual,max_velocity_residual,energy_balance,start_correction,start_velocity_correction,t_state,";
 
@@ -620,7 +620,7 @@ fn wrong_keys_and_changed_sweeps_have_code_2() {
 
 #[test]
 fn runs_are_read_within_the_tolerance_of_the_command() {
-    // A second pivot is 10 µm away from the first one: with exact numbers the bar cannot turn.
+    // A second pivot is 10 µm away from the first one: with exact data the bar cannot turn.
     let bar = r#"
 scene = { name = "bar", space = "plane", gravity = [0.0, -9.81] }
 body = [{ name = "bar", mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }]

@@ -339,8 +339,9 @@ fn hatch(off: f64) -> String {
     )
 }
 
-/// Half a millimetre locks the lid with its described data; within a millimetre it rotates for
-/// every request. The hinges carry its weight minus its acceleration.
+/// With the data given in the scene, the offset of half a millimetre locks the lid. Within a
+/// tolerance of one millimetre, the lid rotates for every command. The hinges carry its weight
+/// minus its acceleration.
 #[test]
 fn what_a_tolerance_has_freed_is_moved_shared_out_and_not_advised_again() {
     let scene = hatch(5e-4);

@@ -237,7 +237,8 @@ joint = [
             );
         }
     }
-    // As described no force acts along z; with a misalignment the share of a cylinder does.
+    // With the data given in the scene, no force acts along z; with a misalignment, a cylinder
+    // takes a share of such a force.
     assert_eq!(value("left", "Fz")["unique"], true);
     let reason = &value("left", "Fz")["reason"];
     assert!(

@@ -34,7 +34,7 @@ pub(crate) use reaction::components;
 pub use reaction::{FreeDirectionDocument, GroupDocument, ReactionDocument, RowDocument};
 
 use super::{FreedomsDocument, from_one};
-use crate::questions::analyze::matrices;
+use crate::questions::analyze::{bounds, matrices};
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -159,6 +159,9 @@ pub struct AnswersDocument {
     /// motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continuation: Option<ContinuationDocument>,
+    /// Assumptions and extent of the bounds, if they were requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<bounds::BoundsDocument>,
     /// The matrices of the constraints.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matrices: Option<matrices::MatricesDocument>,

@@ -4,6 +4,7 @@ pub mod about;
 mod addition;
 mod additions;
 mod along;
+pub mod bounds;
 mod counts;
 mod data;
 mod deletions;

@@ -180,7 +180,7 @@ fn exact_dependency(rows: &[Vec<i128>], circuit: &[usize]) -> Vec<i128> {
     z
 }
 
-/// Too many hyperplanes: the fundamental circuits are returned instead.
+/// If there are too many hyperplanes, the fundamental circuits are returned instead.
 #[test]
 fn a_component_with_too_many_circuits_falls_back() {
     let c = Matrix::from_fn(30, 15, |i, j| ((i * i + 7 * j * j + i * j) as f64).sin());
@@ -192,7 +192,8 @@ fn a_component_with_too_many_circuits_falls_back() {
     assert!(found.iter().all(|c| c.rows.len() == 16));
 }
 
-/// Two vectors with a spread of 1e-3 determine the plane that they span; with 1e-5 they do not.
+/// Two vectors that differ by 1e-3 determine the plane that they span; two that differ by 1e-5 do
+/// not.
 #[test]
 fn vectors_have_to_span_what_a_circuit_vanishes_on() {
     let rows = [[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 2.0], [2.0, 1.0]];

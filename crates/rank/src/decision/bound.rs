@@ -11,7 +11,8 @@ use crate::limits::BOUND_SLACK;
 use linalg::{Matrix, kernels};
 
 /// Returns a lower bound on σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n
-/// matrix `a`. The right inverse X is given by its r columns. The bound is 0 if X proves nothing.
+/// matrix `a`. The right inverse X is given by its r columns. The bound is 0 if no bound follows
+/// from X.
 pub(super) fn smallest_singular_value(a: &Matrix, x: &Matrix, perturbation: f64) -> f64 {
     let (r, n) = (a.nrows(), a.ncols());
     if r == 0 {
@@ -81,7 +82,8 @@ mod tests {
             smallest_singular_value(&Matrix::from_rows(&[[1.0], [1.0]]), 0.0),
             0.0
         );
-        // The rows contain 1/3: they are independent only by the last bit, which f64 cannot prove.
+        // The rows contain 1/3: they differ from dependent rows only in the last bit, so f64 cannot
+        // prove that they are independent.
         let a = Matrix::from_rows(&[[1.0, 1.0 / 3.0], [3.0, 1.0]]);
         assert_eq!(smallest_singular_value(&a, 0.0), 0.0);
     }

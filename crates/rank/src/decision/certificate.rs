@@ -1,7 +1,7 @@
 //! The certificate of a rank: a proof that the rank is at least r, and the reason why it is not
 //! larger.
 
-/// The proof of a rank, in addition to the numbers in [`Evidence`](crate::Evidence).
+/// The proof of a rank, in addition to the values in [`Evidence`](crate::Evidence).
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Certificate {
@@ -20,17 +20,17 @@ pub struct Certificate {
     /// Bound on the distance of the equilibrated matrix from the intended one (Frobenius norm); 0
     /// for exact entries.
     pub spread: f64,
-    /// Bounds on the distance of row i of the dependencies `[−T̃, I]` from that of the intended
-    /// matrix (norm), m values; empty for exact entries.
+    /// Bounds on the error (norm) of each row of the dependencies `[−T̃, I]` with respect to the
+    /// intended matrix, m values; empty for exact entries.
     pub row_noise: Vec<f64>,
-    /// The direction in which the kept rows nearly cancel, if they do.
+    /// The combination of the kept rows that nearly vanishes, if there is one.
     pub nearly_redundant: Option<NearlyRedundant>,
     /// The displacement (m; angles times the size of the mechanism) of the most changed point that
     /// is necessary for a lower rank at this configuration. Present only if the change is small.
     pub lower_rank_here: Option<f64>,
     /// The displacement for one change of the data that lowers the rank at all configurations near
-    /// this one: above this change, a row is redundant. `None` if no such change exists or it is
-    /// not small.
+    /// this one: above this change, a row is redundant. `None` if no such change exists or the
+    /// displacement is not small.
     pub lower_rank_from: Option<f64>,
     /// Whether these two changes are changes of angles only, because a tolerance is stated only for
     /// angles.
@@ -40,10 +40,11 @@ pub struct Certificate {
     pub row_data: Option<Vec<f64>>,
     /// Whether the uncertainty is a tolerance that the scene states.
     pub has_tolerance: bool,
-    /// The angle (rad) by which the force of each row rotates within that tolerance, and the length
-    /// (m) by which it shifts, m values; `None` without a tolerance.
+    /// The angle (rad) by which the force of each row rotates within the stated tolerance, and the
+    /// length (m) by which it shifts, m values; `None` without a tolerance.
     pub row_turn: Option<Vec<[f64; 2]>>,
-    /// Rows for which that tolerance leaves undecided which dependencies contain them, ascending.
+    /// Rows for which it is undecided, within the stated tolerance, which dependencies contain
+    /// them; ascending.
     pub open_rows: Vec<usize>,
 }
 

@@ -1,19 +1,19 @@
-//! Decides whether numbers are zero or nonzero with a clear gap between them. It applies the rule
-//! of rank decisions to single numbers, and to a few rows of a matrix that has already been
-//! equilibrated.
+//! Decides whether values are certainly zero or certainly nonzero. The rule of rank decisions, with
+//! a clear gap between the two cases, is applied to single values, and to a few rows of a matrix
+//! that has already been equilibrated.
 
 use super::{required, tolerance};
 use crate::limits::{CLEARANCE, NOISE_MAX};
 use linalg::{Matrix, singular_values};
 
-/// Result of comparing a number with its noise.
+/// Result of comparing a value with its noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Size {
-    /// The number is at most the noise, and the noise is at most 1e-4.
+    /// The value is at most the noise, and the noise is at most 1e-4.
     Zero,
-    /// The number is between the two limits: undecided.
+    /// The value is between the two limits: undecided.
     Unclear,
-    /// The number exceeds the noise by the clearance of rank decisions, 10³.
+    /// The value exceeds the noise by the clearance of rank decisions, 10³.
     NonZero,
 }
 
@@ -40,8 +40,8 @@ pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// A number counts only if it exceeds its noise by 10³, and noise above 1e-4 makes no number
-    /// zero.
+    /// A value counts as nonzero only if it exceeds its noise by 10³. If the noise is above 1e-4,
+    /// no value counts as zero.
     #[test]
     fn a_number_counts_a_thousand_times_above_its_noise() {
         assert_eq!(size(1.2e-6, 1e-9), Size::NonZero);

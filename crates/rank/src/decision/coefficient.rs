@@ -1,5 +1,5 @@
-//! Decides whether a coefficient of the dependencies is zero. The tolerance for T, Z and derived
-//! numbers follows from the evidence of the rank.
+//! Decides whether a coefficient of the dependencies is zero. The tolerance for T, Z and values
+//! derived from them follows from the evidence of the rank.
 
 use super::Grounds;
 use super::outcome::RankDecision;
@@ -26,7 +26,7 @@ pub enum CoefficientReading {
 }
 
 impl CoefficientReading {
-    /// Classifies a number of this size with the uncertainty `tolerance`.
+    /// Classifies a value of this size with the uncertainty `tolerance`.
     pub(crate) fn of(size: f64, tolerance: f64) -> Self {
         let required = (COEFFICIENT_CLEARANCE * tolerance).max(CERTAIN);
         if size <= tolerance && tolerance <= TOLERANCE_MAX {
@@ -56,8 +56,8 @@ impl RankDecision {
         certificate.is_some_and(|c| c.has_tolerance)
     }
 
-    /// Returns whether rows are redundant only within a stated tolerance: other data within it have
-    /// a higher rank.
+    /// Returns whether rows are redundant only within a stated tolerance: other data within this
+    /// tolerance have a higher rank.
     #[must_use]
     pub fn is_within_tolerance(&self) -> bool {
         let certificate = self.evidence.certificate.as_ref();
@@ -90,7 +90,7 @@ impl RankDecision {
             Some(_) if e.sigma_r < AS_READ => {
                 rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
             }
-            // T is accurate to double-double; the remaining error comes from the data: ‖δT‖ ≤
+            // T is accurate to double-double; the remaining error comes from the data: so ‖δT‖ ≤
             // ‖δC‖·‖[T, I]‖/σ_r. If the rank is valid only for data within their uncertainty,
             // σ_{r+1} remains as a residual.
             Some(certificate) => {
@@ -149,7 +149,7 @@ impl RankDecision {
         }
     }
 
-    /// Returns the rules by which its coefficients are classified.
+    /// Returns the rules by which the coefficients of the decision are classified.
     #[must_use]
     pub fn readings(&self) -> Readings {
         Readings {

@@ -1,7 +1,7 @@
 //! The rank of a matrix whose entries are exact.
 //!
-//! Floating point proposes the rows, and arithmetic modulo primes decides. There is no tolerance,
-//! and the result is always decided.
+//! The rows are proposed in floating point, and the rank is decided by arithmetic modulo primes.
+//! There is no tolerance, and the result is always decided.
 
 use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::RowLevels;
@@ -11,7 +11,7 @@ use crate::limits::{COEFFICIENT_BOUND, EXCHANGE_ROUNDS, NEARLY_REDUNDANT};
 use crate::strong_basis;
 use linalg::{Dd, DdMatrix, Matrix, equilibrate, kernels};
 
-/// Decides the rank of C (m×n) exactly; the entries are dyadic rationals, taken as exact.
+/// Decides the rank of C (m×n) exactly. The entries are dyadic rationals and count as exact.
 ///
 /// A minor that is not zero modulo a prime proves that the rank is at least r. If all larger minors
 /// are zero modulo primes whose product exceeds Hadamard's bound, the rank is not larger. The
@@ -43,8 +43,8 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
     let (m, n) = (c.nrows(), c.ncols());
     let scaling = equilibrate(c);
     let scaled = scaling.apply(c);
-    // Below this limit, the singular values are noise of double-double. There only the primes
-    // decide, and a proposal is not needed.
+    // Below this limit, the singular values are noise of double-double. In this range, only the
+    // arithmetic modulo primes decides, and a proposal is not needed.
     let floor = 16.0 * (m.max(1) as f64) * (n.max(1) as f64) * Dd::EPSILON;
     let graded = RowLevels::new(&DdMatrix::from(&scaled), floor);
 
@@ -136,7 +136,8 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
     Ok(decision)
 }
 
-/// Returns the largest `‖row of C_D − T·C_K‖₂`, which here contains only the rounding of T.
+/// Returns the largest `‖row of C_D − T·C_K‖₂`. In an exact decision this norm contains only the
+/// rounding of T.
 fn largest_residual(c: &Matrix, kept: &[usize], dropped: &[usize], t: &Matrix) -> f64 {
     let mut largest = 0.0_f64;
     for (j, &row) in dropped.iter().enumerate() {

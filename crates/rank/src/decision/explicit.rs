@@ -43,7 +43,8 @@ pub enum KeptRowsError {
         /// The row.
         row: usize,
     },
-    /// The kept rows depend on each other, so at least one of the dropped rows is needed.
+    /// The rows that are not dropped depend on each other, so at least one of the dropped rows is
+    /// needed.
     #[error(
         "the kept rows are dependent: smallest singular value {smallest_singular_value:.3e}, need \
          {required:.3e}; a row in no dependency must not be dropped"

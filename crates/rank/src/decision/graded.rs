@@ -15,7 +15,7 @@ use linalg::{Dd, DdMatrix, Matrix, PivotedQr, RowBasis, kernels, powers, singula
 
 /// The rows of one level.
 struct Level {
-    /// Independent rows, numbered in the whole matrix.
+    /// Independent rows, as indices into the whole matrix.
     kept: Vec<usize>,
     /// S of these rows times 2^exponent (of size one), and its factors.
     rows: Matrix,
@@ -23,7 +23,7 @@ struct Level {
     exponent: i32,
     /// `(A⁺)ᵀ` of the rows A of all levels up to this one, each of size one.
     inverse: Matrix,
-    /// Coefficients in S of all rows that remained when the level began, and the numbers of these
+    /// Coefficients in S of all rows that remained when the level began, and the indices of these
     /// rows: row `left[j]` of C is `coefficients_j·C_before` + `S_j`.
     coefficients: DdMatrix,
     before: Vec<usize>,
@@ -204,8 +204,8 @@ impl RowLevels {
         Some(inverse)
     }
 
-    /// Returns a proved lower bound for each level: on σ_r of C, where r is the number of rows kept
-    /// up to this level.
+    /// Returns for each level the number r of rows kept up to this level, and a proved lower bound
+    /// on σ_r of C.
     pub(super) fn bounds(&self) -> Vec<(usize, f64)> {
         let (mut count, mut perturbation, mut smallest) = (0, 0.0_f64, f64::INFINITY);
         let mut found = Vec::new();
@@ -227,8 +227,8 @@ impl RowLevels {
     /// the left null space, which the caller removes.
     pub(super) fn smallest_direction(&self) -> Option<Vec<f64>> {
         let level = self.levels.last()?;
-        // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; practically any start has a component along
-        // the smallest direction.
+        // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; practically any initial vector has a
+        // component along the smallest direction.
         let qr = &level.factored;
         let mut y: Vec<f64> = (0..level.kept.len())
             .map(|i| 1.0 + i as f64 / 7.0)

@@ -1,5 +1,5 @@
-//! Dependencies of rows without rounding: elimination modulo a prime, and reconstruction of the
-//! numbers from many primes.
+//! Dependencies of rows without rounding. The rows are eliminated modulo many primes, and the
+//! coefficients are reconstructed from their residues.
 //!
 //! The matrix is scaled by powers of two to integers A (exact). For a row basis K with pivot
 //! columns J every coefficient of `A_D = T·A_K` is a quotient of minors of order r,
@@ -114,7 +114,7 @@ fn signed(field: PrimeField, mantissa: i64, power: Residue) -> Residue {
     if mantissa < 0 { field.negative(x) } else { x }
 }
 
-/// Returns the number `x·2^e` modulo a prime.
+/// Returns the value `x·2^e` modulo a prime.
 fn dyadic(field: PrimeField, x: f64, e: i32) -> Residue {
     let (mantissa, e_x) = odd_mantissa(x);
     let e = e + e_x;
@@ -285,12 +285,12 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
     }
 }
 
-/// Signed integers as mixed radix digits, `d_0 + d_1·p_0 + d_2·p_0·p_1 + …`, extended prime by
-/// prime.
+/// Signed integers stored by mixed radix digits, `d_0 + d_1·p_0 + d_2·p_0·p_1 + …`, extended prime
+/// by prime.
 #[derive(Default)]
 struct MixedRadix {
     fields: Vec<PrimeField>,
-    /// Digits of all numbers, prime by prime.
+    /// Digits of all integers, prime by prime.
     digits: Vec<Vec<u64>>,
 }
 
@@ -306,7 +306,7 @@ impl MixedRadix {
         u64::from(PRIME_BITS) * self.fields.len() as u64
     }
 
-    /// Adds the residues of all numbers modulo another prime.
+    /// Adds the residues of all integers modulo another prime.
     fn extend(&mut self, field: PrimeField, residues: &[Residue]) {
         let mut product = field.integer(1);
         let mut products = Vec::with_capacity(self.fields.len());
@@ -341,8 +341,8 @@ impl MixedRadix {
         self.digits.push(digits);
     }
 
-    /// Returns number `l`, rounded; its absolute value is below a quarter of the product of the
-    /// primes.
+    /// Returns integer `l`, rounded to `f64`; its absolute value is below a quarter of the product
+    /// of the primes.
     fn number(&self, l: usize) -> Number {
         let (Some(last), Some(p_last)) = (self.digits.last(), self.fields.last()) else {
             return Number {
@@ -350,8 +350,8 @@ impl MixedRadix {
                 exponent: 0,
             };
         };
-        // A number in the upper half of the product P represents x − P; P − 1 − x has the
-        // complementary digits.
+        // If x is above half of the product P, it represents x − P. P − 1 − x has the complementary
+        // digits.
         let negative = last[l] > p_last.p() / 2;
         let (mut mantissa, mut exponent) = (0.0_f64, 0_i64);
         for (digits, field) in self.digits.iter().zip(&self.fields).rev() {
@@ -375,8 +375,8 @@ impl MixedRadix {
     }
 }
 
-/// The left null space of a matrix modulo a few primes. It tests without a tolerance whether a
-/// combination of rows vanishes on this space.
+/// The left null space of a matrix modulo a few primes. It is used to test without a tolerance
+/// whether a combination of rows vanishes on this space.
 ///
 /// "Not zero" is proved. "Zero" is wrong with probability below 2⁻¹³⁰ for data that were not
 /// constructed against the primes.

@@ -1,5 +1,5 @@
-//! Results of a rank decision: the rank, the rows to keep, the numbers that justify them, and the
-//! reasons why a rank is undecided or cannot be decided.
+//! Results of a rank decision: the rank, the rows to keep, the evidence for them, and the reasons
+//! why a rank is undecided or cannot be decided.
 
 use super::certificate::{Certificate, NearlyRedundant};
 use linalg::{Matrix, Scaling, powers::scale};
@@ -21,13 +21,13 @@ pub struct RankDecision {
     pub coefficients: Matrix,
     /// The scaling under which the rank was decided.
     pub scaling: Scaling,
-    /// The numbers that justify the decision.
+    /// The singular values and errors that justify the decision.
     pub evidence: Evidence,
     /// Whether the rank is decided, or otherwise the reason.
     pub status: RankStatus,
 }
 
-/// The numbers that justify a rank decision; all of them refer to the equilibrated matrix.
+/// The values that justify a rank decision; all of them refer to the equilibrated matrix.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Evidence {
@@ -62,7 +62,7 @@ pub enum RankStatus {
     Undecided(Doubt),
 }
 
-/// Reason why a rank is undecided, with the numbers.
+/// Reason why a rank is undecided, with the relevant values.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -112,7 +112,7 @@ pub enum Doubt {
         upper: usize,
         /// The singular value that would vanish.
         sigma: f64,
-        /// Largest change of a datum, as a fraction of its rounding.
+        /// Largest change of one datum, as a fraction of its rounding error.
         share: f64,
     },
     /// The rank depends on the exact values of the data within the tolerance.
@@ -232,9 +232,9 @@ impl RankDecision {
         self.status == RankStatus::Decided
     }
 
-    /// Returns the warning for a decided rank with σ_r below 1e-3. The rank is r and the verdicts
-    /// are valid for the stored data, but reactions are of size 1/σ_r. The warning exists only for
-    /// certified ranks.
+    /// Returns the warning for a decided rank with σ_r below 1e-3. The rank and the verdicts on
+    /// reactions are valid for the stored data, but unit loads cause reactions of size 1/σ_r. The
+    /// warning is `None` for ranks without a certificate.
     #[must_use]
     pub fn nearly_redundant(&self) -> Option<&NearlyRedundant> {
         self.evidence

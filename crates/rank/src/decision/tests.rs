@@ -9,7 +9,7 @@ use super::*;
 use crate::components;
 use crate::limits::{CLEARANCE, COEFFICIENT_BOUND};
 
-/// SplitMix64 (Steele, Lea, Flood 2014): a seeded stream of test numbers.
+/// SplitMix64 (Steele, Lea, Flood 2014), a seeded stream of pseudo-random values.
 pub(super) struct Numbers(pub(super) u64);
 
 impl Numbers {
@@ -20,7 +20,7 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
-    /// A number in [−1, 1).
+    /// A value in [−1, 1).
     pub(super) fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
@@ -131,7 +131,8 @@ fn parallel_cranks_lose_another_rank_when_flat() {
             "θ = {theta}"
         );
     }
-    // At a small angle σ₁₁ is proportional to it: undecided between the readings, never wrong.
+    // For a small angle, σ₁₁ is proportional to the angle. Between the clear cases the rank is
+    // undecided, but never wrong.
     let near = decide(&parallel_cranks(1.0, 1e-13), crate::Accuracy::Rounding).unwrap();
     assert!(
         matches!(
@@ -301,7 +302,7 @@ fn residual_sets_the_tolerance() {
     ));
 }
 
-/// Noise above a hundredth hides singular values above √eps; below, it hides only rounding.
+/// Noise above a hundredth hides singular values above √eps; smaller noise hides only rounding.
 #[test]
 fn coarse_data_hide_what_is_no_rounding() {
     for (sigma, tolerance, is_hidden) in [

@@ -1,5 +1,5 @@
-//! The rank of a matrix that comes from a model: entries in double-double, data with an
-//! uncertainty.
+//! The rank of the matrix of a model. The entries are computed in double-double, and the data have
+//! an uncertainty.
 //!
 //! If the precision is doubled, a singular value that is exactly zero decreases from 1e-16 to
 //! 1e-32. A small nonzero value does not change. Such a value is compared with the uncertainty of
@@ -138,7 +138,7 @@ pub struct RankReading {
 
 /// Chooses kept rows and computes dependencies and double-double evidence for a rank that was
 /// decided from data with the given uncertainty (m×n, in the units of C). Returns `None` if
-/// double-double shows another rank, because the reading then belongs to another matrix.
+/// double-double shows another rank, because the rank then belongs to another matrix.
 ///
 /// # Errors
 /// Same errors as [`certify_within`].

@@ -1,5 +1,5 @@
-//! The number of admissible deletions, by deletion and contraction on classes of rows that can
-//! replace each other, component by component.
+//! Counts admissible deletions, component by component, by deletion and contraction on classes of
+//! rows that can replace each other.
 
 use super::{DeletionError, duals};
 use crate::RankDecision;
@@ -9,9 +9,9 @@ use crate::limits::COUNT_STEPS;
 /// Returns the number of admissible sets of p rows, as a product over all components (coupled
 /// rows).
 ///
-/// Within a component the number is exact: `b = w·b(contracted) + b(deleted)` for a class of w
-/// parallel vectors, with closed forms for redundancy 1 (the number of rows) and 2 (pairs of rows
-/// of different classes).
+/// The number of sets in a component is computed exactly: `b = w·b(contracted) + b(deleted)` for a
+/// class of w parallel vectors, with closed forms for redundancy 1 (the number of rows) and 2
+/// (pairs of rows of different classes).
 ///
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.

@@ -46,8 +46,8 @@ pub struct Substitutes {
 /// | `candidates` | – | rows that are deleted together; candidates that share a row with the target, or cannot be deleted, are skipped |
 /// | `admits` | – | called with all rows of a set, ascending; `false` rejects the set. If a set is rejected, all larger sets that contain it should be rejected as well |
 ///
-/// A set D is a solution iff its rows of Z are independent and span the rows `ℓᵀ·Z`. No smaller set
-/// is a solution, so no part of a set is sufficient.
+/// A set D is a solution iff its rows of Z are independent and span the rows `ℓᵀ·Z`. The sets have
+/// the smallest possible size, so no proper subset of a set is sufficient.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -236,8 +236,8 @@ fn units(
     Ok(units)
 }
 
-/// Groups units that can replace each other: units of one row each with parallel vectors. Every
-/// other unit forms a separate class.
+/// Groups units that can replace each other, which are units of one row each with parallel vectors.
+/// Every other unit forms a separate class.
 fn replaceable(units: &[Unit], dual: &Dual) -> Result<Vec<Vec<usize>>, Unclear> {
     let mut classes: Vec<Vec<usize>> = Vec::new();
     'units: for (u, unit) in units.iter().enumerate() {

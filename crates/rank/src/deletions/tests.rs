@@ -119,8 +119,8 @@ fn by_ranks(c: &Matrix, rank: usize, group: &[usize]) -> Vec<Vec<usize>> {
     Vec::new()
 }
 
-/// Two sources of redundancy in chains: the components are counted to give 2³⁰ sets, and a uniform
-/// matroid is counted by contraction.
+/// Two matrices with many admissible sets. The first has 30 components with two sets each. The
+/// second is a uniform matroid, which is counted by contraction.
 #[test]
 fn large_redundancies_are_counted() {
     let pairs = Matrix::from_fn(60, 30, |i, j| f64::from(u8::from(i / 2 == j)));

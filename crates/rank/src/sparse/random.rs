@@ -2,10 +2,10 @@
 //! platform.
 //!
 //! The numbers are uniform, not normal. This avoids logarithms and cosines, whose last bits differ
-//! between platforms. Both distributions have the required properties. The mean is zero and the
-//! variance one, so that `E (zᵀx)² = ‖z‖²`. The product `zᵀx` is rarely much smaller: for ‖z‖ = 1
-//! its density is at most `√2/(2·√3) < 0.41` (normal: 0.40), because no section of the unit cube is
-//! larger than √2.
+//! between platforms. Uniform values have the required properties, like normal ones. The mean is
+//! zero and the variance one, so that `E (zᵀx)² = ‖z‖²`. The product `zᵀx` is rarely much smaller:
+//! for ‖z‖ = 1 its density is at most `√2/(2·√3) < 0.41` (normal: 0.40), because no section of the
+//! unit cube is larger than √2.
 //!
 //! Source: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators,
 //! OOPSLA (2014), for SplitMix64; K. Ball, Cube slicing in Rⁿ, Proc. Amer. Math. Soc. 97 (1986)

@@ -56,13 +56,13 @@ pub struct SparseRank {
     /// W (m×k): random combinations of an orthonormal basis of the left null space of the
     /// equilibrated rows. `D_r` times a column is a self-stress of C.
     pub sketch: Matrix,
-    /// The numbers that justify the decision.
+    /// The values that justify the decision.
     pub evidence: SparseEvidence,
     /// Whether the rank is decided, or otherwise the reason.
     pub status: RankStatus,
 }
 
-/// The numbers that justify a sparse rank decision; all of them refer to the equilibrated matrix.
+/// The values that justify a sparse rank decision; all of them refer to the equilibrated matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SparseEvidence {

@@ -26,7 +26,7 @@ pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64
     }
     let mut x = random::uniform(n, seed, STREAM);
     r.clear_dead(&mut x);
-    // ‖A^q·x‖ of each vector as a product, because powers of 1/σ overflow.
+    // Sums of logarithms, because the powers of 1/σ in ‖A^q·x‖ overflow.
     let mut logarithm = [0.0_f64; REFLECTORS_WIDTH];
     for _ in 0..SOLVES {
         r.solve_normal(&mut x);

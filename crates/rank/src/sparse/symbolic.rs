@@ -150,7 +150,7 @@ impl Symbolic {
     }
 }
 
-/// Bytes of a number, and of a number with its index.
+/// Bytes of a value, and of a value with its index.
 const NUMBER: usize = size_of::<f64>();
 const ENTRY: usize = NUMBER + size_of::<usize>();
 

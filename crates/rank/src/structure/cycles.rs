@@ -9,9 +9,9 @@ use linalg::DisjointSets;
 /// In mechanics the vertices are bodies and the ground, and the groups are joints whose rows vanish
 /// on the common rigid motions of their bodies. If two sides have only one body in common, the side
 /// without the ground is in equilibrium by itself. Its joints transmit no total wrench to that
-/// body. Therefore every `z` with `Cᵀ·z = 0` is the sum of such vectors on single sets. Therefore
-/// each set can be analysed separately, and the redundancy is the sum of the redundancies of the
-/// sets.
+/// body. Therefore every `z` with `Cᵀ·z = 0` is a sum of vectors with the same property, each of
+/// which is zero outside one set. Each set can thus be analysed separately, and the redundancy is
+/// the sum of the redundancies of the sets.
 ///
 /// ```
 /// use pfaff_rank::cycles;
@@ -44,8 +44,8 @@ pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
     sets.sets()
 }
 
-/// Edges in compressed adjacency lists. A group on k vertices is a cycle through them: they stay
-/// connected if any one of them is removed.
+/// Edges in compressed adjacency lists. A group on k vertices is stored as a cycle through these
+/// vertices, which remain connected if any one of them is removed.
 struct Graph {
     /// Index of the first edge of each vertex (one more entry than vertices), and the edges.
     first: Vec<usize>,
@@ -137,8 +137,8 @@ impl Search {
             };
             self.reach[parent] = self.reach[parent].min(self.reach[vertex]);
             if self.reach[vertex] >= self.order[parent] {
-                // The pending edges since the edge to this vertex reach nothing earlier than the
-                // parent: they form a block.
+                // The pending edges since the edge to this vertex reach no vertex before the
+                // parent, so they form a block.
                 let block = self.pending.split_off(before);
                 for pair in block.windows(2) {
                     sets.join(graph.group[pair[0]], graph.group[pair[1]]);

@@ -1,12 +1,12 @@
-//! The graph of blocks, ground and groups: its parts without the ground, and its bridges with the
-//! ground.
+//! The graph of blocks, groups and ground. This file finds its connected parts without the ground,
+//! and its bridges with the ground as a vertex.
 
 use linalg::DisjointSets;
 
 use super::incidence::{Incidence, Part};
 
-/// Parts of the remaining rows without the ground, ordered by their first rows. Rows of one group
-/// stay together.
+/// Returns the connected parts of the remaining rows in the graph without the ground, ordered by
+/// their first rows. Rows of one group are in the same part.
 pub(super) fn parts(incidence: &Incidence) -> Vec<Part> {
     let n_blocks = incidence.blocks.len();
     // Vertices: blocks, then groups.
@@ -56,9 +56,9 @@ struct End {
 
 /// Returns groups on exactly two vertices (blocks or the ground) that no other path connects.
 ///
-/// Depth-first search with the earliest vertex that a subtree reaches: an edge is a bridge iff the
-/// part behind it reaches nothing earlier. A group on more vertices is a star around an additional
-/// vertex and never a bridge.
+/// A depth-first search finds the earliest vertex that each subtree reaches. An edge is a bridge
+/// iff the subtree behind it reaches no vertex before this subtree. A group on more than two
+/// vertices is stored as a star around an additional vertex and is never a bridge.
 ///
 /// Source: R. Tarjan, A note on finding the bridges of a graph, Inform. Process. Lett. 2 (1974)
 /// 160–161.

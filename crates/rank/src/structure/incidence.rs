@@ -12,8 +12,8 @@ pub struct RowGroup {
     /// Whether the group acts between its blocks and the ground, not only among its blocks.
     ///
     /// With `false`, the caller guarantees that the rows vanish on every common rigid motion of the
-    /// blocks, and that a rigid motion of one block has as many freedoms as the block has columns.
-    /// Without this guarantee the caller must use `true`; fewer bridges are then found.
+    /// blocks, and that a rigid motion of one block has as many degrees of freedom as the block has
+    /// columns. Without this guarantee the caller must use `true`; fewer bridges are then found.
     pub ground: bool,
 }
 
@@ -109,8 +109,8 @@ pub(crate) fn within(n: usize, ranges: &[Range<usize>]) -> impl Iterator<Item = 
     ranges.iter().map(move |r| r.start.min(n)..r.end.min(n))
 }
 
-/// Splits `0..n` by sets (a number belongs to the first set that contains it), followed by one set
-/// for each number outside all sets.
+/// Splits `0..n` by sets (an index belongs to the first set that contains it), followed by one set
+/// for each index outside all sets.
 pub(crate) fn partition(
     n: usize,
     given: impl Iterator<Item = impl IntoIterator<Item = usize>>,

@@ -1,5 +1,5 @@
-//! Axes: a range, round ticks, and labels with the smallest number of digits that distinguishes
-//! them.
+//! Axes with a range, ticks at round values, and labels with the smallest number of digits that
+//! distinguishes the labels.
 
 /// An axis with its ticks.
 #[derive(Clone, Debug, PartialEq)]
@@ -7,7 +7,7 @@ pub(super) struct Axis {
     pub(super) min: f64,
     pub(super) max: f64,
     pub(super) ticks: Vec<Tick>,
-    /// Values are labels times this power of ten.
+    /// A value is its label times 10 to this exponent.
     pub(super) exponent: i32,
 }
 
@@ -18,14 +18,14 @@ pub(super) struct Tick {
     pub(super) label: String,
 }
 
-/// Larger values cannot be drawn, because differences of them would overflow.
+/// Larger values cannot be drawn, because the difference of two such values could overflow.
 pub(super) const DRAWABLE: f64 = 1e300;
 
 /// A range narrower than this, relative to its values, contains only rounding errors.
 const RESOLUTION: f64 = 1e-12;
 
-/// In this range, labels have at most four digits before the decimal point and at most one zero
-/// after it before the first digit.
+/// Range of values that are written without a power of ten. Labels then have at most four digits
+/// before the decimal point, or at most one zero directly after it.
 const PLAIN: std::ops::Range<f64> = 1e-2..1e4;
 
 /// Whether a value can be drawn.
@@ -45,7 +45,7 @@ pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 impl Axis {
-    /// An axis over exactly this range, about `count` ticks.
+    /// An axis over exactly this range, with about `count` ticks.
     pub(super) fn over(range: [f64; 2], count: usize) -> Self {
         let [min, max] = widened(range);
         let size = min.abs().max(max.abs());
@@ -85,7 +85,7 @@ impl Axis {
         (value - self.min) / (self.max - self.min)
     }
 
-    /// A unit, with the power of ten of the labels.
+    /// The unit, preceded by the power of ten of the labels.
     pub(super) fn unit(&self, unit: &str) -> String {
         if self.exponent == 0 {
             return unit.to_owned();
@@ -99,7 +99,7 @@ impl Axis {
     }
 }
 
-/// A range that can be divided: a single value gets some space around it.
+/// A range of nonzero width. If the range is a single value, space is added on both sides.
 fn widened([min, max]: [f64; 2]) -> [f64; 2] {
     let size = min.abs().max(max.abs());
     if max - min > RESOLUTION * size && max - min >= f64::MIN_POSITIVE {
@@ -114,7 +114,7 @@ fn widened([min, max]: [f64; 2]) -> [f64; 2] {
     [middle - room, middle + room]
 }
 
-/// The next of 1, 2, 5 times a power of ten.
+/// The smallest value that is at least `at_least` and is 1, 2 or 5 times a power of ten.
 pub(super) fn round_step(at_least: f64) -> f64 {
     let power = 10.0_f64.powf(at_least.log10().floor());
     let factor = [1.0, 2.0, 5.0]
@@ -124,7 +124,7 @@ pub(super) fn round_step(at_least: f64) -> f64 {
 }
 
 fn with_minus(label: &str) -> String {
-    // Labels do not contain −0.0, which has no meaning for a reader.
+    // The label −0.0 is written as 0.0.
     match label.strip_prefix('-') {
         Some(rest) if rest.chars().all(|c| matches!(c, '0' | '.')) => rest.to_owned(),
         Some(rest) => format!("−{rest}"),
@@ -132,7 +132,7 @@ fn with_minus(label: &str) -> String {
     }
 }
 
-/// `10⁻⁶`; 1 and 10 without an exponent.
+/// A power of ten as text, such as `10⁻⁶`. The values 1 and 10 have no exponent.
 pub(super) fn power_of_ten(exponent: i32) -> String {
     match exponent {
         0 => "1".to_owned(),

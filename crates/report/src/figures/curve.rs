@@ -7,7 +7,7 @@ use super::svg::{Svg, point_list};
 /// Half the size of a marker (px).
 const HALF: f64 = 3.4;
 
-/// Appearance of a curve: colour and marker change together.
+/// Appearance of a curve. Its index determines both colour and marker.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Look(usize);
 
@@ -84,7 +84,7 @@ impl Look {
     }
 }
 
-/// A curve in logarithms, with a gap for each run without a point.
+/// A curve in logarithmic coordinates. A run without a result leaves a gap.
 pub(super) struct Curve {
     pub(super) look: Look,
     pub(super) points: Vec<Option<[f64; 2]>>,

@@ -5,18 +5,19 @@ use super::axis::{Axis, Tick, power_of_ten, range};
 /// Unit of the values of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Unit {
-    /// Numbers.
+    /// Numbers without a unit.
     Number,
     /// Times (s).
     Seconds,
-    /// The neighbouring axis shows the labels.
+    /// No labels, because the neighbouring axis shows them.
     Untold,
 }
 
 /// Space beyond the first and the last value, in decades.
 const MARGIN: f64 = 0.2;
 
-/// An axis over these logarithms with at most `count` + 1 labels at powers of ten, at least two.
+/// An axis over these logarithms. It has at least two and at most `count` + 1 labels at powers of
+/// ten.
 pub(super) fn decades(logarithms: impl IntoIterator<Item = f64>, unit: Unit, count: i32) -> Axis {
     let [low, high] = range(logarithms).unwrap_or([0.0, 1.0]);
     let (mut low, mut high) = (low - MARGIN, high + MARGIN);
@@ -43,7 +44,7 @@ pub(super) fn decades(logarithms: impl IntoIterator<Item = f64>, unit: Unit, cou
     }
 }
 
-/// A power of ten of seconds: `10 µs`.
+/// Formats 10^power seconds, such as `10 µs`.
 fn time(power: i32) -> String {
     let (unit, base) = match power {
         ..=-7 => ("ns", -9),

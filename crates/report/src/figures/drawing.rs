@@ -1,9 +1,9 @@
-//! The common drawing model: outlines of bodies, joints as symbols that move with a body, wheels
-//! and applied forces. A page draws it at any time of a run, an SVG figure at one time. Positions
-//! that do not move with a body are given for each frame.
+//! The drawing model that pages and figures share: outlines of bodies, joints as symbols that move
+//! with a body, wheels and applied forces. A page draws the model at any time of a run, an SVG
+//! figure at one time. Positions that do not move with a body are given for each frame of the run.
 //!
-//! Its points are points in the space of the mechanism, in the axes of the frames of bodies; its
-//! `Projection` converts them to points of the picture.
+//! All points of the model have coordinates in the frame of a body. The `Projection` of the model
+//! converts them to points of the picture.
 
 mod point;
 #[cfg(test)]
@@ -23,11 +23,11 @@ use crate::recording::Frame;
 pub(crate) use point::{Curves, Point};
 pub(crate) use wheel::DrawnWheel;
 
-/// Number of frames at which the program tests whether a point moves with a body.
+/// Number of frames of the run at which the program tests whether a point moves with a body.
 const PROBES: usize = 9;
 
-/// A point moves with a body if its coordinates in the body change by at most this fraction of the
-/// size of the picture.
+/// A point moves with a body if the coordinates of the point in the body change by at most this
+/// fraction of the size of the picture.
 const FIXED: f64 = 1e-9;
 
 /// Index of the ground in lists of bodies.
@@ -40,8 +40,8 @@ type BodyPoint = (isize, Point);
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct DrawnBody {
     pub(crate) name: String,
-    /// Centre of mass and the points of joints and forces, in the frame of the body (m): the body
-    /// is drawn as their convex hull. In the plane, the corners of this hull.
+    /// Points in the frame of the body (m), whose convex hull is drawn as the body: the centre of
+    /// mass and the points of joints and forces. In the plane, only the corners of the hull.
     pub(crate) outline: Vec<Point>,
     /// Origin of the frame in which the scene describes the body, if it differs from the centre of
     /// mass.
@@ -59,7 +59,7 @@ pub(crate) struct DrawnBody {
 pub(crate) enum Place {
     /// Fixed in the frame of a body.
     Of { b: isize, p: Point },
-    /// A position that is given separately for each frame of the run.
+    /// A position that is given for each frame of the run.
     Free(Curves),
 }
 
@@ -69,7 +69,7 @@ pub(crate) enum Place {
 pub(crate) enum Heading {
     /// A direction at this angle in a body (rad).
     Of { b: isize, a: FewDigits },
-    /// An angle that is given separately for each frame of the run.
+    /// An angle that is given for each frame of the run.
     Free { a: Channel },
     /// In space: this direction, as a unit vector.
     Along(Place),
@@ -106,7 +106,7 @@ pub(crate) struct DrawnForce {
 pub(crate) struct DrawnMarker {
     pub(crate) name: String,
     pub(crate) b: isize,
-    /// Position relative to the centre of mass of the body, in its axes (m).
+    /// Position relative to the centre of mass of the body, in the axes of the body (m).
     pub(crate) p: Point,
     /// Angle of the marker's axes in the body (rad).
     a: FewDigits,
@@ -115,18 +115,19 @@ pub(crate) struct DrawnMarker {
 /// Everything that is drawn.
 #[derive(Clone, Debug, Serialize)]
 pub struct DrawingModel {
-    /// The projection of space; scripts need no projection for the plane.
+    /// The projection of a mechanism in space. It is omitted in the plane, because scripts do not
+    /// need it.
     #[serde(skip_serializing_if = "Projection::is_plane")]
     pub(crate) view: Projection,
     pub(crate) bodies: Vec<DrawnBody>,
     pub(crate) sites: Vec<DrawnSite>,
     pub(crate) forces: Vec<DrawnForce>,
     pub(crate) markers: Vec<DrawnMarker>,
-    /// Bodies in the order of drawing, the largest first.
+    /// Bodies in the order of drawing, starting with the largest.
     pub(crate) order: Vec<usize>,
     shapes: Shapes,
     spring: &'static [[f64; 2]],
-    /// Poses at the first frame.
+    /// Poses at the first frame of the run.
     #[serde(skip)]
     poses: Bodies,
 }
@@ -146,7 +147,7 @@ impl DrawnSite {
     }
 }
 
-/// Positions in the picture at the first frame (m and rad).
+/// Positions in the picture at the first frame of the run (m and rad).
 impl DrawingModel {
     /// The centre of mass of a body; the origin for the ground.
     pub(crate) fn centre(&self, body: isize) -> [f64; 2] {
@@ -214,16 +215,17 @@ impl DrawingModel {
 pub struct Stage<'a> {
     /// The mechanism, or the part of it that is drawn.
     pub mechanism: &'a Mechanism,
-    /// Indices of its bodies among all bodies.
+    /// Indices of the drawn bodies among all bodies.
     pub bodies: &'a [usize],
-    /// Indices of its coordinates among all coordinates.
+    /// Indices of the coordinates of the drawn part among all coordinates.
     pub coordinates: &'a [usize],
     /// The rows of the run.
     pub frames: &'a [Frame],
 }
 
 impl Stage<'_> {
-    /// The drawing of its bodies and joints, and of the forces and markers on them in `whole`.
+    /// The drawing of the bodies and joints of this part, and of the forces and markers that act on
+    /// these bodies in `whole`.
     #[must_use]
     pub fn drawing(&self, whole: &Mechanism) -> DrawingModel {
         let forces = DrawnForce::all(whole, self.bodies);
@@ -259,7 +261,7 @@ impl Stage<'_> {
         drawing
     }
 
-    /// Outlines of the bodies, each in its frame.
+    /// Outlines of the bodies, each in the frame of its body.
     fn outlines(&self, forces: &[DrawnForce]) -> Vec<Vec<Point>> {
         let space = self.mechanism.space();
         let mut points = vec![vec![[0.0; 3]]; self.bodies.len()];
@@ -293,12 +295,13 @@ impl Stage<'_> {
         self.mechanism.frames().vector(body, own)
     }
 
-    /// Coordinates of the drawn part in a frame, with the unwrapped angles of its joints.
+    /// Coordinates of the drawn part at a frame of the run, with the unwrapped angles of the
+    /// joints.
     fn q(&self, frame: &Frame) -> Vec<f64> {
         self.coordinates.iter().map(|&k| frame.q[k]).collect()
     }
 
-    /// Velocities of the drawn bodies in a frame.
+    /// Velocities of the drawn bodies at a frame of the run.
     fn v(&self, frame: &Frame) -> Vec<f64> {
         let (own, space) = (self.bodies.iter(), self.mechanism.space());
         own.flat_map(|&k| frame.v[space.columns_of(k)].iter().copied())
@@ -342,7 +345,7 @@ impl Stage<'_> {
         range.into_iter().map(reach).fold(1e-12, f64::max)
     }
 
-    /// The states of the centre of mass of each body at the frames.
+    /// For each body, the states of the centre of mass at all frames of the run.
     fn states(&self) -> Vec<Vec<Vec<f64>>> {
         let (bodies, frames) = (self.mechanism.bodies(), self.mechanism.frames());
         let mut states = vec![Vec::with_capacity(self.frames.len()); bodies.len()];
@@ -415,8 +418,8 @@ impl Stage<'_> {
         }
     }
 
-    /// A point or a direction of a joint: in the axes of the first body of `carriers` in which it
-    /// is constant to the accuracy `known`, or for each frame.
+    /// A point or a direction of a joint. It is given in the axes of the first body in `carriers`
+    /// in which it is constant to within `known`, otherwise for each frame of the run.
     fn place(
         &self,
         id: ConstraintId,
@@ -461,7 +464,8 @@ impl Stage<'_> {
         }
         let mut last: f64 = 0.0;
         let all = self.every(id, angle);
-        // An axis has no orientation, so each angle is the one nearest to the previous angle.
+        // An axis has no sense, so its angle is determined up to multiples of π. Each angle is the
+        // value nearest to the previous angle.
         let unwound = all.into_iter().map(|a| {
             last = a + std::f64::consts::PI * ((last - a) / std::f64::consts::PI).round();
             last
@@ -472,7 +476,7 @@ impl Stage<'_> {
         }
     }
 
-    /// A property of a joint in all frames.
+    /// A property of a joint at all frames of the run.
     fn every<T>(&self, id: ConstraintId, of: impl Fn(&Site) -> T) -> Vec<T> {
         let frames = self.frames.iter();
         frames
@@ -484,7 +488,7 @@ impl Stage<'_> {
     }
 }
 
-/// The joints at a frame.
+/// The joints at one frame of the run.
 struct Probe {
     scratch: Scratch,
     sites: Vec<Site>,

@@ -1,5 +1,5 @@
-//! Error over an extreme number: one panel for each test and each varied number, doubly
-//! logarithmic.
+//! Error over an extreme parameter value, in log–log axes. There is one panel for each test and
+//! each varied parameter.
 
 use super::curve::{Curve, Look};
 use super::decades::{Unit, decades};
@@ -27,22 +27,22 @@ const COLUMNS: usize = 2;
 /// Range of errors, as powers of ten; values outside, including zero, are drawn at the edge.
 const SHOWN: [f64; 2] = [-17.0, 1.0];
 
-/// One panel: errors over a varied number.
+/// One panel: errors over a varied parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extremes<'a> {
     /// The test.
     pub title: &'a str,
-    /// Name of the varied number.
+    /// Name of the varied parameter.
     pub varied: &'a str,
-    /// Names of curves with their points: the varied number and the error.
+    /// Names of curves with their points, each given by the parameter value and the error.
     pub series: Vec<(&'a str, Vec<[f64; 2]>)>,
     /// Largest accepted error, if it is the same for all cases.
     pub bound: Option<f64>,
 }
 
-/// Errors over varied numbers, panel by panel; an empty text if there are no panels. A dashed line
-/// is the bound. If there are several errors at one number, the largest one is drawn; NaN is not
-/// drawn.
+/// Draws errors over varied parameters, panel by panel; returns an empty text if there are no
+/// panels. A dashed line is the bound. If there are several errors at one parameter value, the
+/// largest one is drawn. NaN is not drawn.
 #[must_use]
 pub fn extremes(panels: &[Extremes<'_>]) -> String {
     let plots: Vec<Plot<'_>> = panels.iter().map(Plot::of).collect();
@@ -135,7 +135,7 @@ impl<'a> Plot<'a> {
     }
 }
 
-/// The largest error at each number, as powers of ten.
+/// The largest error at each parameter value, as decimal logarithms.
 fn curve(k: usize, points: &[[f64; 2]]) -> Curve {
     let mut worst: Vec<[f64; 2]> = Vec::new();
     for [value, error] in points.iter().filter(|[_, error]| !error.is_nan()) {

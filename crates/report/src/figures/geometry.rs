@@ -1,5 +1,5 @@
-//! Positions of the joints of a mechanism and the kind of freedom that they allow. Both are derived
-//! from rows, wrenches and reference points: no joint is identified by its name.
+//! Positions of the joints of a mechanism, and the kind of relative motion that each joint allows.
+//! Both are derived from rows, wrenches and reference points, not from the names of joint types.
 
 mod space;
 #[cfg(test)]
@@ -49,10 +49,10 @@ pub(crate) fn posed(
 pub(crate) struct Site {
     pub(crate) place: [f64; 3],
     pub(crate) symbol: Symbol,
-    /// Point at which its only force acts on the other body; its reference point if there is no
-    /// such point.
+    /// Point at which the only force of the joint acts on the other body. If there is no such
+    /// point, the reference point.
     pub(crate) end: [f64; 3],
-    /// Whether it connects a body to the ground.
+    /// Whether the joint or drive connects a body to the ground.
     pub(crate) grounded: bool,
     /// Circles that roll on each other, or one circle that rolls on the ground, at the reference
     /// point.
@@ -71,7 +71,7 @@ pub(crate) struct Pitch {
     pub(crate) radius: f64,
 }
 
-/// All joints and drives, in the order of the layout, at the poses in the scratch memory.
+/// All joints and drives, in the order of the layout, at the poses in `s`.
 pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
     let ids = mechanism.layout().constraint_ids();
     let mut all: Vec<Site> = ids.map(|id| site(mechanism, id, s)).collect();
@@ -153,15 +153,16 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
     }
 }
 
-/// Ratios closer to one are drawn without wheels, because equal rotations need no wheels.
+/// If the ratio differs from one by less than this value, no wheels are drawn, because the
+/// rotations are equal.
 const LEAST_SLIP: f64 = 1e-2;
 
 /// The contact point of two wheels, if the second body rotates `ratio` times as fast as the first
 /// one: r_i·ω_i = −r_j·ω_j for external contact, r_i·ω_i = r_j·ω_j for internal contact. The ratio
-/// is the torque on the first body, because rows of rotations have the coefficient one for the
-/// second.
+/// is the torque on the first body, because the coefficient of the second body in a row of
+/// rotations is one.
 fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 3], [Pitch; 2])> {
-    // A ring that is part of the ground is centred on the carrier.
+    // The centre of a ring that is part of the ground is on the carrier.
     let wheel = |slot: usize| {
         let around = [slot, 2].map(|slot| group.bodies.get(slot)?.moving());
         let k = around[0].or(around[1])?;
@@ -222,9 +223,9 @@ fn teeth_of(
         .then_some((point, circles))
 }
 
-/// The circle of a wheel that rolls on the ground, from its centre, its contact point and the
-/// forces of its rows. The last two rows are along its track and across it: the axis is
-/// perpendicular to the track and to the radius.
+/// The circle of a wheel that rolls on the ground, computed from the centre, the contact point and
+/// the forces of the rows. The forces of the last two rows are along and across the track. The axis
+/// of the wheel is perpendicular to the track and to the radius.
 fn rolling(
     points: &[(BodyRef, [f64; 3])],
     map: &Matrix,
@@ -247,7 +248,8 @@ fn rolling(
     })
 }
 
-/// The pitch circles of wheels that other joints support; these joints define the axes.
+/// The pitch circles of wheels that rotate in other joints. These joints define the axes of the
+/// wheels.
 fn borne(mechanism: &Mechanism, id: ConstraintId, all: &[Site], s: &Scratch) -> Vec<Pitch> {
     let points = mechanism.points(id);
     let touches = all[id.0].place;
@@ -306,7 +308,7 @@ impl Rows {
     }
 }
 
-/// Shorter lever arms are rounding errors, relative to the distance of two points.
+/// Lever arms below this fraction of the distance of two points are rounding errors.
 const LEAST_ARM: f64 = 1e-9;
 
 /// A force in the plane and its lever arm about the reference point.
@@ -347,7 +349,8 @@ impl Force {
         [-self.direction[1], self.direction[0], 0.0]
     }
 
-    /// The point of the line of action nearest to the reference point: offset × direction = arm.
+    /// The point of the line of action nearest to the reference point. Its offset from this point
+    /// satisfies offset × direction = arm.
     fn point_nearest(&self, place: [f64; 3]) -> [f64; 3] {
         let [x, y, _] = self.perpendicular();
         let [from_x, from_y, z] = place;
@@ -355,7 +358,8 @@ impl Force {
     }
 }
 
-/// The second point of a joint, such as the other end of a rod, if its definition has two.
+/// The second point of a joint, such as the other end of a rod, if the definition of the joint has
+/// two points.
 fn other_end(mechanism: &Mechanism, id: ConstraintId, place: [f64; 3], s: &Scratch) -> [f64; 3] {
     let points = mechanism.points(id);
     let end = points.get(1).map(|&(body, point)| match body {
@@ -373,7 +377,7 @@ fn finite_or(point: [f64; 3], otherwise: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// Whether a number is finite and not too large; NaN is not.
+/// Whether a value is finite and its absolute value is below the limit; false for NaN.
 fn within(x: f64, limit: f64) -> bool {
     x.abs() <= limit
 }

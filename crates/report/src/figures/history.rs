@@ -5,7 +5,7 @@ use super::plot::{Entry, Frame, Labels, legend, legend_height};
 use super::style::{GREY, INK, Style, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Svg, text_width};
 
-/// A curve over time. If the lengths differ, the end of the longer one is omitted.
+/// A curve over time. If `t` and `y` have different lengths, the end of the longer list is omitted.
 #[derive(Clone, Copy, Debug)]
 pub struct Series<'a> {
     /// Name in the legend; if empty, the curve is not in the legend.
@@ -78,8 +78,8 @@ pub fn history(title: &str, unit: &str, series: &[Series<'_>]) -> String {
     draw(&[panel], 1, FRAME_ALONE)
 }
 
-/// A figure of several quantities over the same time: small panels in rows of `columns`. If all
-/// panels have the same curves, there is one legend for all.
+/// A figure of several quantities over the same time, with `columns` small panels in each row. If
+/// all panels have the same curves, there is one common legend.
 #[must_use]
 pub fn histories(panels: &[Panel<'_>], columns: usize) -> String {
     draw(panels, columns.clamp(1, panels.len().max(1)), FRAME)

@@ -1,5 +1,5 @@
-//! Positions names so that they do not overlap. Each name gets the best of several positions around
-//! its anchor, by the same rule as in the animation of a page.
+//! Positions names so that they do not overlap. Each name is placed at the best of several
+//! positions around its anchor. The animation of a page uses the same rule.
 
 use super::svg::text_width;
 

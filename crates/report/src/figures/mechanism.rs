@@ -46,16 +46,17 @@ const TITLE: f64 = 30.0;
 /// Sizes of text (px), as in the style sheet.
 const NAME_SIZE: f64 = 13.0;
 const BODY_SIZE: f64 = 12.0;
-/// With more names than this, the drawing would be unreadable: then only the tool tips contain the
-/// names.
+/// If there are more names than this, the drawing would be unreadable, and only the tool tips
+/// contain the names.
 const MAX_LABELS: usize = 300;
 /// Height of a line of the legend and width of a symbol in it (px).
 const LEGEND: [f64; 2] = [36.0, 50.0];
-/// Length of a rail beyond its block, and of half an axis seen from the side (px).
+/// Length of a rail beyond its block, and half the length of an axis that is seen from the side
+/// (px).
 const RAIL: f64 = 30.0;
 const AXIS: f64 = 36.0;
-/// Position of the axes of space, from the left and the lower edge of the drawing, and their
-/// largest length (px).
+/// Distance of the coordinate axes from the left edge and from the lower edge of the drawing, and
+/// the largest length of these axes (px).
 const TRIAD: [f64; 2] = [46.0, 40.0];
 const LONGEST: f64 = 48.0;
 
@@ -493,8 +494,8 @@ impl Picture<'_> {
         }
     }
 
-    /// A scale bar of a round length, about a sixth of the page; in space, the axes of the ground,
-    /// each of a round length.
+    /// In the plane, draws a scale bar of a round length, about a sixth of the page. In space,
+    /// draws the axes of the ground, each with a round length.
     fn scale_bar(&mut self) {
         let view = self.model.view;
         if !view.is_plane() {
@@ -571,7 +572,7 @@ fn shortened(t: f64) -> String {
 
 fn metres(length: f64) -> String {
     if (1e-3..1e4).contains(&length) {
-        // One digit, whatever the rounding of the power of ten.
+        // One significant digit, also if the power of ten has a rounding error.
         let digits = (-length.log10()).ceil().max(0.0) as usize;
         format!("{length:.digits$} m")
     } else {

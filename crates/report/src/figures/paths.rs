@@ -34,12 +34,13 @@ impl Path {
 
 /// Largest width and height of the frame (px).
 const LARGEST: [f64; 2] = [840.0, 560.0];
-/// A frame is at most this many times longer than high, or the reverse.
+/// Largest ratio of the longer side of a frame to the shorter side.
 const SLENDER: f64 = 3.5;
 /// Margin of the page (px).
 const MARGIN: f64 = 16.0;
 
-/// Paths in the plane with equal axes. A ring marks the start of each path, a dot its end.
+/// Paths in the plane with equal axes. A ring marks the start of each path, and a dot marks its
+/// end.
 #[must_use]
 pub fn paths(title: &str, paths: &[Path]) -> String {
     let all = || paths.iter().flat_map(Path::points);

@@ -1,9 +1,9 @@
-//! Figures as PNG files: the SVG text of a figure is rendered.
+//! Figures as PNG files, rendered from the SVG text of the figure.
 //!
-//! No content is drawn separately: every visible part of a picture is in the SVG, with its style
-//! sheet. Text uses the fonts in `fonts/`, so that a picture looks the same on every machine. Only
-//! characters that are missing in these fonts are searched for in the fonts of the machine; a
-//! character that is also missing there becomes a box.
+//! Every visible part of a picture comes from the SVG and its style sheet. Text uses the fonts in
+//! `fonts/`, so that a picture looks the same on every machine. Only characters that are missing in
+//! these fonts are taken from the fonts of the machine. A character that is missing in all fonts is
+//! drawn as a box.
 
 use std::ops::RangeInclusive;
 
@@ -21,22 +21,22 @@ pub struct Png {
     pub boxes: String,
 }
 
-/// The program name that pictures contain.
+/// The name of the program in the metadata of pictures.
 pub(crate) const SOFTWARE: &str = "pfaff";
 
-/// Default number of pixels for each px of the figure: sharp on a screen with small pixels, and
-/// 1920 pixels for the picture of a mechanism.
+/// Default number of pixels for each px of the figure. With this value a picture is sharp on a
+/// screen with small pixels, and the picture of a mechanism has 1920 pixels.
 #[cfg(any(feature = "png", test))]
 const SHARP: f64 = 2.0;
 
 /// Allowed scales. Below a tenth, symbols cannot be distinguished.
 const SCALES: RangeInclusive<f64> = 0.1..=20.0;
 
-/// Maximum number of pixels of a picture: 4 bytes each, three times while it is rendered and
-/// compressed.
+/// Maximum number of pixels of a picture. A pixel has 4 bytes, and three copies are in memory while
+/// the picture is rendered and compressed.
 const MOST_PIXELS: f64 = 2.5e7;
 
-/// Reason why a figure cannot be a PNG file.
+/// Reason why a figure cannot be converted to a PNG file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PngError {
@@ -92,7 +92,7 @@ fn smaller(largest: f64) -> String {
     }
 }
 
-/// Checks, before a long computation, conditions under which [`png()`] would fail after it.
+/// Checks before a long computation whether [`png()`] would fail afterwards.
 ///
 /// # Errors
 /// - [`PngError::Unavailable`]
@@ -126,7 +126,7 @@ pub fn png(svg: &str, scale: Option<f64>) -> Result<Png, PngError> {
     painted
 }
 
-/// The scale and the size in pixels for a figure of this size (px).
+/// Returns the scale and the size in pixels for a figure of this size (px).
 #[cfg(any(feature = "png", test))]
 fn measure([width, height]: [f64; 2], scale: Option<f64>) -> Result<(f64, [u32; 2]), PngError> {
     let largest = (MOST_PIXELS / (width * height)).sqrt();

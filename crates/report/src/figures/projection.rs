@@ -10,9 +10,9 @@ use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::channel::FewDigits;
 
-/// Rotation of the view to the right of the front, and its elevation (rad): sixty degrees from the
-/// transverse horizontal axis, and thirty degrees. The direction of sight then has no rational
-/// components, so that corners of rational geometry do not hide each other.
+/// Azimuth of the view, 60° to the right of the front, and elevation, 30° (rad). The components of
+/// the direction of sight are then irrational, so that corners with rational coordinates do not
+/// hide each other.
 const TURNED: f64 = -std::f64::consts::FRAC_PI_3;
 const RAISED: f64 = std::f64::consts::FRAC_PI_6;
 
@@ -49,7 +49,8 @@ impl Projection {
 
     /// The view of space with this unit vector upwards.
     fn with_above(above: [f64; 3]) -> Self {
-        // The first axis of the ground that is not vertical points from left to right at the front.
+        // The first axis of the ground that is not vertical points from left to right in the front
+        // view.
         let first = if above[0].abs() < 0.9 { 0 } else { 1 };
         let level: [f64; 3] = std::array::from_fn(|k| {
             let axis = if k == first { 1.0 } else { 0.0 };
@@ -122,15 +123,15 @@ mod tests {
         assert!(near(view.flat([1.0, 0.0, 0.0]), x));
         assert!(near(view.flat([0.0, 1.0, 0.0]), y));
         assert!(near(view.flat([0.0, 0.0, 1.0]), z));
-        // With y upwards, −z points to the back.
+        // If y points upwards, −z points to the back.
         let view = Projection::with_above([0.0, 1.0, 0.0]);
         assert!(near(view.flat([1.0, 0.0, 0.0]), x));
         assert!(near(view.flat([0.0, 1.0, 0.0]), z));
         assert!(near(view.flat([0.0, 0.0, -1.0]), y));
     }
 
-    /// For any upward direction, the picture keeps lengths perpendicular to the line of sight and
-    /// shows `above` vertically.
+    /// For any upward direction, the picture preserves lengths perpendicular to the line of sight
+    /// and shows `above` vertically.
     #[test]
     fn every_view_is_orthogonal_and_upright() {
         for above in [[1.0, 2.0, 2.0], [-9.0, 1.0, 0.5], [0.0, -1.0, 0.0]] {

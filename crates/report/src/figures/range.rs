@@ -1,4 +1,4 @@
-//! Numbers of many samples: their range and their distribution.
+//! Range and distribution of a quantity over many samples.
 
 use serde::Serialize;
 
@@ -41,13 +41,13 @@ pub struct HistogramDocument {
 /// Number of intervals of a histogram.
 const INTERVALS: usize = 24;
 
-/// A histogram contains the middle nine tenths of the values, with the same width again on each
-/// side; a few distant samples are counted, but not drawn.
+/// A histogram shows the range of the middle nine tenths of the values, extended on each side by
+/// this multiple of its width. Samples outside are counted, but not drawn.
 const ROOM: f64 = 1.0;
 
 impl RangeDocument {
-    /// The range of these values, with the described value if there is one. Values that are not
-    /// finite are omitted; `None` if no value remains.
+    /// The range of these values, with the value for the described data if there is one. Values
+    /// that are not finite are omitted; `None` if no value remains.
     ///
     /// ```
     /// use pfaff_report::figures::RangeDocument;
@@ -68,7 +68,7 @@ impl RangeDocument {
             .iter()
             .map(|x| (x - mean) * (x - mean) / n)
             .sum::<f64>();
-        // The smallest value that at least this share of the samples does not exceed.
+        // The smallest value such that at least this share of the samples is not larger.
         let below = |share: f64| sorted[((share * n).ceil() as usize).clamp(1, sorted.len()) - 1];
         let percentiles = [0.05, 0.5, 0.95].map(below);
         let room = ROOM * (percentiles[2] - percentiles[0]);
@@ -128,7 +128,7 @@ mod tests {
             (1.0, 100.0, 99.0)
         );
         assert!((range.mean - 50.5).abs() < 1e-12);
-        // For the numbers 1 to n, the variance is (n² − 1)/12.
+        // For the integers 1 to n, the variance is (n² − 1)/12.
         assert!((range.deviation - (9999.0_f64 / 12.0).sqrt()).abs() < 1e-12);
         assert_eq!(range.percentiles, [5.0, 50.0, 95.0]);
         assert_eq!(range.histogram.counts.iter().sum::<u64>(), 100);

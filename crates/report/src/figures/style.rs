@@ -1,9 +1,9 @@
-//! Colours, strokes and sizes. The colours are from Okabe and Ito (2008), which colour-blind
-//! readers can distinguish; no information depends on colour alone.
+//! Colours, strokes and sizes. Colour-blind readers can distinguish the colours, which are from
+//! Okabe and Ito (2008). No information depends on colour alone.
 
 /// Text and frames.
 pub(super) const INK: &str = "#222222";
-/// Axes, leaders, secondary text.
+/// Axes, leader lines, secondary text.
 pub(super) const GREY: &str = "#5f6870";
 /// Grid lines.
 pub(super) const GRID: &str = "#e3e6e9";
@@ -64,8 +64,8 @@ pub struct Style {
 }
 
 impl Style {
-    /// The style of the curve with this index: colours and strokes both change, so that coinciding
-    /// curves are all visible.
+    /// The style of the curve with this index. Colour and stroke both depend on the index, so that
+    /// coinciding curves are all visible.
     #[must_use]
     pub fn nth(place: usize) -> Self {
         Self {

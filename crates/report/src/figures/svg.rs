@@ -1,8 +1,8 @@
-//! SVG text, element by element. Only this module escapes external names.
+//! Writes SVG text, element by element. Only this module escapes names that come from the user.
 
 use std::fmt::Write;
 
-/// Fonts in the order of preference; the sizes of labels are estimated for the widest of them.
+/// Fonts in the order of preference. The sizes of labels are estimated for the widest font.
 const FONTS: &str = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
 
 /// Text in the first element of every figure, which figures of other programs do not contain.
@@ -132,7 +132,7 @@ pub(super) fn number(value: f64) -> String {
     format!("{rounded}")
 }
 
-/// A list of points for `points` or `d`.
+/// A list of points for the attributes `points` or `d`.
 pub(super) fn point_list(points: impl IntoIterator<Item = [f64; 2]>) -> String {
     let mut list = String::new();
     for [x, y] in points {

@@ -1,14 +1,15 @@
-//! Symbols as data: strokes around a point (px, y downwards), along x. The SVG of a mechanism and
-//! the animation of a page draw the same strokes; their styles are in `picture.css`.
+//! Symbols as data: strokes relative to the point of the symbol (px, y downwards), with the axis of
+//! the symbol along x. The SVG of a mechanism and the animation of a page draw the same strokes,
+//! with the styles in `picture.css`.
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use super::label::Rect;
 
-/// Kind of freedom that a joint allows, as a symbol. Directions are global unit vectors.
+/// Kind of relative motion that a joint allows, as a symbol. Directions are global unit vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Symbol {
-    /// Two points coincide.
+    /// A joint at which two points coincide.
     Pin,
     /// In space, a joint that allows only rotation about an axis.
     Hinge { axis: [f64; 3] },
@@ -18,11 +19,11 @@ pub(crate) enum Symbol {
     Block { axis: [f64; 3] },
     /// A pin in a straight slot.
     Slot { axis: [f64; 3] },
-    /// Two points at a constant distance.
+    /// A rod, which keeps the distance of two points constant.
     Rod,
     /// A knife edge or wheel, seen from above.
     Edge { along: [f64; 3] },
-    /// Rotations depend on each other.
+    /// A coupling of rotations.
     Rotation,
     /// A prescribed motion along an axis, or about the reference point.
     Drive { axis: Option<[f64; 3]> },
@@ -61,8 +62,8 @@ impl Symbol {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     pub(crate) name: &'static str,
-    /// Half the sides of the box of the symbol, and the offset of the middle of the box above or
-    /// below its point (px).
+    /// Half the width and half the height of the box of the symbol, and the vertical offset of the
+    /// middle of the box from the point of the symbol (px).
     pub(crate) half: [f64; 2],
     pub(crate) middle: f64,
     /// Class and path data of each stroke, in the order of drawing.
@@ -70,7 +71,7 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// The shape with this name; the first shape if there is none.
+    /// The shape with this name; if the name does not exist, the first shape.
     pub(super) fn named(name: &str) -> Self {
         SHAPES
             .into_iter()
@@ -123,7 +124,7 @@ const STAND: &str = "M0 0L-9 14H9Z";
 const GROUND: &str = "M-15 14H15M-9 14l-5 6M-3 14l-5 6M3 14l-5 6M9 14l-5 6M15 14l-5 6";
 const CENTRE: &str = "M-4 0H4M0-4V4M-4 0a4 4 0 1 1 8 0a4 4 0 1 1-8 0";
 
-/// All symbols in the order of drawing: symbols that would hide others are first.
+/// All symbols in the order of drawing. Symbols that would hide others are drawn first.
 pub(crate) const SHAPES: [Shape; 15] = [
     shape("rod", [5.0, 5.0], 0.0, &[("mark", END)]),
     shape("block", [12.0, 7.5], 0.0, &[("mark", BLOCK)]),
@@ -169,7 +170,7 @@ pub(crate) const SHAPES: [Shape; 15] = [
     ),
 ];
 
-/// A spring: x relative to its length, y in px.
+/// Points of a spring: x as a fraction of the length, y in px.
 pub(crate) const SPRING: [[f64; 2]; 16] = [
     [0.0, 0.0],
     [0.1, 0.0],
@@ -189,7 +190,7 @@ pub(crate) const SPRING: [[f64; 2]; 16] = [
     [1.0, 0.0],
 ];
 
-/// A shorter spring has no space for coils (px).
+/// Length below which a spring has no space for coils (px).
 pub(crate) const SHORT: f64 = 4.0;
 
 /// The symbols by name, for scripts.

@@ -1,4 +1,4 @@
-//! Ranges of numbers over samples, as histograms below each other; and positions of a marker.
+//! Distributions of values over samples, as histograms below each other, and positions of a marker.
 
 use super::RangeDocument;
 use super::axis::{Axis, range as extent};
@@ -10,7 +10,7 @@ use super::svg::Svg;
 const WIDTH: f64 = 960.0;
 /// Space for names (px).
 const NAMES: f64 = 210.0;
-/// Space at the right edge, for the counts of values outside (px).
+/// Space at the right edge for the number of values outside the histogram (px).
 const RIGHT: f64 = 70.0;
 /// Height of a histogram (px).
 const HEIGHT: f64 = 56.0;
@@ -18,27 +18,27 @@ const HEIGHT: f64 = 56.0;
 const BELOW: f64 = 26.0;
 /// Colour of values with the same redundancy as the described data.
 const KEPT: &str = "#0072b2";
-/// Colour of values with exact numbers.
+/// Colour of values that are unique only with exact data.
 const EXACT: &str = "#d55e00";
-/// Opacity of the middle nine tenths.
+/// Opacity of the band that marks the middle nine tenths.
 const BAND: &str = "0.12";
 
-/// The range of a number of a reaction.
+/// The smallest and largest value of one reaction component, and the distribution of its values.
 pub struct RangeRow<'a> {
     /// The joint or drive.
     pub name: &'a str,
-    /// Name of the number.
+    /// Name of the component.
     pub what: &'a str,
-    /// Unit of the number.
+    /// Unit of the component.
     pub unit: &'a str,
-    /// Whether the number is unique only with exact data.
+    /// Whether the component is unique only with exact data.
     pub is_exact: bool,
     /// Range of the values.
     pub range: &'a RangeDocument,
 }
 
-/// Histograms, each with its own axis. A line marks the described value, a band the middle nine
-/// tenths; values outside are counted at the edges.
+/// Histograms, each with a separate axis. A line marks the value for the described data, and a band
+/// marks the middle nine tenths. The number of values outside is written at the edges.
 #[must_use]
 pub fn ranges(rows: &[RangeRow<'_>]) -> String {
     let row = HEIGHT + BELOW + 10.0;
@@ -142,8 +142,8 @@ fn histogram(svg: &mut Svg, top: f64, row: &RangeRow<'_>) {
 /// Side of a panel of positions (px).
 const SIDE: f64 = 260.0;
 
-/// The positions of a marker (m) relative to the first one, in mm: y over x, in space also z over
-/// x. Empty if the marker does not move.
+/// Draws the positions of a marker (m) relative to its first position, in mm: y over x, in space
+/// also z over x. The figure is empty if the marker does not move.
 #[must_use]
 pub fn cloud(name: &str, places: &[[f64; 3]], spatial: bool) -> String {
     let Some(&first) = places.first() else {

@@ -1,6 +1,6 @@
-//! Error against time and against evaluations: three panels for each scene, doubly logarithmic.
-//! Lower and further left is better. Curves differ in colour and in marker; the page uses the light
-//! or dark scheme of the reader.
+//! Error against run time and against number of evaluations, with three log–log panels for each
+//! scene. Points that are lower and further left are better. Curves differ in colour and in marker.
+//! The page uses the light or dark scheme of the reader.
 
 use super::curve::{Curve, Look};
 use super::decades::{Unit, decades};
@@ -29,16 +29,17 @@ const COLUMNS: usize = 3;
 /// Range of errors, as powers of ten; values outside are drawn at the edge.
 const SHOWN: [f64; 2] = [-16.0, 1.0];
 
-/// Fill colour of the area that the reference does not resolve.
+/// Fill colour of the area below the error of the reference.
 const UNRESOLVED: &str = "#f1f3f5";
 
 /// The quantity on the horizontal axis.
 type Work = fn(&WorkPrecisionRow) -> f64;
 
-/// Error of the motion (the larger one of position and velocity). Two panels show it for all
-/// methods, over seconds and over evaluations. One panel shows it for all treatments of redundancy
-/// and drift with one method, over seconds. A dashed line is the error of the reference. Runs that
-/// did not reach their end have no point; their number is stated.
+/// Draws the error of the motion, which is the larger error of position and velocity. Two panels
+/// show this error for all methods, over seconds and over evaluations. One panel shows the error
+/// for all treatments of redundancy and drift with one method, over seconds. A dashed line is the
+/// error of the reference. Runs that did not reach their end have no point; their number is
+/// printed.
 #[must_use]
 pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     let methods = Family::methods(scenes);
@@ -101,10 +102,11 @@ pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     svg.finish()
 }
 
-/// The limit of a reference is shown if it is at least this fraction of the smallest error.
+/// The error bound of the reference is shown if it is at least this fraction of the smallest error.
 const FAR: f64 = 1e-3;
 
-/// Logarithms of all errors of a scene, and of its limit if it is close to them.
+/// Logarithms of all errors of a scene, and of the error bound of its reference if the bound is
+/// shown.
 fn errors(scene: &WorkPrecisionScene) -> impl Iterator<Item = f64> + Clone {
     let runs = scene.rows.iter().filter_map(WorkPrecisionRow::motion_error);
     let smallest = runs.clone().fold(f64::INFINITY, f64::min);
@@ -225,11 +227,12 @@ impl Family {
         }
     }
 
-    /// All treatments of the method that has most of them.
+    /// All treatments of redundancy and drift with the method that has the largest number of
+    /// treatments.
     fn treatments(scenes: &[WorkPrecisionScene]) -> Self {
         let all = names(scenes);
         let count = |method: &str| all.iter().filter(|c| c.method == method).count();
-        // The first method if there are several.
+        // If several methods have this number, the first one is used.
         let method = all
             .iter()
             .rev()

@@ -1,6 +1,6 @@
 //! The files that one command writes into a directory.
 
-/// The names of the files that one kind of result can have. In a name, `*` represents a number.
+/// The possible file names of one kind of result. In a name, `*` represents a number.
 ///
 /// ```
 /// use pfaff_report::Family;

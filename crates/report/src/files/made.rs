@@ -1,4 +1,4 @@
-//! Directories that were created for results; those that remain empty are removed again.
+//! Directories that were created for results. Directories that remain empty are removed again.
 
 use std::fs;
 use std::io;

@@ -1,5 +1,5 @@
-//! Whether this program has written a file, according to the start of the file. An unrecognised
-//! file belongs to another program and is not replaced.
+//! Decides from the start of a file whether this program has written the file. An unrecognised file
+//! counts as a file of another program and is not replaced.
 
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read};
@@ -22,14 +22,14 @@ pub fn is_ours(path: &Path) -> bool {
     }
 }
 
-/// Whether this program has written a file: only such a file may be removed. A link belongs to its
-/// author.
+/// Whether this program has written a file. Only these files may be removed. A link counts as
+/// created by the user.
 pub(super) fn is_marked(path: &Path) -> bool {
     is_plain(path) && head_of(path).is_ok_and(|head| has_mark(path, &head))
 }
 
 fn head_of(path: &Path) -> io::Result<Vec<u8>> {
-    // Reading a pipe would block.
+    // Only regular files are read, because reading a pipe would block.
     if !fs::metadata(path)?.is_file() {
         return Err(ErrorKind::InvalidInput.into());
     }
@@ -59,7 +59,7 @@ fn has_mark(path: &Path, head: &[u8]) -> bool {
 /// Whether these bytes start a PNG file with this program as its `Software`.
 fn is_picture(head: &[u8]) -> bool {
     let named = ["tEXtSoftware\0", crate::figures::SOFTWARE].concat();
-    // The length of a chunk does not include its name.
+    // The length of a chunk does not include the name of the chunk.
     let length = (named.len() - 4) as u32;
     let chunk = [&length.to_be_bytes(), named.as_bytes()].concat();
     head.starts_with(b"\x89PNG\r\n\x1a\n") && head.windows(chunk.len()).any(|part| part == chunk)

@@ -43,8 +43,8 @@ impl Process {
         if *self == own {
             return Life::Runs;
         }
-        // A machine that cannot provide this information for the present process cannot provide it
-        // for others.
+        // If the start time of the present process is unknown, the start times of other processes
+        // are also unknown.
         if self.host != own.host || own.born == 0 || self.born == 0 {
             return Life::Unknown;
         }
@@ -117,7 +117,7 @@ mod tests {
         if own.born == 0 {
             return;
         }
-        // Another process that had this number.
+        // Another process that had this identifier earlier.
         assert_eq!(
             Process {
                 born: own.born - 1,

@@ -1,4 +1,4 @@
-//! Typed values of a table: the same in a journal, in CSV and in Parquet.
+//! Typed values of a table. A journal, a CSV file and a Parquet file contain the same values.
 
 use std::fmt;
 
@@ -16,7 +16,7 @@ pub struct Column {
 /// Type of the values of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Integers, some of which may be unknown.
+    /// Integers; a value may be unknown.
     Count,
     /// Numbers; NaN if unknown.
     Number,
@@ -52,7 +52,7 @@ impl Cell {
         }
     }
 
-    /// Parses a written value, if it has this type.
+    /// Parses the text of a value; `None` if the text does not have this type.
     pub(super) fn read(text: &str, kind: Kind) -> Option<Self> {
         match kind {
             Kind::Count if text.is_empty() => Some(Self::Count(None)),

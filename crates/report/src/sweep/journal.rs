@@ -1,6 +1,6 @@
-//! The journal of one attempt to make the runs of a shard. It has a line before runs start, and a
-//! line for each finished run, which is written at once and never changed. It belongs to one
-//! process, so no lock is needed.
+//! The journal of one attempt to make the runs of a shard. A line is written before runs start, and
+//! a line is written at the end of each run; lines are never changed. Only one process writes a
+//! journal, so no lock is needed.
 
 use std::fs::{self, File};
 use std::io::Write;
@@ -15,14 +15,14 @@ use crate::files::process::Process;
 /// Extension of the names of journals.
 pub(super) const EXTENSION: &str = ".journal";
 
-/// If this time has passed since the last synchronisation of the journal with the disk, the next
-/// line synchronises it again. It is not done for each line, because waiting for the disk takes
-/// longer than a short run. A power failure loses at most the runs that finished within this time
-/// after the last synchronisation; a crash of the program loses no run.
+/// Shortest time between two synchronisations of the journal with the disk. The journal is not
+/// synchronised after each line, because waiting for the disk takes longer than a short run. After
+/// a power failure, at most the runs that finished within this time after the last synchronisation
+/// are lost. After a crash of the program, no run is lost.
 const SYNC: Duration = Duration::from_millis(100);
 
-/// A journal that is being written. When it is dropped in any way, except by the end of the
-/// process, it records that its started runs did not cause this.
+/// A journal that is being written. When the journal is dropped, a line records that the started
+/// runs did not end the process. Only if the process ends abruptly is this line missing.
 #[derive(Debug)]
 pub struct Journal {
     file: File,
@@ -72,8 +72,8 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Records that these runs start. This is not synchronised with the disk, because it is needed
-    /// after the end of the process, not after a failure of the machine.
+    /// Records that these runs start. The line is not synchronised with the disk, because it is
+    /// needed only after a crash of the process, not after a failure of the machine.
     ///
     /// # Errors
     /// [`JournalError::File`]: the journal could not be written.
@@ -129,7 +129,7 @@ impl Journal {
         self.line(&Entry::End.text(), SyncWhen::Now)
     }
 
-    /// Each line is a single write, so lines of other threads are never mixed with it.
+    /// Each line is written by a single call, so lines of several threads are never mixed.
     fn line(&mut self, text: &[u8], when: SyncWhen) -> Result<(), JournalError> {
         let mut written = self.file.write_all(&line(text));
         let due = matches!(when, SyncWhen::Now) || self.synced.elapsed() > SYNC;
@@ -143,8 +143,8 @@ impl Journal {
 
 impl Drop for Journal {
     fn drop(&mut self) {
-        // Without this line, the only effect is that the runs are made one at a time in the next
-        // attempt.
+        // If this line is missing, the runs are made one at a time in the next attempt; there is no
+        // other effect.
         let _ = self.end();
     }
 }

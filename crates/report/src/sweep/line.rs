@@ -1,5 +1,5 @@
-//! Lines with digests: every line starts with a digest of the rest, so that a line cut off by a
-//! crash is recognised. Such a line is ignored, and its run is made again.
+//! Lines with digests. Every line starts with a digest of the rest of the line, so that a line that
+//! was truncated by a crash is recognised. A truncated line is ignored, and its run is made again.
 //!
 //! ```text
 //! 4be1d0… {"plan":"…","runs":[1,500],"host":"node7","pid":4711,"born":8812}
@@ -61,7 +61,7 @@ pub(super) enum Entry {
     Begin(Vec<u64>),
     /// This run starts, and the process makes no other run at the same time.
     Alone(u64),
-    /// The process ends the attempt, and the started runs did not cause this.
+    /// The process ended the attempt intentionally; the started runs did not cause the end.
     End,
     /// A finished run.
     Row(u64, Vec<Cell>),
@@ -121,8 +121,8 @@ pub(super) fn record(cells: &[Cell]) -> io::Result<Vec<u8>> {
 fn cells(line: &[u8], columns: &[Column]) -> Option<Vec<Cell>> {
     let text = std::str::from_utf8(line).ok()?;
     if !text.contains('"') {
-        // This is the case for most rows: a separate CSV reader for each row would take longer than
-        // all other work.
+        // Most rows have no quotes. A separate CSV reader for each row would take longer than all
+        // other work.
         return cells_of(text.split(','), columns);
     }
     let mut reader = csv::ReaderBuilder::new()
@@ -143,8 +143,8 @@ fn cells_of<'f>(
     fields.next().is_none().then_some(cells)
 }
 
-/// A 64-bit digest that differs for different texts unless they are constructed to agree: FNV-1a
-/// with a final mix of its bits.
+/// A 64-bit digest, FNV-1a with a final mix of its bits. Different texts have different digests,
+/// unless they are constructed to have the same digest.
 #[must_use]
 pub fn digest(bytes: &[u8]) -> u64 {
     let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);

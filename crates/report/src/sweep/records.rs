@@ -13,12 +13,12 @@ pub struct Records {
     pub plan: SweepPlan,
     /// The finished runs.
     pub rows: SweepRows,
-    /// Number of further rows of these runs, from runs that were made twice.
+    /// Number of additional rows, from runs that were made more than once.
     pub repeated: u64,
     /// Finished shards.
     pub sealed: Vec<Runs>,
-    /// Runs without a row whose process ended during them, with the number of times that this
-    /// happened while the process made no other run.
+    /// Runs without a row during which the process ended. The value is the number of times that the
+    /// process ended while it made only this run.
     pub suspects: BTreeMap<u64, u64>,
 }
 
@@ -49,7 +49,7 @@ impl Records {
             .collect()
     }
 
-    /// The runs among these that have no row.
+    /// The runs in `runs` that have no row.
     #[must_use]
     pub fn missing(&self, runs: Runs) -> Vec<Runs> {
         let known = self
@@ -113,8 +113,8 @@ impl RecordCollection {
         }
     }
 
-    /// Adds a row of a file. A second row of the same run must be equal, except for its run time,
-    /// and except that one of both may state that the process ended.
+    /// Adds a row of a file. A second row of the same run must be equal, except for the run time.
+    /// In addition, one of the two rows may state that the process ended.
     pub(super) fn take(
         &mut self,
         run: u64,

@@ -9,9 +9,9 @@ use super::{Cell, Column, Kind, SweepPlan};
 pub enum SweepStatus {
     /// The run reached its end time.
     Done,
-    /// It stopped earlier; the row contains the results up to there.
+    /// The run stopped earlier; the row contains the results up to this time.
     Stopped,
-    /// The run did not start: with these numbers there is no mechanism, or no motion.
+    /// The run did not start, because the mechanism or the motion does not exist for these values.
     Refused,
     /// The process of the run ended twice while it made no other run.
     Crashed,
@@ -33,8 +33,8 @@ impl SweepStatus {
 /// Largest |F| or |T| of a joint or drive over the output rows of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extreme {
-    /// The value with its verdict on the whole run (N or N·m): unique if all components of the
-    /// force, or of the torque, are unique.
+    /// The value (N or N·m), with the verdict whether it is unique on the whole run. It is unique
+    /// if all components of the force, or of the torque, are unique.
     pub value: Value,
     /// The first time at which the value occurs (s).
     pub time: f64,
@@ -82,8 +82,8 @@ pub struct SweepMotion {
     pub rank: u64,
     /// Degree of redundancy at the start.
     pub redundancy: u64,
-    /// Number of joints and drives whose reaction is not unique on the run, or undecided; `None` if
-    /// no reaction is requested, because then the run has no verdicts.
+    /// Number of joints and drives whose reaction is not unique or is undecided on the run. `None`
+    /// if no reaction is requested, because the run then has no verdicts on reactions.
     pub not_unique: Option<u64>,
     /// Number of joints and drives with a component that is unique at the start, but sensitive to
     /// data (`fragile`).
@@ -103,7 +103,7 @@ pub struct SweepMotion {
 pub struct SweepRow {
     /// Index of the run in the grid, from 1.
     pub run: u64,
-    /// The varied numbers.
+    /// The varied values.
     pub varied: Vec<f64>,
     /// End of the run.
     pub status: SweepStatus,
@@ -139,8 +139,9 @@ const NUMBERS: Columns<f64, 7> = [
 const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
 
 impl SweepPlan {
-    /// `run`, the varied keys, `status`, `error`, `method`, `t`, counts, numbers, then for each
-    /// body its last state and for each requested joint and drive its extremes.
+    /// The columns are `run`, the varied keys, `status`, `error`, `method`, `t`, counts and other
+    /// values. Then follow the last state of each body, and the extremes of each requested joint
+    /// and drive.
     #[must_use]
     pub fn columns(&self) -> Vec<Column> {
         let column = |kind: Kind| move |name: String| Column { name, kind };

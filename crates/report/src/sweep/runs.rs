@@ -42,7 +42,7 @@ impl Runs {
         (self.first..=self.last).contains(&run)
     }
 
-    /// Whether both have at least one common run.
+    /// Whether the two ranges have at least one common run.
     #[must_use]
     pub fn meets(self, other: Self) -> bool {
         self.first <= other.last && other.first <= self.last
@@ -131,7 +131,7 @@ mod tests {
         assert_eq!(all.without(&[]), [all]);
         assert_eq!(all.without(&[runs(1, 10)]), []);
         assert_eq!(all.without(&[runs(1, 3), runs(7, 20)]), [runs(4, 6)]);
-        // Overlapping, nested, out of order.
+        // The ranges overlap, are nested, and are not in order.
         let others = [runs(8, 8), runs(2, 6), runs(3, 4), runs(5, 7)];
         assert_eq!(all.without(&others), [runs(1, 1), runs(9, 10)]);
         assert_eq!(runs(4, 5).without(&[runs(1, 2), runs(7, 9)]), [runs(4, 5)]);

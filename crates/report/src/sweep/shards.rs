@@ -5,12 +5,13 @@
 //! | file | content |
 //! | --- | --- |
 //! | `plan` | the description of the sweep, written by the first process |
-//! | `0001-0500.rows` | a finished shard: complete, or missing |
-//! | `0001-0500.parquet` | the same shard as Parquet, written before |
+//! | `0001-0500.rows` | a finished shard; the file is always complete |
+//! | `0001-0500.parquet` | the same shard as Parquet, written before the `.rows` file |
 //! | `0001-0500.HOST-PID-TIME.journal` | an attempt |
 //!
-//! Files are written next to their final paths, synchronised and renamed, so that two processes may
-//! write the same file: their contents differ only in the column `seconds`. There are no locks.
+//! Files are written next to their final paths, synchronised and renamed. Two processes may
+//! therefore write the same file; the contents differ only in the column `seconds`. There are no
+//! locks.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -32,8 +33,8 @@ const PLAN: &str = "plan";
 /// Name of the folder.
 const FOLDER: &str = "shards";
 
-/// Maximum number of times that files may disappear while they are read, because other processes
-/// have finished a shard and removed its journals.
+/// Maximum number of repeated readings of the folder. A reading is repeated if a file has
+/// disappeared because another process has finished a shard and removed its journals.
 const LOOKS: usize = 1000;
 
 /// The shards of a sweep in a directory.
@@ -60,7 +61,7 @@ struct ShardRecords {
 }
 
 impl Shards {
-    /// Opens the shards of a directory, and starts them if the directory has none.
+    /// Opens the shards of a directory, and creates them if the directory contains no shards.
     ///
     /// # Errors
     /// - [`JournalError::Changed`], [`JournalError::Damaged`]: the directory contains another
@@ -164,7 +165,7 @@ impl Shards {
         Ok(all)
     }
 
-    /// The runs of the finished shards, from their names alone.
+    /// The runs of the finished shards, determined only from the file names.
     ///
     /// # Errors
     /// [`JournalError::File`]: the folder cannot be read.
@@ -237,7 +238,8 @@ impl Shards {
             let is_dead = match by.as_ref().map(Process::life) {
                 Some(Life::Runs) => false,
                 Some(Life::Gone) => true,
-                // A shard that another process is making is not made again.
+                // If it is unknown whether the process is still running, it counts as ended only if
+                // exactly its runs are requested.
                 Some(Life::Unknown) | None => found.runs == wanted,
             };
             if !has_ended && is_dead {
@@ -361,9 +363,9 @@ impl Shards {
         Ok(())
     }
 
-    /// Deletes the rows of runs during which their process ended, and the record of these runs as
-    /// suspects: they are made again like runs that were never started. Returns their number. No
-    /// process may make runs of the sweep at the same time.
+    /// Deletes the rows of runs during which the process ended, and removes these runs from the
+    /// list of suspects. They are made again like runs that were never started. Returns the number
+    /// of these runs. No process may make runs of the sweep at the same time.
     ///
     /// # Errors
     /// Returns the same errors as [`Self::read`]; [`JournalError::File`]: a file could not be
@@ -402,14 +404,14 @@ impl Shards {
     pub fn forget(&self) {
         let files = fs::read_dir(&self.folder).map_or(0, Iterator::count);
         if files == 1 && fs::remove_file(self.folder.join(PLAN)).is_ok() {
-            // Other processes may have started runs.
+            // This fails if other processes have started runs.
             let _ = fs::remove_dir(&self.folder);
         }
     }
 }
 
-/// Records in the journals of this process that its end is intended: the started runs did not cause
-/// it. This is for a process that will be ended without unwinding.
+/// Records in the journals of this process that its end is intended and that the started runs did
+/// not cause it. This is for a process that will be ended without unwinding.
 pub fn end_attempts(directory: &Path) {
     let Ok(shards) = Shards::find(directory) else {
         return;
@@ -448,7 +450,7 @@ fn publish(path: &Path, bytes: &[u8], how: Publish) -> Result<(), FileError> {
         file.sync_all()
     };
     let placed = || match how {
-        // Not every file system supports links.
+        // If the file system does not support links, the file is renamed.
         Publish::Once => match fs::hard_link(&part, path) {
             Ok(()) => fs::remove_file(&part),
             Err(e) if e.kind() == ErrorKind::AlreadyExists => fs::remove_file(&part),
@@ -460,11 +462,11 @@ fn publish(path: &Path, bytes: &[u8], how: Publish) -> Result<(), FileError> {
         .map_err(FileError::refused("write", path))
         .and_then(|()| placed().map_err(FileError::refused("rename to", path)));
     if done.is_err() {
-        // The first error is reported.
+        // Only the first error is reported.
         let _ = fs::remove_file(&part);
     }
     done?;
-    // The file itself is on the disk; not every system can also synchronise its name.
+    // The content of the file is on the disk. Some systems cannot synchronise the directory entry.
     if let Some(folder) = path.parent() {
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
     }

@@ -1,5 +1,5 @@
-//! The tables of a sweep, computed from its finished shards and journals in the order of the grid,
-//! whichever processes made the runs.
+//! The tables of a sweep, computed from its finished shards and journals in the order of the grid.
+//! They do not depend on which processes made the runs.
 
 use super::document::Extent;
 use super::{Records, SweepDocument};
@@ -21,8 +21,9 @@ const WRITTEN: &[&str] = if cfg!(feature = "parquet") {
     &[TABLE, SUMMARY]
 };
 
-/// Writes `sweep.csv`, `sweep.parquet` if this feature is compiled, and `summary.json`, each next
-/// to its final path. Several processes may do this at the same time; the last result remains.
+/// Writes `sweep.csv`, `summary.json`, and with the feature `parquet` also `sweep.parquet`. Each
+/// file is written next to its final path and renamed. Several processes may do this at the same
+/// time; the last result remains.
 ///
 /// # Errors
 /// Returns an error if a file could not be written; complete older tables are kept.

@@ -1,5 +1,5 @@
-//! Tests that files survive damage, and that tables are the same after any interruption, whichever
-//! process made the rows.
+//! Tests that damaged files can be read, and that tables are the same after any interruption and
+//! for any process that made the rows.
 
 use std::fs;
 use std::path::PathBuf;
@@ -201,8 +201,8 @@ fn a_row_comes_back_with_its_bits() {
     }
 }
 
-/// A journal that was cut off at any position keeps the rows of its complete lines; another attempt
-/// makes the other runs.
+/// If a journal is truncated at any position, the rows of its complete lines are read, and another
+/// attempt makes the other runs.
 #[test]
 fn a_journal_may_be_cut_at_any_byte() {
     let folder = Folder::new("cut");
@@ -229,7 +229,7 @@ fn damaged_lines_are_made_again() {
     // One digit of the second row is changed.
     let mut bytes = whole.clone();
     bytes[ends[1] + 40] ^= 1;
-    // The possible result of a power failure: zeros after the old end of a file.
+    // After a power failure, a file may contain zeros after its old end.
     bytes.extend([0; 100]);
     fs::write(&path, &bytes).expect("writable");
     assert_eq!(numbers(&folder.read()), [1, 3]);
@@ -331,8 +331,8 @@ fn another_sweep_is_refused_by_name() {
     assert!(matches!(error, JournalError::Missing { .. }), "{error}");
 }
 
-/// The same run twice: a repetition is reported, a copy is not, and a difference is rejected with
-/// an error.
+/// The same run has two rows: a repetition is counted, a copy is not counted, and different rows
+/// are rejected with an error.
 #[test]
 fn rows_of_one_run_must_agree() {
     let [one, two, three] = ["agree", "agree-too", "agree-not"].map(Folder::new);
@@ -379,7 +379,7 @@ fn rows_of_one_run_must_agree() {
             "{error}"
         );
     }
-    // A machine on which the process ended during a run, and one on which it did not.
+    // On one machine the process ended during a run, and on another machine it did not.
     let crashed = SweepRow {
         status: SweepStatus::Crashed,
         ..refused(2)
@@ -419,7 +419,7 @@ fn only_an_end_without_a_word_makes_runs_suspect() {
     dropped.begin(&[1, 2]).expect("writable");
     drop(dropped);
     assert_eq!(suspects(runs(1, 4)), []);
-    // The state after an intended end of the process, whatever its threads do.
+    // The state after an intended end of the process, while its threads may still be running.
     let mut ended = folder.shards().begin(runs(1, 4)).expect("free");
     ended.begin_alone(3).expect("writable");
     super::end_attempts(&folder.0);
@@ -489,7 +489,7 @@ fn finished_shards_take_the_place_of_journals() {
     if cfg!(feature = "parquet") {
         assert_eq!(parquet, ["1-2.parquet", "3-4.parquet"]);
     }
-    // The bytes of a shard depend only on its rows, whichever process writes it.
+    // The bytes of a shard depend only on its rows, not on the process that writes the shard.
     let other = Folder::new("tidy-too");
     fill(&other, runs(1, 4), &[row(4), row(3)]);
     let records = other.read();
@@ -573,7 +573,7 @@ fn gaps_are_told_as_runs() {
     assert_eq!(text["shard"], serde_json::json!([3, 3]));
 }
 
-/// If the verdict allows no number, the time of the number is also omitted.
+/// If the value is not determined, its time is also omitted.
 #[test]
 fn cells_of_extremes_are_determined() {
     let plan = plan();

@@ -1,6 +1,7 @@
-//! `reactions.csv`: force and torque on the first body of joints and drives, and the numbers of
-//! groups. The cells with a number are known when the run has ended. Before, all numbers belong to
-//! one choice of multipliers, which is the content of `choice.csv`.
+//! `reactions.csv`: force and torque on the first body of joints and drives, and the components of
+//! groups. After the run it is known which cells of the table have a determined value. During the
+//! run, all values belong to one of the possible solutions for the multipliers, which is written to
+//! `choice.csv`.
 
 use std::io::{self, BufRead, Write};
 
@@ -15,8 +16,8 @@ pub enum Selection {
     /// All reactions.
     #[default]
     All,
-    /// Reactions of these joints and drives, in the order of the rows of C, whatever the order of
-    /// the names.
+    /// Reactions of these joints and drives, in the order of the rows of C; the order of the names
+    /// has no effect.
     Names(Vec<String>),
 }
 
@@ -63,7 +64,7 @@ pub fn reaction_columns(mechanism: &Mechanism, place: usize) -> Vec<Column> {
 pub enum Quantity {
     /// A component of a joint or drive, or the named component of its definition.
     Component(ConstraintId, &'static str),
-    /// A number of a group, by the index of the group.
+    /// A component of a group, with the index of the group.
     Group(usize, &'static str),
 }
 
@@ -81,8 +82,8 @@ impl Quantity {
         }
     }
 
-    /// A number of this quantity at a time, with the verdict on the interval that contains the
-    /// time.
+    /// A value of this quantity at a time, with the verdict whether it is determined on the
+    /// interval that contains the time.
     #[must_use]
     pub fn value(&self, stretches: &Stretches, t: f64, number: f64) -> Value {
         let track = self.verdicts(stretches);
@@ -97,7 +98,7 @@ pub struct ReactionColumn {
     pub column: Column,
     /// Quantity in the column.
     pub quantity: Quantity,
-    /// Whether the number is sensitive to the last digits of the data.
+    /// Whether the value is sensitive to the last digits of the data.
     pub fragile: bool,
 }
 
@@ -117,8 +118,8 @@ impl ReactionColumn {
     }
 }
 
-/// The columns of all selected joints and drives, followed by those of groups, which are given with
-/// their names.
+/// The columns of all selected joints and drives, followed by the columns of the groups, which are
+/// given with their names.
 ///
 /// # Errors
 /// [`TableError::UnknownReaction`]: a selected name does not exist.
@@ -155,13 +156,13 @@ pub fn columns_of_reactions(
 
 /// `t`, then for each joint and drive `<name>.Fx, .Fy, .T`, in space
 /// `.Fx, .Fy, .Fz, .Tx, .Ty, .Tz`, and the named component of its definition, if it has one: `.N`
-/// of a knife edge, `.drive` of a drive (s, N, N·m); then the numbers of groups. All numbers belong
-/// to one choice of multipliers.
+/// of a knife edge, `.drive` of a drive (s, N, N·m); then the components of groups. All values
+/// belong to one of the possible solutions for the multipliers.
 pub struct ReactionTable<W: Write> {
     table: Table<W>,
     n_reactions: usize,
     columns: Vec<ReactionColumn>,
-    /// One row, reused.
+    /// Buffer for one row, reused.
     values: Vec<f64>,
     space: SpaceKind,
 }
@@ -193,9 +194,9 @@ impl<W: Write> ReactionTable<W> {
         &self.columns
     }
 
-    /// Writes the reactions at time t and returns the numbers of the row, without t. `reactions`
+    /// Writes the reactions at time t and returns the values of the row, without t. `reactions`
     /// contains **all** joints and drives, in the order of their rows; the table writes the
-    /// selected ones. `groups` contains all numbers of all groups.
+    /// selected ones. `groups` contains all components of all groups.
     ///
     /// # Errors
     /// - [`TableError::Length`]: the numbers belong to another mechanism; nothing is written.
@@ -232,7 +233,7 @@ impl<W: Write> ReactionTable<W> {
     }
 }
 
-/// A component of a reaction by its name; NaN without such a component.
+/// A component of a reaction by its name; NaN if the reaction has no component with this name.
 fn component(reaction: &Reaction, space: SpaceKind, name: &str) -> f64 {
     match space.component(name) {
         Some(k) => reaction.components(space).nth(k).unwrap_or(f64::NAN),
@@ -245,8 +246,8 @@ fn header(columns: &[ReactionColumn]) -> Vec<String> {
     std::iter::once("t".to_owned()).chain(names).collect()
 }
 
-/// Copies a table of all numbers without the numbers that are not determined on their interval, and
-/// without those that do not exist. Returns whether a cell is empty.
+/// Copies a table of all values. Values that are not determined on their interval, and values that
+/// do not exist, become empty cells. Returns whether a cell is empty.
 ///
 /// # Errors
 /// [`TableError::Write`]: reading or writing failed.
@@ -263,8 +264,8 @@ pub fn write_determined(
     })
 }
 
-/// Copies a table of all numbers. Numbers that are not determined on their interval are replaced by
-/// the numbers of a choice of multipliers, from a table with the same rows and columns.
+/// Copies a table of all values. Values that are not determined on their interval are replaced by
+/// the values of another solution for the multipliers, from a table with the same rows and columns.
 ///
 /// # Errors
 /// [`TableError::Write`]: reading or writing failed.
@@ -283,7 +284,7 @@ pub fn write_chosen(
 }
 
 /// Copies a table; cells that are not determined are copied from the other table, or are empty.
-/// Returns whether there are such cells.
+/// Returns whether any cell is not determined.
 fn copy(
     mut all: impl BufRead,
     mut chosen: Option<impl BufRead>,

@@ -1,4 +1,5 @@
-//! Tests of reference headers and rows, exact bits, rows of another mechanism.
+//! Tests headers and rows against reference text, exact bits, and the rejection of rows of another
+//! mechanism.
 
 use joints::plane::Direction;
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive};
@@ -45,13 +46,13 @@ fn carrier() -> Mechanism {
     Mechanism::build(&description).expect("the carrier builds")
 }
 
-/// A table of all numbers of these reactions.
+/// A table of all values of these reactions.
 fn table(mechanism: &Mechanism, selection: &Selection) -> ReactionTable<Vec<u8>> {
     let columns = columns_of_reactions(mechanism, selection, &[], |_| false).expect("exist");
     ReactionTable::new("choice.csv", Vec::new(), mechanism, columns).expect("writes")
 }
 
-/// A row without groups, as written.
+/// The written text of a row without groups.
 fn written(mut table: ReactionTable<Vec<u8>>, t: f64) -> String {
     let none = ChosenValues::new(Vec::new(), Vec::new());
     let row = ChosenValues::new(reactions().to_vec(), Vec::new());
@@ -95,9 +96,9 @@ fn reactions_have_the_header_of_the_contract() {
     assert_eq!(written(table, 0.25), expected);
 }
 
-/// A cell has a number if the component is determined on the interval that contains the time; a row
-/// on a boundary belongs to the interval that starts there. A fragile column is marked, and sums
-/// follow.
+/// A cell has a value if the component is determined on the interval that contains the time. A row
+/// at a boundary belongs to the interval that starts there. A fragile column is marked, and columns
+/// of sums follow.
 #[test]
 fn cells_are_empty_where_nothing_is_determined() {
     let carrier = carrier();
@@ -136,8 +137,8 @@ fn cells_are_empty_where_nothing_is_determined() {
                     1.0,3.0,0.5,-3.0,8.0,\n\
                     2.0,3.0,0.5,-3.0,8.0,17.0\n";
     assert_eq!(text(determined), expected);
-    // In the table of a choice, the cells that are not determined have the numbers of this choice;
-    // all other cells are unchanged.
+    // In the table of one solution for the multipliers, the cells that are not determined have the
+    // values of this solution. All other cells are unchanged.
     let mut table =
         ReactionTable::new("choice.csv", Vec::new(), &carrier, columns.clone()).expect("writes");
     let row = ChosenValues::new(

@@ -7,15 +7,15 @@ use model::{Marker, Mechanism, Scratch, System};
 
 use super::{Table, TableError};
 
-/// A column of a trajectory or of reactions: its owner, and the name of the number. As text it is
-/// `<owner>.<number>`, or only the owner.
+/// A column of a trajectory or of reactions, with its owner and the name of the quantity. As text
+/// it is `<owner>.<quantity>`, or only the owner.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Name of the body, marker, measure, drive or joint.
     pub owner: String,
     /// `body`, `marker`, `measure`, `law` or `reaction`.
     pub kind: &'static str,
-    /// Name of the number, such as `x` or `Fx`; empty for a measure, which is one number.
+    /// Name of the quantity, such as `x` or `Fx`; empty for a measure, which has only one value.
     pub number: &'static str,
 }
 
@@ -28,7 +28,7 @@ impl fmt::Display for Column {
     }
 }
 
-/// The numbers of a trajectory of a mechanism at one time. For each body:
+/// The values of a trajectory of a mechanism at one time. For each body:
 /// `<body>.x, .y, .angle, .vx, .vy, .omega` of the origin of its frame (m, rad, m/s, rad/s), in
 /// space `.x, .y, .z, .qw, .qx, .qy, .qz, .vx, .vy, .vz, .wx, .wy, .wz` (ground axes; the
 /// quaternion changes continuously, starting with w ≥ 0). Then, for each marker that can move, its
@@ -38,7 +38,7 @@ impl fmt::Display for Column {
 pub struct Trajectory<'m> {
     mechanism: &'m Mechanism,
     columns: Vec<Column>,
-    /// Work memory for the evaluation of drives with force laws, if there are any.
+    /// Work space for the evaluation of drives with force laws, if there are any.
     s: Option<Scratch>,
 }
 
@@ -80,7 +80,7 @@ impl<'m> Trajectory<'m> {
         &self.columns
     }
 
-    /// Adds the numbers for the state (q, v) at time t to `values`.
+    /// Adds the values for the state (q, v) at time t to `values`.
     ///
     /// # Panics
     /// Panics if q and v belong to another mechanism.
@@ -115,7 +115,7 @@ impl<'m> Trajectory<'m> {
 pub struct TrajectoryTable<'m, W: Write> {
     table: Table<W>,
     trajectory: Trajectory<'m>,
-    /// One row, reused.
+    /// Buffer for one row, reused.
     values: Vec<f64>,
 }
 
@@ -161,7 +161,7 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
     }
 }
 
-/// Whether a marker has columns: a marker of the ground does not move.
+/// Whether a marker has columns. A marker on the ground does not move and has no columns.
 fn is_written(marker: &Marker) -> bool {
     marker.body.moving().is_some()
 }

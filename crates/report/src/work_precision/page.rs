@@ -1,12 +1,12 @@
-//! `report.html` of a comparison: one file that can be opened offline, for readers who do not know
-//! the program.
+//! Writes `report.html` of a comparison, one file that can be opened offline, for readers who have
+//! not used the program.
 
 use super::{
     Place, ReferenceDocument, WorkPrecisionDocument, WorkPrecisionRow, WorkPrecisionScene,
 };
 use crate::page::{add, close, duration, list, open, safe, short};
 
-/// Explanation of the numbers, once for all scenes.
+/// Explanation of the values for all scenes.
 const EXPLANATION: &str = "<p>Each run is compared with reference values that do not come from the same run. <em>Errors</em> are the largest over all \
 components and reference times. Lengths are divided by the size of the mechanism. The error of each kind (position, velocity, \
 acceleration, reaction) is relative to the largest value of that kind. Only unique reactions are compared: the values of other reactions \

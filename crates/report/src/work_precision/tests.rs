@@ -145,8 +145,9 @@ fn the_page_needs_nothing_else_and_escapes_what_it_is_told() {
 fn the_figure_has_a_point_for_every_finished_run_and_none_for_others() {
     let document = document();
     let svg = figures::work_precision(&document.scenes);
-    // Three runs of dop853: two are drawn in all three panels, the one with another formulation in
-    // the last one. The legends have four samples, including radau5.
+    // There are three runs of dop853. Two runs are drawn in all three panels, and the run with
+    // another formulation is drawn only in the last panel. The legends have four samples, including
+    // radau5.
     assert_eq!(svg.matches("<polygon").count(), 2 * 3 + 1 + 4);
     assert!(svg.contains("1 of 4 runs did not reach the end"));
     assert!(svg.contains("dop853: formulations and stabilisations"));

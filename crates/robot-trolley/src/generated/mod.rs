@@ -1,5 +1,5 @@
-//! The equations of the robot as straight-line code, on the rows that are kept where nobody asks for
-//! others. Written by `cargo xtask codegen --scene`; a test compares it with its scene.
+//! The equations of the robot as straight-line code, for the rows that are kept by default. Written
+//! by `cargo xtask codegen --scene`; a test compares the code with its scene.
 
 #[rustfmt::skip]
 pub mod automatic;

@@ -7,14 +7,14 @@ use super::one_line;
 use crate::functions::{Functions, NamedView};
 use crate::subject::Subject;
 
-/// Description of coordinates and velocities in space.
+/// Description of the coordinates and velocities in space.
 const IN_SPACE: [&str; 3] = [
     "Coordinates of a body: its mass centre, then the quaternion (w, x, y, z) of its principal axes, of any length; velocities: that of the",
     "mass centre along the axes of the ground, then the angular velocity along the principal axes. `dq` is a displacement along velocities: a",
     "translation and a rotation vector.",
 ];
 
-/// The documentation of a module, by lines.
+/// Returns the lines of the documentation of a module.
 pub(super) fn of(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
     let prepared = subject.prepared;
     let layout = prepared.mechanism.layout();

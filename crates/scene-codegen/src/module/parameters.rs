@@ -1,6 +1,6 @@
-//! The numbers of a scene in its module: the arguments of its functions, and their indices in the
-//! mechanism of a run. Also the principal axes of bodies in space, which may depend on these
-//! numbers.
+//! The inputs of a module: the arguments of its functions, and their indices in the mechanism of a
+//! run. The code for principal axes of bodies in space, which may depend on inputs, is also
+//! generated here.
 
 use joints::RecordedNumber;
 use model::{BodyRecord, Principal, SpaceKind};
@@ -11,7 +11,7 @@ use crate::functions::Functions;
 use crate::parameters::Inputs;
 use crate::subject::Subject;
 
-/// The numbers of the scene that functions take as arguments.
+/// Generates the constants for the inputs that functions have as arguments.
 pub(super) fn parameters(inputs: &Inputs) -> TokenStream {
     let n = inputs.list.len();
     if n == 0 {
@@ -33,7 +33,7 @@ pub(super) fn parameters(inputs: &Inputs) -> TokenStream {
     }
 }
 
-/// The rotation between the velocity axes and the frames of bodies in space.
+/// Generates the rotation from the axes of the angular velocities to the frames of bodies in space.
 pub(super) fn principal_axes(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
     let mechanism = &subject.prepared.mechanism;
     let (bodies, space) = (mechanism.bodies(), mechanism.space());
@@ -81,7 +81,7 @@ pub(super) fn principal_axes(subject: &Subject<'_>, functions: &Functions) -> To
     }
 }
 
-/// Indices of the numbers in the mechanism of a run.
+/// Generates the indices of the inputs in the mechanism of a run.
 pub(super) fn inputs_of_code(inputs: &Inputs, path: &syn::Path) -> TokenStream {
     let shape = inputs.shape;
     let list = inputs.list.iter().enumerate().map(|(k, p)| {

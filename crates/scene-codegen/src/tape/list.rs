@@ -1,10 +1,10 @@
-//! Straight-line code as a list of instructions on storage places, executed for several states at
-//! once, so that each instruction is read only once for all of them. The results for a state have
-//! the same bits, whatever the other states are.
+//! Straight-line code as a list of instructions on storage places. It is executed for several
+//! states at once, so that each instruction is read only once for all of them. The results for a
+//! state have the same bits for any values of the other states.
 //!
-//! A product that is used once, by a sum or a difference, is combined with it to one instruction;
-//! product and sum are rounded separately. A storage place is reused when its value is no longer
-//! needed, so that all values stay in the nearest cache.
+//! If a product is used only once, in a sum or a difference, the two operations become one
+//! instruction; each is rounded separately. A storage place is used again when its value is no
+//! longer needed, so that all values fit in the nearest cache.
 
 use std::array::from_fn;
 use std::cmp::Reverse;
@@ -15,15 +15,15 @@ use symbolic::{Binary, Function, Number as _, Op, Program, Value};
 
 use crate::equations::Source;
 
-/// Index of a storage place. No index can exceed [`PLACES`], so no index is checked.
+/// Index of a storage place. An index cannot exceed [`PLACES`], so indices are not checked.
 pub(super) type Place = u16;
 
-/// Number of storage places, of which a list uses the first ones.
+/// Number of storage places; a list uses the first of them.
 pub(super) const PLACES: usize = 1 << 16;
 
-/// Operands and result of a product with a sum, rounded after the product and after the sum. Each
+/// Operands and result of `c ± a·b`, which is rounded after the product and after the sum. Each
 /// sum, difference and product of a program has this form. A sum has the factor b = 1, a product
-/// has c = −0; neither changes a bit.
+/// has c = −0; neither changes any bit.
 #[derive(Clone, Copy, Debug)]
 struct Sum {
     a: Place,
@@ -32,7 +32,7 @@ struct Sum {
     to: Place,
 }
 
-/// The signs of such a sum.
+/// The signs of the terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Signs {
     /// `c + a·b`
@@ -51,20 +51,20 @@ enum Do {
     Call { f: Function, a: Place, to: Place },
 }
 
-/// One function as a list.
+/// One function as a list of instructions.
 #[derive(Default)]
 pub(super) struct List {
-    /// Coordinates, entries of the second argument, and numbers of an operation list, each with its
+    /// Coordinates, entries of the second argument, and inputs of an operation list, each with its
     /// storage place.
     pub(super) coordinates: Vec<(usize, Place)>,
     pub(super) with: Vec<(usize, Place)>,
     pub(super) numbers: Vec<(usize, Place)>,
-    /// Functions of time with derivatives and their storage places.
+    /// Functions of time, each with the storage places of its value and derivatives.
     pub(super) functions: Vec<(usize, Vec<(usize, Place)>)>,
-    /// Coordinates with the storage places of their cosines and sines.
+    /// Coordinates, each with the storage places of its cosine and sine.
     pub(super) angles: Vec<(usize, [Option<Place>; 2])>,
-    /// Bodies in space with entries of their rotations, by rows, and the storage places of these
-    /// entries.
+    /// Bodies in space, each with entries of its rotation matrix (by rows) and the storage places
+    /// of these entries.
     pub(super) rotations: Vec<(usize, Vec<(usize, Place)>)>,
     constants: Vec<(f64, Place)>,
     steps: Vec<Do>,
@@ -75,14 +75,14 @@ pub(super) struct List {
 }
 
 impl List {
-    /// The list of a program whose first `n_out` outputs are results and whose other outputs are
-    /// relative sizes of divisors; `sources` contains the sources of its inputs. `None` if the list
-    /// needs too many storage places.
+    /// Creates the list of a program. The first `n_out` outputs are results, and the other outputs
+    /// are relative sizes of divisors; `sources` contains the sources of the inputs. Returns `None`
+    /// if the list needs too many storage places.
     pub(super) fn new(program: &Program, sources: &[Source], n_out: usize) -> Option<Self> {
         let mut made = Maker::new(program)?;
         let mut list = Self::default();
-        // Inputs and constants exist before the first step, so each of them needs an unused storage
-        // place.
+        // Inputs and constants are set before the first step, so each of them needs a separate
+        // storage place.
         for (k, op) in program.ops().iter().enumerate() {
             match op {
                 Op::Input(s) => {
@@ -123,7 +123,7 @@ impl List {
         }
     }
 
-    /// Executes all steps on L states, whose inputs are in their storage places.
+    /// Executes all steps for L states; the storage places of the inputs must contain their values.
     #[inline(always)]
     pub(super) fn execute<const L: usize>(&self, places: &mut [[f64; L]; PLACES]) {
         for &(x, to) in &self.constants {
@@ -146,7 +146,7 @@ impl List {
     }
 }
 
-/// The entry of a key in the list; a new entry if there is none.
+/// Returns the entry of a key in the list; adds a new entry if the key is missing.
 fn of<T: Default>(list: &mut Vec<(usize, T)>, key: usize) -> &mut T {
     let known = list.iter().position(|(at, _)| *at == key);
     let known = known.unwrap_or_else(|| {
@@ -156,7 +156,7 @@ fn of<T: Default>(list: &mut Vec<(usize, T)>, key: usize) -> &mut T {
     &mut list[known].1
 }
 
-/// Sums of one kind, in sequence.
+/// Executes sums with the same signs in sequence.
 #[inline(always)]
 fn each<const L: usize>(
     sums: &[Sum],
@@ -177,11 +177,11 @@ const NOTHING: Place = 1;
 /// State of the conversion of a program to a list.
 struct Maker<'p> {
     program: &'p Program,
-    /// The storage place of each value that has one.
+    /// For each value, its storage place, if it has one.
     places: Vec<Option<Place>>,
-    /// Number of remaining uses of each value: by the following operations and as an output.
+    /// For each value, the number of remaining uses in later operations and as an output.
     reads: Vec<usize>,
-    /// Products that are combined with the sum that uses them.
+    /// For each product, whether it is combined with the sum that uses it.
     joined: Vec<bool>,
     free: Vec<Place>,
     /// Number of storage places used so far.
@@ -211,7 +211,7 @@ impl<'p> Maker<'p> {
         })
     }
 
-    /// Assigns a free storage place to a value; `None` if there is no free one.
+    /// Assigns a free storage place to a value; returns `None` if there is no free one.
     fn take(&mut self, k: usize) -> Option<Place> {
         let place = match self.free.pop() {
             Some(place) => place,
@@ -228,7 +228,7 @@ impl<'p> Maker<'p> {
         self.places[v.index()].expect("operands precede their uses")
     }
 
-    /// Reads a value; its storage place is free after the last use.
+    /// Returns the storage place of a value for reading; the place becomes free after the last use.
     fn read(&mut self, v: Value) -> Place {
         let place = self.of(v);
         self.reads[v.index()] -= 1;
@@ -239,7 +239,7 @@ impl<'p> Maker<'p> {
         place
     }
 
-    /// Adds the step of an operation. `None` if there is no free storage place.
+    /// Adds the step for an operation. Returns `None` if there is no free storage place.
     fn step(&mut self, k: usize, steps: &mut Vec<Do>) -> Option<()> {
         let signs = signs(self.program, &self.joined, k);
         let (a, b, c) = match self.program.ops()[k] {
@@ -281,7 +281,7 @@ impl<'p> Maker<'p> {
     }
 }
 
-/// The signs of a sum, difference or product.
+/// Returns the signs of a sum, difference or product.
 fn signs(program: &Program, joined: &[bool], k: usize) -> Signs {
     match program.ops()[k] {
         Op::Binary(Binary::Sub, a, _) if joined[a.index()] => Signs::Reversed,
@@ -290,13 +290,14 @@ fn signs(program: &Program, joined: &[bool], k: usize) -> Signs {
     }
 }
 
-/// Number of instructions after which a processor has the result of an instruction; other
-/// instructions are executed in between.
+/// Number of instructions until the result of an instruction is available in a processor; other
+/// instructions should be executed in between.
 const LATENCY: usize = 5;
 
-/// The operations in an order in which each waits for another as rarely as possible, and in which
-/// operations of one kind are adjacent. Among the operations that need not wait, the one with the
-/// longest dependent chain is first. Inputs, constants and combined products are omitted.
+/// Returns the operations in an order in which as few as possible wait for the result of another
+/// one, and in which operations of the same kind are adjacent. Among the operations that need not
+/// wait, the one with the longest chain of dependent operations comes first. Inputs, constants and
+/// products that are combined with sums are omitted.
 fn order(program: &Program, joined: &[bool]) -> Vec<usize> {
     let ops = program.ops();
     let is_step = |k: usize| !joined[k] && !matches!(ops[k], Op::Input(_) | Op::Number(_));
@@ -328,7 +329,8 @@ fn order(program: &Program, joined: &[bool]) -> Vec<usize> {
     };
     let steps: Vec<usize> = (0..ops.len()).filter(|k| is_step(*k)).collect();
     let mut ready: [BinaryHeap<(usize, Reverse<usize>)>; 5] = Default::default();
-    // Operations whose operands are being computed, with the time when these are available.
+    // Operations whose operands are being computed, with the time at which the operands are
+    // available.
     let mut waiting: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
     let mut from = vec![0_usize; ops.len()];
     waiting.extend(
@@ -367,7 +369,7 @@ fn order(program: &Program, joined: &[bool]) -> Vec<usize> {
     order
 }
 
-/// The factors of a product.
+/// Returns the factors of a product; `None` for other operations.
 fn factors(program: &Program, v: Value) -> Option<(Value, Value)> {
     match program.op(v) {
         Op::Binary(Binary::Mul, a, b) => Some((a, b)),
@@ -381,8 +383,9 @@ mod tests {
 
     use super::*;
 
-    /// A program of 400 operations of all kinds on 12 inputs, from pseudo-random numbers: sums of
-    /// products, products that are used twice, constants, roots, results that are inputs.
+    /// Returns a program of 400 operations of all kinds on 12 inputs, from pseudo-random numbers.
+    /// It contains sums of products, products that are used twice, constants, roots, and results
+    /// that are inputs.
     fn program(seed: u64) -> (Program, Vec<Source>) {
         let mut state = seed;
         let mut draw = |n: usize| {
@@ -399,7 +402,7 @@ mod tests {
         }
         let sources = (0..12).map(|k| Source::Mechanism(Input::Coordinate(k)));
         for _ in 0..400 {
-            // Mostly recent values, so that chains are long.
+            // Recent values are preferred, so that chains are long.
             let mut of = |values: &[Value]| {
                 let last = values.len().min(20);
                 values[values.len() - 1 - draw(last)]
@@ -424,7 +427,7 @@ mod tests {
                     p.neg(product)
                 }
             };
-            // Values of similar size, so that no value overflows.
+            // Values are reduced to a similar size, so that none overflows.
             let (one, square) = (p.number(1.0), p.mul(made, made));
             let size = p.add(one, square);
             values.push(p.div(made, size));
@@ -433,8 +436,8 @@ mod tests {
         (p.with_outputs(&outputs), sources.collect())
     }
 
-    /// The references are the operations of the program, one at a time. Each state has other
-    /// numbers.
+    /// The references are single evaluations of the operations of the program. Each state has other
+    /// values of the inputs.
     #[test]
     fn lists_are_their_programs_bit_for_bit() {
         const L: usize = 8;
@@ -465,8 +468,8 @@ mod tests {
         }
     }
 
-    /// Each operation follows its operands, no operation is missing, and no storage place is reused
-    /// while its value is needed.
+    /// Each operation comes after its operands, no operation is missing, and no storage place is
+    /// used again while its value is needed.
     #[test]
     fn places_are_used_again() {
         let (program, sources) = program(7);

@@ -1,5 +1,5 @@
-//! Code for scenes in space: rotations by quaternions, velocities along principal axes, gyroscopic
-//! torques, forces in the axes of a body frame, drives of angles by their cosine and sine.
+//! Tests code for scenes in space: rotations by quaternions, velocities in principal axes,
+//! gyroscopic torques, forces in the axes of a body frame, and drives of angles by cosine and sine.
 
 #[path = "../../tests/space/mod.rs"]
 mod scenes;
@@ -10,8 +10,8 @@ use scenes::scenes;
 use super::{SAME, compare, corrections_are_exact, run, states, study, subject};
 use crate::functions::{Functions, NamedView};
 
-/// Number of states of each scene, and the smallest number of them at which the code must be
-/// healthy: many states of a chain that swings freely are beyond the range of its pivots.
+/// Number of states of each scene, and the smallest number of states at which the code must be
+/// healthy. Many states of a chain that swings freely are outside the range of its pivots.
 const STATES: usize = 1000;
 const HEALTHY: usize = 800;
 
@@ -31,7 +31,7 @@ fn corrections_in_space_are_those_of_a_saddle_solve() {
     }
 }
 
-/// q̇ = T(q)·v, as in the system, for quaternions of any length.
+/// Compares q̇ = T(q)·v with the system, for quaternions of any length.
 #[test]
 fn rates_of_coordinates_are_those_of_the_mechanism() {
     for (name, text) in scenes() {
@@ -82,9 +82,9 @@ fn accelerations_do_not_depend_on_lengths_of_quaternions() {
     }
 }
 
-/// Shafts that rotate by more than half a turn, and a cart that rotates by more than a right angle.
-/// Along fixed axes, every entry of C becomes zero at some state. This is not the case along the
-/// axes of the supporting bodies, or of the chassis.
+/// Shafts that rotate by more than half a revolution, and a cart that rotates by more than 90°. In
+/// fixed axes, every entry of C becomes zero at some state. In the axes of the supporting bodies,
+/// or of the chassis, this does not happen.
 #[test]
 fn what_turns_keeps_its_pivots() {
     let view = |name: &str| {

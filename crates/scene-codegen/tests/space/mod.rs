@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-/// Returns names and texts of the spatial scenes in `examples`, and of those in the folder of this
-/// file.
+/// Returns names and texts of the spatial scenes in `examples` and in the folder of this file.
 pub(crate) fn scenes() -> Vec<(String, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut scenes = Vec::new();

@@ -1,11 +1,11 @@
-//! The line of action of two wheels that rotate about axes of one carrier, from their pitch point
-//! and a pressure angle.
+//! Computes the line of action of two wheels that rotate about axes of one carrier, from the pitch
+//! point and the pressure angle.
 
 use joints::space3::{Direction, cross, dot};
 
 use crate::limits::MEETING;
 
-/// A line of the carrier: a point, and a unit vector along it.
+/// A line fixed in the carrier: a point, and a unit vector along the line.
 #[derive(Clone, Copy)]
 pub(super) struct Axis {
     pub(super) point: [f64; 3],
@@ -13,7 +13,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Whether a force along a line through a point has a moment about the axis.
+    /// Returns whether a force along a line through a point has a moment about the axis.
     pub(super) fn has_lever(&self, line: [f64; 3], at: [f64; 3]) -> bool {
         let line = Direction::new(line).map(Direction::xyz);
         // A line of length zero is rejected when the definition is built.
@@ -24,8 +24,8 @@ impl Axis {
     }
 }
 
-/// N, a unit normal of the plane of both axes, and g, the direction of the line of contact along
-/// which the wheels roll on each other.
+/// The unit normal N of the plane of both axes, and the direction g of the line along which the
+/// wheels roll on each other.
 struct Roll {
     normal: [f64; 3],
     along: [f64; 3],
@@ -33,12 +33,12 @@ struct Roll {
 
 /// The line of action is `cos α·N + sin α·(N × g)`; α is the pressure angle.
 ///
-/// For parallel axes a₁, a₂: g = a₁, and N = a₁ × c with c along the centre line, from the first
-/// axis to the second, so that `N × g = c`. For axes that meet in an apex: g points from the apex
-/// through the pitch point, and N is along a₁ × a₂.
+/// If the axes a₁ and a₂ are parallel, g = a₁ and N = a₁ × c, where c is the direction of the
+/// centre line from the first axis to the second; then `N × g = c`. If the axes meet in an apex, g
+/// points from the apex to the pitch point, and N is parallel to a₁ × a₂.
 ///
 /// # Errors
-/// Reason why no such line exists.
+/// Returns the reason if such a line does not exist.
 pub(super) fn of_action(
     axes: [Axis; 2],
     pitch: [f64; 3],

@@ -1,5 +1,5 @@
-//! `orientation`: a rotation from the axes of a body to the axes of the ground, written in one of
-//! four ways.
+//! `orientation`: a rotation from the axes of a body to the ground axes, given in one of four
+//! forms.
 
 use model::words::short;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -42,11 +42,11 @@ pub(crate) const MATRIX: Key = Key::optional("matrix", MATRIX_EXPECTED, Takes::T
 
 const MATRIX_EXPECTED: &str = "a rotation matrix of three rows";
 
-/// Share by which a quaternion or a matrix may differ from a rotation without a warning. Entries
-/// with two digits are accurate to 1e-2.
+/// Largest relative difference between a quaternion or a matrix and a rotation for which there is
+/// no warning. Entries with two digits are accurate to 1e-2.
 const ROUGH: f64 = 1e-2;
 
-/// Reads an orientation as a quaternion (w, x, y, z) of any length.
+/// Reads an orientation; the result is a quaternion (w, x, y, z) of any length.
 pub(crate) fn read(field: &Field) -> Option<[f64; 4]> {
     let mut table = field.table(ORIENTATION.expected)?;
     let given = [&QUATERNION, &AXIS, &RPY, &MATRIX].map(|key| table.optional(key));
@@ -157,7 +157,7 @@ fn rotation(field: &Field) -> Option<[f64; 4]> {
     None
 }
 
-/// Warns of numbers that do not form an exact rotation; the nearest rotation is used.
+/// Warns about numbers that do not form an exact rotation; the nearest rotation is used.
 fn warn_of_rough(field: &Field, off: f64, what: &str) {
     if off > ROUGH {
         field.findings.warning(

@@ -48,7 +48,7 @@ const START_KEYS: [Key; 2] = [
         .doc("Angle of the body's frame where it starts"),
 ];
 
-/// Keys of a body in addition to its name.
+/// Keys of a body, except its name.
 const BODY_KEYS: [Key; 9] = [
     MASS,
     INERTIA,
@@ -61,7 +61,7 @@ const BODY_KEYS: [Key; 9] = [
     TOLERANCE,
 ];
 
-/// A number.
+/// Creates the key of a number.
 const fn number(name: &'static str, expected: &'static str, range: Interval) -> Key {
     Key::optional(name, expected, Takes::Number(range))
 }

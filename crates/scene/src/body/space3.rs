@@ -96,13 +96,14 @@ impl SceneBody for Space3 {
     }
 }
 
-/// Three moments, or a symmetric matrix.
+/// Reads three principal moments, or a symmetric matrix.
 fn tensor(field: &Field) -> Option<[[f64; 3]; 3]> {
     let items = field.items(INERTIA.expected)?;
     if items.iter().any(|row| row.value.get_ref().is_array()) {
         return field.matrix(INERTIA.expected, INERTIA.unit);
     }
-    // The value is not read as a vector, because another number of moments belongs to no space.
+    // The value is not read with `vector`, because a list of another length does not indicate the
+    // other space here.
     let moments = field.numbers(3, INERTIA.expected, |_| INERTIA.unit)?;
     let [x, y, z]: [f64; 3] = moments.try_into().ok()?;
     for (moment, item) in [x, y, z].iter().zip(&items) {

@@ -2,9 +2,9 @@
 
 use joints::spec::{Parameter, Shape, Spec};
 
-/// The key for the axes in which directions are written.
+/// The key for the axes in which directions are given.
 pub(crate) const FRAME: &str = "frame";
-/// The key for a direction across an axis.
+/// The key for a direction perpendicular to an axis.
 pub(crate) const CROSS: &str = "cross";
 /// The key for the axis in the frames of both bodies.
 pub(crate) const AXES: &str = "axes";
@@ -17,7 +17,7 @@ fn has(spec: &Spec, is: impl Fn(&Parameter) -> bool) -> bool {
     spec.parameters.iter().any(is)
 }
 
-/// The keys of directions that are not parameters of a definition, in a space that converts
+/// The keys of directions that are not parameters of a definition, in a space that transforms
 /// directions between bodies.
 pub(crate) fn keys(spec: &Spec) -> impl Iterator<Item = &'static str> {
     let is_written = |p: &Parameter| {
@@ -33,7 +33,7 @@ pub(crate) fn keys(spec: &Spec) -> impl Iterator<Item = &'static str> {
         matches!(p.shape, Shape::Axes { like: Some(_), .. })
     });
     let takes_cross = has_axes && !has(spec, |p| p.name == CROSS);
-    // The bearings define the axes of wheels.
+    // The axes of wheels are taken from the bearings, not from the table.
     let keys = [
         (FRAME, has(spec, is_written)),
         (CROSS, takes_cross && !spec.bearings),

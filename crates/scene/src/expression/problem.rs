@@ -1,4 +1,4 @@
-//! Possible faults of an expression.
+//! The kinds of errors in an expression.
 
 use std::ops::Range;
 
@@ -8,14 +8,14 @@ use model::words::rounded;
 use super::unit::{in_units_here, names_of};
 use crate::dimension::Dimension;
 
-/// A fault, and its position in the text.
+/// An error, and its position in the text.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
     pub(crate) span: Range<usize>,
     pub(crate) problem: Problem,
 }
 
-/// A kind of fault.
+/// A kind of error.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum Problem {
     #[error("the text is empty")]
@@ -81,7 +81,7 @@ fn before(found: &str) -> String {
 }
 
 impl Problem {
-    /// The text of the mark at the fault.
+    /// The text of the mark at the error.
     pub(crate) fn label(&self) -> &'static str {
         match self {
             Self::Empty | Self::NoOperand { .. } => "something is missing here",
@@ -108,7 +108,7 @@ impl Problem {
         }
     }
 
-    /// Advice, if the expression alone determines it.
+    /// Advice, if the expression alone is sufficient to determine it.
     pub(crate) fn help(&self) -> Option<String> {
         Some(match self {
             Self::Empty => "write a number, or an expression as \"2*L\" or \"25 mm\"".to_owned(),
@@ -140,7 +140,7 @@ impl Problem {
     }
 }
 
-/// Suffixes for a value of a dimension.
+/// Units for a value of this dimension, as a text for messages.
 fn suffixes(of: Dimension) -> Option<String> {
     if of == Dimension::NONE {
         return Some("divide it by its unit, as `/(1 rad)` or `/(1 m)`".to_owned());

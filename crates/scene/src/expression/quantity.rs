@@ -1,7 +1,7 @@
-//! Numbers with dimensions, to some 32 digits: sums, products and functions of the written numbers.
+//! Numbers with dimensions, accurate to about 32 digits, and their sums, products and functions.
 //!
-//! Sums, products, quotients, roots and integer powers are practically exact, so that `0.1 + 0.2`
-//! and `300 mm` are the doubles next to 0.3. Other functions are accurate to a double, and their
+//! Sums, products, quotients, roots and integer powers are practically exact. Therefore `0.1 + 0.2`
+//! and `300 mm` give the doubles nearest to 0.3. Other functions are accurate to a double; their
 //! errors are propagated to first order.
 
 use std::f64::consts::PI;
@@ -15,17 +15,17 @@ use crate::dimension::Dimension;
 /// A number in an expression.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Quantity {
-    /// The value in kg, N, m, s and rad, or as written if it has no dimension of its own.
+    /// The value in kg, N, m, s and rad; for a bare number, the value as written.
     pub(crate) value: Dd,
     /// Upper bound on the error of the value.
     pub(crate) error: f64,
-    /// `None` for a bare number: it gets the dimension of the key that it is given for.
+    /// The dimension; `None` for a bare number, which gets the dimension of its key.
     pub(crate) dimension: Option<Dimension>,
-    /// Whether the value contains π: then it is in radians if it is an angle.
+    /// Whether the value contains π; if so, and if it is an angle, it is in radians.
     has_pi: bool,
 }
 
-/// Factors of bare numbers: the units that a scene chooses.
+/// The factors of bare numbers, which follow from the units that a scene chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Bases {
     pub(crate) length: Dd,
@@ -39,7 +39,8 @@ impl Bases {
         angle: Dd::ONE,
     };
 
-    /// The value of a bare number for a key of this dimension; dimensionless numbers do not change.
+    /// Converts a bare number for a key of this dimension to SI; dimensionless numbers do not
+    /// change.
     fn scaled(self, bare: Quantity, dimension: Dimension) -> Result<Quantity, Problem> {
         let [length, angle] = dimension.chosen();
         if bare.has_pi && angle != 0 && self.angle != Dd::ONE {
@@ -59,7 +60,7 @@ impl Bases {
     }
 }
 
-/// π in two parts; the second one is π − f64(π).
+/// π as the sum of two doubles; the second one is π − f64(π).
 fn pi() -> Dd {
     Dd::from_sum(PI, 1.224_646_799_147_353_2e-16)
 }
@@ -85,7 +86,7 @@ impl Quantity {
         }
     }
 
-    /// The value 1 in a unit, `times/over`; half a turn is π in both of its parts.
+    /// The unit `times/over` of this dimension; half a revolution is π with both parts of the sum.
     pub(crate) fn unit(times: f64, over: f64, dimension: Dimension) -> Self {
         let times = if times == PI { pi() } else { times.into() };
         Self {
@@ -94,7 +95,7 @@ impl Quantity {
         }
     }
 
-    /// The value for a key that requires `expected`.
+    /// Converts the value for a key that requires the dimension `expected`.
     pub(crate) fn at(self, expected: Dimension, bases: Bases) -> Result<Self, Problem> {
         match self.dimension {
             None => bases.scaled(self, expected)?.checked(),
@@ -103,7 +104,8 @@ impl Quantity {
         }
     }
 
-    /// The value as a double. A value that is not larger than its own error is zero.
+    /// Converts the value to a double. A value that is not larger than its error bound becomes
+    /// zero.
     pub(crate) fn to_f64(self) -> f64 {
         if self.value.hi().abs() <= self.error {
             0.0
@@ -112,7 +114,7 @@ impl Quantity {
         }
     }
 
-    /// This number as an angle in radians.
+    /// Interprets this number as an angle in radians.
     pub(crate) fn in_radians(self) -> Self {
         Self {
             dimension: Some(Dimension::ANGLE),
@@ -120,7 +122,8 @@ impl Quantity {
         }
     }
 
-    /// The result of an operation of this number and another one.
+    /// Returns this value as the result of an operation with another number; the result contains π
+    /// if one of the two does.
     fn with(self, other: Self) -> Self {
         Self {
             has_pi: self.has_pi || other.has_pi,
@@ -136,7 +139,7 @@ impl Quantity {
         }
     }
 
-    /// Rejects values that no description may have.
+    /// Returns an error for values that are not permitted in any description.
     fn checked(self) -> Result<Self, Problem> {
         if is_usable(self.value.hi()) && self.error.is_finite() {
             Ok(self)
@@ -149,7 +152,7 @@ impl Quantity {
         self.of(-self.value, self.error)
     }
 
-    /// Converts both numbers to one dimension: a bare number gets the dimension of the other
+    /// Converts both numbers to one dimension; a bare number gets the dimension of the other
     /// number.
     fn matched(self, other: Self, bases: Bases) -> Result<[Self; 2], Problem> {
         match (self.dimension, other.dimension) {
@@ -250,7 +253,7 @@ impl Quantity {
             });
         }
         let value = self.value.abs().sqrt();
-        // Near zero, the square root of the error.
+        // Near zero, the error of the root is the square root of the error.
         let error = (self.error / value.hi().max(f64::MIN_POSITIVE)).min(self.error.sqrt());
         Ok(Self {
             dimension,
@@ -258,7 +261,7 @@ impl Quantity {
         })
     }
 
-    /// `f(x)`, as a bare number, with the derivative of f.
+    /// Returns `f(x)` as a bare number; its error is computed with the derivative of f.
     pub(crate) fn smooth(
         self,
         name: &'static str,
@@ -280,7 +283,7 @@ impl Quantity {
         .checked()
     }
 
-    /// The angle of the point (x, y).
+    /// Returns the angle of the point (x, y).
     pub(crate) fn angle(self, x: Self, bases: Bases) -> Result<Self, Problem> {
         let [y, x] = self.matched(x, bases)?;
         let (a, b) = (y.value.hi(), x.value.hi());
@@ -304,8 +307,8 @@ impl Quantity {
     }
 }
 
-/// The dimension of a product with the power ±1 of the other factor; bare factors count as
-/// dimensionless.
+/// Returns the dimension of the product with the power ±1 of the other factor; bare factors count
+/// as dimensionless.
 fn dimension_of(a: Option<Dimension>, b: Option<Dimension>, power: i8) -> Option<Dimension> {
     let has_one = a.is_some() || b.is_some();
     let [a, b] = [a, b].map(|d| d.unwrap_or(Dimension::NONE));
@@ -323,7 +326,7 @@ fn product(a: Quantity, b: Quantity) -> Quantity {
     }
 }
 
-/// `q^n`, without a check of the result.
+/// Returns `q^n` without a check of the result.
 fn whole_power(q: Quantity, n: i32) -> Quantity {
     let one = Quantity {
         dimension: q.dimension.map(|_| Dimension::NONE),
@@ -338,8 +341,8 @@ fn whole_power(q: Quantity, n: i32) -> Quantity {
     }
 }
 
-/// The value in two parts, or the plain double near the ends of the range of doubles, where the
-/// second part does not exist.
+/// Returns the value as a sum of two doubles. Near the ends of the range of doubles, where the
+/// second one does not exist, the result is the plain double.
 fn or_plain(value: Dd, plain: f64) -> Dd {
     if value.hi().is_finite() && value.lo().is_finite() {
         value

@@ -1,10 +1,10 @@
-//! Terms with the variables of a force law: their dimension, if it is known, and the operations
-//! that compute them later.
+//! Terms that contain variables of a force law: their dimension, if it is known, and the operations
+//! that evaluate them later.
 //!
-//! A term has its value in kg, N, m, s and rad if its dimension is known. The product of a bare
-//! number and a variable has no known dimension (`0.5*rate` may be a torque). Such a term is a
-//! number in the units of the scene, like a bare number, until a key or a sum determines its
-//! dimension.
+//! If the dimension of a term is known, its value is in kg, N, m, s and rad. The dimension of the
+//! product of a bare number and a variable is not known (`0.5*rate` may be a torque). Until a key
+//! or a sum determines the dimension, such a term is a number in the units of the scene, like a
+//! bare number.
 
 use model::law::{Join, Law, LawError, Operation, UnaryFunction};
 
@@ -25,8 +25,8 @@ pub(super) struct Variable {
     work: Vec<Operation>,
 }
 
-/// The force law in a text: for a joint coordinate of this dimension, with a force or torque of
-/// dimension `result`.
+/// Parses a force law for a joint coordinate of the dimension `of`; the value is a force or torque
+/// of dimension `result`.
 pub(crate) fn law(
     text: &str,
     measure: Dimension,
@@ -60,7 +60,7 @@ pub(crate) fn law(
             LawError::Deep => Problem::Deep {
                 most: super::DEEPEST,
             },
-            // Operands come before their operations.
+            // This error does not occur, because operands come before their operations.
             _ => Problem::Empty,
         })
     })
@@ -80,7 +80,7 @@ impl LawTerm {
         }
     }
 
-    /// The value for a key that requires `expected`.
+    /// Converts the term for a key that requires the dimension `expected`.
     fn at(self, expected: Dimension, bases: Bases) -> Result<Variable, Problem> {
         match self {
             Self::Constant(q) => {
@@ -102,7 +102,7 @@ impl LawTerm {
         }
     }
 
-    /// The number in the units of the scene.
+    /// Converts the term to a number in the units of the scene.
     fn bare(self, bases: Bases) -> Result<Variable, Problem> {
         let v = match self {
             Self::Constant(q) => Variable {
@@ -121,7 +121,7 @@ impl LawTerm {
         })
     }
 
-    /// Converts both terms to one dimension, if at least one of them has a dimension.
+    /// Converts both terms to one dimension, if at least one of the two dimensions is known.
     fn matched(self, other: Self, bases: Bases) -> Result<[Variable; 2], Problem> {
         match (self.dimension(), other.dimension()) {
             (None, None) => Ok([self.bare(bases)?, other.bare(bases)?]),
@@ -183,7 +183,7 @@ fn joined([a, b]: [Variable; 2], join: Join, dimension: Option<Dimension>) -> La
 }
 
 impl Variable {
-    /// Multiplies or divides the term by the unit of the scene for a dimension.
+    /// Multiplies or divides the term by the unit that the scene chooses for a dimension.
     fn scaled(mut self, of: Dimension, bases: Bases, join: Join) -> Result<Self, Problem> {
         let unit = Quantity::bare(linalg::Dd::ONE).at(of, bases)?.to_f64();
         if unit != 1.0 {

@@ -1,4 +1,4 @@
-//! Values compared with closed forms in decimal digits, and positions of faults.
+//! Compares values with closed forms in decimal digits, and checks the positions of errors.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{E, FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, LN_10, PI, SQRT_2};
@@ -6,7 +6,7 @@ use std::f64::consts::{E, FRAC_PI_2, FRAC_PI_4, FRAC_PI_6, LN_10, PI, SQRT_2};
 use super::token::LONGEST;
 use super::*;
 
-/// Parameters by name, in metres and radians or in other chosen units.
+/// Parameters by name, and the units of bare numbers.
 struct Names(BTreeMap<&'static str, Option<Quantity>>, Bases);
 
 impl Scope for Names {
@@ -242,7 +242,7 @@ fn faults_have_their_places() {
             "{text}"
         );
     }
-    // Wrong parameters have been reported at their own positions.
+    // Errors in parameters are reported at the positions of the parameters.
     assert_eq!(
         value("2*wrong + cos(wrong)", NONE, &names()),
         Err(String::new())

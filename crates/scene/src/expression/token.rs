@@ -16,10 +16,10 @@ pub(crate) enum Token<'s> {
     End,
 }
 
-/// Longest text (bytes): its tokens need some forty times as much memory.
+/// Longest text (bytes), because its tokens need about 40 times as much memory.
 pub(super) const LONGEST: usize = 1 << 14;
 
-/// All tokens with their positions; the last one is the end.
+/// Returns all tokens with their positions; the last token is the end.
 pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault> {
     if text.len() > LONGEST {
         let problem = Problem::Long { most: LONGEST };
@@ -40,7 +40,7 @@ pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault
                 (Token::Number(decimal(&rest[..length])), length)
             }
             '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' => (Token::Sign(rest.as_bytes()[0]), 1),
-            // Units are printed with this character.
+            // Messages contain this character in units, so it is accepted as well.
             '·' => (Token::Sign(b'*'), c.len_utf8()),
             '²' | '³' => {
                 found.push((Token::Sign(b'^'), at..at + c.len_utf8()));
@@ -74,7 +74,7 @@ fn in_name(c: char) -> bool {
     begins_name(c) || c.is_ascii_digit()
 }
 
-/// Whether a parameter may have this name.
+/// Returns whether this name is permitted for a parameter.
 pub(crate) fn is_name(name: &str) -> bool {
     name.starts_with(begins_name) && name.chars().all(in_name)
 }
@@ -109,11 +109,12 @@ fn number_length(text: &str) -> usize {
     end
 }
 
-/// Digits of the longest integer that is read exactly.
+/// Number of digits of the longest integer that is read exactly.
 const DIGITS: usize = 30;
 
-/// A decimal number in two parts: the nearest double, and the remaining difference. `text` is a
-/// number of a file or of an expression; for any other text the result is NaN.
+/// Reads a decimal number as the sum of two doubles: the nearest double, and the remaining
+/// difference. `text` is a number of a file or of an expression; for any other text the result is
+/// NaN.
 pub(crate) fn decimal(text: &str) -> Dd {
     let text = text.replace('_', "");
     let nearest: f64 = text.parse().unwrap_or(f64::NAN);
@@ -130,7 +131,8 @@ pub(crate) fn decimal(text: &str) -> Dd {
     let (Ok(whole), Some(power)) = (digits.parse::<u128>(), power) else {
         return nearest.into();
     };
-    // Beyond this power, one of the two parts leaves the range of doubles in an intermediate step.
+    // For larger powers, one of the two doubles leaves the range of doubles in an intermediate
+    // step.
     const LARGEST_POWER: u32 = 200;
     if digits.len() > DIGITS || power.unsigned_abs() > LARGEST_POWER {
         return nearest.into();

@@ -1,10 +1,10 @@
-//! The units of expressions, and replacements for other units.
+//! The units in expressions, and conversions of other units.
 
 use std::f64::consts::PI;
 
 use crate::dimension::Dimension;
 
-/// Units of expressions, as `times/over` in the units of the format.
+/// Units in expressions, each with its size `times/over` in the units of the format.
 pub(super) const UNITS: [(&str, f64, f64, Dimension); 13] = [
     ("mm", 1.0, 1e3, Dimension::LENGTH),
     ("cm", 1.0, 1e2, Dimension::LENGTH),
@@ -26,7 +26,7 @@ pub(super) fn is_unit(name: &str) -> bool {
     UNITS.iter().any(|(unit, ..)| *unit == name)
 }
 
-/// The units of a dimension by name.
+/// Returns the names of the units of a dimension.
 pub(crate) fn names_of(of: Dimension) -> Vec<&'static str> {
     let fitting = UNITS.iter().filter(|(.., dimension)| *dimension == of);
     fitting.map(|(name, ..)| *name).collect()

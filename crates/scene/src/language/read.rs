@@ -31,7 +31,7 @@ const ANGLE: Key = Key::optional("angle", "a unit of angle", Takes::OneOf(angles
     .doc("Unit of angles; with \"deg\", angular velocities are in deg/s")
     .or(|| "rad".into());
 
-/// The keys of `[scene]` that determine how the rest is read.
+/// The keys of `[scene]` that determine how the rest of the file is read.
 pub(crate) const SCENE_KEYS: [Key; 2] = [FORMAT, UNITS];
 /// The keys of `units`.
 pub(crate) const UNIT_KEYS: [Key; 2] = [LENGTH, ANGLE];
@@ -45,8 +45,8 @@ fn angles() -> Vec<&'static str> {
 }
 
 impl Language {
-    /// Reads `format` and `units` of `[scene]`, and `[parameters]`. Other modules report further
-    /// problems of these sections.
+    /// Reads `format` and `units` of `[scene]`, and `[parameters]`. Further problems of these
+    /// sections are reported elsewhere.
     pub(crate) fn read(root: &mut Table) -> Self {
         let mut language = Self::PLAIN;
         let entries = |field: &Field| field.value.get_ref().is_table();
@@ -59,7 +59,7 @@ impl Language {
             let format = head.optional(&FORMAT);
             is_stated = format.is_some();
             let format = format.and_then(|field| whole(&field));
-            // An unreadable format has been reported.
+            // If the format could not be read, this has been reported.
             language.computes = format == Some(COMPUTING) || (is_stated && format.is_none());
             units = head.optional(&UNITS);
         }
@@ -94,7 +94,7 @@ impl Language {
         language
     }
 
-    /// Reads the parameters, each one after the parameters that it contains.
+    /// Reads the parameters; each parameter is read after those that its expression contains.
     fn parameters(&mut self, field: &Field) {
         let Some(table) = field.table("one table `[parameters]`") else {
             return;
@@ -138,16 +138,17 @@ impl Language {
     }
 }
 
-/// A parameter as written in the text.
+/// A parameter in the form given in the text.
 struct Parameter<'t> {
     name: String,
     value: Field<'t>,
 }
 
-/// Reports each cycle of parameters once; parameters that only refer to a member of a cycle are
-/// left out.
+/// Reports each cycle of parameters once. Parameters that are not in a cycle, but refer to one, are
+/// not reported.
 fn report_circles(list: &[Parameter], needs: &[Vec<(usize, Range<usize>)>], waits: &[usize]) {
-    // 0: not yet visited; otherwise the number of the search that reached this parameter.
+    // Zero for a parameter that has not been visited; otherwise the number of the search that
+    // reached it.
     let mut seen = vec![0; list.len()];
     for first in (0..list.len()).filter(|k| waits[*k] > 0) {
         let mut path: Vec<(usize, Range<usize>)> = Vec::new();
@@ -185,7 +186,7 @@ fn report_circles(list: &[Parameter], needs: &[Vec<(usize, Range<usize>)>], wait
     }
 }
 
-/// Number of names that a message about a cycle shows.
+/// Number of names that are listed in a message about a cycle.
 const SHOWN: usize = 8;
 
 fn list_of(names: &[&str], between: &str) -> String {
@@ -199,7 +200,7 @@ fn list_of(names: &[&str], between: &str) -> String {
     shown.join(between)
 }
 
-/// Reports a name that expressions cannot contain, or that has another meaning in expressions.
+/// Reports a name that is not permitted in expressions, or that has another meaning in expressions.
 fn check_name(name: &str, span: Range<usize>, findings: &Findings) {
     if let Some(what) = reserved(name) {
         findings.error_with_help(

@@ -1,4 +1,4 @@
-//! Angles without a unit that look like degrees.
+//! Detects angles without a unit that are probably in degrees.
 
 use std::f64::consts::TAU;
 
@@ -9,16 +9,16 @@ use crate::dimension::Dimension;
 use crate::expression::Quantity;
 use crate::language::Language;
 
-/// Degrees are usually written in multiples of this number; an angle in radians is a multiple of it
+/// Angles in degrees are usually multiples of this number; angles in radians are multiples of it
 /// only by chance.
 const ROUND_DEGREES: f64 = 5.0;
 
-/// Smallest number that looks like degrees: smaller numbers are angles within one revolution,
-/// 2π = 6.28.
+/// Smallest number that counts as degrees; smaller numbers may be angles in radians within about
+/// one revolution, 2π = 6.28.
 const LEAST_DEGREES: f64 = 10.0;
 
-/// Largest number that looks like degrees: one revolution. Motions over many revolutions have
-/// larger numbers.
+/// Largest number that counts as degrees: one revolution. Motions over many revolutions have larger
+/// values.
 const MOST_DEGREES: f64 = 360.0;
 
 /// A number as read from the text.
@@ -39,17 +39,17 @@ impl Number {
     }
 }
 
-/// An angle that looks like degrees, and the suggested text.
+/// Warning about an angle that is probably in degrees, with the suggested text.
 pub(crate) struct Degrees {
-    /// Index of the angle.
+    /// Index of the angle in the list.
     pub(crate) at: usize,
-    /// Description of the fault.
+    /// The message of the warning.
     pub(crate) message: String,
     pub(crate) help: String,
 }
 
-/// Angles without a unit look like degrees if all of them are multiples of five and not all are
-/// within ±2π. Numbers of one list are checked together.
+/// Angles without a unit are probably in degrees if all of them are multiples of five and not all
+/// are within ±2π. All numbers of a list are checked together.
 pub(crate) fn degrees(numbers: &[Number], language: &Language) -> Option<Degrees> {
     let angles = || numbers.iter().enumerate().filter(|(_, n)| n.is_bare_angle);
     let is_round = |x: f64| x.abs() <= MOST_DEGREES && x % ROUND_DEGREES == 0.0;

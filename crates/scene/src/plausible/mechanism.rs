@@ -1,4 +1,4 @@
-//! Checks of the whole mechanism: moments of inertia that do not agree with mass and size, bodies
+//! Checks that need the whole mechanism: moments of inertia that contradict mass and size, bodies
 //! without a joint, and distant joints.
 
 use model::codes::Code;
@@ -11,32 +11,33 @@ use crate::language::LengthUnit;
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
 
 /// Largest plausible radius of gyration, as a multiple of the arms of the body. If all mass is
-/// within an arm, the ratio is at most 1; a flywheel on a small crank has some 5, and the inertia
-/// of a rod in kg·cm² read as kg·m² has 58.
+/// within an arm, the ratio is at most 1. It is about 5 for a flywheel on a small crank, and 58 if
+/// the inertia of a rod in kg·cm² is read as kg·m².
 const LARGEST_GYRATION: f64 = 20.0;
 
-/// Smallest plausible radius of gyration, as a multiple of the arms of the body. A rod has 0.6, a
-/// small bob on a light rod 0.01; the inertia of a rod in kg·m² read as kg·mm² has 0.0006.
+/// Smallest plausible radius of gyration, as a multiple of the arms of the body. The ratio is 0.6
+/// for a rod and 0.01 for a small bob on a light rod. It is 0.0006 if the inertia of a rod in kg·m²
+/// is read as kg·mm².
 const SMALLEST_GYRATION: f64 = 1e-3;
 
-/// Density above which a ball of the same mass and inertia consists of no real material (kg/m³).
-/// Osmium has 2.3e4; if the inertia of a wheel in kg·m² is read as kg·mm², a density of 1e2 becomes
-/// 1e11. A point mass of 1 kg with a nominal inertia of 1e-6 kg·m² has 6e7.
+/// A ball with the same mass and inertia has a density. Above this density, it does not consist of
+/// any real material (kg/m³). Osmium has 2.3e4. If the inertia of a wheel in kg·m² is read as
+/// kg·mm², a density of 1e2 becomes 1e11. A point mass of 1 kg with a nominal inertia of 1e-6 kg·m²
+/// has 6e7.
 const DENSEST: f64 = 1e9;
 
-/// Share of the size of the mechanism below which the radius of gyration of such a body counts as
-/// small.
+/// Fraction of the size of the mechanism below which the radius of gyration of a body is small.
 const SMALL: f64 = 1e-2;
 
 /// Density of steel (kg/m³).
 const STEEL: f64 = 7850.0;
 
 /// Largest plausible distance from the centre of mass of a body to one of its joints, as a multiple
-/// of the size of the mechanism. Lengths in cm read as m are 100 times too large; the longest parts
-/// of a machine are some ten times as long as the median part.
+/// of the size of the mechanism. Lengths in cm that are read as m are 100 times too large; the
+/// longest parts of a machine are about ten times as long as the median.
 const FARTHEST: f64 = 100.0;
 
-/// Warns of implausible data of a mechanism.
+/// Warns about implausible values of a mechanism.
 pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, findings: &Findings) {
     let records = mechanism.bodies();
     let joints = joints(mechanism);
@@ -47,7 +48,7 @@ pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, fi
     inertia(records, &bodies, map, size, unit, findings);
 }
 
-/// A joint with its points. Drives act at the points of their joints.
+/// A joint with its points; a drive has the points of its joint.
 struct JointPoints<'m> {
     name: &'m str,
     bodies: &'m [BodyRef],
@@ -66,13 +67,13 @@ fn joints(mechanism: &Mechanism) -> Vec<JointPoints<'_>> {
         .collect()
 }
 
-/// Information about the shape of a body.
+/// Points and forces on a body.
 #[derive(Clone, Default)]
 struct BodyShape {
     /// Points of joints, forces and markers relative to the centre of mass.
     points: Vec<[f64; 3]>,
     is_held: bool,
-    /// Number of forces that act on it.
+    /// Number of forces that act on the body.
     forces: usize,
 }
 
@@ -81,7 +82,7 @@ impl BodyShape {
         self.points.iter().map(|point| norm(point))
     }
 
-    /// Whether the points differ from each other.
+    /// Returns whether not all points coincide.
     fn has_extent(&self) -> bool {
         self.points.windows(2).any(|pair| pair[0] != pair[1])
     }
@@ -114,8 +115,8 @@ fn bodies(mechanism: &Mechanism, joints: &[JointPoints]) -> Vec<BodyShape> {
     bodies
 }
 
-/// Radius of gyration of a body, the largest one; `None` if it has no mass or no inertia, which is
-/// allowed.
+/// Returns the largest radius of gyration of a body; `None` if the body has no mass or no inertia,
+/// which is permitted.
 fn gyration(body: &BodyRecord) -> Option<f64> {
     let inertia = match &body.described {
         DescribedBody::Plane(body) => body.inertia,
@@ -125,9 +126,9 @@ fn gyration(body: &BodyRecord) -> Option<f64> {
     (radius.is_finite() && radius > 0.0).then_some(radius)
 }
 
-/// Size of a mechanism: the upper median of all arms and radii of gyration, so that neither a few
-/// distant points nor many joints near centres of mass change it. `None` if there are no arms and
-/// radii.
+/// Returns the size of a mechanism: the upper median of all arms and radii of gyration. A few
+/// distant points, or many joints near centres of mass, do not change the median. Returns `None` if
+/// there are neither arms nor radii of gyration.
 fn size(records: &[BodyRecord], bodies: &[BodyShape]) -> Option<f64> {
     let arms = bodies.iter().flat_map(BodyShape::arms);
     let mut sizes: Vec<f64> = arms.chain(records.iter().filter_map(gyration)).collect();
@@ -137,7 +138,7 @@ fn size(records: &[BodyRecord], bodies: &[BodyShape]) -> Option<f64> {
     sizes.get(middle).copied()
 }
 
-/// Warns of bodies without a joint, if the mechanism has joints.
+/// Warns about bodies without a joint, if the mechanism has joints.
 fn unheld(records: &[BodyRecord], bodies: &[BodyShape], map: &SourceMap, findings: &Findings) {
     if !bodies.iter().any(|body| body.is_held) {
         return;
@@ -159,7 +160,7 @@ fn unheld(records: &[BodyRecord], bodies: &[BodyShape], map: &SourceMap, finding
     }
 }
 
-/// Warns of joints far from the centre of mass of a body.
+/// Warns about joints far from the centre of mass of a body.
 fn far(
     records: &[BodyRecord],
     joints: &[JointPoints],
@@ -199,7 +200,7 @@ fn far(
     }
 }
 
-/// Warns of moments of inertia that do not agree with the mass and size of the body.
+/// Warns about moments of inertia that contradict the mass and the size of the body.
 fn inertia(
     records: &[BodyRecord],
     bodies: &[BodyShape],
@@ -214,7 +215,7 @@ fn inertia(
             dense(body, entry, size, unit, findings);
             continue;
         }
-        // There is a separate warning for distant points.
+        // For distant points, there is another warning.
         let near = shape.arms().filter(|arm| *arm <= FARTHEST * size);
         let arm = near.fold(0.0, f64::max);
         let Some(radius) = gyration(body).filter(|_| arm > 0.0) else {
@@ -245,9 +246,9 @@ fn inertia(
     }
 }
 
-/// Warns of a body, such as a wheel, whose points are all at its centre of mass. The warning is
-/// given if the body is small relative to the mechanism and a ball of its mass and inertia consists
-/// of no real material.
+/// Warns about a body, for example a wheel, whose points are all at its centre of mass. The warning
+/// is given if the radius of gyration is small relative to the mechanism and a ball with the same
+/// mass and inertia would not consist of any real material.
 fn dense(body: &BodyRecord, entry: &Entry, size: f64, unit: LengthUnit, findings: &Findings) {
     let Some(gyration) = gyration(body).filter(|radius| *radius < SMALL * size) else {
         return;

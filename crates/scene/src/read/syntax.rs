@@ -1,4 +1,4 @@
-//! Explains text that is not valid TOML to authors of scenes, from a guess of their intention.
+//! Explains to authors of scenes why a text is not valid TOML, from a guess of what they intended.
 
 use std::ops::Range;
 
@@ -6,9 +6,9 @@ use crate::findings::Findings;
 use crate::mistake::Mistake;
 use crate::units;
 
-/// Reports text that is not valid TOML, one error for each line. An error at the end of the text
-/// means that a bracket was never closed. Only the first error shows its position; the other errors
-/// are consequences.
+/// Reports that a text is not valid TOML, with one error for each line. An error at the end of the
+/// text means that a bracket is not closed. Only the first error contains a position; the other
+/// errors may be consequences of it.
 pub(super) fn report(errors: &[toml::de::Error], findings: &Findings) {
     let text = findings.source.text();
     let end = text.trim_end().len();
@@ -37,7 +37,7 @@ pub(super) fn report(errors: &[toml::de::Error], findings: &Findings) {
     }
 }
 
-/// The explanation that replaces the message of the parser.
+/// An explanation that replaces the message of the parser.
 struct Explanation {
     span: Range<usize>,
     message: String,
@@ -54,7 +54,7 @@ impl Explanation {
 
 const LABEL: &str = "not valid TOML";
 
-/// A key that is given twice.
+/// Explains a key that is given twice.
 fn twice(text: &str, key: Range<usize>) -> Option<Explanation> {
     let name = text.get(key.clone())?;
     Some(Explanation {
@@ -65,7 +65,7 @@ fn twice(text: &str, key: Range<usize>) -> Option<Explanation> {
     })
 }
 
-/// A bracket that is still open at the first error, in a text that ends before it is closed.
+/// Explains a bracket that is open at the first error and is not closed until the end of the text.
 fn never_closed(text: &str, first_error: usize) -> Option<Explanation> {
     let at = open_bracket(text, text.floor_char_boundary(first_error))?;
     let closing = match text.as_bytes()[at] {
@@ -80,12 +80,12 @@ fn never_closed(text: &str, first_error: usize) -> Option<Explanation> {
     })
 }
 
-/// The explanation of an error at this position, if the intention can be guessed.
+/// Returns the explanation of an error at this position, if the intention can be guessed.
 fn fault(text: &str, span: Range<usize>) -> Option<Explanation> {
     let at = text.floor_char_boundary(span.start);
     let begin = text[..at].rfind('\n').map_or(0, |k| k + 1);
     let end = text[at..].find('\n').map_or(text.len(), |k| at + k);
-    // The file has not been read yet, so a search for its line determines the format.
+    // The scene has not been read yet, so the format is determined by a search for its line.
     let says_format = |line: &str| line.replace(' ', "").starts_with("format=2");
     let computes = text.lines().any(says_format);
     let (message, help) = meant(text[begin..end].trim_end(), at - begin, computes)?;
@@ -97,8 +97,8 @@ fn fault(text: &str, span: Range<usize>) -> Option<Explanation> {
     })
 }
 
-/// The fault of a line that cannot be read from this position on, and the suggested text.
-/// `computes`: texts are expressions.
+/// Explains the error in a line that is not valid from this position on, and suggests a text.
+/// `computes` is true if texts are expressions.
 fn meant(line: &str, at: usize, computes: bool) -> Option<(&'static str, String)> {
     if line.starts_with('[') && is_key(line.trim_matches(['[', ']', ' '])) {
         return Some((
@@ -136,7 +136,7 @@ fn meant(line: &str, at: usize, computes: bool) -> Option<(&'static str, String)
             "a text ends on its line, with the quote that it began with".to_owned(),
         ));
     }
-    // Within a list, the text at this position.
+    // Within a list, only the text at this position is used.
     let value = if value.starts_with(['[', '{']) {
         line.get(at..).unwrap_or_default()
     } else {
@@ -159,7 +159,7 @@ const COMPUTED: (&str, &str) = (
     "write it in quotes with `format = 2` in `[scene]`, or write the number that comes out",
 );
 
-/// A value that begins with a number.
+/// Explains a value that begins with a number.
 fn number(key: &str, value: &str, computes: bool) -> Option<(&'static str, String)> {
     let digits = value.find(|c: char| !(c.is_ascii_digit() || "+-.eE_".contains(c)));
     let (number, rest) = value.split_at(digits?);
@@ -195,7 +195,7 @@ fn number(key: &str, value: &str, computes: bool) -> Option<(&'static str, Strin
         .then(|| (COMPUTED.0, COMPUTED.1.to_owned()))
 }
 
-/// A value that begins with a letter.
+/// Explains a value that begins with a letter.
 fn word(key: &str, value: &str) -> Option<(&'static str, String)> {
     if !value.starts_with(char::is_alphabetic) {
         return None;
@@ -205,7 +205,7 @@ fn word(key: &str, value: &str) -> Option<(&'static str, String)> {
     if word.contains(['/', '*', '^', '+', '(']) {
         return Some((COMPUTED.0, COMPUTED.1.to_owned()));
     }
-    // In a list, only the word itself.
+    // In a list, the suggestion contains only the word itself.
     let help = if value.len() == word.len() && !key.is_empty() {
         format!("texts stand in quotes: `{key} = \"{word}\"`")
     } else {
@@ -214,7 +214,7 @@ fn word(key: &str, value: &str) -> Option<(&'static str, String)> {
     Some(("a text without quotes", help))
 }
 
-/// The last bracket before a position that is still open there.
+/// Returns the last bracket before a position that is still open at this position.
 fn open_bracket(text: &str, at: usize) -> Option<usize> {
     let mut closed = 0;
     let mut end = at;
@@ -229,8 +229,8 @@ fn open_bracket(text: &str, at: usize) -> Option<usize> {
     }
 }
 
-/// Brackets that a line opens and does not close, and the number of brackets that it closes in
-/// addition. Texts and comments are ignored.
+/// Returns the brackets that a line opens and does not close, and the number of brackets that were
+/// opened earlier and closed in this line. Quoted texts and comments are ignored.
 fn open_brackets(line: &str) -> (Vec<usize>, usize) {
     let mut quote = None;
     let (mut open, mut excess) = (Vec::new(), 0);
@@ -309,7 +309,8 @@ mod tests {
         assert_eq!(fault.span.start, text.find("[0.0").expect("there"));
         assert!(never_closed("[[body]]\n", 0).is_none());
         assert_eq!(open_brackets("keep = [\"a]\", # ]"), (vec![7], 0));
-        // If two brackets are open, the inner one; if it is closed further down, the outer one.
+        // If two brackets are open, the result is the inner one; if the inner one is closed in a
+        // later line, it is the outer one.
         assert_eq!(open_bracket("a = [\n [1,\n", 11), Some(7));
         assert_eq!(open_bracket("a = [\n [1,\n 2],\n", 16), Some(4));
     }

@@ -1,5 +1,5 @@
-//! Joints and forces: one table for each definition of the registry and each way to write its
-//! bodies and its reference point.
+//! The schema of joints and forces: one table for each definition of the registry and each form of
+//! its bodies and its reference point.
 
 use joints::spec::{Parameter, Shape, Spec, Unit};
 use model::Definitions;
@@ -31,7 +31,7 @@ pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: ElementKi
         ElementKind::Joint => ("Joint", registry.constraint_specs().collect()),
         ElementKind::Force => ("Force", registry.force_specs().collect()),
     };
-    // Definitions with the same type are adjacent.
+    // Definitions with the same type become adjacent.
     specs.sort_by_key(|spec| spec.scene_type);
     let tables: Vec<Value> = specs
         .iter()
@@ -134,7 +134,7 @@ fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
     if let Some(markers) = markers {
         let ways = |key: &str| json!({ "oneOf": [{ "required": [key] }, markers] });
         all.extend(directions.into_iter().map(ways));
-        // Keys that only state the axes of directions are rejected together with markers.
+        // Keys that only specify the axes of directions are not permitted together with markers.
         let beside = keys.iter().filter(|key| [FRAME, CROSS].contains(*key));
         all.extend(beside.map(|key| json!({ "not": { "required": [key, MARKERS] } })));
     }
@@ -153,7 +153,7 @@ fn two_markers() -> Value {
     markers
 }
 
-/// A key for directions that is not a parameter.
+/// Schema of a key for directions that is not a parameter.
 fn beside<S: SceneSpace>(key: &str, spec: &Spec) -> Value {
     match key {
         FRAME => json!({
@@ -216,7 +216,7 @@ fn global<S: SceneSpace>(spec: &Spec, n: usize) -> Value {
     place
 }
 
-/// A description that includes the purpose of the points.
+/// Adds the purpose of the points to a description.
 fn with_points(words: impl Into<String>, spec: &Spec) -> String {
     let is_point = |p: &&Parameter| matches!(p.shape, Shape::Point { .. }) && !p.doc.is_empty();
     let points: Vec<_> = spec.parameters.iter().filter(is_point).collect();
@@ -265,7 +265,7 @@ fn in_bodies<S: SceneSpace>(spec: &Spec, owners: &[usize]) -> Value {
     })
 }
 
-/// The value of a parameter: its purpose and its type.
+/// Schema of the value of a parameter: its purpose and its type.
 fn value<S: SceneSpace>(parameter: &Parameter, spec: &Spec) -> Value {
     let mut schema = match parameter.shape {
         Shape::Point { .. } => reference(&name_in::<S>("point")),
@@ -320,7 +320,7 @@ fn described_as(words: &str, mut schema: Value) -> Value {
     schema
 }
 
-/// The body of a slot, as text.
+/// The body with the index `slot`, in words.
 fn owner(spec: &Spec, slot: usize) -> String {
     match (listed(spec), slot) {
         _ if spec.bearings => "the carrier".to_owned(),

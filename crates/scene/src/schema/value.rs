@@ -1,4 +1,4 @@
-//! The value of one key, as a schema.
+//! The schema of the value of one key.
 
 use model::SpaceKind;
 use serde_json::{Map, Value, json};
@@ -10,15 +10,15 @@ use crate::section::LONGEST_NAME;
 use crate::silence;
 use crate::space::SceneSpace;
 
-/// The value of a key with its meaning, its unit and its default.
+/// Schema of the value of a key with its description, its unit and its default.
 pub(super) fn described(key: &Key) -> Value {
     let mut schema = match key.takes {
         Takes::Name => json!({
             "type": "string",
             "minLength": 1,
             "maxLength": LONGEST_NAME,
-            // A name that starts like a formula would become a formula in a spreadsheet; and names
-            // have one line.
+            // In a spreadsheet, a name that starts like a formula would become a formula. In
+            // addition, a name must have only one line.
             "pattern": r"^[^=+@\x00-\x1f\x7f-\x9f-][^\x00-\x1f\x7f-\x9f]*$",
         }),
         Takes::Text => json!({ "type": "string" }),
@@ -62,7 +62,7 @@ pub(super) fn described(key: &Key) -> Value {
     schema
 }
 
-/// The meaning of a value, and its unit.
+/// Combines the description of a value with its unit.
 pub(super) fn in_unit(meaning: &str, unit: Dimension) -> String {
     match unit {
         Dimension::NONE => meaning.to_owned(),
@@ -107,7 +107,7 @@ pub(super) fn tuple(items: Vec<Value>) -> Value {
     tuple
 }
 
-/// The name of a definition of a space.
+/// The name of a schema definition for a space.
 pub(super) fn name_in<S: SceneSpace>(name: &str) -> String {
     match S::KIND {
         SpaceKind::Space3 => format!("{}-{name}", S::NAME),
@@ -144,7 +144,7 @@ fn table(keys: &[Key]) -> Value {
     json!({ "type": "object", "properties": properties, "additionalProperties": false })
 }
 
-/// The four ways to write an orientation.
+/// The four forms of an orientation.
 fn orientation() -> Value {
     let way = |keys: &[&Key]| {
         let properties: Map<String, Value> = keys

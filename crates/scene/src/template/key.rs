@@ -1,4 +1,4 @@
-//! Finds the position of a number in the text by its key.
+//! Finds the position of a number in the text of a scene by its key.
 
 use model::codes::Code;
 use toml::Spanned;
@@ -28,14 +28,14 @@ pub enum KeyError {
         key: String,
         /// The part that does not exist.
         part: String,
-        /// The part of the key that was resolved.
+        /// The part of the key that was found.
         within: String,
         /// The name that was probably intended.
         nearest: Option<String>,
         /// The names that exist.
         known: Vec<String>,
     },
-    /// An index is beyond the end of a list.
+    /// An index is not smaller than the length of the list.
     #[error(
         "`{key}`: `{within}` has {length} entries, counted from 0; there is no entry `{index}`"
     )]
@@ -49,7 +49,7 @@ pub enum KeyError {
         /// Number of entries.
         length: usize,
     },
-    /// The key refers to something other than a number.
+    /// The key refers to a value that is not a number.
     #[error("`{key}` is {found}, not a number{}", inside(.parts))]
     NotANumber {
         /// The given key.
@@ -59,7 +59,8 @@ pub enum KeyError {
         /// The names of the parts of this value.
         parts: Vec<String>,
     },
-    /// The key is not in the text, and its table has neither a header nor braces.
+    /// The key is missing in the text and cannot be added, because its table has neither a header
+    /// nor braces.
     #[error("`{key}` is not in the scene; write it there, with any number")]
     NoRoom {
         /// The given key.
@@ -109,7 +110,7 @@ fn inside(parts: &[String]) -> String {
     }
 }
 
-/// Kinds of values that a key may select.
+/// Kinds of values that a key may refer to.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum SlotKind {
     /// A number.
@@ -155,29 +156,29 @@ fn computes(root: &DeTable) -> bool {
     format == Some(COMPUTING as f64)
 }
 
-/// Progress of the search for a key.
+/// State of the search for a key.
 struct Walk<'k> {
     key: &'k str,
-    /// The rest of the key.
+    /// The part of the key that has not been read.
     rest: &'k str,
     /// Whether texts may be expressions.
     computes: bool,
 }
 
 impl<'k> Walk<'k> {
-    /// The resolved part of the key.
+    /// Returns the part of the key that was found.
     fn within(&self) -> &'k str {
         let within = &self.key[..self.key.len() - self.rest.len()];
         within.strip_suffix('.').unwrap_or(within)
     }
 
-    /// The next part, without brackets.
+    /// Returns the next part of the key, without brackets.
     fn part(&self) -> &'k str {
         let end = self.rest.find(['.', '[']).filter(|end| *end > 0);
         &self.rest[..end.unwrap_or(self.rest.len())]
     }
 
-    /// Whether the rest starts with this name; names may contain dots and brackets.
+    /// Returns whether the rest starts with this name; names may contain dots and brackets.
     fn begins_with(&self, name: &str) -> bool {
         let after = self.rest.strip_prefix(name).map(|rest| rest.bytes().next());
         !name.is_empty() && matches!(after, Some(None | Some(b'.' | b'[')))
@@ -187,7 +188,7 @@ impl<'k> Walk<'k> {
     fn pass(&mut self, length: usize) {
         let rest = &self.rest[length..];
         self.rest = match rest.strip_prefix('.') {
-            // A dot at the end belongs to the part that is not found.
+            // A dot at the end belongs to the missing part.
             Some(next) if !next.is_empty() => next,
             _ => rest,
         };
@@ -207,7 +208,7 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// The value of the next part; the longest fitting name is used.
+    /// Returns the value with the next part as its name; the longest name that fits is used.
     fn named<'t, X>(&mut self, items: &[(&str, &'t X)]) -> Result<&'t X, KeyError> {
         let fitting = items.iter().filter(|(name, _)| self.begins_with(name));
         let Some((name, item)) = fitting.max_by_key(|(name, _)| name.len()) else {
@@ -218,7 +219,7 @@ impl<'k> Walk<'k> {
         Ok(item)
     }
 
-    /// The value of the first part: a section, or otherwise a parameter.
+    /// Returns the value of the first part, which is a section, or otherwise a parameter.
     fn first<'t>(&mut self, root: &'t DeTable<'t>) -> Result<&'t Spanned<DeValue<'t>>, KeyError> {
         let parameters = root.get(section::PARAMETERS.name);
         let parameters = parameters.and_then(|table| table.get_ref().as_table());
@@ -233,7 +234,7 @@ impl<'k> Walk<'k> {
         self.named(&entries.collect::<Vec<_>>())
     }
 
-    /// An entry of a list, by its index or by its name.
+    /// Returns an entry of a list, selected by its index or by its name.
     fn item<'t>(
         &mut self,
         items: &'t [Spanned<DeValue<'t>>],
@@ -262,7 +263,7 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// Whether a value may be replaced by a number.
+    /// Returns whether a number may replace a value.
     fn takes(&self, value: &DeValue) -> bool {
         let is_switch = self.key.ends_with(&format!(".{}", ACTIVE.name));
         as_number(value).is_some()
@@ -270,7 +271,7 @@ impl<'k> Walk<'k> {
             || is_switch && value.is_bool()
     }
 
-    /// The value at the end of the key, if it is written in one piece.
+    /// Returns the value at the end of the key, if its text is contiguous.
     fn value(&self, node: &Spanned<DeValue>, text: &str) -> Result<Slot, KeyError> {
         let span = node.span();
         let is_table = node.get_ref().is_table();
@@ -286,7 +287,7 @@ impl<'k> Walk<'k> {
         })
     }
 
-    /// The number at the end of the key.
+    /// Returns the number at the end of the key.
     fn number(&self, node: &Spanned<DeValue>) -> Result<Slot, KeyError> {
         match node.get_ref() {
             value if self.takes(value) => Ok(Slot {
@@ -314,8 +315,9 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// A position for a last key that is missing in the text: after the header line of its table,
-    /// or after its opening brace. The reader of scenes checks whether the key is valid.
+    /// Returns the position at which a missing last key can be added: after the header line of its
+    /// table, or after its opening brace. Whether the key is valid is checked later, by the reader
+    /// of scenes.
     fn addition(
         &self,
         node: &Spanned<DeValue>,
@@ -352,7 +354,7 @@ impl<'k> Walk<'k> {
     }
 }
 
-/// The error for a list where a number is needed.
+/// Returns the error for a list in place of a number.
 fn not_a_number(key: &str, items: &[Spanned<DeValue>]) -> KeyError {
     let part = |(k, item): (usize, &Spanned<DeValue>)| {
         let name = item

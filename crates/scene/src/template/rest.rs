@@ -1,6 +1,6 @@
-//! The text of a scene that starts in other poses, at rest: the key `start` of each body is
-//! written, and given velocities become zero. The rest of the text does not change, so that points,
-//! initial values and comments still refer to the described start.
+//! Creates the text of a scene whose initial state is at rest in other poses. The key `start` of
+//! each body is written, and given velocities are set to zero. The rest of the text does not
+//! change. Points, initial values and comments still refer to the described configuration.
 
 use model::{DescribedBody, FramePose};
 use toml::de::DeTable;
@@ -10,7 +10,8 @@ use super::{KeyError, Template, number};
 use crate::language::Units;
 use crate::scene::Scene;
 
-/// The text of a scene whose bodies start at rest in these poses, in the order of the bodies.
+/// Returns the text of a scene whose bodies are initially at rest in these poses, in the order of
+/// the bodies.
 ///
 /// ```
 /// use model::FramePose;
@@ -22,8 +23,8 @@ use crate::scene::Scene;
 /// ```
 ///
 /// # Errors
-/// - [`KeyError::NotToml`]: the scene has no text.
-/// - [`KeyError::NoRoom`]: a key cannot be added, because a body is written in dotted keys.
+/// - [`KeyError::NotToml`]: the scene was not read from a text.
+/// - [`KeyError::NoRoom`]: a key cannot be added, because a body is given by dotted keys.
 ///
 /// # Panics
 /// Panics if the number of poses differs from the number of bodies.
@@ -61,7 +62,7 @@ pub fn at_rest(scene: &Scene, poses: &[FramePose]) -> Result<String, KeyError> {
     Ok(template.filled(&texts))
 }
 
-/// The keys of a pose with their values.
+/// Returns the keys of a pose with their values.
 fn parts(pose: &FramePose, units: Units) -> [(&'static str, String); 2] {
     let length = |x: &f64| with_unit(*x, units.length, Units::SI.length);
     let angle = |x: f64| with_unit(x, units.angle, Units::SI.angle);
@@ -90,7 +91,8 @@ fn list(items: impl Iterator<Item = String>) -> String {
     format!("[{}]", items.collect::<Vec<_>>().join(", "))
 }
 
-/// A number with its SI unit, in a scene whose bare numbers have the unit `bare`.
+/// Writes a number with its SI unit, if the unit `bare` of bare numbers in the scene is another
+/// one.
 fn with_unit(x: f64, bare: &str, si: &str) -> String {
     if bare == si {
         number(x)
@@ -99,7 +101,7 @@ fn with_unit(x: f64, bare: &str, si: &str) -> String {
     }
 }
 
-/// The given nonzero velocities, with their numbers of components.
+/// Returns the given velocities that are not zero, each with its number of components.
 fn moving(body: &DescribedBody) -> Vec<(&'static str, usize)> {
     let (velocity, omega) = match body {
         DescribedBody::Plane(b) => (
@@ -119,7 +121,7 @@ fn moving(body: &DescribedBody) -> Vec<(&'static str, usize)> {
     .collect()
 }
 
-/// Whether the key `start` of a body is a table with its own header.
+/// Returns whether the key `start` of a body is a table with its own header.
 fn has_header(text: &str, body: usize) -> bool {
     let has = || {
         let root = DeTable::parse(text).ok()?;

@@ -118,7 +118,7 @@ fn every_number_comes_back_with_its_bits() {
             value.to_bits()
         );
     }
-    // The reader rejects these values, although they are valid TOML.
+    // The reader of scenes rejects these values, although they are valid TOML.
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, f64::MAX] {
         let problems = read("", &template.with(&[value]), &Registry::standard()).err();
         let message = problems.expect("refused")[0].message.clone();
@@ -174,7 +174,7 @@ fn wrong_keys_say_what_there_is() {
     ] {
         assert!(Template::new(SCENE, &[key]).is_err(), "{key:?}");
     }
-    // A misspelt last key is added; the reader rejects it and suggests the right one.
+    // A misspelt last key is added; the reader of scenes rejects it and suggests the correct key.
     let problems = read(
         "",
         &changed(&["body.cart.mas"], &[1.0]),
@@ -198,7 +198,7 @@ fn the_same_number_twice_is_refused() {
         Template::new("a = = 1", &["a"]).err(),
         Some(KeyError::NotToml)
     );
-    // A text that the reader would reject because of its size is also rejected here.
+    // A text that is too large for the reader of scenes is rejected here as well.
     let long = format!("a = 1\nb = [{}]", "0,".repeat(3_000_000));
     assert_eq!(Template::new(&long, &["a"]).err(), Some(KeyError::NotToml));
     let dotted = "[scene]\nmotion.rate = 1.0\n";

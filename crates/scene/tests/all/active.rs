@@ -1,10 +1,11 @@
-//! Tests `active = false`: an inactive element is read, checked and reported, and is in no list.
+//! Tests `active = false`: an inactive element is read, checked and reported, but it is not in any
+//! list.
 
 use crate::diagnostics::check_in;
 use crate::{BODIES, read};
 
-/// Two hinges; the second is parallel to a lock, which has a drive and a spring and is part of a
-/// sum.
+/// Two hinges. A lock, which has a drive and a spring and is part of a sum, is parallel to the
+/// second hinge.
 const PARTS: &str = r#"
 [[joint]]
 name = "A"
@@ -82,11 +83,11 @@ fn what_is_not_active_is_in_no_list() {
             "group `both`"
         ]
     );
-    // The positions are those of the remaining elements.
+    // The list of positions contains only the remaining elements.
     let map = scene.source.as_ref().expect("a text");
     let entries: Vec<_> = map.elements().map(|entry| entry.name.as_str()).collect();
     assert_eq!(entries, ["A", "B", "other"]);
-    // The command line also reports the error.
+    // The command-line option reports the same error.
     let error = scene
         .combination("A.Fx + lock.Fx")
         .expect_err("no reaction");
@@ -144,7 +145,7 @@ fn faults_have_their_places() {
             "expected true or false",
         )],
     );
-    // A text in which each case replaces one part.
+    // In each case, one part of the text is replaced.
     let motor = "values = [0, 1, 2] }\nactive = ";
     check_in(
         &text().replace(&format!("{motor}false"), &format!("{motor}0")),
@@ -186,7 +187,7 @@ fn faults_have_their_places() {
                 "the name `A` is used twice",
                 "used again here",
             ),
-            // Rows are those of active elements: A, B and the drive have five.
+            // Only rows of active elements are counted: A, B and the drive have five rows.
             (
                 "t_end = 2.0",
                 "t_end = 2.0\ndrop = [«6»]",

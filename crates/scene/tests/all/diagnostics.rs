@@ -1,10 +1,10 @@
-//! Tests texts and positions of diagnostics: one error per case, and one file with many errors.
+//! Tests messages and positions of diagnostics: one error per case, and one file with many errors.
 
 use pfaff_scene::Diagnostic;
 
 use crate::read;
 
-/// A small scene without errors; each case replaces one part of it.
+/// A small scene without errors; in each case, one part of it is replaced.
 const SCENE: &str = r#"[scene]
 name = "small"
 space = "plane"
@@ -54,14 +54,14 @@ drop = [1]
 "#;
 
 /// A case: a part of the scene, its replacement with «» around the position that must be marked,
-/// the message, and the label.
+/// the message, and the text of the mark.
 pub(crate) type Case = (&'static str, &'static str, &'static str, &'static str);
 
 fn check(cases: &[Case]) {
     check_in(SCENE, cases);
 }
 
-/// Checks that each case has only this problem, in a scene without other errors.
+/// Checks that each case causes exactly this problem, in a scene without other errors.
 pub(crate) fn check_in(scene: &str, cases: &[Case]) {
     assert!(read(scene).is_ok(), "{:#?}", read(scene));
     for &(part, fault, message, label) in cases {
@@ -642,9 +642,9 @@ fn help_lists_what_there_is() {
     }
 }
 
-/// One file contains errors of all kinds: all are reported, none twice, and none that is only a
-/// consequence of another. `name` is misspelt, not missing, and `chasis` may be the name of the
-/// third body.
+/// One file contains errors of all kinds. All of them are reported, each once, without problems
+/// that are only consequences. `name` is misspelt and therefore not reported as missing, and
+/// `chasis` may be the name of the third body.
 #[test]
 fn a_file_with_many_faults_reports_all_of_them() {
     let text = r#"
@@ -741,7 +741,7 @@ fn a_text_that_is_not_toml_is_judged_line_by_line() {
     );
 }
 
-/// In the format with expressions, a unit needs only quotes.
+/// In the format with expressions, the advice for a unit is only to add quotes.
 #[test]
 fn a_unit_without_quotes_gets_them() {
     let help = |format: &str| {
@@ -759,7 +759,7 @@ fn a_unit_without_quotes_gets_them() {
     assert!(help("").ends_with("write `120` instead of `2 min`"));
 }
 
-/// The text after a bracket that is never closed is not reported as separate faults.
+/// After a bracket that is never closed, the rest of the text is not reported as separate errors.
 #[test]
 fn a_bracket_that_is_never_closed_hides_its_consequences() {
     let text = SCENE.replace("\"crank\"]\nat = [1.0, 0.0]", "\"crank\"\nat = [1.0, 0.0]");
@@ -769,7 +769,7 @@ fn a_bracket_that_is_never_closed_hides_its_consequences() {
     );
 }
 
-/// Each body without a name explains only one reference to a missing body.
+/// Each body without a name explains references to only one missing body.
 #[test]
 fn names_of_unnamed_bodies_are_not_reported_again() {
     let unknown = |text: &str| -> Vec<String> {
@@ -786,7 +786,7 @@ fn names_of_unnamed_bodies_are_not_reported_again() {
     assert_eq!(lines(&read(&plural).expect_err("plural")).len(), 1);
 }
 
-/// Rows are counted as soon as all joints and drives can be read, for any other errors.
+/// Rows are counted if all joints and drives can be read, even if there are other errors.
 #[test]
 fn dropped_rows_are_checked_beside_other_faults() {
     let text = SCENE
@@ -801,7 +801,7 @@ fn dropped_rows_are_checked_beside_other_faults() {
     );
 }
 
-/// The numbers are usable, but their difference overflows.
+/// The numbers are in the permitted range, but their difference overflows.
 #[test]
 fn places_too_far_away_are_refused() {
     let text = SCENE
@@ -816,7 +816,7 @@ fn places_too_far_away_are_refused() {
     );
 }
 
-/// Thousands of problems are all reported in short time, including joints that refer to missing
+/// Thousands of problems are reported within a short time, including joints that refer to missing
 /// bodies.
 #[test]
 fn thousands_of_problems_are_reported() {
@@ -835,7 +835,7 @@ fn thousands_of_problems_are_reported() {
     assert_eq!(problems[4999].primary.text, "no such body");
 }
 
-/// An empty text.
+/// An empty text contains no scene.
 #[test]
 fn an_empty_file_says_what_a_scene_needs() {
     let problems = read("").expect_err("nothing");

@@ -1,10 +1,10 @@
-//! Tests every joint and force type of the scene format, with its parameters checked by the values
-//! of its kernels.
+//! Tests every type of joint and force of the scene format; the parameters are checked with the
+//! values of the kernels.
 //!
-//! The bodies are described at (1, 2) rotated by a right angle (a), (3, 2) (b) and (0, 0) (c). The
-//! global point (1, 4) is (2, 0) in the frame of a and (−2, 2) in the frame of b. Initial values
-//! are those of the described configuration; the kernels are then called with all bodies at the
-//! origin, so that local coordinates can be read directly.
+//! The bodies are described at (1, 2) rotated by 90° (a), at (3, 2) (b) and at (0, 0) (c). The
+//! ground point (1, 4) is (2, 0) in the frame of a and (−2, 2) in the frame of b. Initial values
+//! are those of the described configuration. The kernels are then called with all bodies at the
+//! origin, so that the results show the coordinates in the body frames directly.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI, SQRT_2};
 
@@ -32,7 +32,7 @@ fn joint(text: &str) -> (Description, Joint) {
     (d, joint)
 }
 
-/// Returns Φ with body frames at these angles at the origin.
+/// Returns Φ for body frames at the origin with these angles.
 fn phi(text: &str, angles: &[f64]) -> Vec<f64> {
     let (_, joint) = joint(text);
     let x: Vec<Pose> = angles.iter().map(|&a| Pose::new(0.0, 0.0, a)).collect();
@@ -64,8 +64,8 @@ const AB: &str = "bodies = [\"a\", \"b\"]\n";
 fn revolute() {
     let at = format!("type = \"revolute\"\n{AB}at = [1.0, 4.0]");
     assert_close(&phi(&at, &[0.0; 2]), &[4.0, -2.0]);
-    // The same values in body frames; the order of the table has no effect, and integers are
-    // numbers.
+    // The same points are given in body frames; the order of the table has no effect, and integers
+    // are permitted as numbers.
     let points = format!("type = \"revolute\"\n{AB}points = {{ b = [-2, 2], a = [2, 0] }}");
     assert_close(&phi(&points, &[0.0; 2]), &[4.0, -2.0]);
     let ground = "type = \"revolute\"\nbodies = [\"ground\", \"b\"]\nat = [1.0, 4.0]";
@@ -135,7 +135,7 @@ fn point_on_line() {
 
 #[test]
 fn knife_edge() {
-    // With n = (0.6, 0.8) and the point (2, 0), the values are [n, n·(0, 2)].
+    // With n = (0.6, 0.8) and the point (2, 0), the entries are n and n·(0, 2).
     let (_, joint) =
         joint("type = \"knife-edge\"\nbody = \"a\"\nat = [1.0, 4.0]\nnormal = [3.0, 4.0]");
     assert_close(&c(&*joint.element), &[0.6, 0.8, 1.6]);
@@ -167,7 +167,7 @@ fn rolling() {
     }
 }
 
-/// Drives take bodies and parameters of their joints.
+/// A drive has the bodies and the parameters of its joint.
 #[test]
 fn drives() {
     let text = r#"
@@ -224,8 +224,8 @@ axis = [1.0, 0.0]
             .phi(&[Pose::GROUND; 2], &[[0.125, 0.0, 0.0]], &mut out);
         out[0]
     };
-    // The values are the joint coordinates at the origin minus the described ones minus 0.125; d =
-    // (−4, 2) at the origin and 0 in the described configuration.
+    // The values are the joint coordinates at the origin minus those in the described configuration
+    // minus 0.125. d = (−4, 2) at the origin and 0 in the described configuration.
     assert_close(
         &[value(0), value(1), value(2), value(3)],
         &[
@@ -258,7 +258,8 @@ fn redundant_drives_are_legal() {
     assert_eq!(d.drives.len(), 2);
 }
 
-/// Returns Q with all bodies at the origin and these twists, with functions at t = 0.
+/// Returns Q for all bodies at the origin with these twists; functions of time are evaluated at
+/// t = 0.
 fn q(text: &str, v: &[Twist]) -> Vec<f64> {
     let d = read_more(&format!("[[force]]\nname = \"X\"\n{text}"))
         .description
@@ -289,12 +290,13 @@ const REST: Twist = Twist {
 #[test]
 fn spring_damper() {
     // The spring is from (2, 0) of a to (0, 0) of b. Its length is 2 at the origin and √8 in the
-    // described configuration. b moves to the left by 1: l̇ = 1.
+    // described configuration. b moves to the left at 1 m/s, so l̇ = 1.
     let v = [REST, Twist { x: -1.0, ..REST }];
     let text = format!(
         "type = \"spring-damper\"\n{AB}at = [[1, 4], [3, 2]]\nstiffness = 10.0\ndamping = 3.0\n"
     );
-    // Tension 10·(2 − 0.5) + 3 = 18 pulls a to the left and b to the right, without a lever arm.
+    // The tension 10·(2 − 0.5) + 3 = 18 pulls a to the left and b to the right, without a lever
+    // arm.
     let tension = q(&format!("{text}free_length = 0.5"), &v);
     assert_close(&tension, &[-18.0, 0.0, 0.0, 18.0, 0.0, 0.0]);
     let tension = 10.0 * (2.0 - 8.0_f64.sqrt()) + 3.0;
@@ -308,7 +310,8 @@ fn torsion_spring_damper() {
     // The torque is −10·(0 − 0.5) − 3·2 = −1.
     let torque = q(&format!("{text}free_angle = 0.5"), &v);
     assert_close(&torque, &[0.0, 0.0, 1.0, 0.0, 0.0, -1.0]);
-    // Without a given value, the described angle −π/2 is used: −10·π/2 − 6.
+    // If the free angle is not given, it is the described angle −π/2, and the torque is −10·π/2
+    // − 6.
     let torque = -10.0 * FRAC_PI_2 - 6.0;
     assert_close(&q(&text, &v), &[0.0, 0.0, -torque, 0.0, 0.0, torque]);
 }
@@ -316,7 +319,7 @@ fn torsion_spring_damper() {
 #[test]
 fn bushing() {
     // d = (−2, 2) − (2, 0) = (−4, 2), and zero in the described configuration; the angle was −π/2.
-    // The force on b is (4·1, −2·10) at (−2, 2).
+    // The force on b is (4·1, −2·10); it acts at (−2, 2).
     let text = format!(
         "type = \"bushing\"\n{AB}at = [1, 4]\nstiffness = [1, 10, 100]\ndamping = [0, 0, 0]"
     );
@@ -327,7 +330,7 @@ fn bushing() {
         &found,
         &[-4.0, 20.0, -torque - moment, 4.0, -20.0, torque + moment],
     );
-    // The rates of d are those of body b.
+    // The rates of d are computed from the velocity of body b.
     let text = format!(
         "type = \"bushing\"\n{AB}at = [1, 4]\nstiffness = [0, 0, 0]\ndamping = [1, 10, 100]"
     );
@@ -353,7 +356,7 @@ fn point_force() {
         &q(&format!("{text}{components}"), &[REST]),
         &[3.0, 0.0, 0.0],
     );
-    // The force (0, 4) at (2, 0) has the torque 8.
+    // The force (0, 4) at (2, 0) has the torque 8 about the origin.
     let text = format!("{text}force = [0, 4]\n");
     assert_close(&q(&text, &[REST]), &[0.0, 4.0, 8.0]);
     for (frame, name) in [
@@ -381,7 +384,7 @@ fn torque() {
     assert_close(&q(&text, &[REST; 2]), &[0.0, 0.0, -5.0, 0.0, 0.0, 5.0]);
 }
 
-/// The tests above are complete: the registry has no scene type beyond those of the format.
+/// The tests above are complete: the registry contains only the types of the format.
 #[test]
 fn the_types_are_those_of_the_contract() {
     let registry = Registry::standard();

@@ -1,4 +1,5 @@
-//! Tests format 2: expressions, parameters and units; every error has its position inside the text.
+//! Tests format 2 with expressions, parameters and units; every error has a position inside the
+//! text.
 
 use std::f64::consts::FRAC_PI_6;
 
@@ -61,7 +62,7 @@ fn crank() -> Scene {
     read(CRANK).unwrap_or_else(|problems| panic!("{problems:#?}"))
 }
 
-/// The expected numbers are derived by hand, in metres and radians.
+/// The expected numbers were derived by hand, in metres and radians.
 #[test]
 fn numbers_mean_what_their_units_say() {
     let scene = crank();
@@ -89,7 +90,7 @@ fn numbers_mean_what_their_units_say() {
     assert_eq!(scene.simulate.expect("a run").t_end, 2.0);
 }
 
-/// The same scene in metres, radians and literals, in the old format.
+/// The same scene in metres and radians, with numbers only, in the old format.
 #[test]
 fn a_scene_in_millimetres_is_that_in_metres() {
     let replaced = [
@@ -155,7 +156,7 @@ fn a_scene_in_millimetres_is_that_in_metres() {
     assert_eq!(show(&new), show(&old));
 }
 
-/// Returns the marked text, the message, and the label with the help, of a problem.
+/// Returns for a problem the marked text, the message, and the text of the mark with the advice.
 fn said(text: &str, problem: &Diagnostic) -> [String; 3] {
     let marked = text[problem.primary.span.clone()].to_owned();
     let help = problem.help.clone().unwrap_or_default();
@@ -359,11 +360,12 @@ fn all_faults_are_told_at_once() {
         .iter()
         .map(|p| &text[p.primary.span.clone()])
         .collect();
-    // Uses of the invalid `phi` are consequences.
+    // Uses of the invalid `phi` are consequences and not reported.
     assert_eq!(marked, ["zeta", "a", "b", "1 s", "2 kg"]);
 }
 
-/// Parameters are resolved in any order and number, without a stack that grows with them.
+/// Parameters may be in any order and of any number; the depth of the stack does not depend on
+/// their number.
 #[test]
 fn thousands_of_parameters_follow_each_other() {
     let n = 20_000;
@@ -387,7 +389,7 @@ fn thousands_of_parameters_follow_each_other() {
     assert!(message.ends_with("depend on each other"), "{message}");
 }
 
-/// Texts that TOML writes with escapes are marked as a whole.
+/// A text that is written with escapes is marked as a whole.
 #[test]
 fn escapes_do_not_shift_places() {
     let text = CRANK.replacen("t_end = \"2 s\"", "t_end = \"2\\u0020kg\"", 1);
@@ -395,7 +397,7 @@ fn escapes_do_not_shift_places() {
     assert_eq!(&text[problems[0].primary.span.clone()], "\"2\\u0020kg\"");
 }
 
-/// Without `format = 2` there are no new features, and the message states the required text.
+/// Without `format = 2` expressions are not available, and the message states the text to add.
 #[test]
 fn the_old_format_computes_nothing() {
     let text = CRANK.replacen("format = 2\n", "", 1);
@@ -455,7 +457,7 @@ fn what_is_probably_not_meant_is_a_warning() {
 }
 
 proptest! {
-    /// For any text, reading ends without a panic and with positions inside the file.
+    /// For any text, reading ends without a panic, and positions are inside the file.
     #[test]
     fn no_text_panics(text in expression(), other in expression()) {
         let quoted = |text: &str| toml::Value::from(text).to_string();

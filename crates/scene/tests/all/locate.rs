@@ -53,7 +53,7 @@ fn a_large_correction_points_at_the_joint_that_misses() {
     );
     let d = scene.locate_start(&error).expect("a place");
     assert_eq!(&text_of(&scene)[d.primary.span.clone()], "\"A\"");
-    // The distance is √(3² + 2²).
+    // The violation is √(3² + 2²).
     assert!(
         error.to_string().contains("these miss: `A` by 3.606 m;"),
         "{error}"
@@ -91,7 +91,7 @@ fn errors_of_a_run_point_at_rows_bodies_and_options() {
     assert_eq!(marked(&option), "[simulate]");
 }
 
-/// Body c rotates about the origin, with two drives that contradict each other.
+/// Body c rotates about the origin; two drives of its rotation contradict each other.
 const TWO_DRIVES: &str = r#"[[joint]]
 name = "A"
 type = "revolute"
@@ -166,7 +166,7 @@ fn velocities_that_do_not_exist_point_at_the_drive() {
     assert_eq!(others, ["[\"c.omega\"]"]);
 }
 
-/// A description was changed after reading, as in a sweep.
+/// The description is changed after reading, as in a sweep.
 #[test]
 fn changed_numbers_point_at_their_keys() {
     let mut scene = scene();
@@ -190,7 +190,7 @@ fn changed_numbers_point_at_their_keys() {
             text_of(&scene)[d.primary.span].to_owned()
         })
         .collect();
-    // Body c has no angular velocity, so its name is marked.
+    // Body c has no key for an angular velocity, so its name is marked.
     assert_eq!(places, ["1.0", "\"c\""]);
     let unknown = BuildError::GroundOnly {
         name: "nobody".into(),

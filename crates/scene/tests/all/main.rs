@@ -23,8 +23,7 @@ use pfaff_scene::{Diagnostic, Scene};
 /// The mechanism of the published paper.
 const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
 
-/// The scene has bodies a, b and c: a at (1, 2), rotated by a right angle, b at (3, 2), c at (0,
-/// 0).
+/// The bodies are a at (1, 2), rotated by 90°, b at (3, 2), and c at (0, 0).
 const BODIES: &str = r#"[scene]
 name = "small"
 space = "plane"
@@ -49,20 +48,20 @@ inertia = 1.0
 
 "#;
 
-/// Reads a text with the joints and forces of the library.
+/// Reads a text with the standard registry of joints and forces.
 fn read(text: &str) -> Result<Scene, Vec<Diagnostic>> {
     pfaff_scene::read("x.toml", text, &Registry::standard())
 }
 
-/// Reads the three bodies and further text.
+/// Reads a scene with these three bodies and further text.
 fn read_more(text: &str) -> Scene {
     read(&format!("{BODIES}{text}")).unwrap_or_else(|problems| panic!("{text}\n{problems:#?}"))
 }
 
-/// Rounding of several operations on numbers of size one.
+/// Rounding error of several operations on numbers of size one.
 const ROUNDING: f64 = 1e-14;
 
-/// Compares with numbers derived by hand.
+/// Compares values with those derived by hand.
 #[track_caller]
 fn assert_close(found: &[f64], expected: &[f64]) {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING;

@@ -1,12 +1,12 @@
-//! Tests broken files: after any change, reading ends with a scene or with diagnostics within the
-//! text.
+//! Tests invalid files: after any change of the text, reading ends with a scene or with diagnostics
+//! inside the text.
 
 use model::{Mechanism, Registry};
 use proptest::prelude::*;
 
 use crate::ROBOT;
 
-/// A change of the text at one of its tokens or lines.
+/// A change of the text at a token or a line.
 #[derive(Clone, Debug)]
 enum Mutation {
     Delete,
@@ -70,7 +70,7 @@ fn mutation() -> impl Strategy<Value = Mutation> {
     ]
 }
 
-/// Returns the text in pieces: lines, or words and single characters.
+/// Splits the text into lines, or into words and single characters.
 fn pieces(text: &str, by_line: bool) -> Vec<String> {
     if by_line {
         return text.split_inclusive('\n').map(str::to_owned).collect();
@@ -123,7 +123,7 @@ fn check(text: &str) {
     }
 }
 
-/// Values of all kinds that are valid TOML, correct at one place and invalid at most others.
+/// Values of all types that are valid TOML; most keys reject most of them.
 const VALUES: [&str; 34] = [
     "nan",
     "-inf",
@@ -189,8 +189,8 @@ const LINES: [&str; 24] = [
     "rate = [0, { type = \"steps\", steps = [] }]",
 ];
 
-/// Changes whole lines such that the text usually remains valid TOML and the test reaches the
-/// reader itself.
+/// Changes whole lines, so that the text usually remains valid TOML and the reader of scenes is
+/// tested, not only the parser.
 fn change_line(text: &str, at: usize, kind: u8, piece: usize) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let at = at % lines.len();

@@ -1,4 +1,4 @@
-//! A joint that is not part of the library can be read after registration.
+//! Tests that a joint outside the library can be read after its registration.
 
 use joint_macro::joint;
 use joints::Pose;

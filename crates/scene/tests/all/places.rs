@@ -1,4 +1,4 @@
-//! Tests frames away from the centre of mass, markers and joint coordinates: their values, and
+//! Tests frames away from the centre of mass, markers and joint coordinates, with their values and
 //! their errors.
 
 use model::{BodyRef, MeasureKind, ToleranceScope};
@@ -6,7 +6,7 @@ use model::{BodyRef, MeasureKind, ToleranceScope};
 use crate::diagnostics::check_in;
 use crate::{assert_close, read};
 
-/// A crank with its frame at its shaft, a slider, and markers.
+/// A crank whose frame is at its shaft, a slider, and markers.
 const SCENE: &str = r#"[scene]
 name = "places"
 space = "plane"
@@ -98,18 +98,19 @@ fn points_are_relative_to_the_centre_of_mass() {
     let pose = crank.pose();
     assert_close(&[pose.x, pose.y], &[1.0, 2.5]);
     let points = |k: usize| d.joints[k].element.points().concat();
-    // The shaft is half a metre behind the centre of mass.
+    // The shaft is 0.5 m behind the centre of mass.
     assert_close(&points(0), &[1.0, 2.0, -0.5, 0.0]);
     assert_eq!(points(1), [0.5, 0.25, 0.3, 0.0]);
     assert_eq!(points(2), [0.0, 1.0]);
-    // A marker is used at its position, and a global point at that of the body.
+    // For a marker, the point of each body is that of the marker; a point in ground coordinates is
+    // converted to the body.
     assert_close(&points(3), &[0.0, 1.0, 0.5, 0.0]);
     assert_eq!(d.forces[0].element.points(), [[9.0, 9.0], [0.5, 0.25]]);
 }
 
 #[test]
 fn a_marker_of_another_body_is_a_place() {
-    // The tip in the frame of the slider is (1, 2) + R·(1, 0.25).
+    // The position of the tip in the frame of the slider is (1, 2) + R·(1, 0.25).
     let text = SCENE.replace(
         "points = { crank = \"tip\", slider = [0.3, 0.0] }",
         "at = \"tip\"",
@@ -151,8 +152,8 @@ fn markers_and_measures_are_read() {
     );
 }
 
-/// The tolerance of a marker is that of its points; it precedes those of body and scene, and
-/// follows that of the joint.
+/// The tolerance of a marker applies to its points. It takes precedence over the tolerances of body
+/// and scene, and the tolerance of the joint takes precedence over it.
 #[test]
 fn a_tolerance_of_a_marker_is_that_of_its_point() {
     use model::{Mechanism, System};
@@ -185,7 +186,7 @@ fn a_tolerance_of_a_marker_is_that_of_its_point() {
     assert_eq!(tolerances(&with_scene), [Some(1e-5), Some(1e-3)]);
     let with_joint = SCENE.replace("name = \"B\"\n", "name = \"B\"\ntolerance = 1e-2\n");
     assert_eq!(tolerances(&with_joint), [Some(1e-2); 2]);
-    // Parts of the mechanism keep this tolerance.
+    // A part of the mechanism has the same tolerance.
     let d = read(SCENE)
         .expect("a scene")
         .description
@@ -314,7 +315,7 @@ fn faults_have_their_places() {
     );
 }
 
-/// Without markers, a text is not a marker name.
+/// In a scene without markers, a text is not the name of a marker.
 #[test]
 fn numbers_with_units_are_no_markers() {
     let text = "[scene]\nname = \"x\"\nspace = \"plane\"\n[[body]]\nname = \"a\"\nmass = 1\ninertia = 1\n\

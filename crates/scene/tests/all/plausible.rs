@@ -1,5 +1,5 @@
-//! Tests warnings about numbers that are probably wrong: each warning has its position, a similar
-//! number has no warning, and no scene of the repository has a warning.
+//! Tests warnings about numbers that are probably wrong. Each warning has the correct position, a
+//! similar plausible number has no warning, and no scene of the repository has a warning.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use pfaff_scene::Severity;
 
 use super::read;
 
-/// A crank and a rod of 0.2 m and 0.6 m, as in textbooks.
+/// A crank of 0.2 m and a rod of 0.6 m, as in textbooks.
 const CRANK: &str = r#"[scene]
 name = "slider-crank"
 space = "plane"
@@ -49,7 +49,7 @@ axis = [1.0, 0.0]
 t_end = 2.0
 "#;
 
-/// Returns codes of the warnings with the marked texts.
+/// Returns the codes of the warnings, each with the marked text.
 fn warned(text: &str) -> Vec<(String, String)> {
     let scene = read(text).unwrap_or_else(|problems| panic!("{text}\n{problems:#?}"));
     let warnings = scene.warnings.iter();
@@ -67,7 +67,8 @@ fn with(from: &str, to: &str) -> String {
     CRANK.replacen(from, to, 1)
 }
 
-/// A part of the scene, its replacement, and code and mark of the warning, if there is one.
+/// A part of the scene, its replacement, and the code and the marked text of the warning, if there
+/// is one.
 type Case = (
     &'static str,
     &'static str,
@@ -92,12 +93,13 @@ fn round_angles_beyond_a_turn_look_like_degrees() {
         (ANGLE, "angle = 45", degrees("45")),
         (ANGLE, "angle = -360.0", degrees("-360.0")),
         (ANGLE, "angle = 10", degrees("10")),
-        // The numbers are less round, within a revolution, or more than a revolution in degrees.
+        // These numbers are not multiples of five, are within one revolution in radians, or exceed
+        // one revolution in degrees.
         (ANGLE, "angle = 45.3", None),
         (ANGLE, "angle = 12.566370614359172", None),
         (ANGLE, "angle = 5", None),
         (ANGLE, "angle = 365", None),
-        // A rate has no warning.
+        // There is no warning about an angular velocity.
         (ANGLE, "angular_velocity = 90", None),
     ]);
     let drive = |motion: &str| {
@@ -109,13 +111,13 @@ fn round_angles_beyond_a_turn_look_like_degrees() {
         let times = "type = \"table\", times = [0, 1, 2]";
         warned(&drive(&format!("{{ {times}, values = {values} }}")))
     };
-    // A list is checked as a whole.
+    // The numbers of a list are checked together.
     assert_eq!(
         table("[0, 45, 90]"),
         [("P0192".to_owned(), "45".to_owned())]
     );
     assert_eq!(table("[0, 45, 91.5]"), []);
-    // Of the coefficients of 1, t and t², only the first is an angle.
+    // Only the first of the coefficients of 1, t and t² is an angle.
     let polynomial = drive("{ type = \"polynomial\", coefficients = [0, 90, 45] }");
     assert_eq!(warned(&polynomial), []);
 }
@@ -132,7 +134,7 @@ fn units_say_what_an_angle_is() {
     let degrees = "units = { angle = \"deg\" }\nspace";
     let text = with("space", &format!("format = 2\n{degrees}"));
     assert_eq!(warned(&text.replacen("angle = 0.0", "angle = 45", 1)), []);
-    // The advice states the correct text.
+    // The advice contains the correct text.
     let scene = read(&computed.replacen("angle = 0.0", "angle = 45.0", 1)).expect("a scene");
     let help = scene.warnings[0].help.as_deref().expect("advice");
     assert_eq!(
@@ -155,7 +157,8 @@ fn gravity_is_that_of_a_planet() {
         (G, "[0, -981]", gravity("[0, -981]")),
         (G, "[0, -386.1]", gravity("[0, -386.1]")),
         (G, "[0, -60]", gravity("[0, -60]")),
-        // The values are those of Jupiter, twice Jupiter, the Moon, and none of these.
+        // The gravities are those of Jupiter, about twice Jupiter and the Moon, a thousandth of
+        // that of the Earth, and zero.
         (G, "[0, -24.79]", None),
         (G, "[0, -49]", None),
         (G, "[0, -1.62]", None),
@@ -178,7 +181,7 @@ fn gravity_is_that_of_a_planet() {
             "write `gravity = [0, -9.80694]`".to_owned()
         )
     );
-    // The same numbers in a scene of millimetres.
+    // The same numbers in a scene with lengths in millimetres.
     let scene = |gravity: &str| {
         format!(
             "[scene]\nname = \"mm\"\nspace = \"plane\"\nformat = 2\nunits = {{ length = \"mm\" }}\ngravity = {gravity}\n\n[[body]]\nname = \"a\"\nmass = 1\ninertia = 1\n"
@@ -201,22 +204,23 @@ fn inertia_fits_mass_and_size() {
     let inertia = |mark| Some(("P0194", mark));
     const ROD: &str = "inertia = 0.09";
     check(&[
-        // The number is read as kg·m², although it is in kg·cm² or in kg·mm².
+        // The number is in kg·cm² or in kg·mm², but is read as kg·m².
         (ROD, "inertia = 900.0", inertia("900.0")),
         (ROD, "inertia = 9e4", inertia("9e4")),
-        // The radius of gyration is 20 arms of 0.3 m, and slightly less.
+        // The radius of gyration is slightly more, and slightly less, than 20 times the arm of 0.3
+        // m.
         (ROD, "inertia = 108.1", inertia("108.1")),
         (ROD, "inertia = 107.9", None),
-        // The radius of gyration is a thousandth of the arm, and slightly more; the last case is a
-        // point mass.
+        // The radius of gyration is slightly less, and slightly more, than a thousandth of the arm;
+        // the last two cases are a point mass and a body without mass.
         (ROD, "inertia = 2.6e-7", inertia("2.6e-7")),
         (ROD, "inertia = 2.8e-7", None),
         (ROD, "inertia = 0.0", None),
         ("mass = 3.0", "mass = 0.0", None),
-        // The mass is in tonnes.
+        // The mass is given in tonnes.
         ("mass = 3.0", "mass = 0.001", inertia("0.09")),
     ]);
-    // A rotor whose only point is near its centre of mass has no size.
+    // The only point of the rotor is near its centre of mass, so the points do not define a size.
     let rotor = "[scene]\nname = \"rotor\"\nspace = \"plane\"\n\n[[body]]\nname = \"rotor\"\nmass = 8.0\ninertia = 0.09\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"rotor\"]\nat = [1e-5, 0.0]\n";
     assert_eq!(warned(rotor), []);
     let marked =
@@ -224,7 +228,7 @@ fn inertia_fits_mass_and_size() {
     assert_eq!(warned(&marked), []);
 }
 
-/// A wheel is at the end of an arm: all its points are at its centre of mass.
+/// A wheel at the end of an arm; all its points are at its centre of mass.
 #[test]
 fn a_wheel_has_no_arm_and_is_of_some_material() {
     let scene = |inertia: &str| {
@@ -232,13 +236,13 @@ fn a_wheel_has_no_arm_and_is_of_some_material() {
             "[scene]\nname = \"mm\"\nspace = \"plane\"\nformat = 2\nunits = {{ length = \"mm\" }}\n\n[[body]]\nname = \"arm\"\nmass = 3\ninertia = 9e4\n\n[[body]]\nname = \"wheel\"\nmass = 22\ninertia = {inertia}\nposition = [300, 0]\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"arm\"]\nat = [-300, 0]\n\n[[joint]]\nname = \"B\"\ntype = \"revolute\"\nbodies = [\"arm\", \"wheel\"]\nat = [300, 0]\n"
         )
     };
-    // A wheel of 22 kg with a radius of gyration of 0.22 m has 1.1 kg·m²; the last value is a small
-    // number for a point mass.
+    // A wheel of 22 kg with a radius of gyration of 0.22 m has 1.1 kg·m²; the last value is small
+    // enough for a point mass.
     for meant in ["1.1e6", "\"1.1 kg*m^2\"", "0", "220"] {
         assert_eq!(warned(&scene(meant)), [], "{meant}");
     }
-    // Read as kg·m², the radius of gyration is 0.22 mm, and a ball of that inertia has the density
-    // 22/(4/3·π·(0.2236e-3·√2.5)³) kg/m³.
+    // If 1.1 is read as kg·mm², the radius of gyration is 0.22 mm. A ball with this inertia has the
+    // density 22/(4/3·π·(0.2236e-3·√2.5)³) kg/m³.
     let found = read(&scene("1.1")).expect("a scene");
     let [warning] = &found.warnings[..] else {
         panic!("{:#?}", found.warnings)
@@ -257,7 +261,7 @@ fn a_wheel_has_no_arm_and_is_of_some_material() {
 
 #[test]
 fn units_do_not_change_what_is_plausible() {
-    // The rod in millimetres: 90 kg·mm² would be 0.00009 kg·m².
+    // The rod in a scene with millimetres: 90 kg·mm² would be 0.00009 kg·m².
     let scene = |inertia: &str| {
         format!(
             "[scene]\nname = \"mm\"\nspace = \"plane\"\nformat = 2\nunits = {{ length = \"mm\" }}\n\n[[body]]\nname = \"rod\"\nmass = 3\ninertia = {inertia}\n\n[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"rod\"]\nat = [\"-30 cm\", 0]\n\n[[joint]]\nname = \"B\"\ntype = \"pin-in-slot\"\nbodies = [\"ground\", \"rod\"]\npoints = {{ ground = [0, 0], rod = [300, 0] }}\naxis = [1, 0]\n"
@@ -266,7 +270,7 @@ fn units_do_not_change_what_is_plausible() {
     for meant in ["9e4", "\"0.09 kg*m^2\"", "\"900 kg*cm^2\""] {
         assert_eq!(warned(&scene(meant)), [], "{meant}");
     }
-    // The value is read in kg·m².
+    // The value was meant in kg·m².
     let found = read(&scene("0.09")).expect("a scene");
     let [warning] = &found.warnings[..] else {
         panic!("{:#?}", found.warnings)
@@ -317,13 +321,13 @@ fn bodies_without_joints_beside_others_are_told() {
     let text = format!("{CRANK}\n{weight}");
     let told = || vec![("P0195".to_owned(), "\"weight\"".to_owned())];
     assert_eq!(warned(&text), told());
-    // A force does not constrain the body; a joint does, even an inactive joint.
+    // A force does not constrain the body, but a joint does, even if it is inactive.
     let spring = "\n[[force]]\nname = \"F\"\ntype = \"spring-damper\"\nbodies = [\"ground\", \"weight\"]\nat = [[0.0, 0.0], [0.0, -1.0]]\nstiffness = 1.0\ndamping = 0.0\n";
     assert_eq!(warned(&format!("{text}{spring}")), told());
     let joint = "\n[[joint]]\nname = \"J\"\ntype = \"revolute\"\nbodies = [\"ground\", \"weight\"]\nat = [0.0, 0.0]\n";
     assert_eq!(warned(&format!("{text}{joint}")), []);
     assert_eq!(warned(&format!("{text}{joint}active = false\n")), []);
-    // In a scene without joints, free bodies are intended.
+    // In a scene without joints, bodies without a joint are intended.
     let free = format!("[scene]\nname = \"free\"\nspace = \"plane\"\n\n{weight}{spring}");
     assert_eq!(warned(&free), []);
     let messages = |text: &str| {
@@ -344,8 +348,8 @@ fn bodies_without_joints_beside_others_are_told() {
 fn a_joint_a_hundred_sizes_away_is_told() {
     let far = |mark| Some(("P0196", mark));
     const AT: &str = "points = { ground = [0.0, 0.0], rod = [0.3, 0.0] }";
-    // The arms are 0.1, 0.1 and 0.3, and the radii of gyration are 0.058 and 0.173: the upper
-    // median is 0.173 with a fourth arm above it.
+    // The arms are 0.1, 0.1 and 0.3, and the radii of gyration are 0.058 and 0.173. With a larger
+    // fourth arm, the upper median is 0.173.
     const MM: &str = "{ ground = [0.0, 0.0], rod = [300.0, 0.0] }";
     const OUT: &str = "{ ground = [0.0, 0.0], rod = [17.4, 0.0] }";
     check(&[
@@ -364,7 +368,7 @@ fn a_joint_a_hundred_sizes_away_is_told() {
             "points = { ground = [0.0, 0.0], rod = [17.2, 0.0] }",
             None,
         ),
-        // The ground has no size.
+        // Points on the ground do not define a size.
         (
             AT,
             "points = { ground = [9e5, 0.0], rod = [0.3, 0.0] }",
@@ -376,7 +380,7 @@ fn a_joint_a_hundred_sizes_away_is_told() {
         scene.warnings[0].message,
         "joint `S` is 300 m from the centre of mass of body `rod`, 1732.05 times the size of this mechanism, 0.173205 m"
     );
-    // Far from the origin the distances between points are the same.
+    // Far from the origin, the distances between the points are the same.
     let moved = "position = [1000000.4, 0.0]";
     let text = with("position = [0.4, 0.0]", moved);
     let text = text.replacen("angle = 0.0", "position = [1e6, 0.0]", 1);
@@ -396,7 +400,7 @@ fn rows_lie_within_the_run() {
     ]);
 }
 
-/// Returns files below a folder with this ending.
+/// Finds the files below a folder whose names have this ending.
 fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
@@ -408,8 +412,9 @@ fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
     }
 }
 
-/// The test reads all scenes in files and in pages: examples and templates, those of the suite and
-/// of the tests. Programs found the implausible scenes of `crates/lab/found`.
+/// Reads all scenes in files and in pages: examples and templates, and the scenes of the suite and
+/// of the tests. The implausible scenes of `crates/lab/found` are excluded, because they were found
+/// by programs.
 #[test]
 fn no_scene_of_the_repository_has_a_warning() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -428,7 +433,7 @@ fn no_scene_of_the_repository_has_a_warning() {
             for path in found {
                 let text = fs::read_to_string(&path).unwrap_or_default();
                 let blocks: Vec<String> = match end {
-                    // The first line of a block is its language.
+                    // The first line of a code block contains its language.
                     "md" => {
                         let blocks = text.split("```").skip(1).step_by(2);
                         let inside = blocks.filter_map(|block| block.split_once('\n'));
@@ -442,7 +447,7 @@ fn no_scene_of_the_repository_has_a_warning() {
     }
     let mut n_read = 0;
     for (path, text) in texts {
-        // The page of codes shows a scene for each code.
+        // The page of error codes contains a scene for each code.
         if path.ends_with("docs/book/errors.md") {
             continue;
         }
@@ -450,6 +455,6 @@ fn no_scene_of_the_repository_has_a_warning() {
         n_read += 1;
         assert_eq!(scene.warnings, [], "{}", path.display());
     }
-    // The number contains at least the 20 examples, 13 of the suite, the robot, and some pages.
+    // The scenes include at least the 20 examples, 13 of the suite, the robot, and some in pages.
     assert!(n_read >= 60, "{n_read}");
 }

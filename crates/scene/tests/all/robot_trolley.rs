@@ -1,4 +1,5 @@
-//! Tests the published robot with its trolley: counts, rows, and the closing of its joints.
+//! Tests the published robot with its trolley: the numbers of elements and rows, and the assembly
+//! of its joints.
 
 use dynamics::{MotionOptions, RowChoice};
 use model::{Mechanism, StartOptions, System};
@@ -24,7 +25,7 @@ fn the_robot_reads() {
     assert_eq!(motion.break_times().len(), 8);
 }
 
-/// The numbers of rows are those of the published model.
+/// The indices of rows are those of the published model.
 #[test]
 fn rows_have_the_numbers_of_the_contract() {
     let scene = read(ROBOT).expect("a scene");
@@ -57,7 +58,8 @@ fn rows_have_the_numbers_of_the_contract() {
     assert_eq!(groups, expected);
 }
 
-/// A global point is the same point in the frames of both bodies, so no correction is needed.
+/// A point in ground coordinates is converted to the same point in the frames of both bodies, so no
+/// correction is necessary.
 #[test]
 fn the_joints_close_without_correction() {
     let scene = read(ROBOT).expect("a scene");
@@ -151,7 +153,7 @@ fn combinations_of_the_command_line_are_read_with_the_names_of_the_scene() {
     };
     assert_eq!(terms("W3.N + W4.N"), ("components", 2));
     assert_eq!(terms("W3 + W4"), ("wrenches", 2));
-    // The component is identically zero, but may be requested.
+    // The component is identically zero, but it may still be requested.
     assert_eq!(terms("W3.T"), ("components", 1));
     assert_eq!(
         scene.combination("A.N").expect_err("unknown").to_string(),

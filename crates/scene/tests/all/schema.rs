@@ -1,5 +1,5 @@
-//! The schema agrees with the reader in all properties that a schema can express: keys, kinds of
-//! values, ranges, choices.
+//! Tests that the schema agrees with the reader of scenes in all properties that a schema can
+//! express: keys, types of values, ranges, choices.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -39,7 +39,8 @@ fn scenes() -> Vec<PathBuf> {
     found
 }
 
-/// The text contains the purpose of a parameter, its type, its unit and frame, and its default.
+/// The schema contains the purpose of each parameter, its type, its unit and frame, and its
+/// default.
 #[test]
 fn keys_of_joints_and_forces_are_explained() {
     let schema = schema();
@@ -103,7 +104,7 @@ fn every_scene_of_the_repository_is_valid() {
     }
 }
 
-/// Items of every kind, with all their keys.
+/// Items of every type, with all their keys.
 const MORE: &str = r#"
 [[joint]]
 name = "A"
@@ -168,7 +169,7 @@ fn all_forms_are_valid() {
     assert_eq!(verdict(&text), None);
 }
 
-/// Each entry is one change; the reader rejects the form of the result.
+/// Each entry is one change of a scene; the reader rejects the result because of its form.
 const WRONG: [(&str, &str); 53] = [
     ("space = \"plane\"", "space = \"space\""),
     ("space = \"plane\"", ""),
@@ -262,8 +263,8 @@ fn what_the_reader_refuses_by_form_is_not_valid() {
     }
 }
 
-/// A joint between markers, and the same joint with one key that repeats the reference point or the
-/// axis.
+/// A joint between markers is valid. The same joint with a key that also gives the reference point
+/// or the axis is not.
 #[test]
 fn markers_stand_alone() {
     let scene = |kind: &str, more: &str| {
@@ -333,7 +334,8 @@ fn expressions_are_valid() {
     assert_eq!(verdict(&mass), None);
 }
 
-/// Returns the keys that the reader accepts for a table, from its message about an unknown key.
+/// Returns the keys that the reader accepts in a table, as listed in its message about an unknown
+/// key.
 fn keys_of_reader(text: &str) -> BTreeSet<String> {
     let problems = read(text).expect_err("a key is unknown");
     let unknown = problems
@@ -353,7 +355,7 @@ fn keys_of_schema(table: &Value) -> BTreeSet<String> {
     properties.keys().cloned().collect()
 }
 
-/// Returns a valid value of a key according to the schema, in TOML.
+/// Returns a value of a key, in TOML, that is valid according to the schema.
 fn example(key: &str, of: &Value) -> String {
     match key {
         "body" => "\"a\"".to_owned(),
@@ -375,15 +377,15 @@ fn keys_of_elements_are_those_of_the_reader() {
             .expect("tables");
         assert!(tables.len() >= 6, "{section}");
         for table in tables {
-            // The keys that are sufficient to select a definition.
+            // These keys are sufficient to select a definition.
             let mut text = format!("{BODIES}[[{section}]]\nzzz = 1\n");
             for (key, of) in table["properties"].as_object().expect("keys") {
                 if ["name", "type", "body", "bodies", "frame"].contains(&key.as_str()) {
                     text.push_str(&format!("{key} = {}\n", example(key, of)));
                 }
             }
-            // For a type with several definitions, the message of the reader lists all forms of the
-            // bodies.
+            // For a type with several definitions, the message of the reader lists all ways to give
+            // the bodies.
             let mut keys = keys_of_reader(&text);
             let type_of = |table: &Value| table["properties"]["type"]["const"].clone();
             let shared = |other: &&Value| type_of(other) == type_of(table);
@@ -448,7 +450,7 @@ fn keys_of_functions_are_those_of_the_reader() {
         .as_array()
         .expect("kinds");
     for table in kinds.iter().filter(|kind| kind["type"] == "object") {
-        // If values have a wrong form, the reader does not check further.
+        // If a value has the wrong form, the reader does not reach the check of the keys.
         let mut words = vec!["zzz = 1".to_owned()];
         for (key, of) in table["properties"].as_object().expect("keys") {
             let value = match (&of["const"], of["type"].as_str()) {

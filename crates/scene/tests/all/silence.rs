@@ -21,7 +21,7 @@ fn each_warning_is_silenced_by_its_code() {
     assert_eq!(codes("silence = [\"P0192\"]"), ["P0193"]);
     assert_eq!(codes("silence = [\"P0193\"]"), ["P0192"]);
     assert!(codes("silence = [\"P0193\", \"P0192\"]").is_empty());
-    // If the scene has no such warning, the entry has no effect.
+    // If the scene has no warning with this code, the entry has no effect.
     assert_eq!(codes("silence = [\"P0197\"]"), ["P0193", "P0192"]);
 }
 
@@ -56,7 +56,7 @@ fn codes_that_are_no_warnings_are_errors_at_their_place() {
     assert_eq!(problems[0].code.to_string(), "P0105");
 }
 
-/// The same mistake in every body is reported ten times, and then counted.
+/// If every body contains the same mistake, it is reported ten times, and the rest is counted.
 #[test]
 fn many_warnings_are_counted() {
     let body =

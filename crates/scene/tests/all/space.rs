@@ -1,5 +1,5 @@
-//! Tests scenes in space: every type, orientations and directions in all their forms, and errors
-//! that occur only in space.
+//! Tests scenes in space: every type, all forms of orientations and directions, and errors that
+//! occur only in space.
 
 use std::collections::BTreeSet;
 
@@ -9,8 +9,8 @@ use model::{AnyDescription, Mechanism, Registry, SpatialBody, SpatialDescription
 use crate::diagnostics::check_in;
 use crate::{assert_close, read};
 
-/// The scene has bodies a, b and c: a at (1, 2, 3) with axes rotated by a right angle about z, b at
-/// (3, 2, 3), c at the origin.
+/// The bodies are a at (1, 2, 3) with axes rotated by 90° about z, b at (3, 2, 3), and c at the
+/// origin.
 const BODIES: &str = r#"[scene]
 name = "small"
 space = "spatial"
@@ -178,7 +178,7 @@ fn body(orientation: &str) -> SpatialBody {
     d.bodies[0].clone()
 }
 
-/// Half a turn about (0, 3, 4)/5 maps x to −x and y to (0, −0.28, 0.96).
+/// A rotation by 180° about (0, 3, 4)/5 maps x to −x and y to (0, −0.28, 0.96).
 #[test]
 fn four_ways_of_an_orientation() {
     let expected = [[-1.0, 0.0, 0.0], [0.0, -0.28, 0.96], [0.0, 0.96, 0.28]];
@@ -186,8 +186,8 @@ fn four_ways_of_an_orientation() {
         "{ quaternion = [0.0, 0.0, 0.6, 0.8] }",
         "{ quaternion = [0.0, 0.0, -0.6, -0.8] }",
         "{ axis = [0, 3, 4], angle = 3.141592653589793 }",
-        // The rotation is about x by ψ = atan2(0.96, 0.28), then by π about z: y is mapped to (0,
-        // −cos ψ, sin ψ).
+        // The first rotation is about x by ψ = atan2(0.96, 0.28), the second about z by π: y is
+        // mapped to (0, −cos ψ, sin ψ).
         "{ rpy = [1.2870022175865687, 0.0, 3.141592653589793] }",
         "{ matrix = [[-1, 0, 0], [0, -0.28, 0.96], [0, 0.96, 0.28]] }",
     ] {
@@ -200,8 +200,8 @@ fn four_ways_of_an_orientation() {
             assert!(near, "{way}: axis {k} is {found:?}");
         }
     }
-    // The rotation is about x first, then y, then z: with right angles the pitch maps x to −z, and
-    // the yaw does not change it.
+    // The rotations are about x, then y, then z. With right angles, the pitch maps x to −z, and the
+    // yaw does not change this vector.
     let turned = Pose::new(
         [0.0; 3],
         body("{ rpy = [1.5707963267948966, 1.5707963267948966, 0.0] }").orientation,
@@ -225,7 +225,7 @@ fn an_orientation_with_few_digits_is_taken_with_a_warning() {
     assert_close(&turned.to_global([1.0, 0.0, 0.0]), &[0.0, 1.0, 0.0]);
 }
 
-/// Returns the pose of a body that was rotated about an axis of the ground through (1, 0, 0).
+/// Returns the pose of a body after a rotation about a ground axis through (1, 0, 0).
 fn turned(pose: Pose, axis: [f64; 3], angle: f64) -> Pose {
     let (sin, cos) = (0.5 * angle).sin_cos();
     let turn = Pose::new([0.0; 3], [cos, sin * axis[0], sin * axis[1], sin * axis[2]]);
@@ -238,7 +238,7 @@ fn turned(pose: Pose, axis: [f64; 3], angle: f64) -> Pose {
     }
 }
 
-/// A hinge rotates about the intended axis in any notation: y of the ground is x of a.
+/// In every notation, a hinge rotates about the intended axis: y of the ground is x of a.
 #[test]
 fn directions_of_the_body_of_the_ground_and_of_both() {
     for axis in [
@@ -270,8 +270,8 @@ fn directions_of_the_body_of_the_ground_and_of_both() {
     }
 }
 
-/// There are two markers: on the ground z points along −y and x along x; on body d z points along
-/// its x-axis and x along its −z-axis. The pose of body d is such that they coincide.
+/// On the ground, z of the marker points along −y and x along x; on body d, z points along its
+/// x-axis and x along its −z-axis. In the pose of body d, the two markers coincide.
 const MARKED: &str = r#"[[body]]
 name = "d"
 mass = 1.0
@@ -298,13 +298,13 @@ bodies = ["ground", "d"]
 markers = ["bearing", "journal"]
 "#;
 
-/// The axis is z, and x is across: every joint is satisfied if its markers coincide, and moves
-/// according to its type.
+/// The axis is z, and x is perpendicular to it. Every joint is satisfied if its markers coincide,
+/// and it permits the motions of its type.
 #[test]
 fn a_joint_between_markers_has_their_places_and_axes() {
     let along = [0.0, 1.0, 0.0];
     let across = [1.0, 0.0, 0.0];
-    // Whether a joint allows rotations about z and about x of the first marker.
+    // Whether a joint permits rotations about z and about x of the first marker.
     for (kind, allowed) in [
         ("revolute", [true, false]),
         ("cylindrical", [true, false]),
@@ -522,7 +522,7 @@ fn faults_in_space() {
     );
 }
 
-/// An element of one space is reported as such in the other space.
+/// A type that exists only in the other space is reported with the name of that space.
 #[test]
 fn the_other_space_is_named() {
     check_in(
@@ -613,7 +613,7 @@ fn the_other_space_is_named() {
     );
 }
 
-/// Two shafts of the ground meet under a right angle at the origin.
+/// Two shafts on the ground whose axes meet at a right angle at the origin.
 const SHAFTS: &str = r#"
 [[joint]]
 name = "A"
@@ -630,17 +630,17 @@ at = [0, 1, 0]
 axis = [0, 1, 0]
 "#;
 
-/// Returns the mesh of both shafts.
+/// Returns the mesh between the two shafts.
 fn teeth(keys: &str) -> model::Joint<joints::Space3> {
     let text = format!(
         "{BODIES}[[joint]]\nname = \"M\"\ntype = \"mesh\"\nbearings = [\"A\", \"B\"]\n{keys}\n{SHAFTS}"
     );
-    // The mesh has the position of its table, before its bearings.
+    // The mesh has the position of its table in the list of joints, before its bearings.
     let first = described(&text).joints.into_iter().next();
     first.expect("a joint")
 }
 
-/// Returns the stored values of a joint by their names.
+/// Returns the stored value of a joint with this name.
 fn value(joint: &model::Joint<joints::Space3>, name: &str) -> Vec<f64> {
     let spec = joint.element.spec();
     let datum = spec.data.iter().find(|d| d.name == name).expect(name);
@@ -649,8 +649,9 @@ fn value(joint: &model::Joint<joints::Space3>, name: &str) -> Vec<f64> {
     all[datum.numbers()].to_vec()
 }
 
-/// Points and axes are those of the bearings, in the frames of wheels and carrier. The line of
-/// action is the normal of the plane of both axes, rotated about the line from the apex.
+/// Points and axes are those of the bearings, in the frames of the wheels and of the carrier. The
+/// line of action is the normal of the plane of both axes, rotated about the line from the apex to
+/// the pitch point.
 #[test]
 fn teeth_are_placed_by_their_bearings() {
     let joint = teeth("at = [2, 3, 0]");
@@ -663,7 +664,7 @@ fn teeth_are_placed_by_their_bearings() {
             model::BodyRef::Ground
         ]
     );
-    // Body a is at (1, 2, 3), rotated by a right angle about z; b is at (3, 2, 3).
+    // Body a is at (1, 2, 3), rotated by 90° about z; b is at (3, 2, 3).
     assert_close(&value(&joint, "s_i"), &[-2.0, 0.0, -3.0]);
     assert_close(&value(&joint, "s_j"), &[-3.0, -1.0, -3.0]);
     assert_close(&value(&joint, "p_i"), &[1.0, 0.0, 0.0]);
@@ -775,7 +776,7 @@ fn bearings_of_teeth() {
             ),
         ],
     );
-    // Few digits are enough: the limit is a fraction of the distance from the apex.
+    // A few digits are sufficient, because the limit is a fraction of the distance from the apex.
     let digits = scene.replace("at = [2, 3, 0]\n", "at = [2, 3, 1e-6]\n");
     assert!(read(&digits).is_ok());
     // An inactive joint cannot be a bearing.

@@ -1,10 +1,10 @@
-//! Tests tolerances in a file, in the description and at their positions.
+//! Tests tolerances in a file and in the description, and the positions of errors in them.
 
 use model::{BuildError, Mechanism, Tolerance, ToleranceScope};
 
 use crate::{BODIES, read, read_more};
 
-/// Body a has a motor at its pin.
+/// Body a has a pin with a motor.
 const DRIVEN: &str = r#"[[joint]]
 name = "A"
 type = "revolute"
@@ -102,7 +102,8 @@ fn every_wrong_one_has_its_place() {
         .iter()
         .map(|p| format!("{}: {}", &text[p.primary.span.clone()], p.message))
         .collect();
-    // Each table reports its first invalid tolerance; the drive of the joint is not reported again.
+    // In each table, the first invalid tolerance is reported; for the drive of the joint, it is not
+    // reported again.
     assert_eq!(
         told,
         [

@@ -1,11 +1,11 @@
-//! A validator for the part of JSON schema (draft 2020-12) that the schema of scenes uses. An
-//! unknown keyword fails the test, so that every keyword has an effect.
+//! A validator for the keywords of JSON schema (draft 2020-12) that the schema of scenes contains.
+//! The test fails for an unknown keyword, so that no keyword is ignored.
 
 use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-/// Keywords without effect on validity.
+/// Keywords that have no effect on validity.
 const WORDS: [&str; 6] = [
     "$schema",
     "$defs",

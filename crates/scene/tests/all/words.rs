@@ -1,5 +1,5 @@
-//! Tests the words of other programs: the page of the book lists those that the reader recognises,
-//! and each refers to an element of a scene or of the command.
+//! Tests the terms of other programs. The page of the book lists the terms that the reader
+//! recognises, and each term refers to an element of a scene or of the command.
 
 use std::collections::BTreeSet;
 

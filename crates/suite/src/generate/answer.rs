@@ -15,13 +15,13 @@ pub struct Answer {
     pub rank: usize,
     /// Degree of redundancy p, rows − r.
     pub redundancy: usize,
-    /// Freedoms of motion, 3·bodies − r.
+    /// Degrees of freedom, 3·bodies − r.
     pub mobility: usize,
 }
 
 impl Answer {
-    /// The result for planar bodies with these rows, of which `redundancy` are dependent on the
-    /// others.
+    /// The result for planar bodies with this number of rows, of which `redundancy` rows depend on
+    /// the others.
     pub(super) fn new(
         bodies: usize,
         joints: usize,

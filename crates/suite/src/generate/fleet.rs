@@ -1,9 +1,10 @@
 //! Copies of the robot with its trolley in a row; a spring with a damper couples the platforms of
 //! neighbours.
 //!
-//! Forces do not change the rank: each copy has 21 coordinates, 22 rows, rank 20 and the verdicts
-//! of the single robot. All have the same start and the same steering, so the springs keep their
-//! lengths, and every copy moves like the single robot.
+//! Forces do not change the rank: each copy has 21 coordinates, 22 rows, rank 20, and the same
+//! unique reactions as the single robot. All copies have the same initial state and the same
+//! steering, so the lengths of the springs are constant, and every copy moves like the single
+//! robot.
 
 use std::io;
 
@@ -13,8 +14,8 @@ use super::answer::{Answer, Free, FreeReaction};
 use super::family::Family;
 use super::text::SceneText;
 
-/// Joints of the robot whose reactions are not unique in straight motion, and only across the
-/// direction of travel.
+/// Joints of the robot whose reactions are not unique in straight motion. Only the component
+/// perpendicular to the direction of travel is not unique.
 const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
 /// Distance between neighbours (m).
@@ -133,14 +134,14 @@ impl Family for Fleet {
 mod tests {
     use super::*;
 
-    /// Every name and every point is found: the test fails after a change of the file of the robot
-    /// that this module does not handle.
+    /// Checks that every name and every point is found. The test fails if the file of the robot is
+    /// changed in a way that this module does not handle.
     #[test]
     fn the_robot_is_taken_apart() {
         let fleet = Fleet::new(1);
         let count = |is: fn(&Piece) -> bool| fleet.robot.iter().filter(|piece| is(piece)).count();
-        // There are 21 names of elements, two bodies of eight joints, one body of five, and the
-        // joint of the drive.
+        // The file has 21 names of elements. Eight joints refer to two bodies, five joints refer to
+        // one body, and the drive refers to its joint.
         assert_eq!(count(|piece| matches!(piece, Piece::Name)), 21 + 16 + 5 + 1);
         // There are seven bodies and thirteen joints.
         assert_eq!(count(|piece| matches!(piece, Piece::Y(_))), 7 + 13);

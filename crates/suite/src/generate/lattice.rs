@@ -1,19 +1,21 @@
 //! A square lattice of N × N cells hangs from a corner. It has a rod for each side, pinned at the
 //! nodes, and braces along the diagonals of cells in blocks.
 //!
-//! Without braces, opposite sides of each cell remain parallel, so that every column of cells has
-//! one angle, every row of cells has another one, and these 2·N angles are the freedoms. A brace
-//! makes the angle of its column equal to that of its row (Bolker and Crapo, Bracing rectangular
-//! frameworks I, SIAM J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are edges between rows
-//! and columns). Each braced block of 2 × 2 cells has four braces between two rows and two columns:
-//! three of them make four angles equal, and the fourth is redundant. So k braced blocks leave
-//! `2·N − 3·k` freedoms and a redundancy of k.
+//! Without braces, opposite sides of each cell remain parallel. Therefore every column of cells has
+//! one angle, every row of cells has another angle, and these 2·N angles are the degrees of
+//! freedom. A brace makes the angle of its column equal to that of its row (Bolker and Crapo,
+//! Bracing rectangular frameworks I, SIAM J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are
+//! edges between rows and columns). Each braced block of 2 × 2 cells has four braces between two
+//! rows and two columns: three of them make four angles equal, and the fourth is redundant.
+//! Therefore a lattice with k braced blocks has `2·N − 3·k` degrees of freedom and a redundancy of
+//! k.
 //!
-//! Without any load, the braces of a block can carry tensions in the ratio `1, −1, −1, 1` (times
-//! √2). On each line of rods, the forces along it then sum to zero at both ends, so the sides of
-//! the block balance them, and no rod outside the block is loaded. A pin that connects two rods of
-//! a node carries the sum for the rods before it in the list of the node. This sum is an integer
-//! along each direction, computed in [`Lattice::free`] without rounding.
+//! Without any external load, the braces of a block can have tensions in the ratio `1, −1, −1, 1`
+//! (times √2). On each line of rods, the sum of the brace forces along this line is then zero.
+//! Therefore the sides of the block balance these forces, and rods outside the block have no load.
+//! The force in a pin between two rods of a node is the sum of the tensions of the rods before this
+//! pin in the list of the node. Each component of this sum is an integer, which [`Lattice::free`]
+//! computes without rounding.
 
 use std::io;
 
@@ -74,7 +76,8 @@ impl Rod {
     /// Returns the tension of the rod in the self-stress of a block (number from 0 along the
     /// diagonal).
     fn pull(self, block: usize) -> i32 {
-        /// By column and line, for horizontal rods; for vertical ones exchange column and line.
+        /// Tensions by column and line for horizontal rods. For vertical rods, column and line are
+        /// exchanged.
         const SIDES: [[i32; 3]; 2] = [[-1, 1, 0], [0, 1, -1]];
         let [c, r] = self.start();
         let (Some(c), Some(r)) = (c.checked_sub(BLOCK * block), r.checked_sub(BLOCK * block))
@@ -97,7 +100,7 @@ impl Rod {
     }
 }
 
-/// The position of a node in the plane: rows are numbered downwards.
+/// The position of a node in the plane; rows are numbered downwards.
 fn place([c, r]: [usize; 2]) -> [f64; 2] {
     [c as f64, -(r as f64)]
 }
@@ -134,8 +137,8 @@ impl Lattice {
         [across, down, brace].into_iter().flatten()
     }
 
-    /// Rods that meet at a node, with the sign of their direction away from it: those that end
-    /// there, then those that start there.
+    /// Rods that meet at a node, with the sign of their direction away from the node. Rods that end
+    /// at the node come first, then rods that start at the node.
     fn meeting(&self, node: [usize; 2]) -> Vec<(Rod, i32)> {
         let [c, r] = node;
         let left = c.checked_sub(1).map(|c| Rod::Across([c, r]));
@@ -151,8 +154,8 @@ impl Lattice {
             .collect()
     }
 
-    /// Returns the undetermined part of the reaction of the pin number `pin` (from 0) of a node:
-    /// the sum of the tensions, without any load, of the rods before it, including its own.
+    /// Returns the undetermined part of the reaction of pin number `pin` (from 0) of a node. This
+    /// is the sum of the self-stress tensions of the rods up to this pin.
     fn free(&self, [c, r]: [usize; 2], meeting: &[(Rod, i32)], pin: usize) -> Option<Free> {
         let near = [c / BLOCK, (c / BLOCK).wrapping_sub(1)];
         let blocks = near.into_iter().filter(|&block| {
@@ -182,7 +185,8 @@ impl Lattice {
 impl Family for Lattice {
     fn answer(&self) -> Answer {
         let (rods, nodes) = (self.n_rods(), (self.n + 1) * (self.n + 1));
-        // Each node has one pin fewer than rods, and the hook is one more joint.
+        // The number of pins of a node is its number of rods minus one, and the hook is one more
+        // joint.
         let joints = 2 * rods - nodes + 1;
         Answer::new(rods, joints, 0, 2 * joints, self.braced.chosen)
     }
@@ -277,8 +281,8 @@ mod tests {
             let answer = lattice.answer();
             let pins = lattice.nodes().map(|node| lattice.meeting(node).len() - 1);
             assert_eq!(answer.joints, pins.sum::<usize>() + 1);
-            // The theory of braces gives independent strips; the test compares them with
-            // coordinates minus independent rows.
+            // The test compares the number of degrees of freedom from the theory of braces with the
+            // number of coordinates minus the number of independent rows.
             assert_eq!(answer.mobility, 2 * n - 3 * (n / 2));
         }
     }

@@ -1,7 +1,7 @@
 //! The N-four-bar has N + 1 unit uprights on the ground and N unit rods between their tops; all
 //! loops are parallelograms. The uprights are vertical at the start, and their tops move at 1 m/s.
 //!
-//! The motion is described by one angle: with θ from the upward vertical, for every upright,
+//! All uprights have the same angle θ from the upward vertical, with the equation of motion
 //! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ` for rods of 1 kg and 1 m. No row is redundant
 //! while the uprights are not horizontal.
 //!

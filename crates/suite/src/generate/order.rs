@@ -14,18 +14,18 @@ use super::text::SceneText;
 /// Largest scene that is written (bytes).
 pub const LARGEST: f64 = 1e10;
 
-/// Number of occurrences of names: the name of the element, and those to which it refers.
+/// Number of names in an element: its own name, and the names of the elements to which it refers.
 const NAMES: f64 = 3.0;
 
 /// A family of mechanisms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// Loops of unit rods in a row, one freedom.
+    /// Loops of unit rods in a row, with one degree of freedom.
     NFourBar,
-    /// A chain of parallelogram cells, each on the coupler of the previous one; a third crank makes
-    /// a cell redundant.
+    /// A chain of parallelogram cells, each mounted on the coupler of the previous one. Cells with
+    /// a third crank are redundant.
     Parallelograms,
-    /// A square lattice of rods that hangs from a corner, some of its cells braced.
+    /// A square lattice of rods that hangs from a corner and has braces in some of its cells.
     Lattice,
     /// Copies of the robot with its trolley in a row.
     Fleet,
@@ -92,8 +92,8 @@ impl Kind {
         }
     }
 
-    /// Returns a sample size from which larger sizes are estimated: some hundreds of bodies, and
-    /// enough of them to average random differences.
+    /// Returns a sample size from which larger sizes are estimated. The sample has some hundreds of
+    /// bodies, which is enough to average random differences.
     fn sample(self) -> usize {
         match self {
             Self::Lattice => 20,
@@ -167,7 +167,7 @@ pub enum GenerateError {
         kind: Kind,
         /// Name of the option.
         option: &'static str,
-        /// The reason why it does not apply.
+        /// The reason why the option does not apply.
         reason: &'static str,
     },
 }
@@ -267,8 +267,8 @@ impl Order {
     }
 }
 
-/// Returns the estimated size of a scene (bytes): the size of a small scene of its family,
-/// extrapolated, plus the longer numbers in its names.
+/// Returns the estimated size of a scene (bytes). It is extrapolated from a small scene of the same
+/// family, and allows for the additional digits in the names.
 fn estimate(kind: Kind, n: usize, seed: u64, share: f64) -> f64 {
     let sample = n.min(kind.sample());
     let small = Generator {

@@ -2,12 +2,13 @@
 //! previous one, and the first cranks on the ground.
 //!
 //! A cell with two cranks has 9 coordinates and 8 independent rows: its coupler moves on a circle
-//! and does not rotate. A third crank adds three coordinates and four rows, and does not change
-//! that motion: 11 of the 12 rows are independent. Without any load its three parallel cranks can
-//! carry axial forces in the ratio 1 : −2 : 1. Force and torque on both couplers vanish, so the
-//! rest of the chain is not loaded. So each cell with three cranks has a redundancy of one that
-//! involves only its own six revolutes, along the cranks. Perpendicular to the cranks the
-//! accelerations of the cranks determine their reactions.
+//! and does not rotate. A third crank adds three coordinates and four rows, and does not change the
+//! motion of the coupler: 11 of the 12 rows are independent. Without any external load, the three
+//! parallel cranks of a cell can have axial forces in the ratio 1 : −2 : 1. The resultant force and
+//! torque of these axial forces on both couplers are zero, so the rest of the chain is not loaded.
+//! Therefore each cell with three cranks has a redundancy of one, which involves only the force
+//! components along the cranks in the six revolute joints of the cell. The force components
+//! perpendicular to the cranks follow from the accelerations of the cranks.
 
 use std::io;
 
@@ -185,7 +186,8 @@ mod tests {
         let chain = Parallelograms::new(10_000, 7, 0.5);
         let far = chain.cells().flat_map(|cell| cell.coupler).map(f64::abs);
         assert!(far.fold(0.0, f64::max) < 3.0);
-        // The distance between the ends of a crank is that of its cell.
+        // The distance between the pivots of two cranks equals the distance of the cranks in the
+        // cell.
         let cell = chain.cells().nth(5000).expect("there are 10000");
         let [low, top] = cell.ends(1);
         let length = (top[0] - low[0]).hypot(top[1] - low[1]);

@@ -1,10 +1,10 @@
 //! Random modules, each on a body of an earlier module or on the ground, with known redundancy.
 //!
-//! A module adds bodies and joints to one existing body. Its joints constrain its own bodies
-//! relative to that body. A combination of its rows that vanishes on its own bodies therefore also
-//! vanishes on that body, because the rows are invariant under rigid motions of the whole. Hence C
-//! is block triangular, and its redundancy is the sum of the redundancies of the modules. The same
-//! is true of the reactions without loads.
+//! A module adds bodies and joints to one existing body, its base. The joints constrain the bodies
+//! of the module relative to the base. The rows are invariant under rigid motions of module and
+//! base together. Therefore a combination of rows that is zero on the bodies of the module is also
+//! zero on the base. Hence C is block triangular, its redundancy is the sum of the redundancies of
+//! the modules, and its self-stresses are the self-stresses of the modules.
 //!
 //! | module | bodies | rows | redundancy | not unique |
 //! | --- | --- | --- | --- | --- |
@@ -35,7 +35,7 @@ pub(super) struct Random {
 /// A body on which later modules may be mounted.
 #[derive(Clone, Copy)]
 struct Place {
-    /// Module of the body, and the name of the body in it; `None` for the ground.
+    /// Module of the body, and the name of the body in this module; `None` for the ground.
     body: Option<(usize, &'static str)>,
     at: [f64; 2],
     angle: f64,
@@ -70,7 +70,7 @@ const REDUNDANT: [Build; 5] = [
     Build::Cart,
 ];
 
-/// One module: its bodies, its joints, and their reactions that are not unique.
+/// One module: its bodies, its joints, and the joint reactions that are not unique.
 struct Module {
     number: usize,
     bodies: Vec<(&'static str, BodyText)>,
@@ -79,7 +79,8 @@ struct Module {
     redundancy: usize,
 }
 
-/// A joint of a module, between the body below or one of its own bodies and one of its own bodies.
+/// A joint of a module. Its first body is the base or a body of the module; its second body is a
+/// body of the module.
 struct JointText {
     name: &'static str,
     bodies: [Of; 2],
@@ -127,7 +128,8 @@ impl Random {
         random
     }
 
-    /// Builds the modules in sequence, each with the body on which it is mounted.
+    /// Builds the modules in sequence, and calls `then` with each module and the body on which it
+    /// is mounted.
     fn each(&self, mut then: impl FnMut(Place, &Module) -> io::Result<()>) -> io::Result<()> {
         let mut numbers = Numbers::new(self.seed);
         let mut places = vec![GROUND];
@@ -247,7 +249,7 @@ impl Module {
         }
     }
 
-    /// Adds one block that slides on guides of one direction.
+    /// Adds one block that slides on parallel guides.
     fn slider(
         &mut self,
         at: [f64; 2],
@@ -270,8 +272,8 @@ impl Module {
         }
     }
 
-    /// Adds two cranks that are one metre apart, and a rod between their tops: they are never all
-    /// in one line.
+    /// Adds two cranks that are one metre apart, and a rod between their tops. The three bars are
+    /// never all in one line.
     fn four_bar(&mut self, at: [f64; 2], length: f64, numbers: &mut Numbers) {
         let other = [at[0] + 1.0, at[1]];
         let mut up = || direction(numbers.within(0.9, 2.2));

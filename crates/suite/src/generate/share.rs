@@ -1,4 +1,4 @@
-//! A selection of some of many cells, distributed as evenly as possible.
+//! Selects some of many cells so that they are distributed as evenly as possible.
 
 /// `chosen` of `all` cells.
 #[derive(Clone, Copy, Debug)]
@@ -22,12 +22,13 @@ impl Share {
         }
     }
 
-    /// Whether a cell is selected: for two thirds the sequence is yes, yes, no, yes, yes, no, …
+    /// Whether a cell is selected. For a fraction of two thirds the sequence is yes, yes, no, yes,
+    /// yes, no, …
     pub(super) fn has(self, cell: usize) -> bool {
         self.before(cell + 1) > self.before(cell)
     }
 
-    /// Returns the number of selected cells among the first ones, rounded upwards.
+    /// Returns the number of selected cells among the first `cells` cells, rounded upwards.
     fn before(self, cells: usize) -> u128 {
         (cells as u128 * self.chosen as u128).div_ceil(self.all.max(1) as u128)
     }

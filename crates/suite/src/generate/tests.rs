@@ -1,5 +1,5 @@
-//! Tests only the text of the scenes. Ranks and verdicts are compared in the package `tests`, which
-//! can read scenes.
+//! Tests only the text of the scenes. The package `tests`, which can read scenes, compares ranks
+//! and verdicts on reactions.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};
@@ -50,7 +50,7 @@ fn names_occur_once_and_bodies_exist() {
         let scene = text(&order);
         let list: Vec<&str> = texts(&scene, "name").collect();
         let names: BTreeSet<&str> = list.iter().copied().collect();
-        // Bodies and joints never have a common name here, although they may.
+        // The format allows a body and a joint with the same name, but no generated scene has them.
         assert_eq!(list.len(), names.len(), "{kind:?}");
         for body in texts(&scene, "bodies").chain(texts(&scene, "body")) {
             assert!(body == "ground" || names.contains(body), "{kind:?}: {body}");

@@ -20,8 +20,8 @@ pub(super) struct BodyText {
 }
 
 impl BodyText {
-    /// Returns a thin uniform rod from one point to another, at rest: inertia m·L²/12, x-axis along
-    /// the rod.
+    /// Returns a thin uniform rod at rest from one point to another, with inertia m·L²/12 and the
+    /// x-axis along the rod.
     pub(super) fn rod(mass: f64, from: [f64; 2], to: [f64; 2]) -> Self {
         let [x, y] = [to[0] - from[0], to[1] - from[1]];
         Self {
@@ -49,7 +49,7 @@ impl<'w> SceneText<'w> {
         self.out.write_all(text.as_bytes())
     }
 
-    /// Writes anything that can be displayed, unchanged.
+    /// Writes the displayed form of a value, unchanged.
     pub(super) fn display(&mut self, text: impl Display) -> io::Result<()> {
         write!(self.out, "{text}")
     }
@@ -102,7 +102,8 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// Writes a translational joint at a global point, its axis in the frame of the first body.
+    /// Writes a translational joint at a global point, with its axis in the frame of the first
+    /// body.
     pub(super) fn translational(
         &mut self,
         name: impl Display,
@@ -118,7 +119,7 @@ impl<'w> SceneText<'w> {
         )
     }
 
-    /// Writes a knife edge at a global point, its normal in the frame of the body.
+    /// Writes a knife edge at a global point, with its normal in the frame of the body.
     pub(super) fn knife_edge(
         &mut self,
         name: impl Display,

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, Quaternion, UnitQuaternion, Vector3};
 
 type Vector = Vector3<f64>;
 
-/// Bodies of the drawing by name, with their positions in the described start, without rotation.
+/// Bodies of the drawing by name, with their positions at the start of the scene, without rotation.
 const BODIES: [(&str, [f64; 3]); 12] = [
     ("platform", [0.0, 0.0, 0.12]),
     ("front-knuckle", [0.255, 0.025, 0.09]),
@@ -33,7 +33,7 @@ const LEFT: [f64; 3] = [0.0, 1.0, 0.0];
 /// Radius of the wheels.
 const RADIUS: f64 = 0.08;
 
-/// Kind of a joint, with directions in the axes of the described start.
+/// Kind of a joint, with directions in the axes of the start of the scene.
 #[derive(Clone, Copy)]
 enum Kind {
     Ball,
@@ -49,7 +49,7 @@ enum Kind {
     Wheel,
 }
 
-/// Name, kind, bodies, and position in the described start. A wheel has no second body.
+/// Name, kind, bodies, and position at the start of the scene. A wheel has no second body.
 type Joint = (&'static str, Kind, [&'static str; 2], [f64; 3]);
 
 /// The joints in the order of the scene; the drive is the last.
@@ -274,7 +274,7 @@ fn table(q: &[f64], pins: Pins) -> Table {
         Pins::Hinges if PINS.contains(name) => Kind::Hinge(UP),
         _ => *kind,
     };
-    // Moves a point and a direction of the described start with a body.
+    // Moves a point and a direction of the start of the scene with a body.
     let carried = |body: usize, at: [f64; 3]| {
         poses[body].place + poses[body].turn * (Vector::from(at) - Vector::from(BODIES[body].1))
     };

@@ -9,10 +9,10 @@ use differential_equations::prelude::{Matrix, Solout, Solution};
 
 use crate::problem::{Asked, Counted, Differentiated, End, Problem, Solved};
 
-// Radau IIA needs its tolerances per component: a single number would be replaced by 0.1·rtol^⅔
-// once for each component, which for 42 components makes 10⁻³ of any tolerance.
+// Radau IIA needs a tolerance for each component. The library would replace a single value by
+// 0.1·rtol^⅔ once for each component; for 42 components, the result is 10⁻³ for any tolerance.
 
-/// The limit of steps is 10 000 by default; here it is that of our own methods.
+/// The limit of steps is 10 000 by default. This is the limit of our own methods.
 const MAX_STEPS: usize = 1_000_000;
 
 /// Dormand–Prince 5(4).

@@ -104,8 +104,8 @@ where
     Ok(solver.get_statistics().number_of_steps as u64)
 }
 
-/// Products J·v by forward differences. f at the point is evaluated once for all products there: a
-/// dense Jacobian costs N + 1 evaluations, as in the other libraries.
+/// Products J·v by forward differences. At each point, f is evaluated once for all products, so
+/// that a dense Jacobian costs N + 1 evaluations, as in the other libraries.
 struct Differences<'c, 'p, P, const N: usize> {
     ode: &'c Counted<'p, P>,
     point: RefCell<Point<N>>,

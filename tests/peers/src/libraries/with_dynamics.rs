@@ -1,5 +1,5 @@
-//! Our runs of mechanisms: projection after each step, monitors, energy balance, break times always
-//! respected. Two rows of output.
+//! Our runs of mechanisms, with projection after each step, monitors and energy balance. Steps end
+//! at break times, and there are two rows of output.
 
 use std::ops::ControlFlow;
 
@@ -7,8 +7,8 @@ use dynamics::{Method, MotionOptions, PreparedMechanism, simulate};
 
 use crate::problem::{Asked, End, Solved, array};
 
-/// A run with a method; Radau IIA on independent coordinates, the others on kept rows with
-/// projection.
+/// A run with a method; Radau IIA uses independent coordinates, and the other methods all
+/// coordinates on independent rows with projection.
 pub fn run<const N: usize>(method: Method, prepared: &PreparedMechanism, asked: &Asked<'_, N>) -> Solved<N> {
     let options = MotionOptions {
         output_step: asked.t_end,

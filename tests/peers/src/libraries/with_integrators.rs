@@ -35,7 +35,7 @@ pub fn dop853<const N: usize>(
     solve(&Dop853, function(ode), ode, asked)
 }
 
-/// Radau IIA of order 5, the Jacobian by differences.
+/// Radau IIA of order 5, with the Jacobian by differences.
 pub fn radau5<const N: usize>(
     ode: &Counted<'_, impl Problem<N>>,
     asked: &Asked<'_, N>,

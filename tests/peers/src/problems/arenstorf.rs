@@ -1,5 +1,5 @@
 //! The Arenstorf orbit: restricted three-body problem, Hairer, Nørsett, Wanner, Solving ODEs I,
-//! II.0. It returns to its start.
+//! II.0. The orbit is closed.
 
 use crate::problem::Problem;
 

@@ -1,5 +1,5 @@
-//! A case of the suite as y' = [v; a(t, q, v)], a on kept rows, in the form that a user would pass
-//! to another library. Planar bodies.
+//! A case of the suite with planar bodies as y' = [v; a(t, q, v)], in the form that a user would
+//! pass to another library. The accelerations a are computed on independent rows.
 
 use std::cell::RefCell;
 
@@ -21,7 +21,7 @@ pub enum CaseError {
     /// The start or the choice of rows failed.
     #[error("{0}")]
     Motion(#[from] MotionError),
-    /// The motion on kept rows failed.
+    /// The motion on independent rows failed.
     #[error("{0}")]
     MotionFault(#[from] MotionFault),
     /// The state has another number of components.
@@ -32,15 +32,15 @@ pub enum CaseError {
     Unknown(usize),
 }
 
-/// A mechanism ready to move.
+/// A mechanism that is ready for a run.
 pub struct MovingCase {
-    /// Mechanism, start and kept rows.
+    /// Mechanism, start and independent rows.
     pub prepared: PreparedMechanism,
     /// Last time (s).
     pub t_end: f64,
     /// q and v at the end.
     reference: Vec<f64>,
-    /// The number by which errors of velocities are divided.
+    /// The value by which errors of velocities are divided.
     velocity_scale: f64,
 }
 
@@ -57,7 +57,7 @@ impl MovingCase {
     /// Reads a case of the suite and assembles it.
     ///
     /// # Errors
-    /// If there is none, or it cannot be assembled.
+    /// Returns an error if there is no such case, or if it cannot be assembled.
     pub fn find(name: &'static str, scale: VelocityScale) -> Result<Self, CaseError> {
         let case = suite::find(name).ok_or(CaseError::NoSuchCase(name))?;
         let scene = scene::read(case.name, case.scene, &Registry::standard())
@@ -92,7 +92,7 @@ impl MovingCase {
     /// [q; v] at the start.
     ///
     /// # Errors
-    /// If it does not have N entries.
+    /// Returns an error if the state does not have N entries.
     pub fn start<const N: usize>(&self) -> Result<[f64; N], CaseError> {
         let y = [&self.prepared.q[..], &self.prepared.v[..]].concat();
         let found = y.len();
@@ -100,7 +100,7 @@ impl MovingCase {
             .map_err(|_| CaseError::Size { found, expected: N })
     }
 
-    /// Largest error of q and v at the end, that of v divided by its scale.
+    /// Largest error of q and v at the end; the error of v is divided by its scale.
     pub fn error(&self, y: &[f64]) -> f64 {
         let d: Vec<f64> = y.iter().zip(&self.reference).map(|(a, b)| a - b).collect();
         let (q, v) = d.split_at(d.len() / 2);
@@ -150,7 +150,7 @@ impl<'a> OnKeptRows<'a> {
     /// The right-hand side of a prepared mechanism.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::new`].
+    /// Same errors as [`KeptRowMotion::new`].
     pub fn new(prepared: &'a PreparedMechanism) -> Result<Self, CaseError> {
         let motion = KeptRowMotion::new(prepared)?;
         Ok(Self {

@@ -1,5 +1,5 @@
-//! Ten seconds of the robot with its trolley by code generated for it: no scene is read, no
-//! mechanism is assembled, and no state is projected.
+//! Simulates ten seconds of the robot with its trolley by code that was generated for it. No scene
+//! is read, no mechanism is assembled, and no state is projected.
 
 mod robot;
 

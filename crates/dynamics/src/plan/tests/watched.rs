@@ -16,7 +16,7 @@ pub(super) struct Calls {
     pub(super) gamma: usize,
     pub(super) wrench: usize,
     pub(super) derivatives: usize,
-    /// Bits of all sines passed for the last slot.
+    /// Bit patterns of all sines that were passed for the last body of the constraint.
     pub(super) sines: BTreeSet<u64>,
 }
 

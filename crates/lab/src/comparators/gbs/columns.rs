@@ -1,4 +1,4 @@
-//! The columns of the extrapolation: substeps and work.
+//! Number of substeps and work of the columns of the extrapolation.
 
 /// Number of columns.
 pub(super) const COLUMNS: usize = 9;

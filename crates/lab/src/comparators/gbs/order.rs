@@ -1,4 +1,4 @@
-//! Choice of order and step size: the pair with the least work per unit of time.
+//! Chooses the order and the step size with the least work per unit of time.
 //!
 //! Source: HNW I, II.9, "Order and step size control", with the constants and the rules for first,
 //! last and rejected steps of the program ODEX. Columns are counted from 1.
@@ -13,8 +13,8 @@ const SAFETY_ERROR: f64 = 0.65;
 const MIN_FACTOR: f64 = 0.02;
 const MAX_DIVISOR: f64 = 4.0;
 /// The order is lowered if the work per unit of time of the lower order is below the first fraction
-/// of the present work. It is raised if the work of the present order is below the second fraction
-/// of that of the lower order.
+/// of the present work. The order is raised if the work of the present order is below the second
+/// fraction of the work of the lower order.
 const LOWER_ORDER: f64 = 0.8;
 const HIGHER_ORDER: f64 = 0.9;
 /// Factor of the step size if the columns diverge.
@@ -24,7 +24,7 @@ const FACTOR_DIVERGED: f64 = 0.5;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Verdict {
     NextColumn,
-    /// The step has converged, or it will not converge.
+    /// The trial ends: the step has converged, or it will not converge.
     Done,
 }
 
@@ -35,13 +35,14 @@ pub(super) struct OrderControl {
     pub(super) target: usize,
     /// Last column of the last trial.
     pub(super) last: usize,
-    /// Best next step size for column j, and its work per unit of time.
+    /// For each column j, the best next step size, and the work per unit of time with this step
+    /// size.
     sizes: [f64; COLUMNS + 1],
     rates: [f64; COLUMNS + 1],
     previous_error: f64,
     has_diverged: bool,
     after_rejection: bool,
-    /// Whether this is the first step of a leg.
+    /// Whether this is the first step after the initial time or after an event.
     pub(super) is_first: bool,
 }
 
@@ -72,7 +73,8 @@ impl OrderControl {
     }
 
     /// Decides after column j ≥ 2 of a trial of size |h| with error norm `error`. `is_fresh` is
-    /// true at the start or end of a leg, because this control did not choose the step size there.
+    /// true for the first and the last step of an interval between two events, because the step
+    /// size control did not choose the sizes of these steps.
     pub(super) fn judge(&mut self, j: usize, h: f64, error: f64, is_fresh: bool) -> Verdict {
         self.last = j;
         if !error.is_finite() || (j > 2 && error > (4.0 * self.previous_error).max(1.0)) {
@@ -91,7 +93,7 @@ impl OrderControl {
         if error <= 1.0 && (is_fresh || j >= k || (j + 1 == k && !self.after_rejection)) {
             return Verdict::Done;
         }
-        // Largest error that the remaining columns can be expected to reduce below 1.
+        // Largest error that the remaining columns can probably reduce below 1.
         let hope = if j > k {
             0.0
         } else if j == k {
@@ -137,7 +139,7 @@ impl OrderControl {
         }
     }
 
-    /// Forgets the previous steps; the target column is set again from the tolerance.
+    /// Deletes the data of previous steps; the target column is set again from the tolerance.
     pub(super) fn restart(&mut self) {
         self.is_first = true;
         self.after_rejection = false;
@@ -153,8 +155,8 @@ impl OrderControl {
             self.target = best;
             self.sizes[best]
         } else {
-            // The test considers one more column than was computed, with the same work per unit of
-            // time.
+            // The test considers one more column than was computed, and assumes the same work per
+            // unit of time.
             let rising = c < self.target && self.rates[c] < HIGHER_ORDER * self.rates[c - 1];
             self.target = best;
             let ahead = if rising {

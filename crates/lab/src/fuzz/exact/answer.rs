@@ -8,17 +8,18 @@ use pfaff::solvability::{Choice, DeletableRows, NormWeights, Verdict};
 use pfaff::{AssembledScene, ConfigurationAnalysis, RunOptions, StudyError};
 use serde_json::Value;
 
-/// Number of reactions for which the deletions that make them unique are requested.
+/// Number of reactions for which the test requests the deletions of rows that make the reaction
+/// unique.
 const ASKED: usize = 2;
 
-/// Limits of the number of sets that are tried.
+/// Limits for the number of sets of rows that are tried.
 const LIMITS: Limits = Limits {
     trials: 5_000,
     sets: 1_000,
 };
 
-/// Returns the document of the start, computed as in the command, with `--make-unique` for the
-/// first reactions that are not unique, and reactions of minimum norm.
+/// Returns the document for the initial state. It is computed as by the command, with reactions of
+/// minimum norm and with `--make-unique` for the first reactions that are not unique.
 ///
 /// # Errors
 /// Returns the error message if the scene is rejected.

@@ -1,5 +1,5 @@
-//! Compares the rows that may be deleted: the number of sets of rows without which the motion is
-//! unchanged, and the sets that make a reaction unique.
+//! Compares which rows may be deleted: the number of sets whose deletion does not change the
+//! motion, and the sets whose deletion makes a reaction unique.
 
 use serde_json::Value;
 
@@ -9,7 +9,7 @@ use super::truth::Truth;
 /// If there are more sets than this, they are not counted one by one.
 const COUNTED: usize = 400;
 
-/// Compares both with the answer.
+/// Compares both results with the answer.
 pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let (all, redundancy) = (truth.rows.len(), truth.redundancy());
     if binomial(all, redundancy).is_some_and(|sets| sets <= COUNTED) {
@@ -29,15 +29,15 @@ pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     }
 }
 
-/// Returns the number of sets of rows, in ascending order, that can be deleted together with those
-/// of `deleted`.
+/// Returns the number of sets of `missing` rows from `from` on that can be deleted together with
+/// the rows of `deleted`.
 fn count(truth: &Truth, missing: usize, from: usize, deleted: &mut Vec<usize>) -> usize {
     if missing == 0 {
         return usize::from(truth.keeps_motion(deleted));
     }
     let mut sum = 0;
     for row in from..truth.rows.len() {
-        // A row that is independent of all others is in no set.
+        // A row that is independent of all other rows cannot be deleted.
         if !truth.row_is_unique(row) {
             deleted.push(row);
             sum += count(truth, missing - 1, row + 1, deleted);

@@ -1,19 +1,19 @@
-//! Compares the rank of an answer for data within a tolerance with their distance from a lower
-//! rank.
+//! Compares the rank in an answer for data within a tolerance with the distance of the data from a
+//! lower rank.
 
 use serde_json::Value;
 
 use super::findings::Kind;
 use super::outcome::JudgedStart;
 
-/// Below the distance divided by this number, a tolerance does not change the rank; above the
-/// distance times this number, it lowers the rank.
+/// A tolerance below the distance divided by this factor does not change the rank. A tolerance
+/// above the distance times this factor lowers the rank.
 pub const BEYOND_DOUBT: f64 = 3.0;
 
 /// If the distance exceeds the tolerance by this factor, all results must be decided.
 const FAR: f64 = 30.0;
 
-/// A tolerance, and the distance of the data from a lower rank, in one unit.
+/// A tolerance, and the distance of the data from a lower rank, in the same unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Distance {
     /// The stated tolerance.
@@ -27,9 +27,9 @@ pub struct Distance {
 /// Results that remain to be compared after the rank.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Left {
-    /// No results: the rank is not decided, or a different one is also correct.
+    /// No results, because the rank is not decided, or a different rank is also correct.
     Nothing,
-    /// No verdicts: coefficients may vanish within the tolerance.
+    /// No verdicts, because coefficients may vanish within the tolerance.
     NoVerdict,
     /// All results.
     Verdicts,

@@ -1,9 +1,9 @@
-//! A drawing in double precision, as a mechanism: Φ and C at any configuration and for any data. It
-//! is not used for verdicts; it is used for the distance of the data from a lower rank (`near`),
-//! and for the reactions due to loads.
+//! A mechanism in double precision, created from a drawing, with Φ and C at any configuration and
+//! for any data. It is not used for verdicts. It is used to compute the distance of the data from a
+//! lower rank (`near`) and the reactions under loads.
 //!
-//! It is derived from the definitions of the joints, without the crates under test: positions of
-//! points, and the rate of the quantity that a joint keeps constant.
+//! It uses no code of the crates under test. It is derived from the definitions of the joints:
+//! positions of points, and the rate of the quantity that a joint keeps constant.
 
 use pfaff::linalg::Matrix;
 
@@ -11,19 +11,19 @@ use super::drawing::{Side, Tie, Vector};
 use super::pose::Posed;
 use super::ratio::Ratio;
 
-/// A point, a direction or a number: numbers that change together.
+/// A group of data that change together: a point, a direction or a single value.
 #[derive(Clone, Debug)]
 pub struct Block {
-    /// Index of the first number of the block.
+    /// Index of the first value of the block.
     pub first: usize,
     /// Number of values: two for a point or vector, one otherwise.
     pub count: usize,
-    /// Whether its change is an angle.
+    /// Whether a change of the block is an angle.
     pub is_angle: bool,
 }
 
-/// The quantity that a joint or drive keeps constant, with the indices of its numbers among the
-/// data.
+/// The quantity that a joint or drive keeps constant, with the indices of the values it uses among
+/// the data.
 #[derive(Clone, Copy, Debug)]
 enum Kept {
     /// Points coincide.
@@ -61,8 +61,8 @@ enum Kept {
         radius: usize,
         phase: usize,
     },
-    /// Velocity of a point along a direction of its body, minus a radius times the rotation of
-    /// another body.
+    /// Velocity of a point along a direction of its body, minus a radius times the angular velocity
+    /// of another body.
     Edge {
         side: Side,
         point: usize,
@@ -75,9 +75,9 @@ enum Kept {
 /// quantities are lengths.
 pub struct Doubles {
     kept: Vec<Kept>,
-    /// Points, directions and numbers.
+    /// Points, directions and single values.
     pub blocks: Vec<Block>,
-    /// All numbers.
+    /// All values.
     pub data: Vec<f64>,
     /// Coordinates, `x, y, φ` of each body.
     pub q: Vec<f64>,
@@ -162,12 +162,12 @@ impl Kept {
         }
     }
 
-    /// Whether its row is an equation between angles.
+    /// Whether the row of the quantity is an equation between angles.
     fn is_angular(&self) -> bool {
         matches!(self, Self::Angle { .. } | Self::Mesh { .. })
     }
 
-    /// Appends the quantities that must vanish.
+    /// Appends the values that must be zero.
     fn phi(&self, q: &[f64], d: &[f64], out: &mut Vec<f64>) {
         let of = |side: Side| Place::of(side, q);
         let apart = |sides: [Side; 2], points: [usize; 2]| {
@@ -220,7 +220,7 @@ impl Kept {
         }
     }
 
-    /// Appends their rates for velocities v: `C·v`.
+    /// Appends the rates of these values for velocities v, `C·v`.
     fn rate(&self, q: &[f64], d: &[f64], v: &[f64], out: &mut Vec<f64>) {
         let of = |side: Side| Place::of(side, q);
         let moving = |side: Side, point: usize| velocity(twist(side, v), of(side).arm(d, point));
@@ -314,14 +314,14 @@ impl Pen<'_> {
         [0, 1].map(|k| self.point(sides[k], p[k]))
     }
 
-    /// Returns a direction in the frame of a side, by its angle there.
+    /// Stores a direction as an angle in the frame of a side.
     fn direction(&mut self, side: Side, v: Vector) -> usize {
         let [x, y] = self.posed.vector_in(side, v);
         let k = self.posed.stretch;
         self.add(&[y.rounded(k).atan2(x.rounded(k))], true)
     }
 
-    /// Returns an axis whose normal is this line of force.
+    /// Stores the axis that is perpendicular to this line of force.
     fn axis(&mut self, side: Side, along: Vector) -> usize {
         let [x, y] = self.posed.vector_in(side, along);
         let k = self.posed.stretch;
@@ -443,7 +443,7 @@ impl Pen<'_> {
 }
 
 impl Doubles {
-    /// Converts the drawing in its present writing.
+    /// Converts the drawing in its present written form.
     #[must_use]
     pub fn of(posed: &Posed) -> Self {
         let k = posed.stretch;
@@ -494,7 +494,7 @@ impl Doubles {
         self.links.len()
     }
 
-    /// Returns Φ, a length in each row.
+    /// Returns Φ, whose components are all lengths.
     #[must_use]
     pub fn phi(&self, q: &[f64], d: &[f64]) -> Vec<f64> {
         let mut out = Vec::with_capacity(self.holonomic);
@@ -508,7 +508,8 @@ impl Doubles {
         out
     }
 
-    /// Returns C with one unit for all lengths: rotations are multiplied by the size.
+    /// Returns C for velocities in which rotations are multiplied by the size, so that all have the
+    /// same unit.
     #[must_use]
     pub fn c(&self, q: &[f64], d: &[f64]) -> Matrix {
         let n = q.len();
@@ -558,7 +559,7 @@ impl Doubles {
         }
     }
 
-    /// Returns the change of a number that corresponds to a change of one metre.
+    /// Returns the change of a value in the block that corresponds to a change of one metre.
     #[must_use]
     pub fn unit(&self, block: &Block) -> f64 {
         if block.is_angle { 1.0 / self.size } else { 1.0 }

@@ -1,7 +1,7 @@
-//! Bodies and joints at one configuration, in fractions. A drawing may be stretched along its
-//! second axis by √k: forces act along lines, and the dependencies between lines do not change when
-//! the plane is stretched. So configurations with irrational coordinates, such as three wheels at
-//! 120°, have an exact answer in fractions.
+//! Bodies and joints at one configuration, with rational coordinates. A drawing may be stretched
+//! along its second axis by √k. Forces act along lines, and the dependencies between lines do not
+//! change when the plane is stretched. Therefore configurations with irrational coordinates, such
+//! as three wheels at 120°, can be analysed exactly with rational numbers.
 
 use super::ratio::Ratio;
 
@@ -37,14 +37,14 @@ pub struct Drawing {
 pub struct Link {
     /// Name of the joint or drive.
     pub name: String,
-    /// One side (body or ground) for each slot.
+    /// Bodies (or the ground) in the order of the arguments of the joint or drive.
     pub sides: Vec<Side>,
     /// Kind and position of the joint or drive.
     pub tie: Tie,
 }
 
-/// The kind of a joint or drive. The point `at` is on the last body of the joint that has a point,
-/// and `from` on its first; `along` is a line of force.
+/// The kind of a joint or drive. The point `from` is on the first body of the joint, and `at` is on
+/// the last body that has a point. The vector `along` is the direction of a force.
 #[derive(Clone, Copy, Debug)]
 pub enum Tie {
     /// Both bodies share a point.
@@ -91,7 +91,7 @@ pub enum Tie {
     },
     /// Equal rotations.
     Angle,
-    /// Rotations in a ratio, relative to the third side, which is always given.
+    /// Rotations in a fixed ratio, relative to the third side, which is always given.
     Gear {
         /// The ratio.
         ratio: Ratio,
@@ -119,7 +119,7 @@ pub enum Tie {
         /// The direction.
         along: Vector,
     },
-    /// A wheel, the second body, that rolls while the point of the first moves.
+    /// A wheel, the second body, that rolls while the point of the first body moves.
     Rolling {
         /// The point on the first body.
         at: Vector,
@@ -169,8 +169,8 @@ impl Tie {
         }
     }
 
-    /// Whether its rows are parallel to the axes of the world, so that it can be rotated in a
-    /// stretched drawing only by multiples of 90°.
+    /// Whether the rows of the element are parallel to the axes of the world, so that a stretched
+    /// drawing with this element can be rotated only by multiples of 90°.
     #[must_use]
     pub fn has_axes(&self) -> bool {
         matches!(self, Self::Revolute { .. } | Self::Fixed { .. })
@@ -248,8 +248,8 @@ impl Drawing {
         self.link(&sides, Tie::AngleDrive { joint });
     }
 
-    /// Returns the direction of the line on which a point may move if a force along `u` constrains
-    /// it: perpendicular to `u` after the plane is stretched.
+    /// Returns the direction in which a point can move if a force along `u` constrains the point.
+    /// After the plane is stretched, this direction is perpendicular to `u`.
     #[must_use]
     pub fn across(&self, [x, y]: Vector) -> Vector {
         [Ratio::whole(i64::from(self.stretch)) * y, -x]

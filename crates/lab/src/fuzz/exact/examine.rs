@@ -85,8 +85,8 @@ fn ranks(right: &Expected, answer: &Value, findings: &mut Findings) {
     }
 }
 
-/// Compares the statements of the answer about other configurations: no claim is required, but none
-/// may be wrong.
+/// Compares the statements of the answer about other configurations. No statement is required, but
+/// every statement must be correct.
 pub(in crate::fuzz) fn elsewhere(right: &Expected, answer: &Value, findings: &mut Findings) {
     let redundancy = right.redundancy as u64;
     let told = answer["generic"]["redundancy"].as_u64();
@@ -112,7 +112,8 @@ pub(in crate::fuzz) fn elsewhere(right: &Expected, answer: &Value, findings: &mu
     }
 }
 
-/// The independent rows must be independent, and their number must be the rank.
+/// Checks that the independent rows in the answer are independent, and that their number is the
+/// rank.
 pub(super) fn kept_rows(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let (kept, rank) = (rows(&answer["kept_rows"]), truth.rank());
     if kept.len() != rank || truth.rank_of(&kept) != rank {
@@ -168,8 +169,8 @@ fn of_reaction(right: &ExpectedReaction, answer: &Value, rounding: f64, findings
     directions(right, answer, rounding, findings);
 }
 
-/// Compares the number of unique directions, and checks that no solution without loads has a
-/// component along them.
+/// Compares the number of unique directions, and checks that no self-stress has a component along
+/// these directions.
 fn directions(right: &ExpectedReaction, answer: &Value, rounding: f64, findings: &mut Findings) {
     let name = &right.name;
     let Some(wrench) = right.wrench.as_ref().filter(|wrench| !wrench.is_open) else {
@@ -186,7 +187,7 @@ fn directions(right: &ExpectedReaction, answer: &Value, rounding: f64, findings:
     }
     let live = right.carried - right.free;
     if directions.len() != live {
-        // No directions are given if their number is uncertain.
+        // The answer contains no directions if their number is uncertain.
         let kind = if directions.is_empty() {
             Kind::Undecided
         } else {

@@ -1,4 +1,4 @@
-//! The correct results for a mechanism as plain data, for the comparison with an answer.
+//! The correct results for a mechanism, as plain data that are compared with an answer.
 
 use super::truth::{Reaction, Truth};
 use super::wrench::{Element, Meaning, Owner, Wrenches};
@@ -44,7 +44,7 @@ pub struct WithoutDrives {
 pub enum Elsewhere {
     /// The rank is the same as at this configuration.
     Same,
-    /// The rank is the same, or a lower one if data within a stated tolerance have the lower rank.
+    /// The rank is the same, or lower if data within a stated tolerance have the lower rank.
     NotHigher,
     /// The rank is higher: this configuration is singular.
     Higher,
@@ -72,8 +72,8 @@ pub enum Verdict {
     Unique,
     /// The value is not the same in all solutions.
     NotUnique,
-    /// The value is not the same in all solutions, but data within the stated tolerance may make it
-    /// so.
+    /// The value is not the same in all solutions, but it may be the same for other data within the
+    /// stated tolerance.
     Open,
 }
 
@@ -105,10 +105,11 @@ pub struct ExpectedReaction {
     pub owner: Owner,
     /// Whether the wrench is unique.
     pub is_unique: Verdict,
-    /// Number of independent wrenches that it can carry: the rank of its rows.
+    /// Number of independent wrenches that the joint or drive can transmit, which is the rank of
+    /// its rows.
     pub carried: usize,
-    /// Number of independent directions of these wrenches along which it is not unique; the others
-    /// are `carried − free`.
+    /// Number of independent directions of these wrenches along which the reaction is not unique.
+    /// The number of unique directions is `carried − free`.
     pub free: usize,
     /// Components of the wrench; `None` if the drawing does not define its reference point.
     pub wrench: Option<ExpectedWrench>,
@@ -123,8 +124,8 @@ pub struct ExpectedWrench {
     pub components: Vec<(&'static str, Verdict)>,
     /// Whether the number of unique directions may differ within the stated tolerance.
     pub is_open: bool,
-    /// Components in the solutions without loads, one for each independent solution, in units of
-    /// the largest component.
+    /// Components in the self-stresses, one list for each independent self-stress, in units of the
+    /// largest component.
     pub free: Vec<Vec<f64>>,
 }
 
@@ -163,7 +164,7 @@ impl Expected {
         Self::from_truth(&Truth::of(drawing))
     }
 
-    /// Computes the same results after the elimination.
+    /// Computes the correct results from the results of the elimination.
     #[must_use]
     pub fn from_truth(truth: &Truth) -> Self {
         let is_late = |wanted: bool| {

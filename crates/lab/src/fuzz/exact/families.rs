@@ -1,7 +1,7 @@
-//! Families of drawings. Each family draws degenerate examples and similar ones that are not
-//! degenerate: a point off its line has a distance of one step of the grid, at least a hundredth of
-//! the size. So a program that calls everything redundant is wrong as often as a program that calls
-//! nothing redundant.
+//! Families of drawings. Each family draws degenerate examples and similar examples that are not
+//! degenerate. In the latter, a point is displaced from its line by one step of the grid, which is
+//! at least a hundredth of the size. Therefore a program that reports all rows as redundant is
+//! wrong as often as a program that reports all rows as independent.
 
 mod bars;
 mod doubled;
@@ -36,7 +36,7 @@ pub enum Family {
     Linkages,
     /// Two joints between the same bodies.
     Doubled,
-    /// Two of these drawings in one scene, with or without a hinge between them.
+    /// Drawings of two of these families in one scene, with or without a hinge between them.
     Several,
 }
 

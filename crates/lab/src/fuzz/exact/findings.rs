@@ -1,4 +1,4 @@
-//! The errors in an answer, and functions that read the numbers of a document.
+//! The errors in an answer, and functions that read values from a document.
 
 use serde_json::Value;
 
@@ -17,7 +17,7 @@ pub enum Kind {
     Load,
     /// A wrong verdict.
     Verdict,
-    /// A wrong number: a rank, a redundancy, independent rows.
+    /// A wrong rank, redundancy, or set of independent rows.
     Rank,
     /// The program panicked.
     Panic,
@@ -110,8 +110,8 @@ pub(super) fn rows(value: &Value) -> Vec<usize> {
         .collect()
 }
 
-/// Returns the component of a free wrench along a direction of components, relative to both, if it
-/// is larger than rounding.
+/// Returns the largest scalar product of a self-stress wrench and a direction, relative to the
+/// lengths of both, if the product is larger than the rounding error.
 pub(super) fn share_of_free(
     free: &[Vec<f64>],
     axes: &[usize],

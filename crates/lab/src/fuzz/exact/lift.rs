@@ -1,8 +1,8 @@
-//! Planar drawings as wrenches in space. A unit multiplier of a row causes a force along a line of
-//! the drawing on each of its bodies, or a couple across it. The lines are those of the drawing
-//! before it is stretched and moved: stretching, motion and other frames of bodies only change the
-//! basis. So ranks and dependencies are those of C, up to one factor for each row, and all numbers
-//! are fractions.
+//! Planar drawings as wrenches in space. A unit multiplier of a row causes, on each body of the
+//! row, a force along a line of the drawing or a couple about the normal of the plane. The lines of
+//! the drawing before stretching and motion are used, because stretching, motion and other frames
+//! of bodies only change the basis. Therefore ranks and dependencies equal those of C, up to one
+//! factor for each row, and all values are rational.
 
 use num_bigint::BigInt;
 
@@ -84,8 +84,8 @@ fn line(p: Vector, u: Vector) -> Wrench {
     Wrench::line(&vector(p), &vector(u))
 }
 
-/// Returns the components in the world: the drawing is stretched by √k along its second axis, then
-/// rotated.
+/// Returns the components in the axes of the world, after the drawing is stretched by √k along its
+/// second axis and rotated.
 fn components(posed: &Posed) -> Vec<Component> {
     let [c, s] = posed.turn;
     let unit = c.denominator() * s.denominator();
@@ -144,7 +144,7 @@ fn rows(posed: &Posed, place: usize, link: &Link) -> Vec<Row> {
         row(meaning, length, vec![opposite, wrench])
     };
     let pushes = |meaning, at, u| pair(meaning, length(u), line(at, u));
-    // The program subtracts the point of the second body from that of the first.
+    // The program subtracts the point of the second body from the point of the first body.
     let meets = |meaning, at, u| pair(meaning, length(u), line(at, u).opposite());
     let turns = |meaning| pair(meaning, root, couple(Ratio::ONE));
     // Axes of the world, in the coordinates of the drawing.

@@ -1,5 +1,5 @@
-//! Computes reactions of a drawing at rest under gravity, from the equations of motion in double
-//! precision with the rank from exact arithmetic: bodies of one kilogram and one kg·m².
+//! Computes the reactions of a drawing at rest under gravity. The equations of motion are solved in
+//! double precision with the rank from exact arithmetic. All bodies have 1 kg and 1 kg·m².
 
 use pfaff::linalg::{Matrix, small_svd};
 
@@ -10,9 +10,9 @@ use super::pose::Posed;
 /// Reactions, and the largest load.
 #[derive(Clone)]
 pub struct Reactions {
-    /// Fx, Fy and the torque about its reference point (N·m) on the first body of each joint or
-    /// drive, for the multipliers of minimum norm. The torque is `None` if the drawing does not
-    /// define the reference point.
+    /// For each joint or drive, Fx and Fy (N) and the torque about the reference point (N·m) on the
+    /// first body, for the multipliers of minimum norm. The torque is `None` if the drawing does
+    /// not define the reference point.
     pub each: Vec<([f64; 2], Option<f64>)>,
     /// The largest applied or inertial force (N; torques divided by the size).
     pub load: f64,
@@ -23,7 +23,8 @@ impl Doubles {
     #[must_use]
     pub fn reactions(&self, posed: &Posed, rank: usize, gravity: [f64; 2]) -> Reactions {
         let n = self.q.len();
-        // Rotations are lengths, so an inertia is divided by the square of the size.
+        // Rotations are multiplied by the size, so a moment of inertia is divided by the square of
+        // the size.
         let mass = |j: usize| match j % 3 {
             2 => 1.0 / (self.size * self.size),
             _ => 1.0,
@@ -33,7 +34,7 @@ impl Doubles {
             axis => gravity[axis],
         };
         let c = self.c(&self.q, &self.data);
-        // The equation is Aᵀ·λ = M^(−1/2)·Q; the part of Q that the rows cannot carry causes
+        // The equation is Aᵀ·λ = M^(−1/2)·Q. The part of Q that the rows cannot balance causes
         // accelerations.
         let a = Matrix::from_fn(c.nrows(), n, |i, j| c[(i, j)] / mass(j).sqrt());
         let svd = small_svd(&a);

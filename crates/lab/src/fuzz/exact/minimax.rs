@@ -1,27 +1,27 @@
-//! Finds the smallest change of data that satisfies linear equations, between proved bounds: every
-//! set of multipliers gives a lower bound by duality, and every solution gives an upper bound.
+//! Finds proved bounds of the smallest change of data that satisfies linear equations. Every set of
+//! multipliers gives a lower bound by duality, and every solution gives an upper bound.
 //!
 //! `min max_P |x_P|` under `target + Σ_P a_P·x_P = 0` has the dual `max targetᵀ·y` under
 //! `Σ_P |Aᵀ_P·y| ≤ 1`.
 
-/// Reweighted least squares stop after this number of iterations, or when the bounds are this
-/// close.
+/// Largest number of iterations of reweighted least squares, and relative distance of the bounds at
+/// which the iteration stops.
 const ITERATIONS: usize = 80;
 const CLOSE: f64 = 1.1;
 
 /// Smallest weight, as a fraction of the largest.
 const LEAST_WEIGHT: f64 = 1e-8;
 
-/// Equations with dependent left sides contradict each other if their right sides differ by more
-/// than this fraction.
+/// Equations with dependent left-hand sides contradict each other if their right-hand sides differ
+/// by more than this fraction.
 const CONTRADICTS: f64 = 1e-6;
 
 /// One linear equation.
 #[derive(Clone, Debug)]
 pub struct Equation {
-    /// The value that must become zero.
+    /// The value for the present data, which must become zero.
     pub target: f64,
-    /// Coefficients of each point, direction or number.
+    /// Coefficients of each point, direction or single value.
     pub parts: Vec<[f64; 2]>,
 }
 
@@ -30,12 +30,12 @@ pub struct Equation {
 pub struct Bounds {
     /// No smaller change satisfies the equations.
     pub low: f64,
-    /// A change of this size satisfies them.
+    /// A change of this size satisfies the equations.
     pub high: f64,
 }
 
-/// Returns the smallest possible value of the largest change. In addition to the data, each
-/// equation has its own change with the coefficient `slack`.
+/// Returns bounds of the smallest possible value of the largest change. In addition to the data,
+/// each equation contains a separate unknown change with the coefficient `slack`.
 #[must_use]
 pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
     let e = equations.len();
@@ -64,7 +64,8 @@ pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
             break;
         };
         if left > CONTRADICTS * largest {
-            // No change of data satisfies them; only the slack of the contradicting equations does.
+            // No change of data satisfies contradicting equations; they are satisfied only by their
+            // slack.
             bounds.low = bounds.low.max(left / (slack * e as f64));
             bounds.high = f64::INFINITY;
             break;
@@ -110,8 +111,9 @@ struct Solved {
     left: f64,
 }
 
-/// Performs Gaussian elimination with complete pivoting of a symmetric matrix; pivots that are
-/// rounding relative to the first one are omitted. Returns `None` if there are no other pivots.
+/// Performs Gaussian elimination with complete pivoting of a symmetric matrix. Pivots that are
+/// rounding errors relative to the first pivot are omitted. Returns `None` if there are no other
+/// pivots.
 fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Solved> {
     const ROUNDING: f64 = 1e-13;
     let n = b.len();
@@ -172,9 +174,10 @@ mod tests {
 
     #[test]
     fn bounds_enclose_what_is_known_by_hand() {
-        // The equation is 6 = 1·x + 2·y + |(0, 3)·z|: all change by 1.
+        // The equation is 6 = 1·x + 2·y + |(0, 3)·z|, and all three change by 1.
         let one = [equation(6.0, &[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]])];
-        // For x = 3 and y = 4 of one point the change is 5; for two numbers it is 4.
+        // If x = 3 and y = 4 belong to one point, the change is 5; if they are two separate values,
+        // it is 4.
         let point = [equation(3.0, &[[1.0, 0.0]]), equation(4.0, &[[0.0, 1.0]])];
         let numbers = [
             equation(3.0, &[[1.0, 0.0], [0.0; 2]]),

@@ -1,12 +1,12 @@
-//! Computes the distance of the data of a drawing from a lower rank. This distance is τ*, the
-//! tolerance in metres up to which no change of the data makes a row redundant; a larger change
-//! may. It also determines whether a redundancy belongs to the mechanism or only to its
-//! configuration.
+//! Computes the distance τ* of the data of a drawing from a lower rank. No change of the data by
+//! less than τ* (m) makes a further row redundant, but a larger change may. This module also
+//! determines whether a redundancy exists at all configurations of the mechanism or only at the
+//! drawn one.
 //!
-//! For a lower rank, r' rows are independent. With `U = [−C_D·C_K⁺, I]` and V the null space of
-//! C_K, the entries of `Uᵀ·C·V` must vanish at all configurations of a path on the independent
-//! rows. This must hold for one change of the data, which the configurations follow, and `Uᵀ·Φ`
-//! must also vanish. Gradients are finite differences.
+//! A lower rank r' means that r' rows K are independent and the other rows D depend on them. With
+//! `U = [−C_D·C_K⁺, I]` and the null space V of C_K, `Uᵀ·C·V` must be zero at all configurations of
+//! a path that satisfies the independent rows. The same change of the data must make these entries
+//! and `Uᵀ·Φ` zero at all configurations of the path. Gradients are finite differences.
 
 use pfaff::linalg::{Matrix, small_svd};
 use suite::numbers::Numbers;
@@ -20,37 +20,39 @@ const POSES: usize = 3;
 const REACH: f64 = 0.05;
 const STEPS: usize = 20;
 
-/// A path ends if a step needs a correction of more than this fraction of the step, or if its
-/// direction turns by more than this cosine allows. It also ends near a singular configuration, if
-/// the smallest singular value of the independent rows is below this fraction of its value at the
-/// start. The path may continue there on another branch.
+/// A path ends if a step needs a correction of more than this fraction of the step, or if the
+/// cosine of the change of direction is too small. A path also ends near a singular configuration,
+/// at which it could continue on another branch: the smallest singular value of the independent
+/// rows is then below this fraction of its initial value.
 const CORRECTED: f64 = 0.3;
 const TURNED: f64 = 0.9;
 const REGULAR: f64 = 0.3;
 
-/// Residuals at which positions satisfy their constraints, as a fraction of the size.
+/// Largest residual at which positions satisfy their constraints, as a fraction of the size.
 const MET: f64 = 1e-12;
 
-/// After a path, a violation or singular value below this fraction of the size counts as rounding.
+/// A violation or singular value on a path that is below this fraction of the size counts as a
+/// rounding error.
 const STAYS: f64 = 1e-8;
 
 /// Step of finite differences (fraction of the size).
 const STEP: f64 = 1e-5;
 
-/// Number of left and right directions whose entries must vanish: with fewer equations the bound is
-/// only lower.
+/// Number of left and right directions whose entries must be zero. Fewer equations give a smaller
+/// lower bound, which is also valid.
 const LEFT: usize = 1;
 const RIGHT: usize = 3;
 
-/// Bound of the second derivatives of entries with respect to data, for lengths in units of the
-/// size: links may be as short as a tenth of it, and all data contribute.
+/// Bound of the second derivatives of the entries with respect to data, with lengths in units of
+/// the size. The value allows for links as short as a tenth of the size, and for changes of all
+/// data.
 const CURVED: f64 = 100.0;
 
 /// Number of refinements of the lower bound.
 const REFINED: usize = 12;
 
-/// A left direction belongs to positions only if the weight of its nonholonomic rows is below this
-/// value.
+/// A left direction counts as a combination of holonomic rows only if the weight of its
+/// nonholonomic rows is below this value.
 const HOLONOMIC: f64 = 1e-6;
 
 /// Number of paths in random directions by which a redundancy is tested.
@@ -79,8 +81,8 @@ impl Doubles {
         }
         // No upper limit is set, although the first order is not valid for large changes.
         let Bounds { low, high } = least_change(&equations, MET);
-        // For changes up to s the second-order terms are bounded by s: the larger s, the lower the
-        // bound, so a bound that reaches s is proved.
+        // The bound of the second-order terms is valid for changes up to s. A larger s gives a
+        // smaller lower bound for the change, so a lower bound that is at least s is proved.
         let (mut s, mut proved) = (low.min(0.3 * self.size), 0.0_f64);
         for _ in 0..REFINED {
             let bound = least_change(&equations, CURVED * s / self.size).low;
@@ -117,9 +119,9 @@ impl Doubles {
         })
     }
 
-    /// Returns the size of some rows in the left null space of C (for an orthonormal basis). It
-    /// also returns the first-order change of this size by data within a tolerance (m) together, at
-    /// constant rank.
+    /// Returns the size of the entries of some rows in an orthonormal basis of the left null space
+    /// of C. Also returns the first-order change of this size if all data change within a tolerance
+    /// (m) at constant rank.
     #[must_use]
     pub fn margin(&self, rank: usize, rows: &[usize], tolerance: f64) -> [f64; 2] {
         let holonomic: Vec<usize> = independent_rows(&self.c(&self.q, &self.data), rank);
@@ -168,7 +170,8 @@ impl Doubles {
         phi.iter().all(|x| x.abs() <= STAYS * self.size) && next <= STAYS
     }
 
-    /// Returns configurations on both sides of the start that satisfy the independent rows of Φ.
+    /// Returns configurations on both sides of the initial configuration that satisfy the
+    /// independent rows of Φ.
     fn walk(&self, kept: &[usize], heading: &[f64]) -> Vec<Vec<f64>> {
         let mut poses = Vec::new();
         let weakest = |q: &[f64]| {
@@ -195,8 +198,8 @@ impl Doubles {
     }
 
     /// Performs one step along velocities that the independent rows allow, by the classical
-    /// fourth-order method: nonholonomic rows do not constrain positions, so an error of the step
-    /// cannot be corrected for them.
+    /// fourth-order method. This order is used because an error of the step in the nonholonomic
+    /// rows cannot be corrected afterwards.
     fn advance(&self, kept: &[usize], q: &mut [f64], heading: &mut Vec<f64>) -> Option<()> {
         let allowed = |q: &[f64]| project_out(&self.c(q, &self.data).select_rows(kept), heading);
         let along = allowed(q);
@@ -321,11 +324,10 @@ impl Doubles {
 
 /// A configuration with the rows that are independent for a lower rank.
 struct Candidate {
-    /// Combinations of rows, each a redundant row minus the combination of independent rows that
-    /// approximates it; the weakest is last.
+    /// Combinations of rows. Each is a redundant row minus the combination of independent rows that
+    /// approximates it. The combination with the smallest value is last.
     left: Vec<Vec<f64>>,
-    /// Motions that the independent rows allow, in the order of the resistance of the redundant
-    /// rows.
+    /// Motions that the independent rows allow, in the order of the size of `left·C` along them.
     right: Vec<Vec<f64>>,
     /// The product `left·C·right`.
     sigma: Vec<f64>,
@@ -451,7 +453,7 @@ fn project_out(rows: &Matrix, v: &[f64]) -> Vec<f64> {
     v
 }
 
-/// Returns C⁺ for independent rows; singular values that are rounding are omitted.
+/// Returns C⁺ for independent rows; singular values that are rounding errors are omitted.
 fn pseudo_inverse(rows: &Matrix) -> Matrix {
     const ROUNDING: f64 = 1e-13;
     let (m, n) = (rows.nrows(), rows.ncols());

@@ -11,11 +11,12 @@ use super::findings::{Findings, Kind};
 pub struct Outcome {
     /// Family of the scene.
     pub family: &'static str,
-    /// Index of its writing, its number of digits, or its tolerance, among those of the suite.
+    /// Index of the written form, of the number of digits, or of the tolerance in the list of the
+    /// suite.
     pub way: usize,
     /// Text of the scene.
     pub text: String,
-    /// Comparison of the answer with exact arithmetic.
+    /// Result of the comparison of the answer with exact arithmetic.
     pub judged: JudgedStart,
     /// The result of exact arithmetic as text.
     pub truth: String,
@@ -44,8 +45,8 @@ impl Outcome {
         self.judged.findings.0.iter().map(|f| f.kind).max()
     }
 
-    /// Returns the scene with the correct answer and that of the program in comments at its
-    /// beginning.
+    /// Returns the text of the scene. Comments at its beginning contain the correct answer and the
+    /// answer of the program.
     #[must_use]
     pub fn page(&self, way: &str) -> String {
         let mut page = format!("# {}, {way}\n# Exact arithmetic:\n", self.family);
@@ -65,7 +66,7 @@ impl Outcome {
     }
 }
 
-/// Compares an answer, or handles the case without an answer.
+/// Compares an answer; a missing answer is also a finding.
 pub fn judged(
     answer: impl FnOnce() -> Result<Value, String>,
     examine: impl FnOnce(&Value) -> JudgedStart,

@@ -1,30 +1,32 @@
-//! Writings of a drawing: moved as a whole, each body with its own frame, or bodies and joints in
-//! another order. First and second body may be exchanged, and positions may be in the world or in
-//! the frames of bodies. None of these changes the correct answer.
+//! Written forms of a drawing. The drawing is moved as a whole, bodies have other frames, or bodies
+//! and joints are in another order. First and second body may be exchanged, and positions may be
+//! given in the world or in the frames of bodies. The correct answer is the same for all written
+//! forms.
 
 use suite::numbers::Numbers;
 
 use super::drawing::{Drawing, Link, Side, Tie, Vector};
 use super::ratio::{Ratio, Surd};
 
-/// A writing of a drawing.
+/// A written form of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Writing {
     /// The original drawing.
     AsDrawn,
     /// In another order, rotated by multiples of 90°, with other frames of the bodies.
     Reordered,
-    /// Like `Reordered`, and also rotated by any angle and translated by a distance of its size.
+    /// Like `Reordered`, and also rotated by any angle and translated by about the size of the
+    /// drawing.
     Moved,
     /// Like `Reordered`, and also rotated and translated by 1e3 m to 1e6 m.
     Far,
 }
 
 impl Writing {
-    /// All writings.
+    /// All written forms.
     pub const ALL: [Self; 4] = [Self::AsDrawn, Self::Reordered, Self::Moved, Self::Far];
 
-    /// Returns the name of the writing.
+    /// Returns the name of the written form.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -36,7 +38,7 @@ impl Writing {
     }
 }
 
-/// Legs and hypotenuses of right triangles: angles whose sine and cosine are fractions.
+/// Sides of right triangles, for angles whose sine and cosine are rational.
 const TRIPLES: [[i64; 3]; 7] = [
     [3, 4, 5],
     [5, 12, 13],
@@ -61,12 +63,12 @@ pub struct Frame {
     pub turn: Turn,
 }
 
-/// A joint or drive with its writing.
+/// A joint or drive with its written form.
 #[derive(Clone, Debug)]
 pub struct Placed {
     /// The joint.
     pub link: Link,
-    /// Whether its points are written in the frames of its bodies.
+    /// Whether the points are written in the frames of the bodies.
     pub is_local: bool,
     /// The factor by which a direction is multiplied; `None` if it is divided by its length.
     pub factor: Option<Ratio>,
@@ -91,12 +93,13 @@ pub struct Posed {
     pub redundancy: Option<usize>,
     /// See the field of [`Drawing`].
     pub has_constant_rank: bool,
-    /// The seed of the errors, if positions have errors as in [`Drawing`].
+    /// The seed of the position errors, if positions have errors (see `is_careless` of
+    /// [`Drawing`]).
     pub careless: Option<u64>,
 }
 
 impl Posed {
-    /// Chooses the writing of a drawing.
+    /// Creates a written form of a drawing with random numbers.
     #[must_use]
     pub fn new(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Self {
         let n = drawing.origins.len();
@@ -190,8 +193,8 @@ impl Posed {
         side.map(|k| self.frames[k].origin)
     }
 
-    /// Returns the radius of a wheel for which a unit force along `along` has this torque: the
-    /// torque divided by the length of `along`.
+    /// Returns the radius of a wheel from the torque of a unit force along `along`: the torque
+    /// divided by the length of `along`.
     #[must_use]
     pub fn lever(&self, along: Vector, radius: Ratio) -> f64 {
         let ([x, y], k) = (along, Ratio::whole(i64::from(self.stretch)));
@@ -206,7 +209,8 @@ impl Posed {
     }
 }
 
-/// Returns one of the points of the body, at which lever arms vanish, or any point.
+/// Returns an origin for a body: one of its joint points, so that lever arms are zero, or any
+/// point.
 fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Numbers) -> Vector {
     let links = drawing
         .links
@@ -220,7 +224,7 @@ fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Nu
     }
 }
 
-/// Returns the joints and drives in a random order, each with its writing.
+/// Returns the joints and drives in a random order, each with its written form.
 fn placed(
     drawing: &Drawing,
     order: &[usize],

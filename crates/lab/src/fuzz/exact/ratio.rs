@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// A fraction in lowest terms, with a positive denominator. The numbers of drawings are small; an
+/// A fraction in lowest terms, with a positive denominator. The integers in drawings are small; an
 /// overflow is a bug of the drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ratio {
@@ -76,8 +76,8 @@ impl Ratio {
         if n.unsigned_abs() <= EXACT && d.unsigned_abs() <= EXACT {
             return n as f64 / d as f64;
         }
-        // The quotient has as many bits as possible, and one bit for all following bits: the
-        // conversion of integers rounds to nearest.
+        // The quotient has as many bits as possible, and its last bit is set if any following bit
+        // is set. The conversion of this integer then rounds to nearest.
         let shift = n.unsigned_abs().leading_zeros() - 1;
         let scaled = n.unsigned_abs() << shift;
         let (quotient, rest) = (scaled / d.unsigned_abs(), scaled % d.unsigned_abs());
@@ -207,8 +207,8 @@ mod tests {
     fn fractions_are_rounded_once() {
         assert_eq!(Ratio::new(3, 10).rounded(), 0.3);
         assert_eq!(Ratio::new(-2, -6), Ratio::new(1, 3));
-        // The number 2⁶⁰ + 1 is just above the midpoint of two neighbours if a third bit follows
-        // far behind.
+        // A sum of powers of two at the midpoint of two neighbouring doubles is rounded to even. If
+        // a much smaller bit is added, the sum is rounded upwards.
         let middle = (1_i128 << 60) + (1 << 7);
         assert_eq!(Ratio::new(middle, 1).rounded(), 2_f64.powi(60));
         let above = Ratio::new(middle, 1) + Ratio::new(1, 1 << 20);

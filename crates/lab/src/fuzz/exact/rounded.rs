@@ -40,8 +40,8 @@ fn posed(suite: Suite, seed: u64, drawn: u64) -> (&'static str, Posed) {
     (name, posed)
 }
 
-/// Returns the results for all scenes of one drawing, or `None` if a near drawing happens to be
-/// redundant.
+/// Returns the results for all scenes of one drawing. The list is empty if a drawing near a lower
+/// rank is redundant by chance.
 #[must_use]
 pub fn outcomes(suite: Suite, seed: u64, drawn: u64) -> Vec<Outcome> {
     if suite == Suite::RoundedInSpace {

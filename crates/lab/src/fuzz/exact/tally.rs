@@ -18,7 +18,7 @@ use crate::fuzz::space;
 /// Number of scenes that are listed for each kind of finding.
 const LISTED: usize = 8;
 
-/// Number of scenes of each family, writing and kind that are stored as files.
+/// Number of scenes of each family, written form and kind that are stored as files.
 const KEPT: usize = 2;
 
 /// Fewer than one scene in this number may be undecided if all digits are written.
@@ -49,7 +49,8 @@ pub enum Suite {
 }
 
 impl Suite {
-    /// Returns the number of writings of a drawing: scenes `n·k` to `n·k + n − 1` are one drawing.
+    /// Returns the number n of written forms of a drawing. Scenes `n·k` to `n·k + n − 1` contain
+    /// the same drawing.
     #[must_use]
     pub fn ways(self) -> usize {
         match self {
@@ -59,7 +60,7 @@ impl Suite {
         }
     }
 
-    /// Returns the name of a writing.
+    /// Returns the name of a written form.
     #[must_use]
     pub fn way(self, way: usize) -> String {
         match self {
@@ -71,7 +72,7 @@ impl Suite {
         }
     }
 
-    /// Whether scenes in this writing state a tolerance.
+    /// Whether scenes in this written form state a tolerance.
     fn has_tolerance(self, way: usize) -> bool {
         match self {
             Self::Plane | Self::Space | Self::Lifted => false,
@@ -98,7 +99,7 @@ impl Suite {
         numbers.map(|number| one(seed, number)).collect()
     }
 
-    /// Returns the page of one scene; empty if there is no such scene.
+    /// Returns the page of one scene; empty if the scene does not exist.
     #[must_use]
     pub fn page(self, seed: u64, number: u64) -> String {
         let mut outcomes = self.outcomes(seed, number..number + 1);
@@ -139,8 +140,8 @@ pub struct Count {
     pub right: usize,
     /// Scenes for which another rank is correct, by reason.
     pub other: BTreeMap<&'static str, usize>,
-    /// Scenes with findings, by the worst finding and whether all results must be decided: their
-    /// number, and the first of them.
+    /// Scenes with findings, by the worst finding and by whether all results must be decided. The
+    /// value is the number of these scenes, and the first ones.
     pub not: BTreeMap<(Kind, bool), (usize, Vec<u64>)>,
 }
 
@@ -174,7 +175,7 @@ impl Count {
         self.of(|kind, _| kind.is_wrong())
     }
 
-    /// Returns the number of scenes that are undecided or rejected, of those that must be decided.
+    /// Returns how many of the scenes that must be decided are undecided or rejected.
     #[must_use]
     pub fn undecided(&self) -> usize {
         self.of(|kind, must_be_decided| must_be_decided && !kind.is_wrong())
@@ -205,14 +206,14 @@ impl Count {
 pub struct Tally {
     /// The scenes.
     pub suite: Suite,
-    /// Counts by family and writing.
+    /// Counts by family and written form.
     pub counts: BTreeMap<(&'static str, usize), Count>,
-    /// Drawings with different ranks in two writings.
+    /// Drawings with different ranks in two written forms.
     pub contradicting: Vec<u64>,
 }
 
 impl Tally {
-    /// Tests scenes `from..from + scenes` of a seed; `done` is called after each of them.
+    /// Tests scenes `from..from + scenes` of a seed; `done` is called after each scene.
     #[must_use]
     pub fn of(suite: Suite, seed: u64, from: u64, scenes: u64, done: impl Fn() + Sync) -> Self {
         let ways = suite.ways() as u64;
@@ -269,7 +270,7 @@ impl Tally {
         self
     }
 
-    /// Returns the sum of the counts of some families and writings.
+    /// Returns the sum of the counts of some families and written forms.
     #[must_use]
     pub fn sum(&self, wanted: impl Fn(&str, usize) -> bool) -> Count {
         let mut sum = Count::default();

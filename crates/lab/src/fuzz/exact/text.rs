@@ -1,4 +1,4 @@
-//! Writes the scene of a drawing as text, each number rounded once.
+//! Writes the scene of a drawing as text, with each number rounded once.
 
 use std::fmt::Write;
 
@@ -179,7 +179,7 @@ impl Pen<'_> {
         self.line("motion", "{ type = \"polynomial\", coefficients = [0.0] }");
     }
 
-    /// Writes the points of some slots.
+    /// Writes points. Each is given with the index of its body in the argument list of the joint.
     fn place(&mut self, placed: &Placed, points: &[(usize, Vector)], is_apart: bool) {
         let sides = &placed.link.sides;
         let is_one = points.windows(2).all(|w| w[0].1 == w[1].1);
@@ -208,8 +208,7 @@ impl Pen<'_> {
         }
     }
 
-    /// Returns the direction that is perpendicular to a force along `along`, in the frame of a
-    /// side: the force rotated by −90°.
+    /// Returns the direction of `along`, rotated by −90°, in the frame of a side.
     fn across(&self, side: Side, along: Vector) -> [Surd; 2] {
         let [x, y] = self.posed.vector_in(side, along);
         [y, x.times(-Ratio::ONE)]
@@ -227,8 +226,8 @@ impl Pen<'_> {
         }
     }
 
-    /// Writes direction and radius: `along` is the unit of force, so the radius is the torque
-    /// divided by its length.
+    /// Writes direction and radius. The given torque belongs to the force `along`, so the radius is
+    /// the torque divided by the length of `along`.
     fn rolls(&mut self, placed: &Placed, key: &str, along: Vector, radius: Ratio) {
         let direction = self.posed.vector_in(placed.link.sides[0], along);
         let direction = self.direction(placed, direction);

@@ -12,15 +12,17 @@ use super::wrench::{Owner, Side, Wrench, Wrenches};
 use crate::fuzz::space::ratio::{Ratio, quotient, whole_multiples};
 use crate::fuzz::space::vector::Vector;
 
-/// Numbers of dependencies must be correct to this fraction of the largest, because they are
-/// computed in double precision.
+/// Coefficients of dependencies must be correct to this fraction of the largest coefficient,
+/// because they are computed in double precision.
 const ROUNDING: f64 = 1e-9;
 
-/// Tolerance for each metre by which a scene was moved: coordinates are accurate to 1e-16 times the
-/// distance, and small angles increase the rounding errors by a factor of up to ten thousand.
+/// Tolerance for each metre by which a scene was moved. Coordinates are accurate to 1e-16 times the
+/// distance, and small angles between lines increase the rounding errors by a factor of up to ten
+/// thousand.
 const ROUNDING_PER_METRE: f64 = 1e-12;
 
-/// Returns the tolerance for numbers of dependencies of a scene at a distance (m) from the origin.
+/// Returns the tolerance for coefficients of dependencies of a scene at a distance (m) from the
+/// origin.
 fn rounding_at(distance: f64) -> f64 {
     ROUNDING.max(ROUNDING_PER_METRE * distance)
 }
@@ -29,13 +31,14 @@ fn rounding_at(distance: f64) -> f64 {
 #[derive(Clone)]
 pub struct Truth {
     wrenches: Wrenches,
-    /// The tolerance for numbers of directions and dependencies, relative to the largest.
+    /// The tolerance for components of directions and coefficients of dependencies, relative to the
+    /// largest one.
     pub rounding: f64,
-    /// Integer multiples of the rows: the wrenches on the first bodies of their elements.
+    /// Integer multiples of the rows, as wrenches on the first body of the element.
     first: Vec<[BigInt; 6]>,
     /// The factor of each row.
     factors: Vec<Ratio>,
-    /// These rows over the velocities of all bodies.
+    /// The same multiples of the rows, as coefficients of the velocities of all bodies.
     whole: Vec<Vec<BigInt>>,
     exact: Exact,
 }
@@ -52,25 +55,25 @@ impl Deref for Truth {
 #[derive(Clone, Debug)]
 pub struct Reaction {
     numbers: [BigInt; 6],
-    /// The wrench is these numbers divided by this unit.
+    /// The wrench is the integers divided by this unit.
     unit: BigInt,
 }
 
 impl Reaction {
-    /// Whether number `k` of Fx, Fy, Fz, Tx, Ty, Tz in the axes of the drawing is zero.
+    /// Whether component `k` of Fx, Fy, Fz, Tx, Ty, Tz in the axes of the drawing is zero.
     #[must_use]
     pub fn is_zero(&self, k: usize) -> bool {
         self.numbers[k].is_zero()
     }
 
-    /// Returns the largest absolute value of its numbers, at least 1.
+    /// Returns the largest absolute value of the integers, at least 1.
     #[must_use]
     pub fn size(&self) -> BigInt {
         largest(&self.numbers)
     }
 }
 
-/// Returns the largest absolute value of some numbers, at least 1.
+/// Returns the largest absolute value of some integers, at least 1.
 #[must_use]
 pub fn largest(numbers: &[BigInt]) -> BigInt {
     let one = BigInt::from(1);
@@ -177,8 +180,8 @@ impl Truth {
         }
     }
 
-    /// Returns the coefficients in the normalisation of the program: for its own rows, with the
-    /// largest coefficient of size 1.
+    /// Returns the coefficients in the normalisation of the program: for the rows of the program,
+    /// with a largest absolute value of 1.
     #[must_use]
     pub fn coefficients(&self, rows: &[usize], circuit: &[BigInt]) -> Vec<f64> {
         let largest = largest(circuit);
@@ -191,8 +194,8 @@ impl Truth {
         own.into_iter().map(|x| x / most).collect()
     }
 
-    /// Returns sets of rows that are dependent directly or through others: connected components of
-    /// the circuits.
+    /// Returns the connected components of the circuits: sets of rows that are in common
+    /// dependencies directly or through other rows.
     #[must_use]
     pub fn components_of_circuits(&self) -> Vec<BTreeSet<usize>> {
         let mut basis: Vec<usize> = Vec::new();
@@ -219,8 +222,8 @@ impl Truth {
         components
     }
 
-    /// Returns the wrench of some rows of one joint on its first body for multipliers of these
-    /// rows, about the origin.
+    /// Returns the wrench about the origin on the first body of a joint, for given multipliers of
+    /// some rows of this joint.
     fn wrench<'z>(&self, rows: impl Iterator<Item = (usize, &'z BigInt)>) -> [BigInt; 6] {
         let mut wrench = [0; 6].map(BigInt::from);
         for (i, z) in rows {
@@ -231,15 +234,16 @@ impl Truth {
         wrench
     }
 
-    /// Returns the wrenches of some rows of one joint on its first body without loads, about the
-    /// origin of the drawing, one for each independent solution; some may be 0.
+    /// Returns the wrenches of some rows of one joint on its first body in the self-stresses, about
+    /// the origin of the drawing. There is one wrench for each independent self-stress; some may be
+    /// 0.
     fn free_at_origin(&self, rows: &[usize]) -> Vec<[BigInt; 6]> {
         let of = |z: &Vec<BigInt>| self.wrench(rows.iter().map(|&i| (i, &z[i])));
         self.exact.null_space().iter().map(of).collect()
     }
 
-    /// Returns the wrenches on the first body without loads about a point, one for each independent
-    /// solution; some may be 0.
+    /// Returns the wrenches on the first body in the self-stresses, about a point. There is one
+    /// wrench for each independent self-stress; some may be 0.
     #[must_use]
     pub fn free_about(&self, owner: Owner, point: &Vector) -> Vec<Reaction> {
         self.free_of(&self.rows_of(owner), point)
@@ -296,9 +300,9 @@ impl Truth {
         (0..self.wrenches.components.len()).map(component).collect()
     }
 
-    /// Whether a combination of two components of reactions that a circuit does not change is the
-    /// same in all solutions. `N` is the only multiplier of its joint. Returns `None` if a
-    /// component is not rational.
+    /// Whether a combination of two components of reactions is the same in all solutions. The
+    /// coefficients are such that a circuit does not change the combination. The component `N` is
+    /// the only multiplier of its joint. Returns `None` if a component is not rational.
     #[must_use]
     pub fn pair_is_unique(
         &self,
@@ -327,8 +331,8 @@ impl Truth {
         Some(self.exact.determines(&l))
     }
 
-    /// Returns a multiple of a component for a unit multiplier of a row, the same for all rows of a
-    /// joint; `None` if there is no integer multiple.
+    /// Returns a component of the reaction for a unit multiplier of a row, times a factor that is
+    /// the same for all rows of a joint. Returns `None` if the product is not an integer.
     fn coefficient(&self, row: usize, component: &str) -> Option<BigInt> {
         if component == "N" {
             return Some(BigInt::from(1));
@@ -338,7 +342,7 @@ impl Truth {
         let place = self.element(self.rows[row].owner).place.as_ref()?;
         let reaction = about(self.first[row].clone(), place);
         let [a, b] = self.parts(&reaction, k);
-        // A component is rational, or it is a multiple of √k.
+        // A component is rational, or a multiple of √k.
         let has = |part: usize| {
             let mut terms = self.wrenches.components[k].terms.iter();
             terms.any(|(_, x)| !x[part].is_zero())
@@ -376,8 +380,8 @@ impl Truth {
         Exact::of_whole(free.collect()).rank()
     }
 
-    /// Returns the number of independent wrenches on the first body that some rows of one joint can
-    /// carry.
+    /// Returns the number of independent wrenches that some rows of one joint can exert on its
+    /// first body.
     #[must_use]
     pub fn carried_directions(&self, rows: &[usize]) -> usize {
         let own = rows.iter().map(|&i| self.first[i].to_vec());
@@ -414,7 +418,7 @@ fn over_velocities<'l>(
 
 /// Transfers a wrench about the origin to a point.
 fn about([x, y, z, a, b, c]: [BigInt; 6], point: &Vector) -> Reaction {
-    // The point is p·(denominator)/(numerator) of the factor.
+    // The point is p divided by the factor.
     let (p, common) = whole_multiples(&point.0);
     let (d, n) = (common.denominator(), common.numerator());
     let arm = |i: &BigInt, f: &BigInt, j: &BigInt, g: &BigInt| d * &(i * f - j * g);

@@ -16,18 +16,18 @@ use super::pose::Posed;
 use super::truth::Truth;
 use super::words;
 
-/// A reaction depends linearly on the data if the change by all data together is below this
+/// A reaction counts as linear in the data if the change by all data together is below this
 /// fraction.
 const FIRST_ORDER: f64 = 0.1;
 
-/// Factor for the points of a joint that change together, relative to the effect of the most
-/// sensitive one.
+/// Factor for the change of several points of a joint together, relative to the effect of the most
+/// sensitive point.
 const AT_ONCE: f64 = 3.0;
 
 /// Part of the sentence about dependencies that are undecided.
 const OPEN: &str = "within the tolerance it is undecided which rows of";
 
-/// Digits of `sensitivity` and of reactions in double precision.
+/// Accuracy of `sensitivity` and of reactions in double precision.
 const ROUNDING: f64 = 1e-8;
 
 /// The correct results for a drawing.
@@ -39,14 +39,14 @@ pub struct Meant<'a> {
     pub right: Expected,
     /// The size of the drawing (m).
     pub size: f64,
-    /// Number of its points, directions and numbers.
+    /// Number of points, directions and single values of the drawing.
     pub blocks: usize,
-    /// Whether its redundancy is the same at all its configurations.
+    /// Whether the redundancy of the drawing is the same at all configurations.
     pub is_permanent: bool,
     /// Value of τ* (m) for a rank that is lower by one.
     pub from: Bounds,
-    /// Value of τ* (m) for this rank at all configurations; zero if the rank is already the same
-    /// there.
+    /// Value of τ* (m) for this rank at all configurations; zero if the rank is the same at all
+    /// configurations for the given data.
     pub everywhere_from: Bounds,
     /// Reactions under gravity.
     pub reactions: Reactions,
@@ -94,7 +94,7 @@ impl<'a> Meant<'a> {
         }
     }
 
-    /// Returns the tolerance for numbers that depend on data within a tolerance (m).
+    /// Returns the allowed relative difference of results if the data have a tolerance (m).
     fn rounding(&self, tolerance: f64) -> f64 {
         let known_to = (10.0 * tolerance / self.from.low).min(0.5);
         self.truth.rounding.max(known_to)
@@ -133,8 +133,8 @@ impl<'a> Meant<'a> {
         judged
     }
 
-    /// Verdicts must be those of the drawing; the program may call a reaction unique that is not
-    /// unique, if data within the tolerance make it unique.
+    /// Verdicts must be the verdicts for the drawing. The program may report a reaction that is not
+    /// unique as unique if it is unique for other data within the tolerance.
     fn verdicts(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
         let mut all = Findings::default();
         let rounding = self.rounding(tolerance);
@@ -143,7 +143,7 @@ impl<'a> Meant<'a> {
         let hidden = self.right.reactions.iter().filter(|right| {
             let is_named = |f: &Finding| concerns(&f.text, &right.name);
             let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
-            // The check accepts only reactions that the data may make unique.
+            // Only reactions that are unique for other data within the tolerance are accepted.
             !right.is_unique.is_unique() && all.0.iter().any(wrong) && {
                 let [size, change] = self.doubles.margin(rank, &right.own_rows(), tolerance);
                 size <= change
@@ -155,7 +155,7 @@ impl<'a> Meant<'a> {
         findings.0.extend(kept);
     }
 
-    /// Unique reactions must be those of the drawing, up to their sensitivity.
+    /// Unique reactions must equal the reactions of the drawing, up to their sensitivity.
     fn loads(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
         let Some(chosen) = list(&answer["choices"]).first() else {
             return;
@@ -169,7 +169,8 @@ impl<'a> Meant<'a> {
             let Some(change) = reaction["sensitivity"].as_f64() else {
                 continue;
             };
-            // The loads push across collinear bodies: the values are left out, with this reason.
+            // The loads act perpendicular to collinear bodies, so no finite reaction exists. The
+            // answer contains this reason instead of values.
             if !reaction["no_finite_reaction"].is_null() {
                 continue;
             }
@@ -184,7 +185,8 @@ impl<'a> Meant<'a> {
                 continue;
             }
             let (force, torque) = self.reactions.each[link];
-            // The torque of a wheel is about its own reference point, which may be another point.
+            // The torque of a wheel refers to the reference point of the wheel, which may be
+            // another point.
             let torque = torque.filter(|_| !matches!(placed.link.tie, Tie::Rack { .. }));
             let size = force[0]
                 .hypot(force[1])

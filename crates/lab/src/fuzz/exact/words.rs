@@ -1,6 +1,6 @@
 //! Checks dependencies and sentences. The sets of rows must be minimal and dependent, and
-//! coefficients and forces must be those of exact arithmetic. Sentences must name the rows with
-//! their ratios and state only correct sums.
+//! coefficients and forces must agree with exact arithmetic. Sentences must contain the names and
+//! ratios of the rows, and only correct sums.
 
 use num_bigint::BigInt;
 use serde_json::Value;
@@ -115,7 +115,7 @@ impl Dependency<'_> {
         }
     }
 
-    /// Returns its joints and drives, each once, in the order of the file.
+    /// Returns the joints and drives of the dependency, each once, in the order of the file.
     fn owners(&self) -> Vec<Owner> {
         let owners = self.truth.elements.iter().map(|e| e.owner);
         let has = |owner: &Owner| {
@@ -139,7 +139,7 @@ impl Dependency<'_> {
         self.truth.rounded(carried, &largest(self.circuit))
     }
 
-    /// Compares the forces of its joints, which may be drawn in a picture.
+    /// Compares the forces of the joints in the dependency, which may be drawn in a picture.
     fn forces(&self, document: &Value, findings: &mut Findings) {
         let (mut answer, mut right) = (Vec::new(), Vec::new());
         for owner in self.owners() {
@@ -170,7 +170,8 @@ impl Dependency<'_> {
             answer.extend(numbers);
             right.extend(self.rounded(&carried));
         }
-        // Moments are rounded relative to the forces times the arms of the scene.
+        // The rounding errors of moments are proportional to the forces times the lever arms of the
+        // scene.
         if !are_proportional(&answer, &right, 1e2 * self.truth.rounding) {
             self.load(
                 findings,
@@ -238,7 +239,7 @@ impl Dependency<'_> {
 
 impl Dependency<'_> {
     /// Compares the loads in a sentence, "`a.Fx` = 1 N and `b.N` = −0.5 N cancel", and the
-    /// combination of two of them that they do not change.
+    /// combination of two components that these loads do not change.
     fn told_loads(&self, text: &str, owners: &[Owner], findings: &mut Findings) {
         let told = told(text);
         if told.is_empty() {
@@ -258,7 +259,7 @@ impl Dependency<'_> {
                     .filter(|(of, component, _)| *of == name && *component == axis);
                 own.next().map(|(.., value)| *value)
             };
-            // Along the edge of a blade the multiplier of its row is the force.
+            // For a knife edge, the multiplier of its row is the force along the normal.
             if let Some(value) = own("N") {
                 blades.push(right.len());
                 answer.push(value.abs());
@@ -282,8 +283,8 @@ impl Dependency<'_> {
             right.extend(numbers);
         }
         let is_one_sign = signs.windows(2).all(|pair| pair[0] * pair[1] > 0.0);
-        // For a blade and a drive only the absolute value is known here, and all loads may have the
-        // opposite sign.
+        // For a knife edge and a drive, only the absolute value is known here. In addition, all
+        // loads may have the opposite sign.
         let mut other = right.clone();
         blades.iter().for_each(|&at| other[at] *= -1.0);
         let told_right = [&right, &other]
@@ -293,7 +294,7 @@ impl Dependency<'_> {
             let text = format!("the loads are {right:?} up to a factor: {text}");
             self.note(findings, text);
         }
-        // In `a.Fx - 0.5*b.Fy` the loads of both cancel.
+        // In the combination `a.Fx - 0.5*b.Fy` the loads of both components cancel.
         let combination = text.split('`').skip(1).step_by(2).find(|q| q.contains(' '));
         let terms = combination.map(|q| q.splitn(3, ' ').collect::<Vec<_>>());
         if let Some([first, sign, second]) = terms.as_deref() {
@@ -446,7 +447,7 @@ fn explanation(
         findings.note(Kind::Undecided, text.to_owned());
         return;
     }
-    // If no other component is determined, the sentence lists the components that are always zero.
+    // If only components that are always zero are determined, the sentence lists these components.
     let listed = text.rsplit_once("; only ").map(|(_, listed)| listed);
     let is_or_are = [" is determined", " are determined"];
     let determined = listed.and_then(|listed| {

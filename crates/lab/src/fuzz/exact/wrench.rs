@@ -1,8 +1,8 @@
-//! A mechanism in the form that exact arithmetic examines: the wrenches that each of its rows
-//! causes on its bodies, in space. Planar scenes are converted: their rows are wrenches without
-//! parts across the plane. The velocities across it are omitted, as if guides constrained every
-//! body to its plane. A guide does no work in the plane and shares no row with other joints, so
-//! ranks, dependencies and verdicts are those of the plane.
+//! A mechanism in the form that exact arithmetic analyses: for each row, the wrenches in space on
+//! the bodies of the row. The rows of planar scenes are wrenches without out-of-plane components,
+//! and the out-of-plane velocities of bodies are omitted, as if guides constrained every body to
+//! its plane. A guide does no work in planar motions and shares no row with other joints. Therefore
+//! ranks, dependencies and verdicts are the same as in the plane.
 
 use num_bigint::BigInt;
 
@@ -49,14 +49,14 @@ impl Wrench {
         }
     }
 
-    /// Returns its six numbers.
+    /// Returns the six components.
     #[must_use]
     pub fn numbers(&self) -> [Ratio; 6] {
         let ([a, b, c], [d, e, f]) = (&self.force.0, &self.moment.0);
         [a, b, c, d, e, f].map(Clone::clone)
     }
 
-    /// Returns the length of its force, or that of a couple.
+    /// Returns the magnitude of the force, or of the moment if the force is zero.
     #[must_use]
     pub fn length(&self) -> f64 {
         let direction = if self.force.is_zero() {
@@ -82,9 +82,9 @@ pub enum Owner {
 pub enum Meaning {
     /// Points coincide along an axis of the ground.
     Point(usize),
-    /// A point remains on a line or plane: the offset along u (0), v (1) or the normal (2).
+    /// A point remains on a line or plane: the offset along u (0), v (1) or the normal (2) is zero.
     Offset(usize),
-    /// The second axis does not move from the first one towards u (0) or v (1).
+    /// The second axis does not rotate from the first axis towards u (0) or v (1).
     Direction(usize),
     /// The second u does not rotate towards the first v: no relative rotation about w.
     Turn,
@@ -92,7 +92,7 @@ pub enum Meaning {
     Perpendicular,
     /// A distance is constant.
     Length,
-    /// A gear mesh: rotations in a ratio, or a rotation and a displacement.
+    /// A gear mesh: two rotations, or a rotation and a displacement, have a fixed ratio.
     Mesh,
     /// The velocity along the normal of an edge is zero or prescribed.
     Edge,
@@ -123,7 +123,7 @@ pub struct Row {
     pub meaning: Meaning,
     /// The wrenches of a unit multiplier; one body may occur several times.
     pub loads: Vec<(Side, Wrench)>,
-    /// The row of the program is this one divided by this length.
+    /// The corresponding row of the program is this row divided by this length.
     pub length: f64,
 }
 
@@ -153,10 +153,10 @@ pub struct Element {
     pub owner: Owner,
     /// Name of the element.
     pub name: String,
-    /// Bodies of the element; the wrench on the first of them is its reaction.
+    /// Bodies of the element. The wrench on the first body is the reaction of the element.
     pub sides: Vec<Side>,
-    /// The point for which its reaction is given, or the origin if it carries only couples. `None`
-    /// if the point is not in the drawing.
+    /// The reference point of the reaction, or the origin if the element transmits only couples.
+    /// `None` if the point is not in the drawing.
     pub place: Option<Vector>,
 }
 
@@ -165,7 +165,7 @@ pub struct Element {
 pub struct Component {
     /// Name of the component.
     pub name: &'static str,
-    /// The indices i with a and b.
+    /// The indices i, each with a and b.
     pub terms: Vec<(usize, [BigInt; 2])>,
     /// The unit of the component.
     pub unit: BigInt,
@@ -176,7 +176,7 @@ pub struct Component {
 pub struct Wrenches {
     /// Number of bodies.
     pub bodies: usize,
-    /// The indices of the velocities of a body among the six of space.
+    /// The indices of the velocities of a body among the six velocity components in space.
     pub velocities: Vec<usize>,
     /// The components of reactions.
     pub components: Vec<Component>,
@@ -184,8 +184,8 @@ pub struct Wrenches {
     pub stretch: u32,
     /// Joints and drives in the order of the file.
     pub elements: Vec<Element>,
-    /// Rows in the order of the program: holonomic ones of joints, those of drives, then
-    /// nonholonomic ones.
+    /// Rows in the order of the program: holonomic rows of joints, rows of drives, then
+    /// nonholonomic rows.
     pub rows: Vec<Row>,
     /// Distance from the origin (m).
     pub distance: f64,

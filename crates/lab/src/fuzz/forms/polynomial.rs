@@ -1,4 +1,5 @@
-//! Polynomials of one unknown with integer coefficients: common divisors and numbers of real roots.
+//! Polynomials in one unknown with integer coefficients, their common divisors and their number of
+//! real roots.
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
@@ -42,7 +43,7 @@ impl Polynomial {
         Self::new(terms.map(|(k, a)| a * BigInt::from(k)).collect())
     }
 
-    /// Returns a positive multiple of the remainder of a division.
+    /// Returns the remainder of a division, multiplied by a positive factor.
     fn remainder(&self, divisor: &Self) -> Self {
         let Some(degree) = divisor.degree() else {
             return self.clone();
@@ -91,7 +92,7 @@ impl Polynomial {
         self.common(&self.derivative()).degree() == Some(0)
     }
 
-    /// Returns the number of its different real roots, by Sturm's theorem.
+    /// Returns the number of different real roots, by Sturm's theorem.
     pub(super) fn real_roots(&self) -> usize {
         let mut chain = vec![self.clone(), self.derivative()];
         while let Some(last) = chain.last().filter(|p| p.degree().is_some()) {
@@ -127,7 +128,7 @@ mod tests {
         Polynomial::new(coefficients.iter().map(|a| BigInt::from(*a)).collect())
     }
 
-    /// The polynomials are (x − 1)·(x + 2)·(x² + 1), and the same with (x − 1) twice.
+    /// The polynomials are (x − 1)·(x + 2)·(x² + 1) and (x − 1)²·(x + 2)·(x² + 1).
     #[test]
     fn roots_are_counted() {
         let simple = polynomial(&[-1, 1]).times(&polynomial(&[2, 1]));

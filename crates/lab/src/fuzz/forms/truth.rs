@@ -3,8 +3,8 @@
 //! For one form the decision uses the signs of its principal minors. For two unknowns it uses the
 //! greatest common divisor of the forms and its roots. For three unknowns it uses the resultants of
 //! pairs of forms, in coordinates in which every common zero has a separate direction. For four
-//! unknowns, boxes with integer corners cover the sphere, each without a zero of one form or of a
-//! sum of some forms.
+//! unknowns, the sphere is covered by boxes with integer corners; in each box, one form or a sum of
+//! some forms has no zero.
 
 use num_bigint::BigInt;
 use num_traits::{Signed, Zero};
@@ -19,13 +19,14 @@ pub(super) enum Truth {
     None,
     /// A common zero at which the gradients are independent.
     Simple,
-    /// There is a common zero; at each the gradients are dependent.
+    /// There is a common zero. At every common zero the gradients are dependent.
     Double,
     /// The result is unknown.
     Open,
 }
 
-/// Decides for forms in two or three unknowns, for one form, or for forms that boxes exclude.
+/// Decides for one form, for forms in two or three unknowns, and for other forms if boxes prove
+/// that they have no common zero.
 pub(super) fn truth(forms: &[Form]) -> Truth {
     let unknowns = forms[0].len();
     match (forms, unknowns) {
@@ -43,8 +44,8 @@ pub(super) fn truth(forms: &[Form]) -> Truth {
 /// Number of changes of coordinates that are tried.
 const CHANGES: i64 = 4;
 
-/// Decides for one form. It is definite if its leading principal minors show it; if its rank is
-/// below the number of unknowns and it is otherwise definite, its zeros are double.
+/// Decides for one form. A definite form has no zero; its leading principal minors show the
+/// definiteness. A form that is semidefinite and not definite has double zeros.
 fn of_one(form: &Form) -> Truth {
     let n = form.len();
     let definite = |sign: i64| {
@@ -58,7 +59,8 @@ fn of_one(form: &Form) -> Truth {
     if definite(1) || definite(-1) {
         return Truth::None;
     }
-    // A form is semidefinite if all its principal minors, with one sign, are at least zero.
+    // A form is semidefinite if all principal minors of the form, or of the negative form, are at
+    // least zero.
     let semidefinite = |sign: i64| {
         (1..1_usize << n).all(|set| {
             let chosen: Vec<usize> = (0..n).filter(|i| set >> i & 1 == 1).collect();
@@ -124,7 +126,7 @@ fn of_three_unknowns(forms: &[Form]) -> Truth {
         return Truth::Open;
     }
     if forms.len() == 2 {
-        // Every zero has a separate direction (x, y): real directions belong to real zeros.
+        // Every zero has a separate direction (x, y), and real directions belong to real zeros.
         return match (first.is_square_free(), first.real_roots()) {
             (_, 0) => Truth::None,
             (true, _) => Truth::Simple,
@@ -139,8 +141,8 @@ fn of_three_unknowns(forms: &[Form]) -> Truth {
     }
 }
 
-/// Returns the resultant of two forms as polynomials of z, at y = 1: it is zero if they have a
-/// common root.
+/// Returns the resultant of two forms as polynomials in z at y = 1. The resultant is zero if the
+/// polynomials have a common root.
 fn resultant(f: &Form, g: &Form) -> Polynomial {
     let parts = |f: &Form| {
         let whole = |c: &[i64]| Polynomial::new(c.iter().map(|x| BigInt::from(*x)).collect());
@@ -157,13 +159,14 @@ fn resultant(f: &Form, g: &Form) -> Polynomial {
     ah.times(&ah).minus(&ae.times(&bh))
 }
 
-/// Returns the forms in other coordinates: x = T·x', with T of integers and determinant one.
+/// Returns the forms in other coordinates x = T·x', with an integer matrix T of determinant one.
 fn changed(forms: &[Form], change: i64) -> Vec<Form> {
     let n = forms[0].len();
     if change == 0 {
         return forms.to_vec();
     }
-    // The matrix is a lower triangle times an upper one, both with ones on the diagonal.
+    // The matrix is a lower triangular matrix times an upper triangular one, both with ones on the
+    // diagonal.
     let entry = |i: usize, j: usize| -> i64 {
         let lower = |i: usize, k: usize| match i.cmp(&k) {
             std::cmp::Ordering::Less => 0,
@@ -194,15 +197,15 @@ fn changed(forms: &[Form], change: i64) -> Vec<Form> {
     forms.iter().map(of).collect()
 }
 
-/// Largest number of halvings of a box, and largest number of boxes.
+/// Largest number of bisections of a box, and largest number of boxes.
 const HALVINGS: u32 = 9;
 const BOXES: usize = 300_000;
 
-/// Whether boxes without a zero of some form cover the sphere. A box has its centre at c/2^h and
-/// the half width 1/2^h; all values are multiplied by 4^h, so that all numbers are integers.
+/// Whether the sphere can be covered by boxes in which some form has no zero. A box has its centre
+/// at c/2^h and the half width 1/2^h. All values are multiplied by 4^h, so that they are integers.
 fn covered(forms: &[Form]) -> bool {
     let n = forms[0].len();
-    // Sums of the forms with small integer factors.
+    // Linear combinations of the forms with small integer factors.
     let mut sums: Vec<Form> = Vec::new();
     for number in 0..3_usize.pow(forms.len() as u32) {
         let factors: Vec<i64> = (0..forms.len())
@@ -246,7 +249,7 @@ fn covered(forms: &[Form]) -> bool {
     true
 }
 
-/// Whether a form has no zero in the box with this centre and half width one.
+/// Whether a form has no zero in the box with this centre and a half width of one.
 fn is_away(f: &Form, face: usize, centre: &[i64]) -> bool {
     let n = centre.len();
     let image: Vec<i64> = (0..n)
@@ -262,9 +265,9 @@ fn is_away(f: &Form, face: usize, centre: &[i64]) -> bool {
     value.abs() > slope + curvature
 }
 
-/// Whether forms change their signs around a point as at a zero with independent gradients, which
-/// proves that there is one (Poincaré and Miranda). The computation uses integers, with 2^BITS for
-/// one.
+/// Whether the forms change their signs on the sides of a box around a point in the way that proves
+/// a zero in the box (theorem of Poincaré and Miranda). This is possible at zeros with independent
+/// gradients. The computation uses fixed-point numbers: the integer 2^BITS represents 1.
 pub(super) fn has_zero_near(forms: &[Form], at: &[f64]) -> bool {
     const BITS: i32 = 24;
     const RADIUS: i128 = 1 << 8;
@@ -297,8 +300,8 @@ pub(super) fn has_zero_near(forms: &[Form], at: &[f64]) -> bool {
     })
 }
 
-/// Whether each combination of the forms has one sign at one side of the box, and the opposite sign
-/// at the other side.
+/// Whether each combination of the forms has one sign on one side of the box, and the opposite sign
+/// on the opposite side.
 fn signs_change(
     forms: &[Form],
     gradients: &[Vec<i128>],

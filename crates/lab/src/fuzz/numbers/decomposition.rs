@@ -1,10 +1,11 @@
 //! Computes singular values by one-sided Jacobi rotations (Hestenes 1958, doi 10.1137/0106005). The
 //! method is slow, but small singular values and their vectors are as accurate as large ones, also
-//! if many are equal.
+//! if many singular values are equal.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Two columns are orthogonal if their product is below this fraction of their lengths.
+/// Two columns are orthogonal if their scalar product is below this fraction of the product of
+/// their lengths.
 const ORTHOGONAL: f64 = 1e-15;
 
 /// Largest number of sweeps over all pairs of columns; convergence is quadratic.
@@ -55,7 +56,8 @@ impl Decomposition {
         }
     }
 
-    /// Returns the part with values above this fraction of the largest one.
+    /// Returns the part of the decomposition with singular values above this fraction of the
+    /// largest one.
     pub(super) fn above(self, share: f64) -> Self {
         let largest = self.values.first().copied().unwrap_or(0.0);
         let rank = self.values.iter().filter(|x| **x > share * largest).count();
@@ -70,20 +72,21 @@ impl Decomposition {
         self.values.len()
     }
 
-    /// Returns the smallest x with the least `|A·x − b|`.
+    /// Returns the vector x of smallest norm that minimises `|A·x − b|`.
     pub(super) fn solve(&self, b: &DVector<f64>) -> DVector<f64> {
         let along = self.left.transpose() * b;
         &self.right * DVector::from_fn(self.rank(), |k, _| along[k] / self.values[k])
     }
 
-    /// Returns the smallest y with the least `|Aᵀ·y − b|`.
+    /// Returns the vector y of smallest norm that minimises `|Aᵀ·y − b|`.
     pub(super) fn solve_transposed(&self, b: &DVector<f64>) -> DVector<f64> {
         let along = self.right.transpose() * b;
         &self.left * DVector::from_fn(self.rank(), |k, _| along[k] / self.values[k])
     }
 }
 
-/// Makes two columns of u orthogonal; returns whether they were not orthogonal before.
+/// Rotates two columns of u so that they are orthogonal; returns whether they were not orthogonal
+/// before.
 fn rotate(u: &mut DMatrix<f64>, v: &mut DMatrix<f64>, [i, j]: [usize; 2]) -> bool {
     let [a, b] = [i, j].map(|k| u.column(k).norm_squared());
     let product = u.column(i).dot(&u.column(j));
@@ -108,7 +111,8 @@ mod tests {
     use super::*;
     use suite::numbers::Numbers;
 
-    /// Products of orthogonal reflections with known values, some equal and some tiny.
+    /// The matrices are products of orthogonal reflections and known singular values, some of which
+    /// are equal or tiny.
     #[test]
     fn planted_values_are_found() {
         let mut numbers = Numbers::new(7);

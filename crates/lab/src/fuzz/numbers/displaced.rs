@@ -1,6 +1,7 @@
-//! Sensitivities of a reaction: one point, direction or number of a joint at a time is displaced in
-//! the direction of its largest effect. Bodies follow by the smallest motion, velocities by the
-//! smallest change; the redundant rows remain the same, and loads are constant.
+//! Computes sensitivities of a reaction. One point, direction or scalar datum of a joint at a time
+//! is displaced in the direction of its largest effect. Positions and velocities of bodies are
+//! corrected by the smallest changes that satisfy the constraints. The selection of redundant rows
+//! and the loads do not change.
 
 use model::{DataBlock, DataUnit, Mechanism, System};
 
@@ -8,34 +9,36 @@ use super::forms::{Form, forms};
 use super::newton::{Factored, Kept};
 use super::run::Row;
 
-/// Displacement in sizes, or in radians, as in the definition of a sensitivity.
+/// Displacement as a fraction of the size, or in radians, as in the definition of a sensitivity.
 const MOVED: f64 = 1e-4;
 
-/// For a piece that is smaller than a twentieth of the mechanism the computation is more accurate.
+/// For a part that is smaller than the size of the mechanism divided by this factor, the
+/// displacement is relative to this factor times the size of the part.
 const PIECE: f64 = 20.0;
 
-/// Displacement for derivatives, relative to the full one. Bodies follow it by its quotient with
-/// the smallest singular value; this quotient must be far below the singular value itself.
+/// Displacement for derivatives, relative to the full displacement. The motion of bodies is the
+/// displacement divided by the smallest singular value, and must be far below this singular value.
 const SMALL: f64 = 1e-5;
 
 /// Size of the first step of a displacement.
 const FIRST: f64 = 1e-3;
 
-/// If the effects to both sides differ by this fraction of their sum, they are not of first order.
+/// If the effects of displacements in both directions differ by this fraction of their sum, they
+/// are not of first order.
 const CURVED: f64 = 0.1;
 
-/// Number of steps of a displacement, so that bodies follow on their branch.
+/// Number of steps of a displacement. With these steps, bodies remain on their branch.
 const STEPS: usize = 8;
 
-/// A step that moves bodies by this multiple of the previous one has left the branch.
+/// If a step moves bodies by more than this multiple of the previous step, the branch was left.
 const JUMP: f64 = 5.0;
 
-/// Largest number of iterations of Newton's method, and the correction (sizes) after which no
-/// further correction is made.
+/// Largest number of iterations of Newton's method, and the correction (as a fraction of the size)
+/// at which the iteration ends.
 const ITERATIONS: usize = 12;
 const CONVERGED: f64 = 1e-13;
 
-/// The first-order change of a component with one datum.
+/// The first-order change of a component caused by one datum.
 #[derive(Clone, Default)]
 struct Effect {
     size: f64,
@@ -43,7 +46,7 @@ struct Effect {
     block: usize,
     /// Displacement with the largest effect.
     by: [f64; 3],
-    /// Whether displacements to both sides have the same effect.
+    /// Whether displacements in both directions have the same effect.
     is_straight: bool,
 }
 
@@ -92,8 +95,8 @@ impl<'a> Displaced<'a> {
         Some(found)
     }
 
-    /// Returns, by component, the largest changes of its value by any one datum, in both
-    /// directions.
+    /// Returns for each component the largest change of its value caused by any single datum,
+    /// displaced in both directions.
     pub(super) fn changes(&self) -> Vec<f64> {
         let count = self.values.len();
         let mut most = vec![Effect::default(); count];
@@ -112,8 +115,8 @@ impl<'a> Displaced<'a> {
             for sign in [1.0, -1.0] {
                 let by = effect.by.map(|x| sign * x);
                 let values = self.displaced(&self.blocks[effect.block], by);
-                // If no configuration satisfies the displaced rows, only the first order is
-                // available.
+                // If no configuration satisfies the constraints with displaced data, only the
+                // first-order effect is available.
                 let alone = if effect.is_straight { effect.size } else { 0.0 };
                 let change = values.map_or(alone, |v| (v[k] - self.values[k]).abs());
                 changes[k] = changes[k].max(change);
@@ -122,7 +125,7 @@ impl<'a> Displaced<'a> {
         changes
     }
 
-    /// Returns, by component, the first-order effect of one datum.
+    /// Returns for each component the first-order effect of one datum.
     fn effects(&self, number: usize, block: &DataBlock) -> Vec<Effect> {
         let moved = self.moved(block);
         let none = Effect {
@@ -177,15 +180,15 @@ impl<'a> Displaced<'a> {
         self.mechanism.with_numbers(&numbers)
     }
 
-    /// Returns the values of all components for such a small displacement of a datum that the
-    /// matrices of the undisplaced state are sufficient.
+    /// Returns the values of all components for a small displacement of a datum, computed with the
+    /// matrices of the undisplaced state.
     fn displaced_little(&self, block: &DataBlock, by: [f64; 3]) -> Option<Vec<f64>> {
         let [mut q, mut v] = [&self.row.q, &self.row.v].map(|x| x.clone());
         self.with(&self.with_displaced(block, by), (&mut q, &mut v), true)
     }
 
-    /// Returns the values of all components with a displaced datum; `None` if no configuration on
-    /// the branch of the state satisfies the displaced rows.
+    /// Returns the values of all components with a displaced datum. Returns `None` if no
+    /// configuration on the branch of the state satisfies the constraints with the displaced datum.
     fn displaced(&self, block: &DataBlock, by: [f64; 3]) -> Option<Vec<f64>> {
         let [mut q, mut v] = [&self.row.q, &self.row.v].map(|x| x.clone());
         let (mut values, mut at, mut rate) = (None, 0.0, f64::INFINITY);

@@ -1,5 +1,5 @@
-//! Examines one mechanism: its run, the numbers that are called determined on it, and the oracle at
-//! the same states.
+//! Examines one mechanism: compares the values that the product reports as determined on a run with
+//! the reference solver at the same states.
 
 mod choices;
 mod data;
@@ -19,14 +19,14 @@ use super::sets::{compliances, dropped, elastic, without};
 use super::verdicts::{Judge, OnRun, Product};
 use suite::numbers::Numbers;
 
-/// Agreement at one state, as a fraction of the load.
+/// Largest difference that counts as agreement at one state, as a fraction of the load.
 const AT_STATE: f64 = 1e-8;
 
 /// A load below this (N) counts as zero.
 const LOAD: f64 = 1e-9;
 
-/// Numbers below this value (N) are rounding: inertial forces come from coordinates of metres and
-/// velocities of metres per second.
+/// Values below this bound (N) are rounding errors, because inertial forces are computed from
+/// coordinates of some metres and velocities of some metres per second.
 const ROUNDING: f64 = 1e-12;
 
 /// Returns the findings for a scene; the random numbers select redundant rows and compliances.
@@ -35,7 +35,7 @@ pub fn examine(text: &str, numbers: &mut Numbers) -> Findings {
     examine_by(&Product, text, numbers)
 }
 
-/// See [`examine`], with the verdicts of another judge.
+/// Like [`examine`], with verdicts from another source.
 #[must_use]
 pub fn examine_by(judge: &dyn Judge, text: &str, numbers: &mut Numbers) -> Findings {
     let mut findings = Findings::default();
@@ -58,7 +58,8 @@ pub fn examine_by(judge: &dyn Judge, text: &str, numbers: &mut Numbers) -> Findi
 /// A run with all compared data.
 struct Examined<'a> {
     mechanism: &'a Mechanism,
-    /// Rows of the scene with the solutions of the oracle: every second row of the run.
+    /// Output rows of the scene, which are every second row of the run, with the solutions of the
+    /// reference solver.
     states: Vec<(&'a Row, Instant, Vec<Form>)>,
     verdicts: Vec<OnRun>,
     sets: Vec<Vec<usize>>,
@@ -90,7 +91,7 @@ impl<'a> Examined<'a> {
                 }
             }
         }
-        // At isolated instants the rank is lower; there are no reactions.
+        // At isolated instants the rank may be lower. No reactions are compared at these instants.
         let rank = states.iter().map(|(_, i, _)| i.rank).max().unwrap_or(0);
         states.retain(|(_, instant, _)| instant.rank == rank);
         let Some((_, instant, forms)) = states.get(states.len() / 2) else {
@@ -125,7 +126,7 @@ impl<'a> Examined<'a> {
     }
 
     /// Whether two values of component k at a state differ by more than this fraction of their
-    /// reference. A component that is ill-determined only at this state is compared as an
+    /// reference. A component that is ill-determined only at this state is compared like an
     /// ill-determined component.
     fn differ(
         &self,
@@ -135,7 +136,7 @@ impl<'a> Examined<'a> {
         share: f64,
     ) -> bool {
         let (load, span) = (instant.load, span(values));
-        // Resolution of `f64` for a solution with this smallest singular value.
+        // Rounding error of a solution in `f64` with this smallest singular value.
         let largest = values.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let resolved = ROUNDING.max(f64::EPSILON / instant.sigma * largest);
         let is_within = |sensitivity: Option<f64>| {
@@ -168,8 +169,8 @@ impl<'a> Examined<'a> {
     }
 }
 
-/// Returns the reference of an agreement: the load; for an ill-determined component the larger of
-/// its value and of the load times its sensitivity.
+/// Returns the reference value for relative differences. This is the load, or for an ill-determined
+/// component the larger of its value and the load times its sensitivity.
 fn reference(sensitivity: Option<f64>, values: &[f64], load: f64) -> f64 {
     match sensitivity {
         Some(sensitivity) if sensitivity > solvability::FRAGILE => values

@@ -1,23 +1,23 @@
-//! Findings for one mechanism: disagreements, and counted numbers.
+//! Findings for one mechanism: disagreements, and counted quantities.
 
 /// A kind of disagreement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
-    /// A component that is called determined differs between solutions at one state.
+    /// A component that is reported as determined differs between solutions at one state.
     States,
-    /// A value of the product differs from that of the oracle at one state.
+    /// A value of the product differs from the value of the reference solver at one state.
     Values,
-    /// A choice of the product differs from the same choice of the oracle.
+    /// A requested solution of the product differs from the same solution of the reference solver.
     Choices,
-    /// A component that is called determined differs between two runs.
+    /// A component that is reported as determined differs between two runs.
     Runs,
-    /// A component with a verdict that it depends on the choice is determined at every state.
+    /// A component that is reported as not determined is determined at every state.
     Unexplained,
-    /// A component that is determined and not called ill-determined changes with a datum.
+    /// A component that is reported as determined and not as ill-determined changes with a datum.
     Moves,
     /// The product rejects a mechanism that moves, or stops a motion that can continue.
     Refused,
-    /// The product fails where the oracle has a solution, or panics.
+    /// The product panics, or fails at a state for which the reference solver has a solution.
     Failed,
 }
 
@@ -50,7 +50,7 @@ impl Kind {
 pub struct Finding {
     /// Kind of the finding.
     pub kind: Kind,
-    /// Component, time and numbers.
+    /// Component, time and values.
     pub text: String,
 }
 
@@ -59,8 +59,8 @@ pub struct Finding {
 pub enum Count {
     /// Mechanisms that ran to their end.
     Ran,
-    /// Runs that stopped because an independent step does not continue or the configuration is
-    /// singular.
+    /// Runs that stopped, and for which the configuration is singular or an independent step also
+    /// finds no continuation.
     Stopped,
     /// Runs that reached the limit of steps.
     Cut,
@@ -68,8 +68,8 @@ pub enum Count {
     DoesNotMove,
     /// Mechanisms that are rejected at a singular configuration.
     SingularStart,
-    /// Mechanisms that are rejected because no reaction is finite: accelerations from rest violate
-    /// the second-order equations.
+    /// Mechanisms that are rejected because no finite reactions exist: accelerations from rest
+    /// violate the second-order equations.
     NoFinite,
     /// Mechanisms that are rejected because the given velocities are impossible.
     NoVelocities,
@@ -77,7 +77,7 @@ pub enum Count {
     NoScene,
     /// Mechanisms with redundant rows.
     Redundant,
-    /// States without a result of the oracle.
+    /// States without a result of the reference solver.
     Unclear,
     /// Values of determined components that were compared at one state.
     Values,
@@ -85,19 +85,19 @@ pub enum Count {
     BetweenRuns,
     /// Rows of two runs with different states.
     OtherStates,
-    /// Components that are called dependent on the choice, on their stretches.
+    /// Components that are reported as not determined, counted for each interval.
     NotDetermined,
-    /// Components among these that differ between two solutions.
+    /// Components of the previous count that differ between two solutions.
     Differs,
-    /// Components among these without any load along them: free in the null space.
+    /// Components of this count that have a part in the left null space, but no load acts along it.
     NoLoad,
-    /// Components without a decision, on their stretches.
+    /// Undecided components, counted for each interval.
     Undecided,
     /// Components that are determined and not ill-determined, whose data were displaced.
     Sturdy,
     /// Components that are determined and ill-determined, whose data were displaced.
     Fragile,
-    /// Components among these that change by more than 8 %.
+    /// Components of the previous count that change by more than 8 %.
     FragileChanges,
 }
 

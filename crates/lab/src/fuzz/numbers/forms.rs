@@ -5,15 +5,16 @@ use model::{Mechanism, Reaction, Scratch, System};
 /// A component of the reaction of a joint or drive.
 #[derive(Clone, Debug)]
 pub struct Form {
-    /// The joint or drive, as index of the groups of the layout.
+    /// The joint or drive, as an index into the groups of the layout.
     pub group: usize,
     /// Name of the component: `Fx`, `T`, `N`, …
     pub name: &'static str,
-    /// Index of the component among those of the space; `None` for the named component.
+    /// Index of the component among the components of a wrench; `None` for the named component of a
+    /// joint.
     pub index: Option<usize>,
-    /// Factor that converts it to a force: 1, or 1/size for a torque.
+    /// Factor that converts the component to a force: 1, or 1/size for a torque.
     pub unit: f64,
-    /// Coefficients by row of C.
+    /// Nonzero coefficients, each with the row of C.
     pub coefficients: Vec<(usize, f64)>,
 }
 
@@ -29,8 +30,8 @@ impl Form {
     }
 }
 
-/// Returns all components that are not identically zero, at the poses of a scratch. A named
-/// component is a torque if its row is an angle.
+/// Returns all components that are not identically zero, at the poses in `s`. A named component is
+/// a torque if its row is an angle.
 #[must_use]
 pub fn forms(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<Form> {
     let (layout, reactions) = (mechanism.layout(), mechanism.reactions(s));

@@ -1,6 +1,6 @@
 //! Decides whether a mechanism moves. The test makes a step along a motion that all rows allow to
-//! first order, followed by Newton's method on all rows. If this ends on the constraints and away
-//! from the start, the mechanism moves.
+//! first order, followed by Newton's method for all rows. The mechanism moves if the result
+//! satisfies the constraints and differs from the initial configuration.
 
 use model::start::scene_size;
 use model::{Mechanism, System};
@@ -10,23 +10,25 @@ use super::decomposition::Decomposition;
 use super::oracle::units;
 use suite::numbers::Numbers;
 
-/// Length of a step along the motion that drives require, in sizes of the mechanism.
+/// Length of a step along the motion that drives require, as a fraction of the size of the
+/// mechanism.
 const STEP: f64 = 1e-3;
 
-/// Length of a step along a free motion. The step is long enough to detect a freedom that is
-/// blocked at third order, whose residual is the cube of the remaining part of the step.
+/// Length of a step along a free motion. The step is long enough to detect a motion that is blocked
+/// only at third order. The residual of this motion is the cube of the remaining part of the step.
 const FREE_STEP: f64 = 1e-2;
 
-/// Residuals of rows after the step, in sizes of the mechanism.
+/// Largest residual of rows after the step, as a fraction of the size of the mechanism.
 const ON_ROWS: f64 = 1e-12;
 
 /// Singular values below this fraction of the largest one count as zero in a correction.
 const ZERO: f64 = 1e-6;
 
-/// If rows are dependent to second order only, each iteration halves the distance.
+/// Largest number of iterations. If rows are dependent only to second order, each iteration halves
+/// the distance.
 const ITERATIONS: usize = 40;
 
-/// A mechanism moves if this fraction of a step remains on the constraints.
+/// A mechanism moves if at least this fraction of the step remains after the correction.
 const AWAY: f64 = 0.2;
 
 /// Number of short steps of a continued motion.
@@ -62,7 +64,7 @@ impl Linear {
         self.range.rank()
     }
 
-    /// Returns the smallest x with `C·x ≈ g`, in units of velocities.
+    /// Returns the vector x of smallest norm with `C·x ≈ g`, in units of velocities.
     fn solve(&self, g: &DVector<f64>) -> Vec<f64> {
         let x = self.range.solve(g);
         x.iter().zip(&self.scale).map(|(x, d)| x * d).collect()
@@ -82,8 +84,8 @@ impl Linear {
     }
 }
 
-/// Returns the rank of C without drives at a configuration, and the largest rank at configurations
-/// near it: the former is lower at a singular configuration.
+/// Returns the rank of C without drives at a configuration, and the largest rank at neighbouring
+/// configurations. At a singular configuration the first rank is lower.
 #[must_use]
 pub fn ranks(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers) -> [usize; 2] {
     let size = scene_size(mechanism, q);
@@ -105,8 +107,8 @@ pub fn ranks(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers
     [here, near.into_iter().flatten().fold(here, usize::max)]
 }
 
-/// Whether an independent step moves the mechanism at a configuration: along velocities that its
-/// drives require, or along any free motion.
+/// Whether an independent step moves the mechanism at a configuration. The step is along velocities
+/// that the drives require, or along any free motion.
 #[must_use]
 pub fn moves(mechanism: &Mechanism, (t, q): (f64, &[f64]), numbers: &mut Numbers) -> bool {
     let size = scene_size(mechanism, q);
@@ -139,8 +141,8 @@ pub fn marches(mechanism: &Mechanism, state: (f64, &[f64], &[f64]), dt: f64) -> 
     march(mechanism, state, dt).is_some()
 }
 
-/// Returns the configuration a time `dt` after a state, after several short steps; `None` if one of
-/// them does not end on the constraints.
+/// Computes the configuration at the time `dt` after a state in several short steps; `None` if a
+/// step does not end at a configuration that satisfies the constraints.
 #[must_use]
 pub fn march(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64) -> Option<Vec<f64>> {
     let size = scene_size(mechanism, q);
@@ -165,8 +167,8 @@ pub fn march(mechanism: &Mechanism, (t, q, v): (f64, &[f64], &[f64]), dt: f64) -
     Some(at)
 }
 
-/// Whether Newton's method at time t, started at `q + step`, ends on the constraints and away from
-/// q.
+/// Whether Newton's method at time t, started at `q + step`, ends at a configuration that satisfies
+/// the constraints and differs from q.
 fn steps(mechanism: &Mechanism, t: f64, (q, step): (&[f64], &[f64]), size: f64) -> bool {
     let positions = all(mechanism.layout().m);
     let mut moved = q.to_vec();
@@ -182,7 +184,8 @@ fn all(to: usize) -> Vec<usize> {
     (0..to).collect()
 }
 
-/// Moves a configuration onto these holonomic rows; returns whether this succeeded.
+/// Corrects a configuration so that it satisfies these holonomic rows; returns whether this
+/// succeeded.
 fn corrected(mechanism: &Mechanism, (t, rows): (f64, &[usize]), q: &mut [f64], size: f64) -> bool {
     let mut s = mechanism.scratch();
     for _ in 0..ITERATIONS {

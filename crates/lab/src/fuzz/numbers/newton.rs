@@ -1,5 +1,5 @@
-//! Newton's method on constraint rows. It computes the smallest corrections of positions and
-//! velocities, and accelerations with multipliers, all from one symmetric system
+//! Newton's method for constraint rows. The smallest corrections of positions and velocities, and
+//! accelerations with multipliers, are computed from symmetric systems
 //! `[W Jᵀ; J 0]·[x; μ] = [f; g]` with scaled rows and columns.
 
 use model::{Mechanism, Scratch, System};
@@ -30,14 +30,14 @@ impl<'a> Kept<'a> {
         }
     }
 
-    /// Returns the number of its holonomic rows, which come first.
+    /// Returns the number of holonomic rows, which come first.
     fn holonomic(&self) -> usize {
         let m = self.mechanism.layout().m;
         self.rows.partition_point(|&row| row < m)
     }
 
-    /// Factors the first `count` rows at the pose of the scratch, whose C is up to date; `mass` is
-    /// the diagonal of W, or the identity if it is `None`.
+    /// Factors the system of the first `count` rows at the pose in `s`, in which C must be up to
+    /// date. `mass` is the diagonal of W; if it is `None`, W is the identity.
     pub(super) fn factored(&self, s: &Scratch, count: usize, mass: Option<&[f64]>) -> Factored {
         let layout = self.mechanism.layout();
         let n = layout.n_v;
@@ -64,12 +64,12 @@ impl<'a> Kept<'a> {
         }
     }
 
-    /// Factors all rows, with the identity as W.
+    /// Factors the system of all rows, with the identity as W.
     pub(super) fn of_velocities(&self, s: &Scratch) -> Factored {
         self.factored(s, self.rows.len(), None)
     }
 
-    /// Factors the holonomic rows, with the identity as W.
+    /// Factors the system of the holonomic rows, with the identity as W.
     pub(super) fn of_positions(&self, s: &Scratch) -> Factored {
         self.factored(s, self.holonomic(), None)
     }
@@ -103,8 +103,8 @@ impl<'a> Kept<'a> {
         Some(())
     }
 
-    /// Returns the multipliers of all rows of the mechanism under these forces, zero for redundant
-    /// rows; `s.gamma` must be up to date.
+    /// Returns the multipliers of all rows of the mechanism under these forces. The multipliers of
+    /// redundant rows are zero; `s.gamma` must be up to date.
     pub(super) fn multipliers(&self, s: &Scratch, force: &[f64]) -> Option<Vec<f64>> {
         let by = self.factored(s, self.rows.len(), Some(self.mechanism.mass()));
         let load = DVector::from_fn(force.len(), |j, _| force[j] * self.scale[j]);
@@ -119,8 +119,7 @@ impl<'a> Kept<'a> {
 }
 
 impl Factored {
-    /// Returns x and μ; μ belongs to rows without scaling. Returns `None` if the system is
-    /// singular.
+    /// Returns x and μ, with μ for the unscaled rows. Returns `None` if the system is singular.
     fn solve(
         &self,
         load: Option<DVector<f64>>,

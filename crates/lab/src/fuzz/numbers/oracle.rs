@@ -1,7 +1,7 @@
 //! Solves the equations of motion at one state with dense matrices: `M·a + Cᵀ·λ = Q`, `C·a = Γ`.
 //! The rank, the left null space of C and all solutions λ come from the singular values of the
-//! scaled C. C, Γ, M and Q are those of the mechanism; the oracle uses no decision and no verdict
-//! of the product.
+//! scaled C. C, Γ, M and Q come from the mechanism, but this module uses no rank decision and no
+//! verdict of the product.
 
 use model::start::scene_size;
 use model::{Mechanism, System};
@@ -11,18 +11,18 @@ use super::decomposition::Decomposition;
 use super::forms::Form;
 
 /// Singular values below this fraction of the largest one are zero. Singular values of redundant
-/// rows are 1e-15 at exact states and 1e-11 at states that a run has written; those of rows with an
-/// offset of a ten-thousandth of the size exceed 1e-6.
+/// rows are 1e-15 at exact states and 1e-11 at states that a run has written. Rows with an offset
+/// of a ten-thousandth of the size have singular values above 1e-6.
 const ZERO: f64 = 1e-9;
 
-/// Singular values between these two fractions of the largest one belong to a configuration near a
-/// lower rank: there the oracle returns no result.
+/// A singular value between these two fractions of the largest one means that the configuration is
+/// near a configuration of lower rank. In this case no result is returned.
 const UNCLEAR: [f64; 2] = [1e-11, 1e-6];
 
 /// Reason why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Fault {
-    /// A number is not finite.
+    /// A value is not finite.
     NotFinite,
     /// The configuration is near a configuration of lower rank.
     Unclear,
@@ -120,9 +120,9 @@ impl Instant {
         w
     }
 
-    /// Returns the distance of a form from being determined: the length of its part in the left
-    /// null space, divided by the length of the longest form of its joint. A component that is zero
-    /// under any load has a form that consists of rounding errors.
+    /// Returns how far a form is from being determined: the length of its part in the left null
+    /// space, divided by the length of the longest form of its joint. This reference is used
+    /// because the form of a component that is zero under any load consists of rounding errors.
     #[must_use]
     pub fn margin(&self, form: &Form, forms: &[Form]) -> f64 {
         let own = forms.iter().filter(|f| f.group == form.group);
@@ -156,8 +156,8 @@ impl Parts {
         })
     }
 
-    /// Computes scaled accelerations: those that `Γ` requires, and those that balance all forces
-    /// along free motions.
+    /// Computes scaled accelerations as the sum of two parts: the part that `Γ` requires, and the
+    /// part along free motions that balances all forces.
     fn acceleration(
         &self,
         scale: &[f64],
@@ -190,8 +190,8 @@ impl Parts {
     }
 }
 
-/// Returns `count` orthonormal columns that are perpendicular to the given orthonormal ones, by
-/// elimination of the unit vectors with the smallest components along the given ones.
+/// Returns `count` orthonormal columns that are perpendicular to the given orthonormal columns.
+/// They are computed from the unit vectors with the smallest components along the given columns.
 fn complement(given: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
     let n = given.nrows();
     let mut rest = DMatrix::identity(n, n) - given * given.transpose();
@@ -200,7 +200,8 @@ fn complement(given: &DMatrix<f64>, count: usize) -> DMatrix<f64> {
         let lengths: Vec<f64> = rest.column_iter().map(|c| c.norm()).collect();
         let best = (0..n).fold(0, |a, j| if lengths[j] > lengths[a] { j } else { a });
         let mut column = rest.column(best).into_owned();
-        // The elimination is done twice, so that rounding leaves no component along the others.
+        // The orthogonalisation is done twice, so that rounding errors leave no component along the
+        // other columns.
         for _ in 0..2 {
             column -= given * (given.transpose() * &column);
             let before = found.columns(0, k);
@@ -233,8 +234,8 @@ pub(super) fn inverse(x: f64) -> f64 {
     if x > 0.0 { 1.0 / x } else { 1.0 }
 }
 
-/// Returns the largest force on a body, and torque divided by the size, as vectors: single
-/// components depend on the axes.
+/// Returns the largest magnitude of a force, or of a torque divided by the size, on a body.
+/// Magnitudes of vectors are used because single components depend on the axes.
 fn largest(mechanism: &Mechanism, load: &[f64], scale: &[f64]) -> f64 {
     let space = mechanism.space();
     let length =

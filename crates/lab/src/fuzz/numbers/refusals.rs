@@ -1,5 +1,4 @@
-//! Test (d): mechanisms that the product rejects, and runs that it stops. The test checks whether
-//! there is a reason.
+//! Test (d): checks whether the product has a valid reason to reject a mechanism or to stop a run.
 
 use dynamics::MotionError;
 use integrators::IntegrationError;
@@ -18,7 +17,7 @@ use suite::numbers::Numbers;
 /// Time for which the motion must continue after a stopped run (s).
 const AFTER: f64 = 1e-3;
 
-/// Velocities are possible if all rows are satisfied to this fraction of their terms.
+/// Velocities are possible if the residuals of all rows are below this fraction of their terms.
 const POSSIBLE: f64 = 1e-9;
 
 /// Examines a mechanism that is rejected.
@@ -33,7 +32,8 @@ pub(super) fn at_start(
     };
     let q = match assembled.assemble() {
         Ok(assembly) => assembly.q,
-        // The start is consistent as described.
+        // The described initial state is consistent, so a mechanism that was not assembled is a
+        // wrong rejection.
         Err(_) => return findings.note(Kind::Refused, format!("not assembled: {error}")),
     };
     let mechanism = &assembled.mechanism;
@@ -50,8 +50,8 @@ pub(super) fn at_start(
     }
 }
 
-/// Whether velocities exist that contain the given ones. The given ones are those of
-/// `angular_velocity` about the normal of the plane, and in space all three.
+/// Whether velocities exist that contain the given velocities. These are the values of
+/// `angular_velocity`: one value in the plane, three in space.
 fn has_velocities(mechanism: &Mechanism, q: &[f64]) -> bool {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);
@@ -107,7 +107,7 @@ pub(super) fn on_the_way(
         || is_singular(mechanism, (row.t_before, &row.q), numbers)
         || march(mechanism, state, left)
             .is_some_and(|q| is_near_singular(mechanism, (run.reached, &q)));
-    // The motion continues with its velocity, or from rest along any free motion.
+    // The motion may continue with the present velocity or, from rest, along any free motion.
     let is_at_rest = row.v.iter().all(|v| *v == 0.0);
     let goes_on = marches(mechanism, state, left + AFTER)
         && (!is_at_rest || moves(mechanism, (row.t, &row.q), numbers));
@@ -119,7 +119,7 @@ pub(super) fn on_the_way(
     }
 }
 
-/// Whether the accelerations at the start satisfy the second-order equations.
+/// Whether the accelerations at the initial state satisfy the second-order equations.
 fn is_finite(run: &Run) -> bool {
     let prepared = &run.study.prepared;
     let (mechanism, at) = (&prepared.mechanism, (0.0, &prepared.q[..]));
@@ -131,14 +131,14 @@ fn is_finite(run: &Run) -> bool {
     }
 }
 
-/// Whether the rank is lower at a configuration than near it, or the second-order conditions
-/// exclude a motion that all rows allow to first order.
+/// Whether a configuration is singular: the rank is lower than at neighbouring configurations, or
+/// the second-order conditions exclude a motion that all rows allow to first order.
 fn is_singular(mechanism: &Mechanism, at: (f64, &[f64]), numbers: &mut Numbers) -> bool {
     let [here, near] = ranks(mechanism, at, numbers);
     here < near || SecondOrder::at(mechanism, at).is_none_or(|mut o| o.is_restricted(numbers))
 }
 
-/// Whether a configuration is near one of lower rank; velocities have no effect.
+/// Whether a configuration is near a configuration of lower rank; velocities have no effect.
 fn is_near_singular(mechanism: &Mechanism, at: (f64, &[f64])) -> bool {
     SecondOrder::at(mechanism, at).is_none_or(|order| order.sigma() < 1e-3)
 }

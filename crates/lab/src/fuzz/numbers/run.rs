@@ -1,4 +1,4 @@
-//! Runs of the product: the states that it writes, and the reactions there.
+//! Runs of the product, with the written states and the reactions at these states.
 
 use std::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use pfaff::{AssembledScene, RunOptions, Study, StudyError};
 pub const RTOL: f64 = 1e-11;
 const ATOL: f64 = 1e-13;
 
-/// Number of steps after which a run ends, with the rows up to there.
+/// Number of steps after which a run ends. The rows up to this step are used.
 const STEPS: u64 = 4000;
 
 /// A written row.
@@ -20,7 +20,8 @@ const STEPS: u64 = 4000;
 pub struct Row {
     /// Time (s).
     pub t: f64,
-    /// The time at which functions of time are evaluated: just before a break.
+    /// The time at which functions of time are evaluated. At a break time it is just before the
+    /// break.
     pub t_before: f64,
     /// Coordinates.
     pub q: Vec<f64>,
@@ -46,7 +47,7 @@ pub struct Run {
     pub stopped: Option<MotionError>,
 }
 
-/// Prepares a scene; redundant rows are given from 0.
+/// Prepares a scene; `drop` contains the redundant rows, counted from 0.
 ///
 /// # Errors
 /// Returns an error if the product rejects the scene.

@@ -1,7 +1,7 @@
-//! Random mechanisms that move: pieces with more constraints than necessary on carriers that
-//! rotate, slide or drive, in the plane and in space. Most starts are upright, straight or
-//! perpendicular. The module also contains the drawings of the suites of exact arithmetic, under
-//! gravity.
+//! Random mechanisms that move, in the plane and in space. Submechanisms with more constraints than
+//! necessary are mounted on carriers that rotate, slide or roll. In most initial configurations
+//! bodies are upright, straight or perpendicular. The drawings of the suites of exact arithmetic,
+//! under gravity, are also used.
 
 mod carriers;
 mod pieces;
@@ -21,7 +21,7 @@ use sketch::{Place, Sketch};
 
 /// End time of all runs (s).
 pub const T_END: f64 = 0.5;
-/// Number of steps of output.
+/// Number of output steps.
 pub const STEPS: usize = 6;
 
 /// A scene of the campaign.
@@ -89,7 +89,7 @@ fn ending() -> String {
 
 type Piece = fn(&mut Sketch<'_>, &Place, &Stand) -> Stand;
 
-/// Pieces with their names.
+/// Submechanisms with their names.
 const PIECES: [(&str, Piece); 6] = [
     ("cranks", pieces::cranks),
     ("chain", pieces::chain),
@@ -99,7 +99,7 @@ const PIECES: [(&str, Piece); 6] = [
     ("slightly off", pieces::slightly_off),
 ];
 
-/// Returns one or two pieces on a carrier.
+/// Returns one or two submechanisms on a carrier.
 fn sketched(space: Space, numbers: &mut Numbers) -> Scene {
     let carrier = Carrier::ALL[numbers.below(Carrier::ALL.len())];
     let (name, piece) = PIECES[numbers.below(PIECES.len())];
@@ -117,7 +117,7 @@ fn sketched(space: Space, numbers: &mut Numbers) -> Scene {
     let mut family = format!("{}: {name} {}", word(space), carrier.name());
     let tip = piece(&mut s, &place, &stand);
     if s.numbers.once_in(4) {
-        // The second piece is at the tip of the first.
+        // The second submechanism is mounted at the tip of the first one.
         family.push_str(", and another piece");
         let (_, another) = PIECES[s.numbers.below(PIECES.len())];
         another(&mut s, &place, &tip);

@@ -1,5 +1,6 @@
-//! The second-order equations at a configuration: a motion along w has the accelerations that its
-//! rows require, so `zᵀ·Γ(w) = 0` for every z of the left null space of C, including drives.
+//! The second-order equations at a configuration. A motion with velocities w needs accelerations
+//! that satisfy all rows, so `zᵀ·Γ(w) = 0` for every z in the left null space of C, including
+//! drives.
 
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
@@ -12,8 +13,8 @@ use suite::numbers::Numbers;
 /// Singular values below this fraction of the largest one count as zero.
 const ZERO: f64 = 1e-9;
 
-/// The equations are satisfied to this fraction of their largest term: the residual is 1e-13 at
-/// regular configurations and 1e-2 at singular ones.
+/// The equations count as satisfied if the residual is below this fraction of their largest term.
+/// The residual is 1e-13 at regular configurations and 1e-2 at singular ones.
 const HOLDS: f64 = 1e-8;
 
 /// Number of free motions that are tried.
@@ -29,7 +30,7 @@ pub(super) struct SecondOrder<'m> {
 }
 
 impl<'m> SecondOrder<'m> {
-    /// Returns `None` if C is not finite.
+    /// Decomposes C at a configuration; returns `None` if C is not finite.
     pub(super) fn at(mechanism: &'m Mechanism, (t, q): (f64, &[f64])) -> Option<Self> {
         let layout = mechanism.layout();
         let mut s = mechanism.scratch();
@@ -73,7 +74,7 @@ impl<'m> SecondOrder<'m> {
         })
     }
 
-    /// Whether they are satisfied for these velocities or, from rest, accelerations.
+    /// Whether the equations are satisfied for these velocities or, from rest, these accelerations.
     pub(super) fn holds(&mut self, w: &[f64]) -> bool {
         let [along, rest] = [w, &vec![0.0; w.len()]].map(|v| {
             self.mechanism.twist(v, &mut self.s);

@@ -11,17 +11,19 @@ use super::oracle::Instant;
 use suite::numbers::Numbers;
 
 /// A row may be deleted next if its part in the remaining left null space is at least this fraction
-/// of the largest one. The solutions are then at most some hundred times the loads.
+/// of the largest part of any row. The solutions are then at most some hundred times the loads.
 const SHARE: f64 = 0.1;
 
-/// Rows are not admissible if their part in the left null space is singular to this fraction.
+/// A set of rows is not admissible if the smallest singular value of its part in the left null
+/// space is below this fraction.
 const NEARLY_NOT: f64 = 1e-3;
 
-/// Components do not determine a solution that changes them by less than this fraction of others.
+/// Components do not determine a solution if a change of this solution changes them by less than
+/// this fraction of the changes by other solutions.
 const HIDDEN: f64 = 1e-6;
 
-/// Returns random rows whose deletion does not change the rank; their number is the degree of
-/// redundancy.
+/// Returns random rows whose deletion does not change the rank. The number of these rows is the
+/// degree of redundancy.
 #[must_use]
 pub fn dropped(instant: &Instant, numbers: &mut Numbers) -> Vec<usize> {
     let mut rest = instant.null.transpose();
@@ -42,8 +44,8 @@ pub fn dropped(instant: &Instant, numbers: &mut Numbers) -> Vec<usize> {
     chosen
 }
 
-/// Returns the scaled multipliers without these rows. Returns `None` if they are not admissible at
-/// this state, or so nearly inadmissible that the solution is large.
+/// Returns the scaled multipliers of the solution without these rows. Returns `None` if the set is
+/// not admissible at this state, or nearly inadmissible, so that the solution is large.
 #[must_use]
 pub fn without(instant: &Instant, from: &DVector<f64>, rows: &[usize]) -> Option<DVector<f64>> {
     let z = &instant.null;
@@ -74,8 +76,8 @@ pub fn compliances(mechanism: &Mechanism, size: f64, numbers: &mut Numbers) -> V
     .collect()
 }
 
-/// Returns the scaled multipliers that elastic joints select: the minimum of
-/// `½·Σ compliance·component²`. Returns `None` if the components do not determine them.
+/// Returns the scaled multipliers of the solution for elastic joints, which minimises
+/// `½·Σ compliance·component²`. Returns `None` if the components do not determine the multipliers.
 #[must_use]
 pub fn elastic(
     instant: &Instant,
@@ -98,7 +100,7 @@ pub fn elastic(
         } else {
             joint.rotation
         };
-        // Forms are forces: torques have been divided by the size.
+        // All forms are forces, because torques have been divided by the size.
         Some((compliance / form.unit.powi(2) * 1e6).sqrt())
     };
     let terms: Vec<(DVector<f64>, f64)> = forms

@@ -17,7 +17,8 @@ use suite::numbers::Numbers;
 /// Number of mechanisms that are listed for each kind of disagreement.
 const LISTED: usize = 12;
 
-/// One component in this number may be called dependent on the choice without a difference.
+/// Of this number of components, one may be reported as not determined although no solutions
+/// differ.
 const UNEXPLAINED: usize = 1000;
 
 /// Returns the findings for scene `number` of a seed.
@@ -61,13 +62,13 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Examines mechanisms `from..from + scenes` of a seed; `done` is called after each of them.
+    /// Examines mechanisms `from..from + scenes` of a seed; `done` is called after each mechanism.
     #[must_use]
     pub fn of(seed: u64, from: u64, scenes: u64, done: impl Fn() + Sync) -> Self {
         let one = |number: u64| {
             let (scene, findings) = outcome(seed, number);
             let mut tally = Self::default();
-            // The first part names the piece and its carrier.
+            // The first part is the name of the submechanism and its carrier.
             let family = scene.family.split(',').next().unwrap_or_default();
             tally.families.insert(family.to_owned(), 1);
             tally.counts = findings.counts;
@@ -112,8 +113,8 @@ impl Tally {
         self.disagreeing.get(&kind).map_or(0, |d| d.count)
     }
 
-    /// Whether no finding is wrong, at most one in a thousand components is unexplained, and at
-    /// least half of the ill-determined components change with a datum.
+    /// Whether no finding means a wrong result, at most one in a thousand components is
+    /// unexplained, and at least half of the ill-determined components change with a datum.
     #[must_use]
     pub fn passes(&self) -> bool {
         let wrong = self.disagreeing.keys().any(|kind| kind.is_wrong());
@@ -124,7 +125,7 @@ impl Tally {
             && 2 * fragile[0] >= fragile[1]
     }
 
-    /// Returns the counts, then the disagreements with the numbers of the mechanisms.
+    /// Returns the counts, then the disagreements with the indices of the mechanisms.
     #[must_use]
     pub fn describe(&self) -> String {
         let mut text = String::new();
@@ -160,7 +161,7 @@ impl Tally {
     }
 
     /// Writes the mechanisms with disagreements into a folder. There is one file for each kind and
-    /// number, with the disagreement at its head.
+    /// each mechanism, with the disagreement at the start of the file.
     ///
     /// # Errors
     /// Returns an error if a file cannot be written.

@@ -1,9 +1,9 @@
-//! The verdicts of the product on a run. This module makes no decision of the laboratory: it is the
-//! examined side.
+//! The verdicts of the product on a run, which are the subject of the test. No decision of the
+//! reference is made in this module.
 //!
-//! Between cuts of a run (events, breaks of functions of time) a component is `unique` if its
-//! verdict is unique at every state of the open interval. It is `not unique` if it is not unique at
-//! one state, and otherwise undecided.
+//! The cuts of a run are the events and the break times of functions of time. Between two cuts, a
+//! component is `unique` if it is unique at every state of the open interval. It is `not unique` if
+//! it is not unique at one state, and otherwise undecided.
 
 use model::{ConfigurationAccuracy, ConstraintId, Mechanism};
 use solvability::{Analysis, AnalysisError, Verdict, VerdictStretch, analyse_known};
@@ -18,32 +18,33 @@ pub enum Word {
     Unique,
     /// The verdict is undecided.
     Undecided,
-    /// The component depends on the choice.
+    /// The component is not determined.
     NotUnique,
 }
 
-/// A component on a part of a run.
+/// The verdict on a component in an interval of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// Start time (s), which belongs to the stretch.
+    /// Start time (s), which belongs to the interval.
     pub from: f64,
-    /// End time (s), which belongs to the stretch only at the end of the run.
+    /// End time (s), which belongs to the interval only at the end of the run.
     pub to: f64,
-    /// Verdict on the stretch.
+    /// Verdict in the interval.
     pub word: Word,
 }
 
 /// The verdicts on one component along a run.
 #[derive(Clone, Debug)]
 pub struct OnRun {
-    /// Stretches from the first to the last time, without gaps.
+    /// Intervals from the first to the last time, without gaps.
     pub stretches: Vec<Stretch>,
     /// The largest sensitivity at the states that were examined, if it is known.
     pub sensitivity: Option<f64>,
 }
 
 impl OnRun {
-    /// Returns the stretch that contains a time: at a cut the stretch that begins there.
+    /// Returns the interval that contains a time. At a cut, this is the interval that begins at the
+    /// cut.
     #[must_use]
     pub fn at(&self, t: f64) -> Option<&Stretch> {
         self.stretches.iter().rev().find(|s| s.from <= t)
@@ -56,7 +57,7 @@ impl OnRun {
     }
 }
 
-/// The examined side: verdicts and sensitivities.
+/// A source of the verdicts and sensitivities that are tested.
 pub trait Judge: Sync {
     /// Returns the verdicts on components along a run.
     ///
@@ -84,8 +85,8 @@ impl Judge for Product {
     fn on_run(&self, run: &Run, forms: &[Form]) -> Result<Vec<OnRun>, AnalysisError> {
         let (mechanism, rows) = (&run.study.prepared.mechanism, &run.rows[..]);
         let mut all: Vec<OnRun> = forms.iter().map(|form| on_run(run, form)).collect();
-        // The states are the start, whose sensitivities a run reports, and the middle of each
-        // stretch.
+        // The states are the initial state, whose sensitivities a run reports, and the middle of
+        // each interval.
         if let Some(row) = rows.first() {
             let found = sensitivities(mechanism, &analysis(mechanism, row)?, forms, row);
             for (own, new) in all.iter_mut().zip(found.iter().flat_map(|f| &f.each)) {
@@ -111,7 +112,7 @@ impl Judge for Product {
     }
 }
 
-/// Returns the verdict of the run on a component; a component that is zero under any load is
+/// Returns the verdict of the run on a component. A component that is zero under any load is
 /// determined.
 fn on_run(run: &Run, form: &Form) -> OnRun {
     let track = run.stretches.as_ref().map(|found| {
@@ -152,8 +153,7 @@ fn larger(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     }
 }
 
-/// Returns the analysis of a state, which is accurate to the tolerance of the run that has reached
-/// it.
+/// Returns the analysis of a state. The accuracy of the state is the tolerance of the run.
 fn analysis(mechanism: &Mechanism, row: &Row) -> Result<Analysis, AnalysisError> {
     let known = match row.t {
         0.0 => ConfigurationAccuracy::AsStored,

@@ -31,7 +31,7 @@ pub(super) struct Draft {
     pub(super) text: String,
     /// Names of bodies as in the file, quoted.
     pub(super) bodies: Vec<String>,
-    /// Joints: name, quoted, and type.
+    /// Joints, each with its quoted name and its type.
     pub(super) joints: Vec<(String, &'static str)>,
     pub(super) drives: Vec<String>,
     pub(super) markers: Vec<String>,
@@ -43,7 +43,7 @@ impl Draft {
         self.text.push('\n');
     }
 
-    /// Returns a body or, once in `ground` times, the ground.
+    /// Returns a body or, with probability 1/`ground`, the ground.
     pub(super) fn body(&self, numbers: &mut Numbers, ground: usize) -> String {
         if self.bodies.is_empty() || numbers.once_in(ground) {
             "\"ground\"".to_owned()
@@ -52,7 +52,7 @@ impl Draft {
         }
     }
 
-    /// Returns two bodies or a body and the ground, mostly different ones.
+    /// Returns two bodies, or a body and the ground; the two are mostly different.
     pub(super) fn pair(&self, numbers: &mut Numbers) -> [String; 2] {
         loop {
             let pair = [self.body(numbers, 3), self.body(numbers, 8)];

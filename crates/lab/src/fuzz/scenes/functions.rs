@@ -1,4 +1,4 @@
-//! Functions of time, and numbers instead of them.
+//! Functions of time, and numbers in place of functions.
 
 use super::Values;
 

@@ -3,7 +3,7 @@
 use super::Values;
 use super::draft::Draft;
 
-/// Adds the key `active`, mostly omitted.
+/// Adds the key `active`, which is mostly omitted.
 pub(super) fn active(draft: &mut Draft, values: &mut Values<'_>) {
     if values.numbers.once_in(25) {
         let is_active = values.one(&["false", "true", "false", "0", "1"]);
@@ -20,7 +20,8 @@ pub(super) fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static s
     draft.joints.push((name, kind));
 }
 
-/// Adds a point between two bodies: mostly a global point, which is consistent with any start.
+/// Adds the point of a joint between two bodies. It is mostly a global point, which is consistent
+/// with any initial configuration.
 pub(super) fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
     let line = if values.numbers.once_in(8) {
         format!(
@@ -39,7 +40,7 @@ pub(super) fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 
     draft.line(&line);
 }
 
-/// Adds a point for one body.
+/// Adds the point of a joint on one body.
 pub(super) fn own_place(draft: &mut Draft, values: &mut Values<'_>) {
     let key = values.one(&["at", "point"]);
     draft.line(&format!("{key} = {}", values.point()));

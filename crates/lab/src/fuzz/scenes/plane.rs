@@ -25,7 +25,7 @@ pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
     if is_moving {
         draft.line(&format!("velocity = {}", values.velocity()));
     }
-    // The velocity of a frame away from the mass centre needs an angular velocity as well.
+    // If the origin of the frame is not the mass centre, a velocity also needs an angular velocity.
     if values
         .numbers
         .once_in(if is_elsewhere && is_moving { 1 } else { 4 })
@@ -137,8 +137,8 @@ pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
-/// Returns the joint coordinate of a driven joint. Most joints have no such coordinate; a drive of
-/// them is rejected.
+/// Returns a joint coordinate that can be driven. Most joints have no coordinate, and a drive of
+/// these joints is rejected.
 pub(super) fn measure_of(values: &mut Values<'_>, kind: &str) -> Option<&'static str> {
     match kind {
         "revolute" => Some("angle"),

@@ -5,10 +5,11 @@ use super::draft::Draft;
 use super::functions::number_or_function;
 use super::parts::{active, begin, own_place, place, stiff};
 
-/// Directions as axes of a body or of the ground: parallel axes are frequent.
+/// Frames in which directions are given. Axes of the ground and of bodies make parallel directions
+/// frequent.
 const FRAMES: [&str; 2] = ["\"global\"", "\"body\""];
 
-/// Returns an orientation in one of its four forms, mostly a quarter turn or none.
+/// Returns an orientation in one of its four forms, mostly a quarter turn or no rotation.
 pub(super) fn orientation(values: &mut Values<'_>) -> String {
     match values.numbers.below(40) {
         0 => {
@@ -33,7 +34,8 @@ pub(super) fn orientation(values: &mut Values<'_>) -> String {
     }
 }
 
-/// Returns a tensor of inertia: mostly principal moments, some of which no real body has.
+/// Returns a tensor of inertia, mostly as principal moments. Some of them are impossible for a real
+/// body.
 fn inertia(values: &mut Values<'_>) -> String {
     match values.numbers.below(16) {
         0 => values.list(Values::positive),
@@ -70,7 +72,7 @@ pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
     if is_moving {
         draft.line(&format!("velocity = {}", values.velocity()));
     }
-    // The velocity of a frame away from the mass centre needs an angular velocity as well.
+    // If the origin of the frame is not the mass centre, a velocity also needs an angular velocity.
     if is_elsewhere && is_moving || values.numbers.once_in(5) {
         draft.line(&format!("angular_velocity = {}", values.velocity()));
     }
@@ -120,7 +122,7 @@ pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2
     }
 }
 
-/// Adds `axis` or `normal`, or the axes of both bodies, with the keys that belong to them.
+/// Adds `axis` or `normal`, or the axes of both bodies, with the keys that belong to these axes.
 fn axes(draft: &mut Draft, values: &mut Values<'_>, kind: &str, pair: &[String; 2]) {
     let has_two = matches!(kind, "universal" | "perpendicular");
     if !has_two && values.numbers.once_in(8) {
@@ -139,7 +141,7 @@ fn axes(draft: &mut Draft, values: &mut Values<'_>, kind: &str, pair: &[String; 
     if has_two || values.numbers.once_in(8) {
         draft.line(&format!("cross = {}", values.direction()));
     }
-    // Axes of the ground are parallel for any orientations.
+    // Directions in the axes of the ground are parallel for any orientation of the bodies.
     if values.numbers.once_in(2) {
         let frame = if values.numbers.once_in(12) {
             values.one(&FRAMES)
@@ -171,7 +173,7 @@ pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
     }
 }
 
-/// Adds the keys of a wheel: a plane at a distance of one radius from its centre is frequent.
+/// Adds the keys of a wheel. The distance of the plane from the centre is often one radius.
 fn wheel(draft: &mut Draft, values: &mut Values<'_>) {
     draft.line(&format!("point = {}", values.point()));
     draft.line(&format!("axis = {}", values.direction()));

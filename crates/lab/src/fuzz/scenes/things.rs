@@ -1,4 +1,4 @@
-//! The tables of a random scene that both spaces have.
+//! The tables that random scenes in the plane and in space both contain.
 
 use super::draft::{Draft, Space};
 use super::functions::function;
@@ -24,7 +24,7 @@ pub(super) fn head(draft: &mut Draft, values: &mut Values<'_>) {
         "[scene]\nname = {name}\nspace = \"{space}\"\n{gravity}"
     ));
     if values.numbers.once_in(5) {
-        // Accuracies of the data, from rounded numbers to manual measurements.
+        // Accuracies of the data, from rounding errors to manual measurements.
         let tolerances = ["1e-9", "1e-6", "1e-4", "1e-2"];
         draft.line(&format!("tolerance = {}", values.one(&tolerances)));
     }
@@ -113,7 +113,7 @@ pub(super) fn drive(
     draft.drives.push(name);
 }
 
-/// Adds a torque or a force as a law of the joint coordinate, its rate and the time.
+/// Adds a torque or a force as a function of the joint coordinate, its rate and the time.
 pub(super) fn law(draft: &mut Draft, values: &mut Values<'_>, measure: &str) {
     let key = if measure == "angle" {
         "torque"

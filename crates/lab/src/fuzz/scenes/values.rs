@@ -2,7 +2,7 @@
 
 use suite::numbers::Numbers;
 
-/// Extreme numbers, valid in some places and invalid in most.
+/// Extreme numbers, which are valid for some keys and invalid for most.
 pub(crate) const EXTREMES: [&str; 30] = [
     "0",
     "0.0",
@@ -36,7 +36,7 @@ pub(crate) const EXTREMES: [&str; 30] = [
     "9223372036854775807",
 ];
 
-/// Names that a writer might confuse with another syntax.
+/// Names that can be confused with other TOML syntax.
 const NAMES: [&str; 12] = [
     "a,b",
     "a b",
@@ -52,24 +52,25 @@ const NAMES: [&str; 12] = [
     "ground ",
 ];
 
-/// A stream of numbers and names; the parameter `wild` sets how often extreme ones occur.
+/// Generates numbers and names; the parameter `wild` determines how often extreme ones occur.
 pub(crate) struct Values<'n> {
     pub(crate) numbers: &'n mut Numbers,
     /// The number of components of a point: 2 or 3.
     axes: usize,
-    /// One number in this many is extreme; no number if it is 0.
+    /// A number is extreme with probability 1/`wild`, or never if `wild` is 0.
     wild: usize,
     /// Unit of length (m).
     length: f64,
     has_names: bool,
-    /// One number in this many is an expression; no number if it is 0.
+    /// A number is an expression with probability 1/`expressions`, or never if `expressions` is 0.
     expressions: usize,
 }
 
 /// Parameters of scenes with expressions.
 const PARAMETERS: [&str; 5] = ["p0", "p1", "p2", "p3", "p_4"];
 
-/// Expressions around a plain number, `#`: expressions with a dimension fit few places.
+/// Expressions without a unit; `#` is replaced by a number. Expressions with a unit are valid for
+/// few keys.
 const EXPRESSIONS: [&str; 16] = [
     "#",
     "-(#)",
@@ -133,7 +134,7 @@ impl<'n> Values<'n> {
         self.expressions > 0 && self.numbers.once_in(self.expressions)
     }
 
-    /// Returns a text that stands for a number without a unit.
+    /// Returns an expression for a number without a unit.
     fn expression(&mut self, value: f64) -> String {
         let number = if self.numbers.once_in(4) {
             self.parameter().to_owned()
@@ -149,8 +150,8 @@ impl<'n> Values<'n> {
         self.one(&PARAMETERS)
     }
 
-    /// Adds `[parameters]`: mostly numbers and values that can be computed from them; once in 40
-    /// times a name with a circular definition.
+    /// Adds `[parameters]`: mostly numbers and values that can be computed from these numbers, and
+    /// with probability 1/40 a name with a circular definition.
     pub(crate) fn parameters(&mut self) -> String {
         let mut text = "[parameters]\n".to_owned();
         for (k, name) in PARAMETERS.iter().enumerate() {
@@ -182,7 +183,7 @@ impl<'n> Values<'n> {
             .unwrap_or_else(|| self.or_extreme(value))
     }
 
-    /// Returns a number: mostly simple, of any sign.
+    /// Returns a number of any sign, mostly with few digits.
     pub(crate) fn number(&mut self) -> String {
         let value = match self.numbers.below(4) {
             0 => f64::from(self.numbers.between(-2, 2)),
@@ -192,7 +193,7 @@ impl<'n> Values<'n> {
         self.or_extreme(value)
     }
 
-    /// Returns a number: mostly > 0, once in 12 times 0.
+    /// Returns a number that is mostly > 0, and 0 with probability 1/12.
     pub(crate) fn positive(&mut self) -> String {
         let value = match self.numbers.below(12) {
             0 => 0.0,

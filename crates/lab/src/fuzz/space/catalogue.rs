@@ -1,5 +1,5 @@
-//! Mechanisms whose results are known by hand: textbook linkages and their relatives, in fractions.
-//! The tests in this folder contain the results.
+//! Mechanisms whose results were derived by hand: textbook linkages and similar mechanisms, with
+//! rational coordinates. The tests in this folder contain the results.
 
 #[cfg(test)]
 mod tests;
@@ -308,7 +308,7 @@ pub fn bricard() -> Drawing {
     ring(&joints.map(|(p, a)| revolute(&p, a)).collect::<Vec<_>>())
 }
 
-/// Case V14: a Sarrus linkage with legs at these multiples of 90°.
+/// Case V14: a Sarrus linkage whose legs (chains of three hinges) are at these multiples of 90°.
 #[must_use]
 pub fn sarrus(quarters: &[usize]) -> Drawing {
     let mut drawing = Drawing::default();
@@ -363,7 +363,7 @@ pub fn grooves(points: &[[i64; 2]]) -> Drawing {
 pub fn hexapod(driven: bool) -> Drawing {
     let mut drawing = Drawing::default();
     let platform = drawing.body();
-    // Half of 120°, ±0.25 rad and ±0.8 rad by rational tangents of half angles.
+    // Rational approximations of the tangents of half of 120°, ±0.25 rad and ±0.8 rad.
     let third = Ratio::new(173, 100);
     let turn = |t: &Ratio| Rotation::about(&Vector::unit(2), t);
     for k in 0..3 {
@@ -398,16 +398,16 @@ pub fn hexapod(driven: bool) -> Drawing {
     drawing
 }
 
-/// Case V19: a Delta robot with revolute parallelograms. Each leg has an upper arm, and a
-/// parallelogram of two bars between two short rods; its hinges on base, elbow and platform are
-/// parallel.
+/// Case V19: a Delta robot with revolute parallelograms. Each leg has an upper arm and a
+/// parallelogram of two bars between two short rods. The hinges of a leg on base, elbow and
+/// platform are parallel.
 #[must_use]
 pub fn delta() -> Drawing {
     let mut drawing = Drawing::default();
     let platform = drawing.body();
     let third = Rotation::about(&Vector::unit(2), &Ratio::new(173, 100));
     let mut sector = Rotation::none();
-    // The arms have different angles: the platform is not below the centre of the base.
+    // The arms have different angles, so the platform is not below the centre of the base.
     for arm in [[3, 0, 4], [4, 0, 3], [5, 0, 0]] {
         let place = |p: [i64; 3]| sector.of(&parts(p, 10));
         let (axis, base) = (sector.of(&Vector::unit(1)), place([20, 0, 80]));
@@ -436,16 +436,16 @@ pub fn delta() -> Drawing {
     drawing
 }
 
-/// Returns four-bars in series: each is mounted on the coupler of the previous one, the first on
-/// the ground, and their planes have different directions. Each adds 20 rows, three of them
-/// redundant, and one freedom.
+/// Returns four-bars in series. The first is mounted on the ground, and each other one on the
+/// coupler of the previous one; their planes have different directions. Each four-bar adds 20 rows,
+/// three of which are redundant, and one degree of freedom.
 #[must_use]
 pub fn four_bars_in_a_row(count: usize) -> Drawing {
     let turns = [[1, 0, 0, 0], [3, 1, 0, 0], [3, 0, 1, 0], [2, 1, 1, 1]].map(Rotation::whole);
     let mut drawing = Drawing::default();
     let mut base = GROUND;
     for k in 0..count {
-        // The chain runs back and forth in a box, so that a long chain is in a small region.
+        // The chain is folded back and forth in a box, so that a long chain is in a small region.
         let (x, row) = (k % FOLD, k / FOLD);
         let (y, layer) = (row % FOLD, row / FOLD);
         let fold = |at: usize, lines: usize| {
@@ -469,11 +469,11 @@ pub fn four_bars_in_a_row(count: usize) -> Drawing {
     drawing
 }
 
-/// Four-bars along each edge of the box.
+/// Number of four-bars along each edge of the box.
 const FOLD: usize = 32;
 
-/// Case V22: a chassis on four wheels on the plane z = 0; the argument is the tangent of half of
-/// the steering angle of both front wheels.
+/// Case V22: a chassis on four wheels on the plane z = 0. The argument is the tangent of half the
+/// steering angle of both front wheels.
 #[must_use]
 pub fn car(half_tangent: &Ratio) -> Drawing {
     let mut drawing = Drawing::default();

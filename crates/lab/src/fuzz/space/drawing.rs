@@ -1,6 +1,6 @@
-//! Bodies and joints in space at one configuration, in fractions. All points and directions are
-//! given in the axes of the ground, at the configuration at which every joint is satisfied; the
-//! coordinates in a body follow from its pose.
+//! Bodies and joints in space at one configuration, with rational coordinates. All points and
+//! directions are given in the axes of the ground, at a configuration at which every joint is
+//! satisfied. The coordinates in a body follow from the pose of the body.
 
 pub use super::kind::Kind;
 use super::ratio::Ratio;
@@ -30,15 +30,15 @@ pub struct Drawing {
 pub struct Body {
     /// Name of the body.
     pub name: String,
-    /// The origin of its frame.
+    /// The origin of the body frame.
     pub position: Vector,
-    /// Rotation from its frame to the ground.
+    /// Rotation from the body frame to the ground.
     pub orientation: Rotation,
-    /// The mass centre in its frame.
+    /// The mass centre in the body frame.
     pub centre: Vector,
     /// The mass.
     pub mass: Ratio,
-    /// The tensor of inertia about the mass centre, in the axes of its frame.
+    /// The tensor of inertia about the mass centre, in the axes of the body frame.
     pub inertia: [[Ratio; 3]; 3],
 }
 
@@ -51,14 +51,14 @@ pub struct Joint {
     pub bodies: [Side; 2],
     /// Type and position of the joint.
     pub kind: Kind,
-    /// The direction that selects the basis of its rows, if it is not the default.
+    /// The direction that selects the basis of the rows of the joint, if it is not the default.
     pub cross: Option<Vector>,
-    /// Writing of the joint.
+    /// Written form of the joint.
     pub style: Style,
 }
 
 impl Joint {
-    /// Whether its axis is written for both bodies.
+    /// Whether the axis is written for both bodies.
     #[must_use]
     pub fn gives_both_axes(&self) -> bool {
         self.style.directions == Directions::Both
@@ -68,7 +68,7 @@ impl Joint {
             )
     }
 
-    /// Whether its points are written in the axes of the ground.
+    /// Whether the points are written in the axes of the ground.
     #[must_use]
     pub fn is_placed_in_ground(&self) -> bool {
         let is_one_point = match &self.kind {
@@ -82,7 +82,7 @@ impl Joint {
         is_one_point && !self.style.points_in_bodies
     }
 
-    /// Returns the frame in which its directions are written, if not for both bodies.
+    /// Returns the frame in which directions are written, if they are not written for both bodies.
     #[must_use]
     pub fn frame_of_directions(&self) -> Side {
         match self.style.directions {
@@ -92,7 +92,7 @@ impl Joint {
     }
 }
 
-/// Writing of a joint. It does not change the correct result.
+/// Written form of a joint. The correct result does not depend on this form.
 #[derive(Clone, Debug, Default)]
 pub struct Style {
     /// Whether points are given in the frames of the bodies, not in the ground.
@@ -111,7 +111,7 @@ pub enum Directions {
     First,
     /// In the axes of the ground.
     Ground,
-    /// In the frames of both bodies, if the joint has one axis that belongs to both.
+    /// In the frames of both bodies, if the joint has one axis that belongs to both bodies.
     Both,
 }
 

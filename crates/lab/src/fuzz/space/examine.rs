@@ -1,5 +1,5 @@
-//! Compares the answers for drawings in space with exact arithmetic: cases of the campaign of
-//! [`crate::fuzz::exact::tally`].
+//! Compares the answers for drawings in space with exact arithmetic. These are cases of the
+//! campaign in [`crate::fuzz::exact::tally`].
 
 use serde_json::Value;
 

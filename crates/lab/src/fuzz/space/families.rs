@@ -1,6 +1,7 @@
-//! Families of mechanisms with planted redundancy, and of similar mechanisms with less redundancy
-//! or none. A piece is drawn in separate coordinates on a base, the ground or a body of another
-//! piece, and placed anywhere. If theory gives the redundancy without computation, it is stated.
+//! Families of mechanisms with planted redundancy, and of similar mechanisms with less or no
+//! redundancy. A submechanism is drawn in separate coordinates and placed on a base, which is the
+//! ground or a body of another submechanism. If theory gives the redundancy without computation,
+//! the drawing contains it.
 
 mod chains;
 mod couplings;
@@ -26,11 +27,11 @@ pub enum Family {
     Chains,
     /// Doors on two to four coaxial hinges.
     Doors,
-    /// Planar loops: four-bars, slider-cranks, cranks side by side.
+    /// Planar loops: four-bars, slider-cranks, parallel cranks.
     Flat,
     /// Loops of axes through one point.
     Spherical,
-    /// Bennett's linkage, and two of them merged.
+    /// Bennett's linkage, and two merged Bennett linkages.
     Bennett,
     /// Six-bar linkages: Sarrus, Bricard.
     SixBars,
@@ -84,7 +85,7 @@ impl Family {
         }
     }
 
-    /// Returns a drawing; one in three has a joint with fewer rows or a rotated axis.
+    /// Returns a drawing. One in three drawings has a joint with fewer rows or a rotated axis.
     #[must_use]
     pub fn draw(self, numbers: &mut Numbers) -> Drawing {
         loop {
@@ -97,7 +98,7 @@ impl Family {
             } else {
                 piece(&mut drawing, self, GROUND, numbers);
             }
-            // A coupling whose shafts do not fit is omitted.
+            // The drawing is empty if the shafts of a coupling do not fit.
             if !drawing.bodies.is_empty() {
                 return drawing;
             }
@@ -105,7 +106,7 @@ impl Family {
     }
 }
 
-/// Adds a piece to a drawing, and changes one of its joints in one of three cases.
+/// Adds a submechanism to a drawing, and in one of three cases changes one of its joints.
 fn piece(drawing: &mut Drawing, family: Family, base: Side, numbers: &mut Numbers) {
     let first = drawing.joints.len();
     let mut pen = Pen::new(drawing, base, numbers);
@@ -127,10 +128,10 @@ fn piece(drawing: &mut Drawing, family: Family, base: Side, numbers: &mut Number
     }
 }
 
-/// Draws two pieces. The second piece is mounted on the ground or on a body of the first. Then
-/// redundancies add up, because a self-stress of the second piece exerts no load on its base. Up to
-/// two further joints connect them; a joint to a body of the second piece whose base is the ground
-/// closes a loop through the ground.
+/// Draws two submechanisms. The second is mounted on the ground or on a body of the first. The
+/// redundancies can then be added, because a self-stress of the second submechanism exerts no load
+/// on its base. Up to two further joints connect both. If the base of the second is the ground, a
+/// joint to one of its bodies closes a loop through the ground.
 fn several(drawing: &mut Drawing, numbers: &mut Numbers) {
     let pieces = [0; 2].map(|_| Family::ALL[numbers.below(Family::ALL.len() - 1)]);
     piece(drawing, pieces[0], GROUND, numbers);

@@ -1,4 +1,4 @@
-//! Cycles of a graph with several edges between the same nodes.
+//! Cycles of a graph, which may have several edges between the same nodes.
 
 /// Nodes, and edges with names.
 pub struct Graph {
@@ -21,8 +21,8 @@ impl Graph {
         self.edges.len() + self.components() - self.nodes
     }
 
-    /// Whether the edge with this name is on a cycle: without it the number of components is the
-    /// same. Returns `None` if there is no such edge.
+    /// Whether the edge with this name is on a cycle: without this edge the number of components is
+    /// the same. Returns `None` if the edge does not exist.
     #[must_use]
     pub fn is_on_cycle(&self, name: &str) -> Option<bool> {
         let place = self.edges.iter().position(|(own, _)| own == name)?;

@@ -3,8 +3,8 @@
 use super::ratio::Ratio;
 use super::vector::Vector;
 
-/// The type and position of a joint. `from` is on the first body and `at` on the second. Directions
-/// have any length but 0.
+/// The type and position of a joint. The point `from` is on the first body, and `at` on the second.
+/// Directions have any length except 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Both bodies share a point.
@@ -28,7 +28,7 @@ pub enum Kind {
         /// The axis in the second body.
         second: Vector,
     },
-    /// A slider of the second body on a line of the first, without relative rotation.
+    /// A slider of the second body on a line of the first body, without relative rotation.
     Translational {
         /// A point of the line on the first body.
         from: Vector,
@@ -37,7 +37,7 @@ pub enum Kind {
         /// The line.
         axis: Vector,
     },
-    /// A slider of the second body on a line of the first, free to rotate about the line.
+    /// A slider of the second body on a line of the first body, free to rotate about the line.
     Cylindrical {
         /// A point of the line on the first body.
         from: Vector,
@@ -46,7 +46,8 @@ pub enum Kind {
         /// The line.
         axis: Vector,
     },
-    /// A plane of the first body in which a point of the second remains; normals are parallel.
+    /// A point of the second body remains in a plane of the first body, and the normals of both
+    /// bodies are parallel.
     Planar {
         /// A point of the plane on the first body.
         from: Vector,
@@ -60,7 +61,7 @@ pub enum Kind {
         /// The reference point.
         at: Vector,
     },
-    /// A point of the second body on a line of the first.
+    /// A point of the second body is on a line of the first body.
     PointOnLine {
         /// A point of the line.
         from: Vector,
@@ -69,7 +70,7 @@ pub enum Kind {
         /// The line.
         axis: Vector,
     },
-    /// A point of the second body in a plane of the first.
+    /// A point of the second body is in a plane of the first body.
     PointOnPlane {
         /// A point of the plane.
         from: Vector,
@@ -99,7 +100,7 @@ pub enum Kind {
         /// The end on the second body.
         at: Vector,
     },
-    /// A knife edge: no velocity of a point of the first body along a direction.
+    /// A knife edge: the velocity of a point of the first body along a direction is zero.
     KnifeEdge {
         /// The point.
         at: Vector,
@@ -142,14 +143,14 @@ impl Kind {
         }
     }
 
-    /// Whether it always connects one body to the ground, so that the key `body` is written.
+    /// Whether the joint always connects one body to the ground, so that the key `body` is written.
     #[must_use]
     pub fn has_one_body(&self) -> bool {
         matches!(self, Self::KnifeEdge { .. } | Self::Wheel { .. })
     }
 
-    /// Returns the point of the first body for which its reaction is given; `None` if it carries
-    /// only couples, which are the same about every point.
+    /// Returns the reference point of the reaction on the first body. Returns `None` if the joint
+    /// transmits only couples, which are the same about every point.
     #[must_use]
     pub fn place(&self) -> Option<&Vector> {
         match self {
@@ -208,7 +209,8 @@ impl Kind {
         image
     }
 
-    /// Returns the same joint with its bodies exchanged. Returns `None` if there is no such joint.
+    /// Returns the same joint with its bodies exchanged. Returns `None` if the joint cannot be
+    /// written with exchanged bodies.
     #[must_use]
     pub fn swapped(&self) -> Option<Self> {
         let mut image = self.clone();
@@ -256,8 +258,8 @@ impl Kind {
                 contact,
                 normal,
             } => {
-                // The lowest point of the circle is perpendicular to the axis, and straight down in
-                // its plane.
+                // The vector from the centre to the lowest point is perpendicular to the axis, and
+                // is the steepest direction in the plane of the circle.
                 let spoke = contact - centre;
                 let down = -&normal.across(axis);
                 !down.is_zero()

@@ -1,21 +1,23 @@
-//! Scenes of the plane, converted to space: every body becomes a body that may leave the plane, and
-//! joints that keep bodies in the plane receive the rows for it.
+//! Scenes of the plane, converted to space. The bodies can leave the plane unless joints prevent
+//! it, and some joints get additional rows that constrain bodies to the plane.
 //!
 //! The graph of these joints has the ground as a node and L independent cycles. The redundancy
 //! increases by 3·L, and the mobility by 3 for each component of the graph without the ground.
-//! Verdicts in the plane are the same, and those across it (Fz, Tx, Ty) are not unique exactly if a
-//! joint is on a cycle. This rule follows from graphs alone, without elimination.
+//! Verdicts on in-plane components are the same. The out-of-plane components (Fz, Tx, Ty) of a
+//! joint are not unique if and only if the joint is on a cycle. This rule follows from the graph
+//! alone, without elimination.
 //!
 //! | in the plane | in space |
 //! | --- | --- |
 //! | revolute, translational, fixed | the same joint about z, or along the line |
-//! | pin-in-slot | `planar`, and a `point-on-plane` across the slot |
-//! | point-on-line | `point-on-plane` across the line |
+//! | pin-in-slot | `planar`, and a `point-on-plane` with its normal perpendicular to the slot |
+//! | point-on-line | `point-on-plane` with its normal perpendicular to the line |
 //! | distance, knife-edge, velocity | the same joint: one row in the plane |
 //! | drives of angles, displacements | the same drives |
 //! | gravity, velocities of bodies | the same values |
 //!
-//! All other elements are omitted: joints and drives by name, forces of all kinds.
+//! All other elements are omitted. Omitted joints and drives are listed by name; forces of all
+//! kinds are omitted.
 
 use joints::space3::{
     Axes, Direction, Distance, Fixed, KnifeEdge, Planar, PointOnPlane, Revolute,
@@ -37,7 +39,8 @@ use crate::fuzz::exact::findings::{Findings, Kind, list};
 use crate::fuzz::exact::outcome::{JudgedStart, Outcome, judged};
 use crate::fuzz::exact::pose::Writing;
 
-/// Suffix of the name of a pin in a slot for the name of its row in the plane.
+/// Suffix that is added to the name of a pin-in-slot joint to form the name of the
+/// `point-on-plane`.
 const SLOT: &str = " slot";
 
 /// A planar scene with its equivalent in space.
@@ -54,7 +57,7 @@ impl Lifted {
     /// Returns the answers in the plane and in space.
     ///
     /// # Errors
-    /// Returns the message if one of them is rejected.
+    /// Returns the message if one of the two scenes is rejected.
     pub fn answers(&self) -> Result<[Value; 2], String> {
         Ok([
             answer_of(|| AssembledScene::build(self.plane.clone()))?,
@@ -81,10 +84,10 @@ impl Lifted {
     }
 }
 
-/// Converts a planar description, at its consistent start.
+/// Converts a planar description, at its consistent initial state.
 ///
 /// # Errors
-/// Returns the message if there is no such start.
+/// Returns the message if no consistent initial state exists.
 pub fn lift(description: &Description, start: &StartOptions) -> Result<Lifted, String> {
     let mut mechanism = Mechanism::build(description).map_err(|faults| format!("{faults:?}"))?;
     let start = assemble(&mut mechanism, start).map_err(|e| e.to_string())?;
@@ -145,7 +148,7 @@ pub fn lift(description: &Description, start: &StartOptions) -> Result<Lifted, S
     })
 }
 
-/// The numbers of an element, by name.
+/// The values of an element, by name.
 struct Numbers {
     name: &'static str,
     data: Vec<(&'static str, Vec<f64>)>,
@@ -189,7 +192,7 @@ impl Lift {
         body.moving().map_or(0.0, |k| self.angles[k])
     }
 
-    /// Returns axes of the first body, in the frame of the second.
+    /// Converts axes from the frame of the first body to the frame of the second.
     fn carried(&self, [i, j]: [BodyRef; 2], axes: Axes) -> Axes {
         let (sin, cos) = (self.angle(i) - self.angle(j)).sin_cos();
         axes.map(|[x, y, z]| [cos * x - sin * y, sin * x + cos * y, z])
@@ -217,7 +220,7 @@ impl Lift {
                 self.space.joint(name, &[i, j], element);
             }
             "Fixed" => {
-                // The points need not coincide in the plane.
+                // The points of the two bodies may be different in the plane.
                 let there = plane.place_of(i, s_i);
                 let s_j = self.space.local(j, there);
                 let [axes, axes_j] = frames;
@@ -276,7 +279,7 @@ impl Lift {
                 let &[_, _, x, y] = found.get("line")? else {
                     return None;
                 };
-                // The reaction is given at the point itself.
+                // The reference point of the reaction is the point of the joint.
                 let s_i = plane.place_of(body, s);
                 let normal = Direction::new([-y, x, 0.0])?;
                 let element = PointOnPlane {
@@ -328,7 +331,7 @@ impl Lift {
     }
 }
 
-/// Returns the position of a point of a body at the described start.
+/// Computes the position of a point of a body at the described initial state.
 trait Placed {
     fn place_of(&self, body: BodyRef, point: [f64; 3]) -> [f64; 3];
 }
@@ -341,8 +344,8 @@ impl Placed for Description {
     }
 }
 
-/// Compares the answers for both: the answer in space must follow from the planar answer and the
-/// rule.
+/// Compares both answers. The answer in space must follow from the planar answer and the rule of
+/// this module.
 #[must_use]
 pub fn compared(lifted: &Lifted, plane: &Value, space: &Value) -> Findings {
     let mut findings = Findings::default();
@@ -381,8 +384,8 @@ pub fn compared(lifted: &Lifted, plane: &Value, space: &Value) -> Findings {
     findings
 }
 
-/// Compares the verdicts of one reaction. Verdicts in the plane are the same if they belong to it,
-/// and do not exist otherwise; verdicts across the plane follow from the graph.
+/// Compares the verdicts on one reaction. Verdicts on in-plane components must be the same as in
+/// the planar answer, and verdicts on out-of-plane components must follow from the graph.
 fn reaction_in_space(
     name: &str,
     own: Option<&Value>,
@@ -417,10 +420,10 @@ fn reaction_in_space(
     }
 }
 
-/// Converts a text and compares the answers; `None` if no part of it can be converted.
+/// Converts a text and compares the answers; `None` if no part of the scene can be converted.
 ///
 /// # Errors
-/// Returns an error if the text is not a scene with a consistent start.
+/// Returns an error if the text is not a scene with a consistent initial state.
 pub fn examine(text: &str) -> Result<Option<(Lifted, JudgedStart)>, String> {
     let read = AssembledScene::read("scene.toml", text, &Registry::standard());
     let scene = read.map_err(|e| e.to_string())?.scene;

@@ -1,11 +1,11 @@
-//! Decides whether a redundancy belongs to the mechanism or to its configuration, to first order
-//! and in fractions. The test uses velocities v that the holonomic rows without drives allow.
-//! Towards the corresponding configurations the rank is the same to first order if and only if
+//! Decides to first order, in exact arithmetic, whether a redundancy exists at all configurations
+//! or only at the drawn one. The test uses velocities v that the holonomic rows without drives
+//! allow. Along a motion with velocities v, the rank is the same to first order if and only if
 //! `Zᵀ·Ċ(v)·N = 0`, with bases Z of null(Cᵀ) and N of ker C.
 //!
-//! Rows are spanning sets of the wrenches of a joint, which are products of at most two vectors, so
-//! that the difference over ±v is twice the derivative, without a remainder. Additional members of
-//! a set depend on the others at every configuration and have no effect.
+//! The rows of a joint are a set of wrenches that spans all wrenches of the joint. Each is a
+//! product of at most two vectors, so the difference over ±v is exactly twice the derivative.
+//! Additional wrenches in a set depend on the others at every configuration and have no effect.
 
 use exact::Exact;
 use num_bigint::BigInt;
@@ -17,16 +17,17 @@ use crate::fuzz::exact::expected::Elsewhere;
 use crate::fuzz::exact::truth::Truth;
 use crate::fuzz::exact::wrench::{Meaning, Wrench};
 
-/// The velocity of a body: of the point at the origin of the ground, and of the rotation.
+/// The twist of a body: velocity of the body point at the origin of the ground, and angular
+/// velocity.
 type Twist = [Vector; 2];
 
 /// Returns the rank of a drawing at other configurations.
 ///
-/// It is the same if the rank of all rows, and the rank of the holonomic ones alone, is the same to
-/// first order towards every other configuration. Rows against slip may constrain to first order a
-/// motion that the other rows allow, as for a tilting wheel on a spherical hub; then the result is
-/// unknown. It is higher if the rank of all rows increases along a velocity that certainly belongs
-/// to a motion, because the holonomic rows without drives are independent.
+/// The result is "same" if the rank of all rows and the rank of the holonomic rows are both the
+/// same to first order along all velocities. Rows that prevent slip may constrain to first order a
+/// motion that the other rows allow, for example of a tilting wheel on a spherical hub; the result
+/// is then "unknown". The result is "higher" if the rank of all rows increases along a velocity
+/// that certainly belongs to a motion, because the holonomic rows without drives are independent.
 #[must_use]
 pub fn elsewhere(truth: &Truth, drawing: &Drawing) -> Elsewhere {
     let all = |_: &Row| true;
@@ -75,7 +76,7 @@ fn is_permanent_of(drawing: &Drawing, wanted: impl Fn(&Row) -> bool) -> bool {
         let there = twists(motion);
         let back: Vec<Twist> = there.iter().map(|t| t.each_ref().map(|x| -x)).collect();
         let pairs = rows(&there).into_iter().zip(rows(&back));
-        // The factors that convert rows to integers belong to them.
+        // The factors that convert the rows to integers are included.
         let changes: Vec<Wrench> = pairs
             .zip(&still)
             .map(|((a, b), row)| {
@@ -99,7 +100,7 @@ fn is_permanent_of(drawing: &Drawing, wanted: impl Fn(&Row) -> bool) -> bool {
     })
 }
 
-/// Returns the row of C: the wrench on the second body, the opposite one on the first.
+/// Returns the row of C: the wrench on the second body, and the opposite wrench on the first body.
 fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigInt> {
     let mut row = vec![BigInt::default(); 6 * drawing.bodies.len()];
     for (side, sign) in sides.into_iter().zip([-1, 1]) {
@@ -114,7 +115,7 @@ fn on_bodies(drawing: &Drawing, sides: [Side; 2], wrench: &[BigInt]) -> Vec<BigI
 struct Row {
     sides: [Side; 2],
     wrench: Wrench,
-    /// Whether it restricts the configurations of the mechanism, for any motion of its drives.
+    /// Whether the row restricts the configurations of the mechanism for any motion of its drives.
     leads: bool,
 }
 
@@ -131,7 +132,7 @@ fn twists(numbers: &[BigInt]) -> Vec<Twist> {
     bodies.map(|x| [vector(&x[..3]), vector(&x[3..])]).collect()
 }
 
-/// Returns the power of a wrench on the second body and its opposite on the first.
+/// Returns the power of a wrench on the second body and of the opposite wrench on the first body.
 fn power(wrench: &Wrench, sides: [Side; 2], twists: &[Twist]) -> Ratio {
     let of = |side: Side| {
         side.map_or(Ratio::zero(), |k| {
@@ -219,7 +220,8 @@ fn displaced(joint: &Joint, velocity: &[Twist]) -> Kind {
             contact,
             normal,
         } => {
-            // The lowest point of the circle has the spoke λ·D with D = (n·a)·a − (a·a)·n.
+            // The vector from the centre to the lowest point of the circle is λ·D with D = (n·a)·a
+            // − (a·a)·n.
             let change = &direction(0, axis) - axis;
             let share = normal.dot(axis);
             let down = &axis.times(&share) - &normal.times(&axis.square());
@@ -235,7 +237,7 @@ fn displaced(joint: &Joint, velocity: &[Twist]) -> Kind {
     moved
 }
 
-/// Returns wrenches that span those of a joint, each a product of at most two vectors.
+/// Returns wrenches that span all wrenches of a joint. Each is a product of at most two vectors.
 fn spanning(kind: &Kind) -> Vec<Wrench> {
     let units = [0, 1, 2].map(Vector::unit);
     let each = |wrench: &dyn Fn(&Vector) -> Wrench| units.each_ref().map(wrench).to_vec();
@@ -265,7 +267,7 @@ fn spanning(kind: &Kind) -> Vec<Wrench> {
         Kind::Wheel {
             contact, normal, ..
         } => {
-            // The plane belongs to the ground: its normal and tangents do not move.
+            // The plane belongs to the ground, so its normal and tangents are constant.
             let u = Vector::unit(least(normal)).cross(normal);
             let v = normal.cross(&u);
             [normal, &u, &v].map(|d| Wrench::line(contact, d)).to_vec()

@@ -1,6 +1,7 @@
-//! Writings of a drawing: moved as a whole, each body with its own frame and mass centre, bodies
-//! and joints in another order, first and second body exchanged. None of these changes which
-//! wrenches are unique; they change only the components of the wrenches.
+//! Written forms of a drawing. The drawing is moved as a whole, bodies have other frames and mass
+//! centres, bodies and joints are in another order, and first and second body are exchanged. The
+//! uniqueness of a wrench does not depend on the written form; only the components of the wrench
+//! change.
 
 use suite::numbers::Numbers;
 
@@ -11,7 +12,7 @@ use super::ratio::Ratio;
 use super::rows;
 use super::vector::{Motion, Rotation, Vector};
 
-/// Chooses the writing of a drawing.
+/// Creates a written form of a drawing with random numbers.
 #[must_use]
 pub fn posed(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Drawing {
     let mut posed = drawing.clone();
@@ -91,7 +92,7 @@ fn swap(drawing: &mut Drawing, numbers: &mut Numbers) {
     }
 }
 
-/// Puts bodies, joints and drives into another order.
+/// Changes the order of bodies, joints and drives.
 fn reorder(drawing: &mut Drawing, numbers: &mut Numbers) {
     let order = numbers.order(drawing.bodies.len());
     let place = inverse(&order);
@@ -120,7 +121,8 @@ fn inverse(order: &[usize]) -> Vec<usize> {
     place
 }
 
-/// Gives a body a frame, a mass centre off its origin, and a tensor of inertia.
+/// Gives a body a frame, a mass centre that is not at the origin of the frame, and a tensor of
+/// inertia.
 fn dress(drawing: &mut Drawing, k: usize, is_as_drawn: bool, numbers: &mut Numbers) {
     let own = |side: &Side| *side == Some(k);
     let joints = drawing.joints.iter();
@@ -147,7 +149,7 @@ fn dress(drawing: &mut Drawing, k: usize, is_as_drawn: bool, numbers: &mut Numbe
     body.inertia = tensor(numbers);
 }
 
-/// Returns a vector of some tenths of a metre from a point.
+/// Returns a point at a distance of some tenths of a metre from a given point.
 fn near(point: Option<&Vector>, numbers: &mut Numbers) -> Vector {
     let offset = Vector([0; 3].map(|_| Ratio::new(numbers.between(-20, 20), 10)));
     point.map_or(offset.clone(), |p| p + &offset)
@@ -173,8 +175,8 @@ fn tensor(numbers: &mut Numbers) -> [[Ratio; 3]; 3] {
     [0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j)))
 }
 
-/// Chooses frames of points and directions, and a basis for rows if rounding might select another
-/// one.
+/// Chooses the frames of points and directions. If rounding could change the basis of rows, the
+/// basis is also chosen.
 fn style(drawing: &mut Drawing, is_as_drawn: bool, numbers: &mut Numbers) {
     for k in 0..drawing.joints.len() {
         let joint = &drawing.joints[k];

@@ -1,5 +1,5 @@
 //! Fractions of integers of any size, rounded to `f64` once. Drawings in space are rotated several
-//! times, and 127 bits would not be sufficient for all of them.
+//! times, and 127 bits would not be sufficient for the results.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -89,7 +89,7 @@ impl Ratio {
         quotient(&self.numerator, &self.denominator)
     }
 
-    /// Returns the square root of its absolute value as `f64`, accurate to one unit in the last
+    /// Returns the square root of the absolute value as `f64`, accurate to one unit in the last
     /// place.
     #[must_use]
     pub fn root(&self) -> f64 {
@@ -97,15 +97,15 @@ impl Ratio {
     }
 }
 
-/// Returns `n/d`, rounded to the nearest `f64`. Both may be larger than any `f64`.
+/// Returns `n/d`, rounded to the nearest `f64`. The integers n and d may be larger than any `f64`.
 #[must_use]
 pub fn quotient(n: &BigInt, d: &BigInt) -> f64 {
     const BITS: i64 = 100;
     if n.is_zero() {
         return 0.0;
     }
-    // The quotient has at least 100 bits, and one bit for all following bits: the conversion of
-    // integers rounds to nearest.
+    // The quotient has at least 100 bits, and its last bit is set if any following bit is set. The
+    // conversion of this integer then rounds to nearest.
     let shift = BITS + d.bits() as i64 - n.bits() as i64;
     let (n_size, d_size) = (n.abs(), d.abs());
     let (n_size, d_size) = if shift >= 0 {
@@ -119,8 +119,7 @@ pub fn quotient(n: &BigInt, d: &BigInt) -> f64 {
     if n.sign() == d.sign() { size } else { -size }
 }
 
-/// Returns 2^e in two factors, so that neither of them leaves the range of `f64` before their
-/// product.
+/// Returns 2^e as a product of two factors that are both in the range of `f64`.
 fn power_of_two(e: i64) -> f64 {
     let e = e.clamp(-2100, 2000) as i32;
     2_f64.powi(e / 2) * 2_f64.powi(e - e / 2)
@@ -141,8 +140,8 @@ pub fn gcd(a: &BigInt, b: &BigInt) -> BigInt {
     }
 }
 
-/// Returns integers without a common factor, in the ratios of these fractions, and the factor by
-/// which the fractions were multiplied. If all are zero, they remain zero.
+/// Multiplies fractions by a factor so that they become integers without a common divisor. Returns
+/// the integers and the factor. If all fractions are zero, the integers are zero.
 #[must_use]
 pub fn whole_multiples(fractions: &[Ratio]) -> (Vec<BigInt>, Ratio) {
     let multiple = fractions.iter().fold(BigInt::one(), |m, x| {
@@ -224,7 +223,8 @@ mod tests {
     fn fractions_are_rounded_once() {
         assert_eq!(Ratio::new(3, 10).rounded(), 0.3);
         assert_eq!(Ratio::new(-2, -6), Ratio::new(1, 3));
-        // 2⁶⁰ + 2⁷ is halfway between two neighbours; a bit far behind decides.
+        // The number 2⁶⁰ + 2⁷ is halfway between two neighbouring doubles, so a much smaller bit
+        // determines the rounding.
         let middle = Ratio::new((1_i64 << 60) + (1 << 7), 1);
         assert_eq!(middle.rounded(), 2_f64.powi(60));
         let above = &middle + &Ratio::new(1, BigInt::one() << 300_u32);

@@ -1,5 +1,6 @@
-//! Relatives of a drawing: one joint has fewer rows, or one axis is slightly rotated. All their
-//! joints are satisfied as drawn; they often have full rank, and look like the redundant drawing.
+//! Drawings that are similar to a given drawing: one joint has fewer rows, or one axis is slightly
+//! rotated. All joints of the changed drawing are satisfied as drawn. The changed drawing often has
+//! full rank, although it is similar to the redundant drawing.
 
 use suite::numbers::Numbers;
 
@@ -7,15 +8,15 @@ use super::drawing::{Drawing, Kind};
 use super::ratio::Ratio;
 use super::vector::{Rotation, Vector};
 
-/// Changes one of the joints from `first` on; returns whether one was changed. The redundancy
-/// according to theory is no longer valid then.
+/// Changes one of the joints from `first` on; returns whether a joint was changed. After a change,
+/// the redundancy according to theory is no longer valid.
 pub fn change_one(drawing: &mut Drawing, first: usize, numbers: &mut Numbers) -> bool {
     let count = drawing.joints.len().saturating_sub(first);
     if count == 0 {
         return false;
     }
     let place = first + numbers.below(count);
-    // A driven joint keeps its joint coordinates.
+    // A driven joint is not changed, because its joint coordinates are needed.
     if drawing.drives.iter().any(|d| d.joint == place) {
         return false;
     }
@@ -87,7 +88,8 @@ pub fn weaker(kind: &Kind, numbers: &mut Numbers) -> Option<Kind> {
     })
 }
 
-/// Returns the same joint with its axis or normal rotated by some hundredths to tenths.
+/// Returns a copy of the joint whose axis or normal is rotated by a random angle of at most 0.7
+/// rad.
 #[must_use]
 pub fn turned(kind: &Kind, numbers: &mut Numbers) -> Option<Kind> {
     let turn = small_turn(numbers);

@@ -1,12 +1,12 @@
-//! Constraint rows as screws, by virtual work: a unit multiplier of a row does no work in any
-//! motion that the joint allows, and it acts with opposite wrenches on the two bodies. The wrench
-//! on the second body, force and moment about the origin of the ground, is the row; no derivatives
-//! are used. Rows have any scale: directions are used as they are, not divided by their length.
+//! Constraint rows as screws, derived by virtual work. A unit multiplier of a row acts with
+//! opposite wrenches on the two bodies, and these do no work in any motion that the joint allows.
+//! The row is the wrench on the second body: force, and moment about the origin of the ground. No
+//! derivatives are used. Rows have any scale, because directions are not divided by their length.
 //!
 //! | element | wrenches on the second body; (F; M) with M about the origin |
 //! | --- | --- |
 //! | point | (e; P × e) for e along the axes of the ground |
-//! | offset | (u; P₂ × u): a smooth guide pushes the second body at its own point |
+//! | offset | (u; P₂ × u): a smooth guide acts on the second body at the point of this body |
 //! | directions u, v of an axis w | couples along w × u and w × v: they prevent w from moving along u, v |
 //! | orientation of u, v, w | couples of the axis w, and a couple along w: no rotation of u towards v |
 //! | perpendicular a, b | couple along b × a |
@@ -14,11 +14,11 @@
 //! | contact, slip, edge | force at the point, along normal, longitudinal, lateral |
 //! | drive | couple along the axis, or force along the line of displacement |
 //!
-//! Verdicts of joints, forces, moments and components do not depend on the basis of the rows.
-//! Verdicts of single rows depend on it; [`Meaning`] states the meaning of each row. The order
-//! inside a joint is that of the table of joints: points, then offsets, then directions u and v,
-//! then the rotation about w. Joints that keep an orientation without an axis use the axes of the
-//! frame of the first body.
+//! Verdicts on joints, forces, moments and components do not depend on the basis of the rows.
+//! Verdicts on single rows depend on the basis; [`Meaning`] describes the meaning of each row. The
+//! order of rows in a joint is the order in the table of joints: points, then offsets, then
+//! directions u and v, then the rotation about w. Joints without an axis that fix the orientation
+//! use the axes of the frame of the first body.
 
 #[cfg(test)]
 mod tests;
@@ -81,7 +81,8 @@ impl From<&Drawing> for Wrenches {
 
 /// Returns the directions u, v perpendicular to the axis w of a joint. The direction u comes from
 /// the key `cross` if it exists. Otherwise it comes from the coordinate axis of the first body with
-/// the smallest component along w (the first of several); v = w × u.
+/// the smallest component along w; if several are equal, from the first of them. The direction v is
+/// w × u.
 #[must_use]
 pub fn basis(drawing: &Drawing, joint: &Joint, w: &Vector) -> [Vector; 2] {
     let u = match &joint.cross {
@@ -101,8 +102,8 @@ pub fn basis(drawing: &Drawing, joint: &Joint, w: &Vector) -> [Vector; 2] {
     [u, v]
 }
 
-/// Whether another coordinate axis of the first body has nearly the same component along w as the
-/// smallest one, so that rounding may select the basis of rows.
+/// Whether the two smallest components of w along coordinate axes of the first body are nearly
+/// equal, so that rounding may change the basis of rows.
 #[must_use]
 pub fn basis_is_doubtful(drawing: &Drawing, joint: &Joint, w: &Vector) -> bool {
     let axes = drawing.frame(joint.bodies[0]).turn.axes();
@@ -111,7 +112,7 @@ pub fn basis_is_doubtful(drawing: &Drawing, joint: &Joint, w: &Vector) -> bool {
     shares[1] - shares[0] < DOUBTFUL
 }
 
-/// Difference of two cosines below which rounding to few digits may exchange them.
+/// Difference of two cosines below which rounding to few digits may change their order.
 const DOUBTFUL: f64 = 0.05;
 
 /// Returns the axis or normal that determines the basis of rows of a joint.
@@ -148,8 +149,8 @@ fn offsets(at: &Vector, basis: &[Vector; 2]) -> Vec<(Meaning, Wrench)> {
     [0, 1].map(row).to_vec()
 }
 
-/// Returns the couples that keep axes u, v, w of both bodies parallel: w moves towards neither u
-/// nor v, and u does not rotate towards v.
+/// Returns the couples that keep the axes u, v, w of both bodies parallel: w does not rotate
+/// towards u or v, and u does not rotate towards v.
 fn orientation(w: &Vector, basis: &[Vector; 2]) -> Vec<(Meaning, Wrench)> {
     let mut rows = directions(w, basis);
     rows.push((Meaning::Turn, Wrench::couple(basis[0].cross(&basis[1]))));
@@ -200,8 +201,9 @@ fn of(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
             normal,
             ..
         } => {
-            // The material point of contact has no velocity: along the normal because the circle
-            // remains above the plane, and along the other directions because it does not slip.
+            // The velocity of the material point at the contact is zero: along the normal because
+            // the circle remains above the plane, and along the other directions because the wheel
+            // does not slip.
             let longitudinal = axis.cross(normal);
             let lateral = normal.cross(&longitudinal);
             vec![
@@ -213,15 +215,16 @@ fn of(drawing: &Drawing, joint: &Joint) -> Vec<(Meaning, Wrench)> {
     }
 }
 
-/// For `a·b = 0`, the couple along b × a has no power in a rotation about a or about b.
+/// Returns the couple along b × a, whose power is zero in rotations about a and about b, for
+/// `a·b = 0`.
 fn perpendicular(a: &Vector, b: &Vector) -> (Meaning, Wrench) {
     (Meaning::Perpendicular, Wrench::couple(b.cross(a)))
 }
 
-/// Returns the wrench of a drive: it does work on its own joint coordinate.
+/// Returns the wrench of a drive, which does work only in motions of the driven joint coordinate.
 ///
 /// # Panics
-/// Panics if the joint has no such joint coordinate.
+/// Panics if the joint does not have this joint coordinate.
 pub(super) fn driven(kind: &Kind, measure: Measure) -> Wrench {
     match (measure, kind) {
         (Measure::Angle, Kind::Revolute { axis, .. } | Kind::Cylindrical { axis, .. }) => {

@@ -1,4 +1,5 @@
-//! Tests the exact oracle in space: verdicts known from theory, and mutants of its data.
+//! Tests the exact reference in space: verdicts known from theory, and changes of its data that
+//! must be detected.
 
 use std::collections::BTreeMap;
 
@@ -8,14 +9,14 @@ use crate::fuzz::exact::expected::Verdict;
 use crate::fuzz::exact::truth::{Reaction, Truth};
 use crate::fuzz::exact::wrench::Owner;
 
-/// Number of scenes: some of each family, in each writing.
+/// Number of scenes: five of each of the 12 families, in each of the 4 written forms.
 const SCENES: u64 = 12 * 4 * 5;
 
-/// By name: whether wrench and force are unique, and the numbers of directions that it carries and
-/// that are free.
+/// For each joint or drive, by name: whether wrench and force are unique, the number of directions
+/// of its wrenches, and the number of directions that are not unique.
 type Verdicts = BTreeMap<String, (bool, bool, usize, usize)>;
 
-/// Returns the results that do not depend on the writing: ranks and verdicts.
+/// Returns the results that do not depend on the written form: ranks and verdicts.
 fn invariants(right: &Expected) -> ([usize; 6], Verdicts) {
     let ranks = [
         right.rows,
@@ -105,7 +106,8 @@ fn verdicts_by_ranks_and_by_free_wrenches_agree() {
 
 #[test]
 fn verdicts_differ_within_a_family() {
-    // A judge that calls everything redundant, or nothing redundant, is wrong in many scenes.
+    // A program that reports all scenes as redundant, or all as not redundant, would be wrong in
+    // many scenes.
     let mut counts: BTreeMap<Family, [usize; 2]> = BTreeMap::new();
     for number in (0..480).step_by(4) {
         let scene = scene(5, number);
@@ -131,7 +133,8 @@ fn the_same_seed_gives_the_same_scenes() {
 
 #[test]
 fn a_circuit_names_the_rows_that_depend_on_each_other() {
-    // A table has its legs at the corners of a square: the normal forces alternate.
+    // A table has its legs at the corners of a square. The signs of the normal forces in the
+    // self-stress alternate.
     let drawing = catalogue::table(&[[0, 0], [2, 0], [2, 2], [0, 2]]);
     let truth = Truth::of(&drawing);
     assert_eq!(truth.circuit(&[0, 1, 2]), None);

@@ -13,7 +13,7 @@ use super::vector::{Rotation, Vector};
 use model::{AnyDescription, Registry, SpatialDescription};
 use pfaff::AssembledScene;
 
-/// The number of digits, and the data that the scene states in addition to the drawing.
+/// The number of digits, and the data that the scene contains in addition to the drawing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Precision {
     /// Number of significant digits. `None` means all digits of a double.
@@ -25,8 +25,8 @@ pub struct Precision {
 }
 
 impl Precision {
-    /// Returns a precision of some significant digits, with the corresponding tolerance: twice the
-    /// unit of the last digit of the largest coordinate.
+    /// Returns the precision for a number of significant digits. The tolerance is twice the unit of
+    /// the last digit of the largest coordinate.
     #[must_use]
     pub fn of_digits(drawing: &Drawing, digits: usize) -> Self {
         let unit = 10_f64.powi(1 - i32::try_from(digits).unwrap_or(i32::MAX));
@@ -290,7 +290,7 @@ impl Pen<'_> {
         self.length(&local)
     }
 
-    /// Writes the frame of directions unless it is that of the first body, and returns it.
+    /// Writes the frame of directions, unless it is the frame of the first body, and returns it.
     fn directions_of(&mut self, joint: &Joint) -> Side {
         if joint.style.directions == Directions::Ground {
             self.line("frame", "\"global\"");

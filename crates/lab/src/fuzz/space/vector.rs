@@ -1,4 +1,4 @@
-//! Vectors, rotations and similarities in space, in fractions.
+//! Vectors, rotations and similarity transformations in space, with rational numbers.
 
 use std::ops::{Add, Neg, Sub};
 
@@ -72,14 +72,14 @@ impl Vector {
         self.dot(self)
     }
 
-    /// Whether the vector is parallel to another one; 0 is parallel to all.
+    /// Whether the vector is parallel to another vector; 0 is parallel to all vectors.
     #[must_use]
     pub fn is_along(&self, other: &Self) -> bool {
         self.cross(other).is_zero()
     }
 
-    /// Returns its component perpendicular to a vector that is not 0, times the square of the
-    /// length of that vector.
+    /// Returns the component perpendicular to a nonzero vector w, times the square of the length of
+    /// w.
     #[must_use]
     pub fn across(&self, w: &Self) -> Self {
         &self.times(&w.square()) - &w.times(&self.dot(w))
@@ -119,7 +119,8 @@ impl Neg for &Vector {
     }
 }
 
-/// A rotation as a quaternion (w, x, y, z) of any length but 0: `v ↦ q∘v∘q*/|q|²` is rational.
+/// A rotation as a quaternion (w, x, y, z) of any length except 0. The map `v ↦ q∘v∘q*/|q|²` is
+/// rational.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rotation {
     /// The scalar part.
@@ -132,7 +133,7 @@ impl Rotation {
     /// Returns the quaternion of these integers.
     ///
     /// # Panics
-    /// Panics if all numbers are 0.
+    /// Panics if all components are 0.
     #[must_use]
     pub fn whole([w, x, y, z]: [i64; 4]) -> Self {
         assert!([w, x, y, z] != [0; 4], "a quaternion of length 0");
@@ -224,7 +225,7 @@ pub struct Motion {
     pub turn: Rotation,
     /// The factor of all lengths.
     pub scale: Ratio,
-    /// The translation after both.
+    /// The translation, applied after rotation and scaling.
     pub shift: Vector,
 }
 

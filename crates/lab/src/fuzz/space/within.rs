@@ -1,5 +1,5 @@
-//! Compares answers for drawings with 3 … 16 significant digits with exact arithmetic: cases of the
-//! campaign of [`crate::fuzz::exact::rounded`].
+//! Compares answers for drawings with 3 … 16 significant digits with exact arithmetic. These are
+//! cases of the campaign in [`crate::fuzz::exact::rounded`].
 //!
 //! The singular values of the dimensionless rows give the distance of the drawing from a lower
 //! rank, and from other verdicts. A change of the matrix by δ does not change the rank if δ < σ_r,
@@ -20,14 +20,14 @@ use crate::fuzz::exact::precisions::DIGITS;
 use crate::fuzz::exact::truth::Truth;
 use crate::fuzz::exact::wrench::Wrench;
 
-/// A row changes by at most this number of tolerances: of the two ends of a lever arm or a
-/// direction on each of two bodies.
+/// Largest change of a row, as a multiple of the tolerance: on each of two bodies, both ends of a
+/// lever arm or a direction may change.
 const CHANGES: f64 = 4.0;
 
 /// Returns the results for one drawing, translated by up to its size, with each number of digits.
 #[must_use]
 pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
-    // The third way of writing.
+    // The third written form.
     let scene = super::scene(seed, 4 * drawn + 2);
     let meant = Meant::of(&scene.drawing);
     let one = |(way, &digits): (usize, &usize)| {
@@ -65,7 +65,7 @@ pub struct Meant {
     right: Expected,
     /// Size of the drawing (m).
     size: f64,
-    /// The smallest nonzero singular value, of rows of size one.
+    /// The smallest nonzero singular value, for rows of size one.
     sigma: f64,
     margins: Margins,
 }
@@ -86,7 +86,7 @@ impl Meant {
         }
     }
 
-    /// Returns the accuracy of C with this tolerance (m).
+    /// Returns the accuracy of C for data with this tolerance (m).
     fn known(&self, tolerance: f64) -> f64 {
         CHANGES * (self.truth.rows.len() as f64).sqrt() * tolerance / self.size
     }
@@ -99,7 +99,8 @@ impl Meant {
         }
     }
 
-    /// Compares a document with the correct results; a tolerance (m) is stated or not.
+    /// Compares a document with the correct results. `tolerance` is the tolerance (m) that the
+    /// scene states, if any.
     #[must_use]
     pub fn judge(&self, document: &serde_json::Value, tolerance: Option<f64>) -> JudgedStart {
         let mut judged = JudgedStart::default();
@@ -179,8 +180,8 @@ impl Meant {
     }
 }
 
-/// Returns the largest distance of the reference point of a joint from that of the first joint (m),
-/// at least 0.1.
+/// Returns the largest distance between the reference point of the first joint and the reference
+/// point of another joint (m), at least 0.1.
 fn size(drawing: &Drawing) -> f64 {
     let mut places = drawing.joints.iter().filter_map(|j| j.kind.place());
     let Some(first) = places.next() else {
@@ -190,12 +191,12 @@ fn size(drawing: &Drawing) -> f64 {
     distances.fold(0.1, f64::max)
 }
 
-/// Distances of combinations of multipliers from being unique.
+/// Measures how far combinations of multipliers are from being unique.
 struct Margins {
     sigma: f64,
     /// Orthonormal combinations of rows that span the range of C, as columns.
     range: Matrix,
-    /// The factors by which rows have size one.
+    /// The factors that scale the rows to size one.
     factors: Vec<f64>,
 }
 
@@ -222,8 +223,8 @@ impl Margins {
         }
     }
 
-    /// Returns the norm of a combination of multipliers, those of rows of size one, on the null
-    /// space.
+    /// Returns the norm of the part of a combination of multipliers in the null space, for rows of
+    /// size one.
     fn margin(&self, combination: &[(usize, f64)]) -> f64 {
         norm(&self.free(combination))
     }
@@ -255,8 +256,8 @@ fn about(wrench: &Wrench, point: &Vector, size: f64) -> [f64; 6] {
     [x, y, z, a / size, b / size, c / size]
 }
 
-/// Returns the factor by which the force of a wrench has size one, or its couple divided by the
-/// size.
+/// Returns the factor that scales a wrench so that its force, or its couple divided by `size`, has
+/// the magnitude one.
 fn factor(wrench: &Wrench, size: f64) -> f64 {
     match wrench.length() {
         0.0 => 1.0,

@@ -1,4 +1,4 @@
-//! Properties that a start and the verdicts there must have.
+//! Properties that an initial state and the verdicts at this state must have.
 
 use pfaff::documents::AnalysisDocument;
 use pfaff::model::System;
@@ -9,8 +9,8 @@ use pfaff::{ConfigurationAnalysis, Study};
 
 use super::reach::named;
 
-/// Checks that a consistent start has finite numbers, and that its number of independent rows is
-/// its rank.
+/// Checks that a consistent initial state has finite values, and that the number of independent
+/// rows is the rank.
 pub(super) fn start(study: &Study) {
     let p = &study.prepared;
     assert!(
@@ -90,8 +90,8 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
                 r.name
             );
         }
-        // A row has a free multiplier if and only if it is in a dependency. The dependencies are
-        // computed by another method.
+        // The multiplier of a row is not unique if and only if the row is in a dependency. The
+        // dependencies are computed by another method.
         for row in &r.rows {
             match &row.judgement.verdict {
                 Verdict::Unique => assert!(

@@ -12,24 +12,24 @@ use pfaff::solvability::ChosenValues;
 
 use super::reach::{ROWS, Reach, STEPS, named};
 
-/// Residuals of projected rows are at most this fraction of the terms of their row of Φ or C·v − b.
-/// Near a singular configuration coordinates are accurate only to √ε = 1.5e-8. In the redundant
-/// rows the residuals of the independent rows are multiplied by coefficients of up to 10 (larger
-/// coefficients cause an exchange of rows): 1.5e-7. A larger residual means another motion, not a
-/// loss of accuracy. A run itself allows redundant rows a residual of 1e-11 of the terms on which
-/// they depend, multiplied by coefficients that are not computed here: this check is independent of
-/// it.
+/// Largest residual of projected rows, as a fraction of the terms of the row of Φ or C·v − b. Near
+/// a singular configuration, coordinates are accurate only to √ε = 1.5e-8. In redundant rows, the
+/// residuals of the independent rows are multiplied by coefficients of up to 10 (larger
+/// coefficients cause an exchange of rows), which gives 1.5e-7. A larger residual means another
+/// motion, not a loss of accuracy. The limit in a run is different: redundant rows may have a
+/// residual of 1e-11 of the terms on which they depend, multiplied by coefficients that are not
+/// computed here. This check does not use that limit.
 const RESIDUAL: f64 = 1e-6;
 
-/// Positions are as accurate as the coordinates of the farthest body, in roundings of the size of
-/// the mechanism: projections transfer its rounding error to its neighbours.
+/// Accuracy of positions, relative to the size of the scene. The size includes the farthest body,
+/// because projections transfer the rounding error of this body to the neighbouring bodies.
 const FAR_ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 
-/// Rates of a body at rest, in sizes of the mechanism per second.
+/// Largest rates of a body at rest, as a fraction of the size of the mechanism per second.
 const REST: f64 = 1e-14;
 
-/// Runs the motion within the limits of a trial; returns the stage that it reached and the number
-/// of rows. Tables are written in the format of `simulate`, and must be readable.
+/// Runs the motion within the limits of a trial; returns the stage that the motion reached and the
+/// number of rows. Tables are written in the format of `simulate`, and must be readable.
 pub(super) fn check(study: &Study) -> (Reach, usize) {
     let plan = match study.plan() {
         Ok(plan) => plan,
@@ -89,7 +89,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
     );
     let (written, _) = reactions.finish().expect("a vector takes everything");
     readable(written, with_reactions, "reactions");
-    // Only the last row of a run may lack reactions.
+    // Only the last row of a run may have no reactions.
     assert!(
         with_reactions == rows || outcome.is_err(),
         "rows without reactions"
@@ -129,8 +129,8 @@ struct Rows<'m> {
     is_projected: bool,
     size: f64,
     last: f64,
-    /// If redundant rows may be violated: the largest residual of each row beyond the limits of
-    /// this check.
+    /// If redundant rows may be violated, the largest residual of each row above the limits of this
+    /// check.
     missed: Option<Vec<f64>>,
 }
 
@@ -176,7 +176,7 @@ impl Rows<'_> {
                     if phi > limit {
                         missed[i] = missed[i].max(phi);
                     }
-                    // The rates of such rows do not vanish either.
+                    // The rates of violated rows are also nonzero, so they are not checked.
                     continue;
                 }
                 assert!(
@@ -189,8 +189,8 @@ impl Rows<'_> {
                 layout.velocity_residual(s, i, v).abs(),
                 mechanism.scales(s).velocity(i, v),
             );
-            // Rates of a body at rest are compared with the fastest row, and all rates with the
-            // rounding errors of accelerations over one second.
+            // The bound is relative to the rate of the fastest row, and allows for the rounding
+            // errors of accelerations over one second.
             let fastest = (0..layout.rows())
                 .map(|k| mechanism.scales(s).velocity(k, v))
                 .fold(scale, f64::max);
@@ -210,8 +210,8 @@ impl Rows<'_> {
     }
 }
 
-/// Checks that the results contain the violations of output rows, and that these are within their
-/// bounds.
+/// Checks that the results contain the violations at output rows, and that the violations are
+/// within their bounds.
 fn reported(missed: &[f64], misfits: &[Misfit]) {
     for (row, &missed) in missed
         .iter()
@@ -230,7 +230,8 @@ fn reported(missed: &[f64], misfits: &[Misfit]) {
     }
 }
 
-/// Checks a table: a header of distinct names, and rows with the same number of numbers.
+/// Checks that a table has a header of distinct names, and that all rows have the same number of
+/// values.
 fn readable(table: Vec<u8>, rows: usize, name: &str) {
     let mut reader = csv::Reader::from_reader(table.as_slice());
     let header = reader.headers().expect("a header").clone();

@@ -4,7 +4,7 @@ use std::fmt;
 
 use pfaff::StudyError;
 
-/// Limits of a run: end time (s), number of steps and of rows.
+/// Limits of a run: end time (s), number of steps, and number of rows.
 pub(crate) const T_END: f64 = 0.25;
 pub(crate) const STEPS: usize = 60;
 pub(crate) const ROWS: usize = 60;
@@ -14,9 +14,9 @@ pub(crate) const ROWS: usize = 60;
 pub enum Reach {
     /// The text is not a valid scene.
     Refused,
-    /// The text is a scene without a consistent start.
+    /// The text is a scene without a consistent initial state.
     NoStart,
-    /// Its reactions were analysed, but no motion can begin there.
+    /// The reactions were analysed, but no motion can begin at the initial state.
     JudgedStart,
     /// A motion began, and stopped with an error message.
     Stopped,
@@ -37,7 +37,7 @@ impl Reach {
         Self::Moved,
     ];
 
-    /// Returns its letter in the answers of a process.
+    /// Returns the letter of the stage in the answers of a process.
     #[must_use]
     pub fn letter(self) -> char {
         match self {

@@ -5,7 +5,8 @@ use model::BodyRef;
 use super::{Sketch, Tie, Vector};
 
 impl Sketch {
-    /// Multiplies all lengths by a factor, as in a change of units: from m to mm it is 1000.
+    /// Multiplies all lengths by a factor, as in a change of units. For a change from m to mm, the
+    /// factor is 1000.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let mut sketch = self.mapped(|p| p.map(|x| factor * x), |v| v);
@@ -38,7 +39,7 @@ impl Sketch {
         sketch
     }
 
-    /// Puts bodies in another order: body `order[k]` becomes body k.
+    /// Changes the order of bodies: body `order[k]` becomes body k.
     ///
     /// # Panics
     /// Panics if `order` is not a permutation of all bodies.
@@ -55,7 +56,7 @@ impl Sketch {
         sketch
     }
 
-    /// Puts links in another order.
+    /// Changes the order of links.
     #[must_use]
     pub fn with_links(&self, order: &[usize]) -> Self {
         Self {

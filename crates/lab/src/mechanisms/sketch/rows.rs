@@ -1,6 +1,6 @@
-//! The constraint matrix of a sketch in exact arithmetic, from the velocities of coincident points:
-//! without coordinates of bodies, rotations, or derivatives of Φ. Rows may differ from those of the
-//! `model` by factors.
+//! The constraint matrix of a sketch in exact arithmetic. It is derived from the velocities of
+//! coincident points and uses no body coordinates, no rotations, and no derivatives of Φ. Each row
+//! may differ from the row of the `model` by a factor.
 
 use model::BodyRef;
 
@@ -15,7 +15,7 @@ type Row = Vec<Dyadic>;
 pub struct ExactRows {
     /// Name of the joint or drive.
     pub name: String,
-    /// Rows of C that belong to it.
+    /// Rows of C that belong to the joint or drive.
     pub rows: Vec<Row>,
 }
 
@@ -32,7 +32,7 @@ impl Sketch {
 
     fn rows(&self, link: &Link) -> Vec<Row> {
         let body = |slot: usize| link.bodies[slot];
-        // Along u the point `at` has the same velocity on both bodies.
+        // Along u, the velocities of the point `at` on both bodies are equal.
         let together = |at: Vector, u: Vector| {
             let mut row = self.zero();
             self.add_velocity(&mut row, body(1), at, u, 1.0);
@@ -95,7 +95,7 @@ impl Sketch {
         vec![Dyadic::from(0.0); 3 * self.bodies.len()]
     }
 
-    /// Adds `factor·uᵀ·v` of the point `at` of a body: `v = ṙ + ω·(at − r)⊥`.
+    /// Adds `factor·uᵀ·v` with the velocity `v = ṙ + ω·(at − r)⊥` of the point `at` on a body.
     fn add_velocity(&self, row: &mut Row, body: BodyRef, at: Vector, u: Vector, factor: f64) {
         let BodyRef::Body(k) = body else { return };
         let factor = Dyadic::from(factor);
@@ -108,7 +108,7 @@ impl Sketch {
         }
     }
 
-    /// Adds `factor·ω` of a body.
+    /// Adds `factor·ω` with the angular velocity of a body.
     fn add_spin(&self, row: &mut Row, body: BodyRef, factor: f64) {
         if let BodyRef::Body(k) = body {
             row[3 * k + 2] = row[3 * k + 2].plus(&Dyadic::from(factor));

@@ -75,13 +75,13 @@ fn a_table_has_a_line_for_each_case() {
     );
 }
 
-/// Points outside the axis are drawn at its edge; error messages have no points.
+/// Points outside the range of the axis are drawn at the edge. Error messages have no points.
 #[test]
 fn a_figure_has_a_point_for_each_worst_answer() {
     let mut family = document().families.remove(0);
     let figure = extremes(std::slice::from_ref(&family));
-    // There is one marker in the legend, and one for both answers at 1e-6, of which the worse is
-    // shown.
+    // There is one marker in the legend, and one marker for the two answers at 1e-6, because only
+    // the larger error is drawn.
     assert_eq!(figure.matches("<polygon").count(), 2);
     family.rows.clear();
     assert_eq!(extremes(&[family]), "");

@@ -1,6 +1,6 @@
-//! Compares accelerations and reactions for masses and lengths of very different sizes with the
-//! exact solution of the same equations: those with the C, M, Q and Γ that the solver received. The
-//! rounding errors in these numbers themselves are not tested here.
+//! Compares accelerations and reactions, for masses and lengths of very different sizes, with the
+//! exact solution of the same equations. The exact solution uses the same C, M, Q and Γ as the
+//! solver; rounding errors in C, M, Q and Γ are not tested here.
 
 mod scenes;
 mod score;
@@ -25,11 +25,13 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Error bound of accelerations on independent rows, relative to each of them, or to a thousandth
-/// of the largest of its body and kind.
+/// Error bound of accelerations with independent rows. The error is relative to the acceleration
+/// component, or to a thousandth of the largest component of the same body and kind if this is
+/// larger.
 const ACCELERATION: f64 = 1e-13;
 
-/// Error bound of multipliers on independent rows, relative to the largest of their joint.
+/// Error bound of multipliers of independent rows, relative to the largest multiplier of the same
+/// joint.
 const REACTION: f64 = 1e-12;
 
 const EXACT: &str = "exact solution of the same equations; bound of the issue";
@@ -38,7 +40,7 @@ fn cases() -> Vec<Case> {
     scenes().into_iter().flat_map(of_scene).collect()
 }
 
-/// Returns the cases for both questions, with a common solution.
+/// Returns the cases for both questions, which share one solution.
 fn of_scene(scene: Scene) -> Vec<Case> {
     let description = Arc::new(scene.description);
     let found = Arc::new(OnceLock::new());
@@ -49,7 +51,7 @@ fn of_scene(scene: Scene) -> Vec<Case> {
             Err(refusal) => refusal.clone(),
         };
         let name = scene.name.clone();
-        // A start at the limit of f64 may be rejected.
+        // A scene with data at the limits of f64 may be rejected.
         let right = match scene.limit {
             Some(words) => Expected::AnswerOrRefusal {
                 bound: ACCELERATION,
@@ -96,7 +98,8 @@ impl Question {
     }
 }
 
-/// The errors of accelerations and reactions at the start, compared with the exact ones.
+/// Computes the errors of accelerations and reactions at the initial state, relative to the exact
+/// values.
 fn errors(description: &Description) -> Result<Errors, Outcome> {
     let prepared = prepared(description)?;
     let mut motion = KeptRowMotion::new(&prepared).map_err(Outcome::refused)?;
@@ -149,7 +152,7 @@ mod tests {
             judge(&right, &found),
             crate::stress::Judgement::SilentlyWrong
         );
-        // The mass differs from the reference by ten grams in a ton.
+        // The mass differs from the reference by ten grams per ton.
         let scene = scenes().remove(0);
         let mut heavier = scene.description.clone();
         heavier.bodies[1].mass *= 1.0 + 1e-11;

@@ -1,4 +1,4 @@
-//! NaN and infinity replace every number of a scene; numbers at the limits of the format may be
+//! Replaces every number of a scene by NaN and infinity. Numbers at the limits of the format may be
 //! rejected but must not cause NaN.
 
 use std::ops::ControlFlow;
@@ -9,7 +9,7 @@ use model::{Body, Description, Function};
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{asking, built, refused, study};
 
-/// Every number of a scene replaced.
+/// Cases in which one number of a scene is replaced.
 pub(super) const FAMILY: Family = Family {
     name: "bad-numbers",
     about: "NaN and infinity in every place of a scene: refused with the name of the key; 1e±308, 0 and −1 there: finite numbers or a refusal",
@@ -121,9 +121,10 @@ atol = 1e-8
 struct Place {
     /// The range in the text.
     span: std::ops::Range<usize>,
-    /// The key before it.
+    /// The key of the number.
     key: String,
-    /// A readable name: its table, key and index after the key.
+    /// A readable name, which consists of the table, the key, and the index of the number after the
+    /// key.
     name: String,
 }
 
@@ -153,7 +154,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns cases for the numbers of a description that was not read from a scene.
+/// Returns cases for the values of a description that was not read from a scene.
 fn fields() -> Vec<Case> {
     type Set = fn(&mut Description, f64);
     let fields: [(&str, Set); 6] = [
@@ -207,7 +208,7 @@ fn fields() -> Vec<Case> {
     cases
 }
 
-/// Returns the text with another number at a place.
+/// Returns the text with another number at a position.
 fn with(place: &Place, number: &str) -> String {
     let mut text = SCENE.to_owned();
     text.replace_range(place.span.clone(), number);

@@ -1,5 +1,5 @@
-//! More drives than freedoms. If the drives are consistent there is a motion. Otherwise there is no
-//! motion, and the error names both drives.
+//! Mechanisms with more drives than degrees of freedom. If the drives are consistent, the mechanism
+//! moves. Otherwise no motion exists, and the error message contains the names of both drives.
 
 use dynamics::MotionOptions;
 use joints::{Direction, Velocity};
@@ -16,15 +16,14 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// The possible texts of a run if prescribed velocities begin to differ: at the end of a step, or
-/// when the independent rows violate the others.
+/// The parts of the error message if prescribed velocities become inconsistent during a run.
 const PARTED: &[&str] = &["at t = ", "dropped row"];
 
-/// The text of a run if the laws of drives begin to differ.
+/// The parts of the error message if the laws of two drives become inconsistent during a run.
 const DRIVES_PARTED: &[&str] = &["at t = ", "`one`", "`other`", "contradict each other"];
 
-/// The error of a redundant row that runs allow, relative to the largest row, as documented in
-/// `dynamics`; rows are at most of size 3 here.
+/// The residual of a redundant row that is allowed in a run, as documented in `dynamics`. It is
+/// relative to the largest row, and the size of rows is at most 3 here.
 const MONITORED: f64 = 3e-11;
 
 fn cases() -> Vec<Case> {
@@ -41,8 +40,7 @@ fn cases() -> Vec<Case> {
     for (level, order) in [("velocities", 1), ("accelerations", 2)] {
         for k in 0..=15 {
             let size = 10_f64.powi(-k);
-            // After 2 s, the positions differ by twice the difference of the derivatives at the
-            // start.
+            // After 2 s, the positions differ by twice the difference of the initial rates.
             let right = if size >= 1e-9 {
                 Expected::refusal(&["`one`", "`other`", "delete or correct one"])
             } else {
@@ -83,11 +81,11 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Laws that differ by at most some hundred rounding errors of an angle count as equal.
+/// Two laws count as equal if they differ by at most some hundred rounding errors of an angle.
 const SAME: f64 = 1e-13;
 
-/// Expects an error if the difference of positions exceeds the accepted value, an error or a motion
-/// if it is close to it, and a motion if the positions are equal.
+/// Expects an error if the difference of positions exceeds the accepted value, and a motion if the
+/// positions are equal. If the difference is close to the accepted value, both are correct.
 fn differing(size: f64, parts: &[&str]) -> Expected {
     let parts = parts.iter().map(|&part| part.to_owned()).collect();
     match size {
@@ -105,7 +103,8 @@ fn polynomial(coefficients: &[f64]) -> Result<Function, Outcome> {
     Function::polynomial(coefficients).map_err(Outcome::refused)
 }
 
-/// Both cranks rotate by `c[1]·t + c[2]·t²`, one of them with another constant `c[0]` of the law.
+/// Both cranks rotate by `c[1]·t + c[2]·t²`. The law of one crank has a different constant term
+/// `c[0]`.
 fn followed(c: [f64; 3], options: &MotionOptions) -> Result<Outcome, Outcome> {
     let law = [polynomial(&c)?, polynomial(&[5.0, c[1], c[2]])?];
     let (row, _) = last_row(&prepared(&driven_parallelogram(law))?, options)?;
@@ -123,7 +122,7 @@ fn followed(c: [f64; 3], options: &MotionOptions) -> Result<Outcome, Outcome> {
     ))
 }
 
-/// Laws that differ by `size` in the derivative of this order at the start.
+/// The laws of the drives differ by `size` in the derivative of this order at the initial time.
 fn differ(order: usize, size: f64, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let mut other = [0.0, 1.0, 0.0];
     // The second derivative of t² is 2.
@@ -134,7 +133,7 @@ fn differ(order: usize, size: f64, options: &MotionOptions) -> Result<Outcome, O
     Ok(Outcome::answer(off, format!("reached {} s", row.t)))
 }
 
-/// Laws that agree with all derivatives up to t = 1 s.
+/// The laws of the drives and all their derivatives agree up to t = 1 s.
 fn part(size: f64, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let late = Function::steps(0.0, &[[1.0, 2.0, size]]).map_err(Outcome::refused)?;
     let found = prepared(&driven_parallelogram([late, polynomial(&[0.0])?]))?;
@@ -145,7 +144,7 @@ fn part(size: f64, options: &MotionOptions) -> Result<Outcome, Outcome> {
     ))
 }
 
-/// A cart whose front and rear points are moved along it at these rates.
+/// Returns a cart whose front point and rear point are driven along the cart at these rates.
 fn towed([front, rear]: [Function; 2]) -> Description {
     let pull = |name: &str, x: f64, rate: Function| Joint {
         name: name.into(),
@@ -196,7 +195,7 @@ mod tests {
         });
     }
 
-    /// The law of another motion is detected as an error.
+    /// If the result is compared with the law of another motion, the test detects an error.
     #[test]
     fn another_law_is_silently_wrong() {
         let found = followed([0.0, 1.0, 2.0], &MotionOptions::to(0.5)).expect("it moves");

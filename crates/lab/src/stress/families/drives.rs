@@ -1,6 +1,6 @@
-//! Drives and torques that jump: a jump of the position is rejected, a jump of the rate is an
-//! impulse, and a jump of the force is a boundary of steps. Two drives that are first consistent
-//! and later contradict each other are also tested.
+//! Drives and torques that jump. A jump of the position is rejected, a jump of the rate causes an
+//! impulse, and at a jump of the force a step ends. Two drives that are first consistent and later
+//! contradict each other are also tested.
 
 use dynamics::{MotionOptions, Summary};
 
@@ -14,7 +14,7 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Inertia of the wheel about its pin.
+/// Moment of inertia of the wheel about its pin (kg·m²).
 const INERTIA: f64 = 0.3;
 
 /// Tolerance of the runs.
@@ -118,8 +118,8 @@ fn after_the_kink(row: &Row, summary: &Summary) -> f64 {
     worst([row.q[2] - (3.0 - row.t), row.v[2] + 1.0])
 }
 
-/// Returns the same wheel without drive, with a torque of 1 N·m that changes to −2 N·m at a time
-/// that is not a round number.
+/// Returns the same wheel without drive, with a torque of 1 N·m that changes to −2 N·m at the time
+/// `JUMP`.
 fn pushed() -> String {
     format!(
         r#"
@@ -149,7 +149,8 @@ fn after_the_push(row: &Row, _: &Summary) -> f64 {
     worst([row.q[2] - right[0], row.v[2] - right[1]])
 }
 
-/// Returns the same wheel with a torque that rises to 1 N·m at that time and falls to zero at 3 s.
+/// Returns the same wheel with a torque that rises linearly to 1 N·m at the time `JUMP` and falls
+/// linearly to zero at 3 s.
 fn swung() -> String {
     let jump = format!("[0.0, {JUMP}, {JUMP}, 3.0], values = [1.0, 1.0, -2.0, -2.0]");
     let kink = format!("[0.0, {JUMP}, 3.0], values = [0.0, 1.0, 0.0]");
@@ -168,12 +169,12 @@ fn after_the_swing(row: &Row, _: &Summary) -> f64 {
     worst([row.q[2] - right[0] / INERTIA, row.v[2] - right[1] / INERTIA])
 }
 
-/// Returns two parallel cranks, each with a motor of 0.4 rad/s; the rate of the second one grows
+/// Returns two parallel cranks, each with a motor of 0.4 rad/s. The rate of the second motor grows
 /// from t = 1 s on.
 fn disagreeing(by: f64) -> String {
-    // A spline through (t − 1)²₊ times half of `by` would only approximate it. Instead the law
-    // consists of short lines whose rates jump, so that the motors differ by 0.05·by rad/s from the
-    // first of them on.
+    // The difference of the motors is half of `by` times (t − 1)²₊, which a spline would only
+    // approximate. Instead the law consists of short linear intervals. The rates jump between them,
+    // so the motors differ by 0.05·by rad/s from the first interval on.
     let pieces: Vec<f64> = (0..=10).map(|k| 1.0 + 0.1 * f64::from(k)).collect();
     let values: Vec<f64> = pieces
         .iter()

@@ -1,4 +1,4 @@
-//! The same joint twice, and joints that constrain nothing.
+//! Mechanisms that contain the same joint twice, and joints that constrain no motion.
 
 use model::BodyRef;
 
@@ -6,15 +6,16 @@ use crate::mechanisms::sketch::{Sketch, Tie};
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{analysed, asking, study};
 
-/// Each kind of joint twice; joints between the ground and itself; keys for which the motion would
-/// depend on an arbitrary choice.
+/// Each kind of joint twice; joints that connect the ground to the ground; keys for which the
+/// motion would depend on an arbitrary choice.
 pub(super) const FAMILY: Family = Family {
     name: "duplicates",
     about: "each kind of joint twice: its rows are redundant, in pairs; joints that constrain nothing and friction are refused by name",
     cases,
 };
 
-/// Each kind with its number of rows; points and directions are not round numbers.
+/// Each kind of joint with its number of rows. Coordinates of points and directions are not round
+/// values.
 const TIES: [(&str, usize, Tie); 10] = [
     ("revolute", 2, Tie::Revolute { at: [0.3, 0.7] }),
     (
@@ -145,7 +146,7 @@ const REFUSED: [(&str, &str, &[&str]); 8] = [
     ),
 ];
 
-/// Several copies of a joint between two bodies, compared with the theoretical ranks and verdicts.
+/// Compares the ranks and verdicts for several copies of a joint between two bodies with theory.
 fn twice(tie: Tie, rows: usize, copies: usize) -> Result<Outcome, Outcome> {
     let mut sketch = Sketch::default();
     let (one, other) = (

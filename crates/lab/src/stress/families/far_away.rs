@@ -1,4 +1,4 @@
-//! Motions far from the origin: coordinates are accurate only to their last digit, and no further
+//! Motions far from the origin. Coordinates are accurate only to their last digit, but no further
 //! accuracy may be lost.
 
 use dynamics::{MotionOptions, Summary};
@@ -62,8 +62,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns a skate at (x, −x) that rotates at 0.5 rad/s on a slope of 30° along x: the cycloid of
-/// the knife edge in `suite`.
+/// Returns a skate at (x, −x) that rotates at 0.5 rad/s on a slope of 30° along x. The motion is
+/// the cycloid of the knife edge in `suite`.
 fn skate(x: f64) -> String {
     format!(
         r#"
@@ -93,8 +93,8 @@ fn off_cycloid(row: &Row, x: f64) -> f64 {
     ])
 }
 
-/// Returns three cranks under a coupler at (x, x) without gravity: they rotate uniformly, from 57°
-/// to 172°.
+/// Returns three cranks under a coupler at (x, x). Without gravity the cranks rotate uniformly,
+/// from 57° to 172°.
 fn turning(x: f64) -> String {
     let (sin, cos) = 1.0_f64.sin_cos();
     let mut bodies = String::new();

@@ -1,5 +1,5 @@
-//! Mechanisms with at least as many drives as freedoms: no equation is integrated, and reactions
-//! are those of inverse dynamics.
+//! Mechanisms with at least as many drives as degrees of freedom. No equation is integrated, and
+//! the reactions follow from inverse dynamics.
 
 use std::ops::ControlFlow;
 
@@ -73,7 +73,7 @@ fn torque(prepared: &PreparedMechanism, options: &MotionOptions) -> Outcome {
         let (angle, omega) = (SWING * sin, SWING * RATE * cos);
         let alpha = -RATE * RATE * angle;
         let right = (INERTIA + MASS * ARM * ARM) * alpha + MASS * GRAVITY * ARM * angle.cos();
-        // Motors act on the crank, which is their second body.
+        // The torques act on the crank, which is the second body of the motors.
         let multipliers = row.multipliers()?;
         let found: f64 = -multipliers.as_chosen()[2..].iter().sum::<f64>();
         errors.push((row.q[2] - angle) / SWING);

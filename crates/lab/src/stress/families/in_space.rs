@@ -1,6 +1,6 @@
-//! Extremes of mechanisms in space: fast spin, many revolutions, needles, half turns, loops that
-//! become singular, and disks that nearly lie flat. Masses and lengths cover many powers of ten.
-//! Each motion has a closed form.
+//! Extreme mechanisms in space: fast spin, many revolutions, needles, half turns, loops that become
+//! singular, and disks that nearly lie flat. Masses and lengths cover many powers of ten. Each
+//! motion has a closed form.
 
 use std::f64::consts::{PI, TAU};
 use std::time::Duration;
@@ -26,7 +26,7 @@ const GRAVITY: f64 = 9.81;
 /// Tolerance of the runs.
 const RTOL: f64 = 1e-11;
 
-/// A million revolutions need fifteen million evaluations.
+/// Time limit of a case. A million revolutions need fifteen million evaluations.
 const TIME_LIMIT: Duration = Duration::from_secs(600);
 
 type Vector = [f64; 3];
@@ -44,7 +44,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns options of a run up to a time, with lengths of this size.
+/// Returns options of a run up to a time, for a mechanism with lengths of this size.
 fn until(t_end: f64, size: f64) -> MotionOptions {
     MotionOptions {
         rtol: RTOL,
@@ -54,15 +54,15 @@ fn until(t_end: f64, size: f64) -> MotionOptions {
     }
 }
 
-/// Returns the deviation of the mass centre of the first body from a position, relative to a
-/// length.
+/// Returns the largest component of the deviation of the first body's mass centre from a position,
+/// relative to a length.
 fn off_place(row: &Row, place: Vector, size: f64) -> f64 {
     worst((0..3).map(|k| (row.q[k] - place[k]) / size))
 }
 
 // Tests fast spin.
 
-/// Axis of the rotor, and the arm from its hinge to its mass centre (m).
+/// Axis of the rotor, and the vector from the hinge of the rotor to its mass centre (m).
 const AXIS: Vector = [0.48, 0.6, 0.64];
 const ARM: Vector = [0.08, -0.064, 0.0];
 
@@ -73,7 +73,7 @@ fn turned(angle: f64) -> Vector {
     std::array::from_fn(|k| cos * ARM[k] + sin * across[k])
 }
 
-/// Adds a rotor about an oblique axis: with its own speed, and with a drive for many revolutions
+/// Adds a rotor about an oblique axis, with an initial speed, and with a drive for many revolutions
 /// within one output step.
 fn rotors(cases: &mut Vec<Case>) {
     let size = 0.1;
@@ -118,7 +118,8 @@ fn rotors(cases: &mut Vec<Case>) {
             rotor("", &drive),
             MotionOptions {
                 method: Method::Dop853,
-                // The state is a function of time: steps only have to follow the revolutions.
+                // The state is a given function of time. The tolerance is loose, because steps only
+                // need to resolve the revolutions.
                 rtol: 1e-2,
                 atol: 1e-2 * size,
                 max_steps: 20_000_000,
@@ -142,8 +143,8 @@ joint = [{{ name = "pin", type = "revolute", bodies = ["ground", "rotor"], at = 
     )
 }
 
-/// Adds tops in steady precession: `A·Ω²·cos θ − C·ω₃·Ω + m·g·l = 0` for moments A, C about the
-/// point.
+/// Adds tops in steady precession, for which `A·Ω²·cos θ − C·ω₃·Ω + m·g·l = 0` with the moments A,
+/// C about the fixed point.
 fn tops(cases: &mut Vec<Case>) {
     let (mass, arm, [across, along]) = (1.5, 0.1, [0.004, 0.002]);
     let tilt = 0.7_f64;
@@ -187,10 +188,10 @@ joint = [{{ name = "tip", type = "spherical", bodies = ["ground", "top"], at = [
 
 // Tests pendulum motions.
 
-/// Returns the expectation from the closed form of a pendulum motion. With masses of many powers of
-/// ten implicit methods select the heavy coordinates as independent ones, also if these move ten
-/// times less than others. Errors grow by the square of this factor, and at every change of
-/// coordinates.
+/// Returns the expectation from the closed form of a pendulum motion. If masses differ by many
+/// powers of ten, implicit methods select the coordinates of heavy bodies as independent
+/// coordinates, also if these change ten times less than others. Errors grow by the square of this
+/// factor, and at every change of the independent coordinates.
 fn swings(options: &MotionOptions) -> Expected {
     let bound = if options.method == Method::Radau5 {
         1e-6
@@ -200,22 +201,23 @@ fn swings(options: &MotionOptions) -> Expected {
     Expected::answer(bound, "a compound pendulum by Jacobi's elliptic functions")
 }
 
-/// A uniform rod of 1.5 m that falls from the horizontal about its end swings like a point mass on
-/// 1 m. Returns the position of its mass centre at t, in the vertical plane through `along`.
+/// A uniform rod of 1.5 m that falls from the horizontal about its end moves like a point mass on a
+/// massless rod of 1 m. Returns the position of the mass centre of the rod at t, in the vertical
+/// plane through `along`.
 fn rod(t: f64, along: [f64; 2]) -> Vector {
     let [angle, _] = swing(t);
     let (sin, cos) = angle.sin_cos();
     [0.75 * cos * along[0], 0.75 * cos * along[1], -0.75 * sin]
 }
 
-/// Transverse moment of inertia of the rod (kg·m²), with a mass of 1 kg.
+/// Transverse moment of inertia of the rod (kg·m²), for a mass of 1 kg.
 const ACROSS: f64 = 0.1875;
 
 /// The horizontal direction of the rod at the start.
 const ALONG: [f64; 2] = [-0.8, 0.6];
 
-/// Returns the rod on a joint, with its axis along x in its own frame, an axial moment of inertia
-/// and an orientation of its frame.
+/// Returns the rod on a joint, with this axial moment of inertia and its axis along x of the body
+/// frame.
 fn swinging(joint: &str, about_itself: f64) -> String {
     let angle = ALONG[1].atan2(ALONG[0]);
     format!(
@@ -239,10 +241,11 @@ fn needles(cases: &mut Vec<Case>) {
         for about_itself in [1e-3, 1e-6, 1e-9, 1e-12, 1e-18, 0.0] {
             for options in combinations(&until(t_end, 1.0)) {
                 let right = if about_itself == 0.0 && joint == BALL {
-                    // The spin about its own axis is not determined.
+                    // The spin of the rod about its axis is not determined.
                     Expected::refusal(&["step size"])
                 } else if about_itself < 1e-15 && joint == BALL {
-                    // The rounding error of the torque about the axis causes an arbitrary rotation.
+                    // The rounding error of the torque about the axis of the rod causes an
+                    // arbitrary rotation.
                     Expected::AnswerOrRefusal {
                         bound: 1e-6,
                         source: "a compound pendulum by Jacobi's elliptic functions",
@@ -265,8 +268,8 @@ fn needles(cases: &mut Vec<Case>) {
     }
 }
 
-/// Adds frames that are rotated by half a turn, for which a quaternion has no scalar part, and
-/// bodies that pass such an orientation.
+/// Adds frames that are rotated by half a turn, for which the scalar part of the quaternion is
+/// zero, and bodies that rotate through this orientation.
 fn half_turns(cases: &mut Vec<Case>) {
     let third = 1.0 / 3.0_f64.sqrt();
     let axes = [
@@ -307,8 +310,8 @@ joint = [{{ name = "end", type = "spherical", bodies = ["ground", "ball"], at = 
 
 // Tests closed loops.
 
-/// Adds parallelograms of revolutes, with 3 redundant rows each, that start at an angle before
-/// their singular configuration: without weight they rotate uniformly, through all singular
+/// Adds parallelograms of revolute joints with 3 redundant rows each, which start at an angle
+/// before their singular configuration. Without gravity they rotate uniformly, through all singular
 /// configurations.
 fn loops(cases: &mut Vec<Case>) {
     let t_end = 7.0;
@@ -321,7 +324,7 @@ fn loops(cases: &mut Vec<Case>) {
                 }
                 let start = -before;
                 let right = if before < 1e-7 {
-                    // Velocities would be accurate only to a relative 3e-8.
+                    // The relative accuracy of velocities would be only 3e-8.
                     Expected::refusal(&["are dependent to within"])
                 } else {
                     Expected::AnswerOrRefusal {
@@ -381,8 +384,8 @@ fn parallelograms(n: usize, angle: f64) -> String {
 
 // Tests rolling disks.
 
-/// Adds disks in steady motion that nearly lie on the plane. The axis is tilted by an angle, and
-/// the point of contact moves round increasingly fast, as under a coin that comes to rest.
+/// Adds disks in steady motion that nearly lie on the plane. The smaller the angle between disk and
+/// plane, the faster the contact point moves around, as for a coin that comes to rest.
 fn disks(cases: &mut Vec<Case>) {
     for tilt in [0.3, 1e-1, 1e-2, 2e-3, 1e-4] {
         let [across, _] = RollingDisk::MOMENTS;
@@ -392,10 +395,11 @@ fn disks(cases: &mut Vec<Case>) {
         let t_end = 20.0 / precession;
         let source = "steady rolling: (C + m·r²)·ω₃ = A·Ω·cos θ − m·g·r·cos θ/(Ω·sin θ); the mass centre runs on a circle";
         let right = if tilt < 1e-3 {
-            // To working precision the contact row is not a coordinate there.
+            // At this angle, the contact row is dependent to working precision.
             Expected::refusal(&["edge", "flat"])
         } else if tilt < 5e-3 {
-            // Its height is a sine, computed from a cosine that is nearly 1.
+            // The height of the centre is proportional to a sine, which is computed from a cosine
+            // of nearly 1.
             let parts = vec!["edge".into(), "contact".into()];
             Expected::AnswerOrRefusal {
                 bound: 1e-6,
@@ -455,12 +459,13 @@ fn disks(cases: &mut Vec<Case>) {
 
 // Tests powers of ten.
 
-/// Adds a rod with a ball on it that rotates freely about its own mass centre: a compound pendulum
-/// for any masses.
+/// Adds a rod with a ball that rotates freely about the mass centre of the ball. This is a compound
+/// pendulum for any masses.
 fn masses(cases: &mut Vec<Case>) {
     for power in [-12, -9, -6, -3, 0, 3, 6, 9, 12] {
         let mass = f64::powi(10.0, power);
-        // The moments are about the end of the rod, and of the weight, with the ball 0.5 m from it.
+        // Moment of inertia about the end of the rod, with the ball at 0.5 m from this end; the
+        // moment of the weight follows.
         let inertia = 0.75 + mass * 0.25;
         let moment = 0.75 + mass * 0.5;
         let rate = (moment / inertia).sqrt();
@@ -486,7 +491,8 @@ fn masses(cases: &mut Vec<Case>) {
     }
 }
 
-/// Adds Bricard's linkage with rods of many powers of ten: times grow with the square root.
+/// Adds Bricard's linkage with lengths of many powers of ten. Times are proportional to the square
+/// root of the length.
 fn lengths(cases: &mut Vec<Case>) {
     for power in [-6, -3, 0, 3, 6] {
         let size = f64::powi(10.0, power);
@@ -528,7 +534,7 @@ mod tests {
         let [before, after] = [t - h, t + h].map(|t| rod(t, ALONG));
         let speed = worst((0..3).map(|k| (after[k] - before[k]) / (2.0 * h)));
         let fallen = -rod(t, ALONG)[2];
-        // The equation is ½·J·ω² = m·g·h with J = 0.75 about the end.
+        // The energy equation is ½·J·ω² = m·g·h with J = 0.75 kg·m² about the end.
         let [_, rate] = swing(t);
         assert!((0.375 * rate * rate - GRAVITY * fallen).abs() < 1e-9);
         assert!(speed <= 0.75 * rate * (1.0 + 1e-9));
@@ -537,7 +543,7 @@ mod tests {
 
     #[test]
     fn every_motion_in_space_is_right_or_refused() {
-        // A million revolutions take minutes.
+        // Cases with a million revolutions are omitted, because they take minutes.
         let is_short = |name: &str| !name.contains("1e6 turns");
         assert_passes_where(FAMILY, |case| {
             case.method == "dop853" && is_short(&case.name)

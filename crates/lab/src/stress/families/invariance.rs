@@ -1,4 +1,4 @@
-//! The same mechanism described in another way: translated, rotated, in other units, in another
+//! Describes the same mechanism in different ways: translated, rotated, in other units, in another
 //! order. Verdicts must be equal, and the motion must be the same after conversion.
 
 use dynamics::MotionOptions;
@@ -12,7 +12,7 @@ use crate::stress::motion::{
     Row, acceleration, analysed, asking, last_row, moving, prepared, worst,
 };
 
-/// Translated, rotated, resized and permuted mechanisms.
+/// Mechanisms that are translated, rotated, scaled, or described in another order.
 pub(super) const FAMILY: Family = Family {
     name: "invariance",
     about: "the robot and three falling cranks moved by 1e6 m, turned, in other units and in another order: the same verdicts, accelerations and motion",
@@ -21,12 +21,11 @@ pub(super) const FAMILY: Family = Family {
 
 /// Acceleration of free fall (m/s²).
 const G: f64 = 9.81;
-/// Tolerances of the runs: the errors of the integration must be smaller than the compared
-/// differences.
+/// Tolerance of the runs. The integration errors must be smaller than the compared differences.
 const TIGHT: f64 = 1e-12;
 
-/// A description of a mechanism: lengths times `size`, rotated by `angle`, then translated; bodies
-/// and joints in reverse order or not.
+/// A change of the description of a mechanism: lengths are multiplied by `size`, the mechanism is
+/// rotated by `angle`, then translated. The order of bodies and joints is reversed or not.
 #[derive(Clone, Copy)]
 struct Change {
     name: &'static str,
@@ -113,7 +112,7 @@ impl Change {
     }
 }
 
-/// A mechanism in any description.
+/// A function that returns the description of a mechanism after a change.
 type Written = fn(&Change) -> Description;
 
 fn cases() -> Vec<Case> {
@@ -148,7 +147,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// The robot has no joint with the ground, so that its bodies can be placed one by one.
+/// Returns the robot. It has no joint with the ground, so each body can be moved separately.
 fn robot(change: &Change) -> Description {
     let mut d = robot_of_size(change.size, steering_of_size(change.size));
     for body in &mut d.bodies {
@@ -249,7 +248,7 @@ fn verdicts(written: Written, change: &Change) -> Result<Outcome, Outcome> {
     Ok(Outcome::fact(found == expected, detail))
 }
 
-/// Compares accelerations at the start, and the last row.
+/// Compares accelerations at the initial state, and the last output row.
 fn motion(written: Written, change: &Change, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let made = |change: &Change| -> Result<(Row, Vec<f64>), Outcome> {
         let found = prepared(&written(change))?;
@@ -276,8 +275,8 @@ fn motion(written: Written, change: &Change, options: &MotionOptions) -> Result<
     ))
 }
 
-/// Returns the largest difference from the original values after conversion, relative to the size
-/// of the mechanism.
+/// Returns the largest difference between the converted values and the original values, relative to
+/// the size of the mechanism.
 fn off(was: &[f64], is: &[f64], change: &Change, by: [f64; 2], angle: f64) -> f64 {
     let mut bodies: Vec<&[f64]> = is.chunks(3).collect();
     if change.reversed {
@@ -308,7 +307,7 @@ mod tests {
         super::super::assert_passes(FAMILY);
     }
 
-    /// The test detects a conversion by another angle as an error.
+    /// If a wrong angle is used for the conversion, the test detects an error.
     #[test]
     fn another_frame_is_silently_wrong() {
         let written: Written = |change| {

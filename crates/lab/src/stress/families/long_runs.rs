@@ -50,10 +50,11 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// A description, or the reason why there is no description.
+/// A function that returns a description, or the reason why it cannot be created.
 type Made = fn() -> Result<SpatialDescription, Outcome>;
 
-/// Returns a top, and linkages that move although Grübler's formula gives no freedom.
+/// Returns cases for a top, and for linkages that move although Grübler's formula gives zero
+/// degrees of freedom.
 fn in_space() -> impl Iterator<Item = Case> {
     let mechanisms: [(&str, Made); 3] = [
         ("a top", || Ok(space::top())),
@@ -93,7 +94,7 @@ fn in_space() -> impl Iterator<Item = Case> {
     })
 }
 
-/// Returns the drift in a run, relative to the allowed one.
+/// Returns the drift in a run, relative to the allowed drift.
 fn drifted(prepared: &PreparedMechanism, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let (row, s) = last_row(prepared, options)?;
     let [angle, omega] = swing(row.t);
@@ -112,14 +113,14 @@ fn pendulum() -> String {
     suite::find("a01-pendulum").map_or_else(String::new, |case| case.scene.to_owned())
 }
 
-/// Returns the angle of the bob relative to its start, and its rate, at t. Released horizontally to
-/// the left of the pivot, it falls with `φ̈ = (g/L)·cos φ`, with φ from 0 to π and back. With
-/// `ψ = φ − π/2` the solution is `sin(ψ/2) = −k·cd(ω₀t)`, `k = sin(45°)`.
+/// Returns the angle φ of the bob relative to its initial position, and its rate, at t. The bob is
+/// released to the left of the pivot at the same height. Then `φ̈ = (g/L)·cos φ`, with φ from 0 to
+/// π and back. With `ψ = φ − π/2` the solution is `sin(ψ/2) = −k·cd(ω₀t)`, `k = sin(45°)`.
 pub(super) fn swing(t: f64) -> [f64; 2] {
     let omega_0 = 9.81_f64.sqrt();
     let m = 0.5_f64;
     let [sn, cn, dn] = jacobi(omega_0 * t, m);
-    // The value is −cd(u) = −cn/dn, and its rate (1 − m)·sn/dn².
+    // The function is −cd(u) = −cn/dn, and its derivative is (1 − m)·sn/dn².
     let k = m.sqrt();
     let half = k * -cn / dn;
     let half_rate = k * omega_0 * (1.0 - m) * sn / (dn * dn);
@@ -141,7 +142,8 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
         c[n + 1] = 0.5 * (a[n] - b);
         b = (a[n] * b).sqrt();
     }
-    // Whole periods are removed first: the doublings would lose digits for a large amplitude.
+    // Whole periods are subtracted first, because the doublings would lose digits for a large
+    // amplitude.
     let period = 2.0 * std::f64::consts::PI / a[LEVELS];
     let u = u - period * (u / period).round();
     let mut phi = 2.0_f64.powi(LEVELS as i32) * a[LEVELS] * u;
@@ -166,8 +168,8 @@ mod tests {
     use crate::stress::judge;
     use crate::stress::motion::outcome;
 
-    /// The solution satisfies the differential equation, and its quarter period is correct: K(1/2)
-    /// = 1.85407467730137192.
+    /// The solution satisfies the differential equation, and its quarter period equals K(1/2) =
+    /// 1.85407467730137192.
     #[test]
     fn the_closed_form_swings() {
         let quarter = 1.854_074_677_301_371_9 / 9.81_f64.sqrt();

@@ -1,5 +1,5 @@
-//! Bodies without mass or inertia are accepted exactly if every motion has a mass or an inertia; if
-//! a motion has neither, the error names it.
+//! Bodies without mass or inertia are accepted if and only if every motion has kinetic energy.
+//! Otherwise the error message describes a motion without mass or inertia.
 
 use dynamics::MotionOptions;
 use joints::Fixed;
@@ -10,7 +10,7 @@ use crate::mechanisms::revolute;
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{acceleration, moving, prepared, worst};
 
-/// All combinations of vanishing mass and inertia.
+/// All combinations of zero mass and zero inertia.
 pub(super) const FAMILY: Family = Family {
     name: "massless",
     about: "m = 0 and J = 0 in every combination: accelerations where M is definite on the motions of C, else the massless motion by name",
@@ -20,7 +20,7 @@ pub(super) const FAMILY: Family = Family {
 /// Acceleration of free fall (m/s²).
 const G: f64 = 9.81;
 
-/// Error bound of accelerations, relative, for all extreme masses.
+/// Relative error bound of accelerations, for all extreme masses.
 const BOUND: f64 = 1e-13;
 
 fn cases() -> Vec<Case> {
@@ -79,8 +79,9 @@ fn stone(mass: f64, inertia: f64) -> Description {
     }
 }
 
-/// Two links are horizontal and at rest. The first has its centre 1 m from the pin on the ground.
-/// The second is pinned 2 m from that pin, with its centre 1 m further or at its own pin.
+/// Two links that are horizontal and at rest. The centre of the first link is 1 m from the pin on
+/// the ground, and the pin of the second link is 2 m from the pin on the ground. The centre of the
+/// second link is 1 m beyond its pin or at its pin.
 #[derive(Clone, Copy)]
 struct Chain {
     /// Mass and inertia of both links, 0 or 1.
@@ -106,8 +107,8 @@ impl Chain {
         )
     }
 
-    /// Returns the kinetic energy `½·αᵀ·A·α` in the rates of the two angles, and the moment of the
-    /// weights.
+    /// Returns the matrix A of the kinetic energy `½·αᵀ·A·α` in the rates α of the two angles, and
+    /// the moments of the weights.
     fn reduced(&self) -> ([[f64; 2]; 2], [f64; 2]) {
         let ([[m1, j1], [m2, j2]], c) = (self.links, self.arm);
         let a = [
@@ -174,7 +175,8 @@ impl Chain {
     }
 }
 
-/// Returns cranks under a coupler, some of them massless: all have the same angle.
+/// Returns a case with cranks under a coupler, some of them massless. All cranks have the same
+/// angle.
 fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOptions) -> Case {
     let (length, theta) = (0.5, 1.0_f64);
     let mut d = cranks(pivots, length, theta);
@@ -218,7 +220,8 @@ fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOpt
     )
 }
 
-/// Returns the error of the accelerations at the start, relative to the largest exact one.
+/// Returns the error of the accelerations at the initial state, relative to the largest exact
+/// acceleration.
 fn falling(d: &Description, right: &[f64], options: &MotionOptions) -> Result<Outcome, Outcome> {
     let found = acceleration(&prepared(d)?, options)?;
     let scale = worst(right.iter().copied());

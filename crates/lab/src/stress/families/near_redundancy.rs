@@ -1,5 +1,5 @@
-//! Rows that are parallel except for ε, from 1e-2 to 1e-20: of full rank for the given numbers, and
-//! redundant only within the accuracy of the data.
+//! Rows that are parallel except for an angle ε, from 1e-2 to 1e-20. The rank is full for the given
+//! values, and lower only within the accuracy of the data.
 
 use dynamics::MotionOptions;
 use joints::{Direction, KnifeEdge};
@@ -20,17 +20,18 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Above this ε the rank in double precision must be decided: singular values can be distinguished
-/// from zero down to 1e-7.
+/// Above this ε the rank must be decided in double precision, because singular values down to 1e-7
+/// can be distinguished from zero.
 const DECIDED: f64 = 1e-6;
-/// Some thousand rounding errors of numbers of size 1: a larger ε must not count as rounding.
+/// Some thousand rounding errors of values of size 1. A larger ε must not count as a rounding
+/// error.
 const ROUNDING: f64 = 1e-12;
-/// Data of size 1 are accurate to about 1e-15: between this and the next constant ε may be a real
-/// angle or zero.
+/// Data of size 1 are accurate to about 1e-15. Between this constant and the next one, ε may be an
+/// actual angle or zero.
 const READ_BOTH_WAYS: f64 = 5e-15;
 /// See the constant [`READ_BOTH_WAYS`].
 const ROUNDED_AWAY: f64 = 5e-14;
-/// Below this ε reactions are a thousand times the loads, and a warning is expected.
+/// Below this ε, reactions are a thousand times as large as the loads, and a warning is expected.
 const WARNED: f64 = 1e-3;
 /// Half the distance of the wheels (m).
 const HALF: f64 = 0.5;
@@ -54,8 +55,9 @@ fn cases() -> Vec<Case> {
         {
             let source = "closed form: turns about the contact of the right wheel; a hundred times the tolerance, and the rounding of the start over ε up to 1e-3";
             let bound = (1e-6 + 10.0 * f64::EPSILON / e).min(1e-3);
-            // If velocities cannot be determined, the error must name the edge; if the data may
-            // also mean parallel edges, it must state this.
+            // If velocities cannot be determined, the error message must contain the name of the
+            // edge. If the edges may be parallel within the accuracy of the data, the message must
+            // state this.
             let named = if (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) {
                 "their rounding"
             } else {
@@ -98,8 +100,8 @@ pub(super) fn verdict(e: f64) -> Expected {
     }
 }
 
-/// Returns a cart of unit mass and inertia on two knife edges under its centre, the right one
-/// rotated by ε. It rotates about the contact point of the right wheel.
+/// Returns a cart of unit mass and inertia on two knife edges to the left and right of its centre.
+/// The right edge is rotated by ε, and the cart rotates about the contact point of the right edge.
 fn axle(e: f64) -> Description {
     let edge = |name: &str, y: f64, normal: [f64; 2]| {
         let normal = Direction::new(normal).unwrap_or(Direction::Y);
@@ -130,7 +132,7 @@ fn axle(e: f64) -> Description {
     }
 }
 
-/// Compares the reported rank with the rank of C as it is stored.
+/// Compares the reported rank with the exact rank of the stored C.
 pub(super) fn said(d: &Description, e: f64) -> Result<Outcome, Outcome> {
     let mechanism = built(d)?;
     let (q, _) = mechanism.described_state();
@@ -162,8 +164,8 @@ fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
         "{detail}, {:.0e}",
         warned.map_or(f64::NAN, |near| near.sigma)
     );
-    // The rank for the given numbers is correct with a warning of the size of ε; otherwise the data
-    // must be uncertain, and the answer must state this.
+    // The rank for the given values is correct if a warning states the size of ε. Another rank is
+    // correct only if the answer states that the data do not decide it.
     let right = if rank == exact {
         let answer = e >= WARNED || warned.is_some_and(|near| near.sigma <= 2.0 * e);
         answer && unique == a.reactions.len()
@@ -174,7 +176,7 @@ fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
     Ok(Outcome::fact(right, detail))
 }
 
-/// Without applied forces the speed is constant, and so is the centre of the rotation.
+/// Without applied forces, the speed and the centre of rotation are constant.
 fn about_the_wheel(d: &Description, options: &MotionOptions) -> Result<Outcome, Outcome> {
     let (row, summary) = last_row(&prepared(d)?, options)?;
     let angle = -row.t / HALF;

@@ -1,5 +1,5 @@
-//! User forces that become undefined: the run stops at the last valid state and reports the time
-//! and the position. It neither panics nor halves its steps forever.
+//! User forces that become undefined. The run must stop at the last valid state and report the time
+//! and the position. It must not panic and must not reduce its steps without end.
 
 use dynamics::{MotionOptions, RowChoice, prepare, simulate};
 use joints::spec::Spec;
@@ -18,8 +18,8 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// The body passes x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` from rest at 0; the time up to that point
-/// is `t = ∫₀¹ dx/√(4/3·(1 − (1 − x)^(3/2)))`.
+/// The body starts from rest at x = 0 and reaches x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` at the
+/// time `t = ∫₀¹ dx/√(4/3·(1 − (1 − x)^(3/2)))`, before this end time.
 const T_END: f64 = 10.0;
 
 fn cases() -> Vec<Case> {
@@ -95,8 +95,8 @@ impl<T: Real> ForceElement<T> for Root {
     fn dq_dv(&self, _: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], _: &mut [T]) {}
 }
 
-/// Returns the error of a run that cannot continue beyond x = 1, if its rows are finite and end
-/// there.
+/// Returns the error message of a run that cannot continue beyond x = 1, if its rows are finite and
+/// end near x = 1.
 fn pulled(options: &MotionOptions) -> Outcome {
     let description = Description {
         name: "pulled".into(),

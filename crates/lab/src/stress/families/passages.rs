@@ -1,5 +1,5 @@
-//! Singular configurations near which a step must end: there the rank drops, branches of the motion
-//! meet, and accelerations are a quotient of two numbers that both vanish.
+//! Singular configurations near which a step must end. At these configurations the rank is lower,
+//! branches of the motion meet, and accelerations are quotients 0/0.
 
 use dynamics::{Method, MotionOptions};
 use joints::RevoluteAngleDrive;
@@ -9,7 +9,7 @@ use crate::mechanisms::cranks::cranks;
 use crate::stress::case::{Case, Expected, Family};
 use crate::stress::motion::{Row, combinations, moving, outcome_of, prepared, worst};
 
-/// Two and three cranks driven through the singular configuration.
+/// Two and three cranks that are driven through the singular configuration.
 pub(super) const FAMILY: Family = Family {
     name: "passages",
     about: "two and three cranks driven through the flat pose, with a break time of the drive near it at which a step has to end",
@@ -23,7 +23,7 @@ const END: f64 = 0.5;
 /// Number of offsets of the break time on each side (s, which equals rad here).
 const OFFSETS: u32 = 32;
 
-/// A run may stop if it is closer than this to the singular configuration.
+/// A run may stop at an angle below this value from the singular configuration (rad).
 const NEAR: f64 = 1e-2;
 
 /// Tolerance of the runs.
@@ -78,13 +78,14 @@ fn passed(pivots: &'static [f64], offset: f64, options: &MotionOptions) -> Case 
     case.at("offset of the break time", offset.abs().max(1e-17))
 }
 
-/// Methods with few stages, which can avoid an instant.
+/// Whether the method is explicit. Its few stages can avoid the instant of the singular
+/// configuration.
 fn is_explicit(method: Method) -> bool {
     matches!(method, Method::Dop853 | Method::Dopri5 | Method::Tsit5)
 }
 
-/// Returns cranks with a drive of two pieces with the same slope that meet near the singular
-/// configuration.
+/// Returns cranks with a piecewise linear drive of two intervals with equal slopes, whose boundary
+/// is near the singular configuration.
 fn driven(pivots: &[f64], offset: f64) -> Description {
     let mut d = cranks(pivots, 0.5, START);
     let times = [0.0, offset - START, END - START];
@@ -99,8 +100,8 @@ fn driven(pivots: &[f64], offset: f64) -> Description {
     d
 }
 
-/// Returns the deviation of the cranks from parallel ones at an angle, rotating at 1 rad/s, and of
-/// the coupler from the horizontal.
+/// Returns the deviation from the exact motion: parallel cranks at an angle, which rotate at 1
+/// rad/s, and a horizontal coupler.
 fn off(row: &Row, angle: f64) -> f64 {
     let last = row.q.len() / 3 - 1;
     let of_crank = |k: usize| [row.q[3 * k + 2] - angle, row.v[3 * k + 2] - 1.0];
@@ -120,7 +121,7 @@ mod tests {
         let p = prepared(&driven(&[0.0, 1.0], 0.1)).expect("starts");
         let options = MotionOptions::to(END - START);
         let found = outcome_of(&p, &options, |row, _| {
-            // On the other branch the second crank turns back.
+            // On the other branch, the second crank reverses its rotation.
             let mut row = row.clone();
             row.q[5] = -row.q[5];
             off(&row, END)

@@ -8,7 +8,7 @@ use dynamics::{Method, MotionOptions};
 use crate::stress::case::{Case, Expected, Family};
 use crate::stress::motion::{Row, case, combinations, steps, worst};
 
-/// A rotor whose centre of mass is off its pin.
+/// A rotor whose centre of mass is not at its pin.
 pub(super) const FAMILY: Family = Family {
     name: "rotation",
     about: "a rotor on a pin away from its centre of mass, at up to 1e6 rad/s for 1000 turns: every turn has to be resolved",
@@ -38,8 +38,8 @@ fn cases() -> Vec<Case> {
             output_step: t_end,
             ..MotionOptions::to(t_end)
         };
-        // An error of the speed in step k of N changes the phase in all later steps: N²/2
-        // tolerances, with some tens of steps per revolution.
+        // An error of the speed in step k of N changes the phase in all later steps. The sum is
+        // N²/2 tolerances, with some tens of steps per revolution.
         let drift = 0.05 * (50.0 * turns).powi(2);
         for options in combinations(&base) {
             if options.method != Method::Auto && turns > 100.0 {
@@ -57,8 +57,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns the expectation for methods of low order, which need more steps for this tolerance than
-/// are allowed, or steps shorter than the accuracy of such velocities permits.
+/// Returns the expectation for methods of low order. For this tolerance they need more steps than
+/// allowed, or the steps are too short for the accuracy of such large velocities.
 fn limit(bound: f64) -> Expected {
     Expected::AnswerOrRefusal {
         bound,
@@ -79,8 +79,8 @@ joint = [{{ name = "pin", type = "revolute", bodies = ["ground", "rotor"], at = 
     )
 }
 
-/// Returns the deviation of the rotor from uniform rotation: phase, and velocities relative to the
-/// exact ones.
+/// Returns the deviation of the rotor from uniform rotation: the error of the phase, and the
+/// relative errors of the velocities.
 fn off(row: &Row, omega: f64, t: f64) -> f64 {
     let phase = omega * t;
     let (sin, cos) = phase.sin_cos();

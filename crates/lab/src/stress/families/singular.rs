@@ -1,5 +1,5 @@
-//! Configurations with a lower rank than others: the verdict there, the verdict elsewhere, and both
-//! in the report.
+//! Configurations at which the rank is lower than at others. The verdicts at this configuration and
+//! at other configurations must be correct, and the report must contain both.
 
 use joints::KnifeEdge;
 use joints::plane::Direction;
@@ -16,7 +16,8 @@ use crate::mechanisms::robot::robot;
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{analysed, asking, built, refused, study};
 
-/// Cranks in the singular configuration, edges across the drive, and the robot steered to ±90°.
+/// Cranks in the singular configuration, knife edges perpendicular to the driven direction, and the
+/// robot steered to ±90°.
 pub(super) const FAMILY: Family = Family {
     name: "singular",
     about: "flat cranks at the instant and near it, four edges of which two are steered, the robot with its edges at ±90°: ranks and verdicts there and elsewhere",
@@ -104,8 +105,8 @@ fn cases() -> Vec<Case> {
         right,
         stopped,
     ));
-    // The values follow from the lengths of the linkage: the pin of the link rotates by 90° about
-    // B, and the slider follows at the distance of the link.
+    // The values follow from the lengths of the linkage. The pin of the link rotates by 90° about
+    // B, and the distance between this pin and the slider is the length of the link.
     for (name, displacement) in [
         ("front edge at +90°", 0.11 - 0.0601_f64.sqrt()),
         ("front edge at −90°", 0.29 - 0.0401_f64.sqrt()),
@@ -211,7 +212,7 @@ fn edges(steering: f64, sizes: [usize; 3]) -> Result<Outcome, Outcome> {
         .iter()
         .map(|r| r.wrench.verdict.is_unique())
         .collect();
-    // If the wheels are locked, each of the steered pair has a separate force.
+    // If the motion is blocked, the forces of the two steered wheels are determined separately.
     let shared = [steering != 0.0, steering != 0.0, false, false];
     let detail = format!("rank, redundancy, freedoms {found:?}; unique {unique:?}");
     Ok(Outcome::fact(found == sizes && unique == shared, detail))
@@ -240,7 +241,7 @@ fn stopped() -> Result<Outcome, Outcome> {
     Ok(Outcome::answer(error, format!("v = {:?}", found.v)))
 }
 
-/// Returns the robot with its slider displaced, on its constraints.
+/// Returns the robot with a displaced slider, at a configuration that satisfies the constraints.
 fn steered(displacement: f64) -> Result<Outcome, Outcome> {
     const STEPS: u32 = 64;
     let ramp = Function::polynomial(&[0.0, displacement]).map_err(Outcome::refused)?;
@@ -254,8 +255,8 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
         q = nearest_configuration(&mechanism, t, &rows, &q, Metric::Mass)
             .map_err(Outcome::refused)?;
     }
-    // The robot has no joint with the ground: its platform is rotated to the x-axis, so that its
-    // edges are along the y-axis.
+    // The robot has no joint with the ground, so it can be rotated. The platform is rotated to the
+    // x-axis, so that the normals of its edges are along the y-axis.
     let (sin, cos) = q[2].sin_cos();
     let heading = q[2];
     for body in q.chunks_mut(3) {
@@ -263,7 +264,7 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
         (body[0], body[1]) = (cos * x + sin * y, cos * y - sin * x);
         body[2] -= heading;
     }
-    // Some thousand rounding errors in the computation.
+    // The accuracy allows for some thousand rounding errors in the computation.
     let a = analyse_known(&mechanism, 1.0, &q, ConfigurationAccuracy::To(1e-12))
         .map_err(Outcome::refused)?;
     if let rank::RankStatus::Undecided(doubt) = &a.decision.status {

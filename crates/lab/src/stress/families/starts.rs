@@ -1,20 +1,20 @@
-//! Starts that do not satisfy their constraints: the smallest correction in the mass metric, or a
-//! message that states the error.
+//! Initial states that do not satisfy their constraints. The result is the smallest correction in
+//! the mass metric, or a message that describes the error.
 
 use model::start::scene_size;
 
 use crate::stress::case::{Case, Expected, Family, Outcome};
 use crate::stress::motion::{asking, study, worst};
 
-/// One body on a pivot, described away from its position or with impossible velocities.
+/// One body on a pivot, described at a wrong position or with impossible velocities.
 pub(super) const FAMILY: Family = Family {
     name: "starts",
     about: "a start off its constraints is moved by the least in the mass metric, and the correction is answer; far from them it is refused",
     cases,
 };
 
-/// Returns a bob whose pivot is 1 m to its left; its described centre is displaced by `off` to the
-/// right.
+/// Returns a bob whose pivot is 1 m to its left. The described centre of the bob is displaced by
+/// `off` to the right.
 fn bob(off: f64, mass: f64, inertia: f64, velocity: [f64; 2], start: &str) -> String {
     let [vx, vy] = velocity;
     format!(
@@ -43,7 +43,7 @@ fn cases() -> Vec<Case> {
                 "`bob`",
                 "allow_correction",
             ]),
-            // The value 1e-3 of the size is exactly the limit.
+            // The displacement of 1e-3 of the size is omitted, because it is exactly the limit.
             3 => continue,
             _ => Expected::answer(
                 1e-14,
@@ -108,13 +108,13 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// The correction is along the lever arm; it neither rotates the bob nor moves it sideways.
+/// The correction is along the lever arm. It does not rotate the bob or displace it sideways.
 fn corrected(text: &str, off: f64) -> Result<Outcome, Outcome> {
     let found = study(text)?.prepared;
     let [x, y, angle] = found.q[..] else {
         return Ok(Outcome::fact(false, "not three coordinates"));
     };
-    // A described number of size 1 has a rounding error.
+    // The bound allows for the rounding error of a described value of size 1.
     let answer = found
         .assembly
         .correction
@@ -128,8 +128,8 @@ fn corrected(text: &str, off: f64) -> Result<Outcome, Outcome> {
     ))
 }
 
-/// The bob is described with (0, 1) m/s and without rotation: the nearest possible motion is a
-/// rotation about the pivot.
+/// The bob is described with the velocity (0, 1) m/s and without rotation. The nearest possible
+/// motion is a rotation about the pivot.
 fn turned(ratio: f64) -> Result<Outcome, Outcome> {
     let allowed = "start = { allow_correction = true }";
     let given = bob(0.0, 1.0, ratio, [0.7, 1.0], allowed)

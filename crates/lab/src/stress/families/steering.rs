@@ -1,5 +1,5 @@
-//! A steered wheel is turned through ±90°; at this angle the forward speed is zero for any speed of
-//! the wheel. Two wheels that are steered equally lock.
+//! A steered wheel is rotated through ±90°. At this angle, the forward speed of the frame is zero
+//! for any speed of the wheel. Two wheels with equal steering angles block the motion.
 
 use dynamics::MotionOptions;
 
@@ -13,12 +13,14 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Mass, inertia about the midpoint of the rear axle (the centre of mass), and wheelbase.
+/// Mass (kg), moment of inertia about the midpoint of the rear axle, which is the centre of mass
+/// (kg·m²), and wheelbase (m).
 const MASS: f64 = 20.0;
 const INERTIA: f64 = 1.7;
 const BASE: f64 = 0.6;
 
-/// Amplitude of the steering angle: δ = 2·sin(t), which is 90° at 0.904 s and again at 2.238 s.
+/// Amplitude of the steering angle (rad): δ = 2·sin(t), which is 90° at 0.904 s and again at 2.238
+/// s.
 const AMPLITUDE: f64 = 2.0;
 const T_END: f64 = 5.0;
 
@@ -51,8 +53,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Returns a tricycle with one front wheel in the middle, or two on its sides, each on a massless
-/// fork.
+/// Returns a tricycle with one front wheel in the middle, or with two front wheels at the sides.
+/// Each front wheel is on a massless fork.
 fn tricycle(wheels: usize) -> String {
     let sides: &[f64] = if wheels == 1 { &[0.0] } else { &[-0.2, 0.2] };
     let mut text = format!(
@@ -160,7 +162,8 @@ mod tests {
     use crate::stress::judge;
     use crate::stress::motion::outcome;
 
-    /// At 90° the frame rotates on the spot: the frame has all the energy.
+    /// At 90° the frame rotates about the midpoint of the rear axle, and its rotation has all the
+    /// energy.
     #[test]
     fn at_a_right_angle_the_frame_turns_on_the_spot() {
         let [v, omega] = speeds(std::f64::consts::FRAC_PI_2);

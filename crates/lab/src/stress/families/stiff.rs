@@ -6,7 +6,7 @@ use dynamics::{Method, MotionOptions};
 use crate::stress::case::{Case, Expected, Family};
 use crate::stress::motion::{Row, case, combinations, steps, worst};
 
-/// A linear oscillator with a prescribed foot.
+/// A linear oscillator with a prescribed motion of its base.
 pub(super) const FAMILY: Family = Family {
     name: "stiff",
     about: "a rotor on a torsion spring up to 1e12 N·m/rad and a damper up to 1e9 N·m·s/rad, its foot swinging; undamped ones released off \
@@ -14,22 +14,22 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Inertia of the rotor, amplitude of the foot, which oscillates at 1 rad/s, and duration of the
-/// run.
+/// Moment of inertia of the rotor (kg·m²), amplitude of the base (rad), which oscillates at 1
+/// rad/s, and duration of the run (s).
 const INERTIA: f64 = 2.0;
 const SWING: f64 = 0.3;
 const T_END: f64 = 2.0;
 
-/// Allowed number of steps: methods that need more report it. With the automatic choice of a
-/// method, an explicit method may need about as many as the second number.
+/// Allowed number of steps; methods that need more steps must report this. The second value is for
+/// the automatic choice of a method: an explicit method may need about this number of steps.
 const MAX_STEPS: u64 = 5_000;
 const MAX_STEPS_OF_CHOICE: u64 = 40_000;
 
 /// Tolerance of the runs.
 const RTOL: f64 = 1e-8;
 
-/// Smallest error bound at the end, in tolerances: a few of the steps may be less accurate than the
-/// rest.
+/// Smallest error bound at the end, as a multiple of the tolerance. A few steps may be less
+/// accurate than the others.
 const LEAST: f64 = 1e3;
 
 fn cases() -> Vec<Case> {
@@ -51,8 +51,8 @@ fn cases() -> Vec<Case> {
                 let oscillator = Oscillator {
                     stiffness,
                     damping,
-                    // With a damper the rotor begins with the motion of the base; without a damper
-                    // it begins at rest and displaced from equilibrium.
+                    // With a damper, the rotor starts with the motion of the base. Without a
+                    // damper, it starts at rest, displaced from its equilibrium.
                     start: if damping > 0.0 {
                         [0.0, SWING]
                     } else {
@@ -101,8 +101,8 @@ impl Oscillator {
             fastest * T_END
         };
         let tolerances = LEAST.max(10.0 * steps(options.method, phase, RTOL));
-        // The angle of a rotor behind a stiff spring is accurate to 1e-16 and so the force to
-        // k·1e-16, which causes a change of velocity by c/k or 1/ω times this value.
+        // The angle of a rotor behind a stiff spring is accurate to 1e-16, so the force is accurate
+        // to k·1e-16. This error changes the velocity by c/k or 1/ω times the error.
         let bound = tolerances * RTOL;
         let right = Expected::AnswerOrRefusal {
             bound,
@@ -110,7 +110,7 @@ impl Oscillator {
                      tolerances in each step",
             parts: vec!["step".into(), "at t = ".into()],
         };
-        // The methods that suit the scene must succeed.
+        // The implicit methods, which are suitable for stiff scenes, must succeed.
         let is_implicit = matches!(options.method, Method::Auto | Method::Radau5);
         let right = if is_implicit && self.damping > 0.0 {
             match right {
@@ -178,8 +178,8 @@ free_angle = 0.0
             damping: c,
             start,
         } = self;
-        // The solution is φ = a·sin t + b·cos t + free motion; (k − J)·a − c·b = k·A, c·a + (k −
-        // J)·b = c·A.
+        // The solution is φ = a·sin t + b·cos t + free motion, with (k − J)·a − c·b = k·A and c·a +
+        // (k − J)·b = c·A.
         let d = (k - INERTIA).powi(2) + c * c;
         let a = SWING * ((k - INERTIA) * k + c * c) / d;
         let b = -SWING * c * INERTIA / d;
@@ -195,7 +195,7 @@ free_angle = 0.0
             let x = size * (x0 * cos + slope * sin);
             [x, size * omega * (slope * cos - x0 * sin) - decay * x]
         } else {
-            // The roots are computed without cancellation: their product is k/J.
+            // The second root is computed from the product k/J of the roots, to avoid cancellation.
             let fast = -(decay + (decay * decay - square).sqrt());
             let slow = square / fast;
             let of_slow = (v0 - fast * x0) / (slow - fast);
@@ -215,7 +215,7 @@ free_angle = 0.0
 }
 
 /// The equations `m·ẍ = −k·x`, `m·ÿ = −k·y/4` of a block on a bushing. The bushing is undeformed at
-/// the start, and the block has a velocity there.
+/// the initial state, at which the block has a velocity.
 #[derive(Clone, Copy)]
 struct Block {
     stiffness: f64,

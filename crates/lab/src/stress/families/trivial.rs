@@ -1,4 +1,4 @@
-//! Empty scenes, and scenes in which there is no decision.
+//! Empty scenes, and scenes for which no decision is necessary.
 
 use dynamics::MotionOptions;
 

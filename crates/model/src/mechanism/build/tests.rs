@@ -1,4 +1,4 @@
-//! Faults of descriptions, found together.
+//! Tests that all errors in a description are found together.
 
 use joints::{Revolute, RevoluteAngleDrive};
 

@@ -96,7 +96,7 @@ fn mechanism() -> Mechanism {
     Mechanism::build(&d).expect("a mechanism")
 }
 
-/// The differentiated values: Q, Cᵀ·λ, C·a − Γ, Γ, C·v − b.
+/// The values to be differentiated: Q, Cᵀ·λ, C·a − Γ, Γ, C·v − b.
 type Equations = [Vec<f64>; 5];
 
 fn equations(m: &Mechanism, q: &[f64], v: &[f64], a: &[f64], lambda: &[f64]) -> Equations {
@@ -118,7 +118,7 @@ fn equations(m: &Mechanism, q: &[f64], v: &[f64], a: &[f64], lambda: &[f64]) -> 
     ]
 }
 
-/// Numbers between −1 and 1 without a pattern.
+/// Returns values between −1 and 1 without a regular pattern.
 fn numbers(n: usize, seed: f64) -> Vec<f64> {
     (0..n)
         .map(|k| ((k as f64 + seed) * 12.9898).sin() * 43.7)
@@ -150,7 +150,7 @@ fn products_are_differences_of_the_equations() {
             matrix.add_product(&along, &mut found);
             for (i, found) in found.iter().enumerate() {
                 let expected = (plus[k][i] - minus[k][i]) / (2.0 * H);
-                // The truncation error is H² times the third derivative, with stiffnesses of 7 on
+                // The truncation error is H² times the third derivative; a stiffness of 7 acts on
                 // lengths that may be near 0.1.
                 assert!(
                     (found - expected).abs() < 1e-6 * (1.0 + expected.abs()),

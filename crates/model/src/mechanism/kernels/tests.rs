@@ -1,4 +1,4 @@
-//! Tests which count operations and show that values are not recomputed.
+//! Tests that count operations and show that unchanged values are not recomputed.
 
 use std::cell::RefCell;
 
@@ -8,11 +8,11 @@ use super::{System, WorkKind};
 use crate::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism};
 
 thread_local! {
-    /// Number of times each kind of work was done on this thread.
+    /// Number of evaluations of each kind on this thread.
     pub(super) static COUNTS: RefCell<[usize; 2]> = const { RefCell::new([0; 2]) };
 }
 
-/// Counts the work of one kind that `run` does.
+/// Counts the evaluations of one kind in `run`.
 fn count(work: WorkKind, run: impl FnOnce()) -> usize {
     let now = || COUNTS.with_borrow(|counts| counts[work as usize]);
     let before = now();
@@ -35,7 +35,7 @@ fn guide() -> Translational {
     Translational::new([0.0; 2], [0.0; 2], Direction::X)
 }
 
-/// A driven slider on the ground, a second body whose rotation relative to it is locked, and a
+/// A driven slider on the ground, a second body with locked rotation relative to the slider, and a
 /// pendulum on the slider.
 fn trolley() -> Mechanism {
     let [slider, held, bob] = [0, 1, 2].map(BodyRef::Body);
@@ -47,7 +47,7 @@ fn trolley() -> Mechanism {
     let d = Description {
         bodies: vec![body("slider"), body("held"), body("bob")],
         joints: vec![
-            // This joint precedes the guide, which implies that no body rotates.
+            // This joint comes before the guide; only the guide implies that neither body rotates.
             Joint::new("hold", &[slider, held], Angle::new()),
             Joint::new("guide", &[GROUND, slider], guide()),
             Joint::new("pin", &[slider, bob], pin),
@@ -82,7 +82,7 @@ fn angles_that_stay_have_their_sine_and_cosine_already() {
         (0.5, 0.2_f64.sin())
     );
     assert_eq!(s.bodies.axes(1)[0][0], 0.3_f64.cos());
-    // The number −0 differs from 0, and so does its sine.
+    // The value −0 differs from 0, and therefore the sine is recomputed.
     later(&mut s, 0.0);
     assert_eq!(later(&mut s, -0.0), 1);
     assert!(s.bodies.axes(2)[0][1].is_sign_negative());
@@ -94,8 +94,8 @@ fn rounding_does_not_turn_what_is_held() {
     let mut s = m.scratch();
     m.pose(0.0, &[0.0; 9], &mut s);
     let mut q = [0.0; 9];
-    // Each angle changes by one rounding. The angle of the slider is fixed, but the angle of the
-    // bob is not.
+    // Each angle changes by the rounding error of 1. The angle of the slider is fixed, but the
+    // angle of the bob is not.
     (q[2], q[8]) = (f64::EPSILON, f64::EPSILON);
     assert_eq!(count(WorkKind::Trigonometry, || m.pose(0.0, &q, &mut s)), 1);
     assert_eq!(
@@ -128,7 +128,7 @@ fn functions_are_evaluated_once_at_each_time() {
         [1, 0, 1, 0, 1]
     );
     m.b(&mut s);
-    // For coordinate − (f(t) − f(0)) = 0, b = −Φt is ḟ = 2·cos(0).
+    // The row is coordinate − (f(t) − f(0)) = 0, so b = −Φt is ḟ = 2·cos(0).
     assert_eq!(s.b[m.layout().m - 1], 2.0);
 }
 
@@ -136,13 +136,13 @@ fn functions_are_evaluated_once_at_each_time() {
 fn the_work_is_told_from_the_structure() {
     let work = crate::Work::of(&trolley());
     assert_eq!(work.without_turning, [0, 1]);
-    // Γ of the row with only angles is zero; b is that of the drive.
+    // Γ is zero in the row that contains only angles; only the drive has a nonzero b.
     assert_eq!(
         (work.rows_of_gamma, work.rows_of_time, work.functions),
         (5, 1, 1)
     );
-    // The row of `hold` and the row `angle` of the guide are constant. The translations of the pin,
-    // two in each of its rows, are constant as well.
+    // The row of `hold` and the row `angle` of the guide are constant. The entries for translations
+    // of the pin, two in each of its rows, are constant as well.
     assert_eq!(work.entries - work.varying_entries, 2 + 1 + 4);
 }
 

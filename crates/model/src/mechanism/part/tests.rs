@@ -1,4 +1,4 @@
-//! A part has the same equations as in the whole mechanism.
+//! Tests that a part has the same equations as in the whole mechanism.
 
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive, SpringDamper};
 
@@ -16,8 +16,8 @@ fn body(name: &str, x: f64) -> Body {
     }
 }
 
-/// Three mechanisms with interleaved bodies: a driven crank, a sledge on a knife edge, and two
-/// bodies on a spring.
+/// Three mechanisms whose bodies alternate in the list: a driven crank, a sledge on a knife edge,
+/// and two bodies with a spring.
 fn scattered() -> Mechanism {
     let [crank, sledge, left, right] = [0, 1, 2, 3].map(BodyRef::Body);
     let pivot = Revolute {
@@ -115,7 +115,7 @@ fn parts_have_the_equations_of_the_whole() {
     }
     rows.sort_unstable();
     assert_eq!(rows, [0, 1, 2, 3]);
-    // Only the crank is driven, so only it has break times.
+    // Only the crank has a drive, so only the crank has break times.
     let breaks: Vec<usize> = sets
         .iter()
         .map(|b| whole.part(b).mechanism.layout().break_times.len())

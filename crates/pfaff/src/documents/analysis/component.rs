@@ -5,6 +5,7 @@ use serde::Serialize;
 use solvability::{ComponentVerdict, Sensitivity};
 
 use crate::documents::{SensitivityDocument, VerdictDocument};
+use crate::questions::analyze::bounds::BoundsOfNumber;
 
 /// The verdict of a component of a reaction or of a sum.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -20,6 +21,9 @@ pub struct ComponentDocument {
     /// other frames, components of moments and components of sums.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub generic_verdict: Option<Option<&'static str>>,
+    /// Bounds of the component for joints of any stiffness, if requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<BoundsOfNumber>,
     /// Sensitivity of the component to the data, if it is unique.
     #[serde(flatten)]
     pub data: SensitivityDocument,
@@ -46,6 +50,7 @@ impl From<&ComponentVerdict> for ComponentDocument {
             name: component.name,
             verdict: (&component.judgement).into(),
             generic_verdict: None,
+            bounds: None,
             data: SensitivityDocument::default(),
         }
     }

@@ -10,7 +10,7 @@ use solvability::{
 
 use super::{ComponentDocument, ValueDocument};
 use crate::documents::{SensitivityDocument, VerdictDocument};
-use crate::questions::analyze::{about, frames};
+use crate::questions::analyze::{about, bounds, frames};
 
 /// The verdict on a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -70,6 +70,9 @@ pub struct ReactionDocument {
     /// point is not unique.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moment_unique_about: Option<Vec<f64>>,
+    /// Upper bounds of force and moment for joints of any stiffness, if requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub magnitude_at_most: Option<bounds::MagnitudeDocument>,
     /// Reason why the reaction has no finite value in the motion, whatever its verdict.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_finite_reaction: Option<NoFiniteReaction>,
@@ -138,6 +141,9 @@ pub struct GroupDocument {
     /// The point (m, global components) about which the torque of a sum of wrenches is taken.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub about: Option<Vec<f64>>,
+    /// Bounds of the sum of components for joints of any stiffness, if requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<bounds::BoundsOfNumber>,
     /// Unit of the sum of components; absent if its terms have different units.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
@@ -317,6 +323,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
             frames: Vec::new(),
             moment: None,
             moment_unique_about: None,
+            magnitude_at_most: None,
             no_finite_reaction: None,
         }
     }
@@ -346,6 +353,7 @@ impl GroupDocument {
             data: SensitivityDocument::default(),
             components: verdict.components.iter().map(Into::into).collect(),
             about: verdict.about.map(|point| components(verdict.space, point)),
+            bounds: None,
             unit: None,
             values: Vec::new(),
         }

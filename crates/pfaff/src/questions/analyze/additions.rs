@@ -1,8 +1,12 @@
 //! The list of the optional parts of an analysis, each in a folder of its own.
 
 use super::addition::Addition;
-use super::{about, frames, matrices};
+use super::{about, bounds, frames, matrices};
 
 /// All optional parts, in the order of the text.
-pub(super) const ADDITIONS: &[&dyn Addition] =
-    &[&frames::OtherFrames, &about::Moments, &matrices::Matrices];
+pub(super) const ADDITIONS: &[&dyn Addition] = &[
+    &frames::OtherFrames,
+    &about::Moments,
+    &bounds::BoundsOfReactions,
+    &matrices::Matrices,
+];

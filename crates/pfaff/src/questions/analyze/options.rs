@@ -56,6 +56,15 @@ pub struct Analyze {
         arg(long, value_name = "POINT", allow_hyphen_values = true)
     )]
     pub about: Option<String>,
+    /// Also bound reactions for joints of any stiffness
+    #[cfg_attr(feature = "command", arg(long))]
+    pub bounds: bool,
+    /// Joints and drives that do not give way in --bounds; `drives` names all drives
+    #[cfg_attr(
+        feature = "command",
+        arg(long, value_name = "NAMES", value_delimiter = ',')
+    )]
+    pub rigid: Vec<String>,
     /// Print Φq, Ψ and Γ with names of rows and columns; --out writes them as CSV
     #[cfg_attr(feature = "command", arg(long))]
     pub matrices: bool,

@@ -184,7 +184,8 @@ fn kahan_has_full_rank_and_a_copy_of_its_last_row_is_seen() {
     assert!(kahan90.evidence.certificate.unwrap().sigma_bound > 0.0);
 }
 
-/// det [[1, 1], [1, 2⁶¹]] = 2⁶¹ − 1 is a prime that many programs use.
+/// det [[1, 1], [1, 2⁶¹]] = 2⁶¹ − 1 is a prime that many programs use. Modulo this prime the
+/// determinant is zero.
 #[test]
 fn powers_of_two_are_no_trap() {
     for c in [
@@ -196,7 +197,7 @@ fn powers_of_two_are_no_trap() {
     }
 }
 
-/// If the misalignment decreases from 1e-8 to 1e-300, the kept rows stay independent and T stays
+/// If the misalignment decreases from 1e-8 to 1e-300, the kept rows remain independent and T stays
 /// accurate.
 #[test]
 fn near_redundancy_beside_exact_redundancy() {

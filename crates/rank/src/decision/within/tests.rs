@@ -149,7 +149,8 @@ fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
     }
 }
 
-/// A circuit at misalignments of 1e-20 is accurate to 1e-10 if the data have that accuracy.
+/// For a misalignment of 1e-20, the coefficients of a circuit are accurate to 1e-10 if the data are
+/// accurate enough.
 #[test]
 fn dependencies_of_a_nearly_redundant_matrix_are_those_of_the_matrix_as_read() {
     for epsilon in [1e-7, 1e-12, 1e-20] {
@@ -265,7 +266,7 @@ fn a_thousandth_is_nearly_redundant() {
     }
 }
 
-/// The levels cover values of σ₂ up to √2.
+/// The levels of σ₂ in the test range up to √2.
 #[test]
 fn what_vanishes_is_ten_digits_below_rounding() {
     for (e, expected) in [(3e-27, Grounds::Vanishes), (3e-26, Grounds::WithinData)] {

@@ -1,11 +1,11 @@
-//! Points and curves with as many components as the space has.
+//! Points and curves with two components in the plane and three in space.
 
 use model::SpaceKind;
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
 use crate::channel::{Channel, FewDigits};
 
-/// A point, as the list of its coordinates (m).
+/// A point, given by two or three coordinates (m).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Point {
     at: [f64; 3],
@@ -18,7 +18,7 @@ impl Point {
         Self { at, count }
     }
 
-    /// The point in space; in the plane z = 0.
+    /// The point with three coordinates; in the plane, z = 0.
     pub(crate) fn at(self) -> [f64; 3] {
         self.at
     }
@@ -42,7 +42,7 @@ impl Curves {
         Self(named.map(|(k, name)| (*name, curve(k))).collect())
     }
 
-    /// Up to three curves at the first frame, as a vector.
+    /// Values of up to three curves at the first frame, as a vector.
     pub(crate) fn first(&self) -> [f64; 3] {
         let mut first = [0.0; 3];
         for (value, (_, curve)) in first.iter_mut().zip(&self.0) {

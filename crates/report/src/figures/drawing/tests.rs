@@ -1,5 +1,5 @@
-//! Tests that figures and the scripts of pages draw bodies equally if their inertia tensors differ
-//! only in their products of inertia.
+//! Tests that figures and the scripts of pages draw a body in the same way for inertia tensors with
+//! different products of inertia.
 
 use joints::space3::{Axes, Pose, Revolute};
 use model::{BodyRef, Marker, Mechanism, SpatialBody, SpatialDescription, System};
@@ -8,18 +8,18 @@ use serde_json::Value;
 use super::{DrawingModel, Stage};
 use crate::recording::Frame;
 
-/// Figures compute with all digits.
+/// Figures use all digits, so only rounding errors remain.
 const ROUNDING: f64 = 1e-12;
 
 /// Curves of pages have 100 000 levels. Centres of mass move by up to 1 m here, so their error is
-/// half a level of 1e-5 m. Quaternions change by up to 2, so each of two numbers has an error of
-/// 1e-5, which rotates an arm of 1 m by twice as much.
+/// half a level of 1e-5 m. Components of a quaternion change by up to 2, so two components have
+/// errors of 1e-5 each, and the rotation error of an arm of 1 m is twice as large.
 const PAGE: f64 = 0.5e-5 + 2.0 * 1.414 * 1e-5;
 
 const DIAGONAL: [[f64; 3]; 3] = [[0.02, 0.0, 0.0], [0.0, 0.03, 0.0], [0.0, 0.0, 0.04]];
 
-/// Tensors whose principal axes are the axes of the frame, nearly so, in another order, and
-/// rotated.
+/// Tensors whose principal axes are the axes of the frame, nearly these axes, these axes in another
+/// order, and rotated axes.
 const TENSORS: [[[f64; 3]; 3]; 4] = [
     DIAGONAL,
     [[0.02, 0.0, 1e-19], [0.0, 0.03, 0.0], [1e-19, 0.0, 0.03]],
@@ -36,7 +36,7 @@ const CENTRE: [f64; 3] = [0.5, 0.0, 0.0];
 const TIP: [f64; 3] = [0.5, 0.3, 0.2];
 const HINGE: [f64; 3] = [1.0, 0.0, 0.0];
 
-/// An arm on a hinge about y, rotated by `turn` about it, with a second arm.
+/// An arm on a hinge about y, rotated by `turn` about this hinge, with a second arm.
 fn arms(tensor: [[f64; 3]; 3], turn: f64) -> Mechanism {
     let mut d = SpatialDescription::new("arms");
     let (sin, cos) = (0.5 * turn).sin_cos();
@@ -69,7 +69,7 @@ fn turned(turn: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
 
 const TURNS: [f64; 3] = [0.0, 0.7, -2.1];
 
-/// The drawing of a run through the three rotations.
+/// The drawing of a run with frames at three rotations.
 fn drawn(tensor: [[f64; 3]; 3]) -> DrawingModel {
     let mechanism = arms(tensor, TURNS[0]);
     let frames = TURNS.map(|turn| {

@@ -9,11 +9,12 @@ use crate::channel::FewDigits;
 use crate::figures::geometry::Pitch;
 use crate::figures::projection::unit;
 
-/// A circle rolls with a body if its radius, its centre and its axis in the body change by at most
-/// this, relative to the size of the picture. Contacts are accurate to the tolerance of a run.
+/// A circle belongs to a body if the radius, the centre and the axis in the frame of the body
+/// change by at most this fraction of the size of the picture. Contacts are accurate to the
+/// tolerance of a run.
 const ROUND: f64 = 1e-6;
 
-/// Number of corners of a circle that is drawn as a polygon.
+/// Number of corners of the polygon by which a circle is drawn.
 const CORNERS: usize = 72;
 
 /// A rolling circle of a body.
@@ -53,7 +54,7 @@ impl DrawingModel {
 }
 
 impl Stage<'_> {
-    /// Circles of a joint that are the same in all probes.
+    /// Circles of a joint that do not change between the tested frames.
     pub(super) fn wheels(&self, id: ConstraintId, probes: &[Probe], size: f64) -> Vec<DrawnWheel> {
         let space = self.mechanism.space();
         let Some(first) = probes.first() else {

@@ -1,4 +1,5 @@
-//! The kind of freedom that a joint in space allows, from the forces and torques of its rows.
+//! The kind of relative motion that a joint in space allows, derived from the forces and torques of
+//! its rows.
 
 #[cfg(test)]
 mod tests;
@@ -11,12 +12,13 @@ use model::space::{cross, norm};
 use crate::figures::projection::unit;
 use crate::figures::symbol::Symbol;
 
-/// Components of unit forces and torques below this are rounding errors: the rows of definitions
-/// are along and about unit vectors, and their lever arms are accurate to ten digits.
+/// Components of unit forces and torques below this value are rounding errors. The rows of joint
+/// definitions have forces along unit vectors and torques about unit vectors, and their lever arms
+/// are accurate to ten digits.
 const ROUNDING: f64 = 1e-6;
 
-/// The symbol of a joint or drive whose rows have these wrenches (N, N·m) about its reference
-/// point; `arm` points to its second point, about which it rotates.
+/// The symbol of a joint or drive whose rows have these wrenches (N, N·m) about the reference
+/// point. `arm` is the vector to the second point, about which the joint rotates.
 pub(super) fn symbol(group: &ConstraintGroup, wrenches: &Matrix, arm: [f64; 3]) -> Symbol {
     let rows = 0..group.rows.len();
     let part = |first: usize, row: usize| [0, 1, 2].map(|k| wrenches[(first + k, row)]);
@@ -40,7 +42,7 @@ pub(super) fn symbol(group: &ConstraintGroup, wrenches: &Matrix, arm: [f64; 3]) 
     }
 }
 
-/// Orthogonal unit vectors that span some directions.
+/// Orthogonal unit vectors that span a set of directions.
 struct Span(Vec<[f64; 3]>);
 
 impl Span {

@@ -1,4 +1,4 @@
-//! The points of joints, compared with the points of their definitions.
+//! Compares the computed points of joints with the points of their definitions.
 
 use joints::{
     Angle, Direction, Distance, Fixed, Gear, KnifeEdge, Line, Mesh, PinInSlot, PointOnLine,
@@ -15,7 +15,7 @@ use crate::figures::drawing::Stage;
 use crate::figures::symbol::Symbol;
 use crate::recording::Frame;
 
-/// Points are computed by divisions of numbers of order one.
+/// The points are computed by divisions of values of order one.
 const ROUNDING: f64 = 1e-14;
 
 /// Two bodies at general poses with one joint or drive.
@@ -51,13 +51,13 @@ fn two_bodies(element: impl ConstraintKernels + 'static, drives: bool) -> Mechan
             .push(Joint::new("joint", &bodies, element));
     }
     let mut mechanism = Mechanism::build(&description).expect("builds");
-    // Only sets initial values: the start may violate the constraint, the picture is drawn
-    // nevertheless.
+    // Only the initial values are needed. The initial state may violate the constraint, and the
+    // picture is drawn nevertheless.
     let _ = assemble(&mut mechanism, &StartOptions::default());
     mechanism
 }
 
-/// The computed site of the joint between them.
+/// The computed position of the joint between the two bodies.
 fn site(element: impl ConstraintKernels + 'static, drives: bool) -> super::Site {
     let mechanism = two_bodies(element, drives);
     let mut s = mechanism.scratch();
@@ -95,7 +95,7 @@ fn near(a: [f64; 2], b: [f64; 2]) -> bool {
     (a[0] - b[0]).hypot(a[1] - b[1]) <= ROUNDING
 }
 
-/// Whether two directions are on the same line, whatever their orientation.
+/// Whether two directions are parallel, with equal or opposite sense.
 fn parallel(a: [f64; 2], b: [f64; 2]) -> bool {
     (a[0] * b[1] - a[1] * b[0]).abs() <= ROUNDING && (a[0].hypot(a[1]) - 1.0).abs() <= ROUNDING
 }
@@ -123,7 +123,7 @@ fn symbols_follow_from_rows() {
 fn wheels_touch_where_their_speeds_agree() {
     let gear = |ratio: f64| site(Gear::new(ratio), false);
     for (ratio, point, radii) in [
-        // External contact: twice as fast, half as large.
+        // External contact: the second wheel is twice as fast and half as large.
         (-2.0, [4.0 / 3.0, 2.0 / 3.0], [2.0 / 3.0, 1.0 / 3.0]),
         // Internal contact: the slow wheel is the ring around the other.
         (0.5, [-2.0, -1.0], [1.0, 2.0]),

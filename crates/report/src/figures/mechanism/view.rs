@@ -6,7 +6,7 @@ use crate::figures::drawing::DrawingModel;
 
 /// Conversion from the plane of the picture (m) to the page (px).
 pub(super) struct View {
-    /// px/m
+    /// Scale (px/m).
     pub(super) scale: f64,
     /// The point in the middle of the drawing.
     middle: [f64; 2],
@@ -35,8 +35,8 @@ impl View {
         let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
         let room = [WIDTH - 2.0 * ROOM[0], LARGEST_HEIGHT - 2.0 * ROOM[1]];
         let size = dx.max(dy);
-        // A drawing without extent, or with an extent that is a rounding error relative to its
-        // distance from the origin, gets an extent of one metre.
+        // If the extent of a drawing is zero, or only a rounding error of its distance from the
+        // origin, an extent of one metre is used.
         let far = x[0].abs().max(y[0].abs());
         let scale = if size > 1e-9 * far && size > 1.0 / DRAWABLE {
             (room[0] / dx).min(room[1] / dy)

@@ -1,4 +1,4 @@
-//! Paths from the configurations of a run.
+//! Computes paths from the configurations of a run.
 
 use model::{ConstraintId, Mechanism, Scratch, System};
 
@@ -44,7 +44,7 @@ enum Point {
 }
 
 impl<'m> PathRecorder<'m> {
-    /// A recorder without records; `bodies` are counted from 0.
+    /// An empty recorder; `bodies` contains indices from 0.
     ///
     /// # Errors
     /// - [`FigureError::Body`]: there is no such body.

@@ -73,7 +73,7 @@ fn options() -> Options<'static> {
     options
 }
 
-/// A font with this character, if possible upright and as bold as the first one used.
+/// A font that contains this character, if possible upright and as bold as the first font used.
 fn find_font(character: char, used: &[ID], fonts: &mut Arc<Database>) -> Option<ID> {
     let find = FontResolver::default_fallback_selector();
     let is_bold = fonts.face(*used.first()?)?.weight.0 >= BOLD_FROM;
@@ -112,7 +112,7 @@ fn pack(picture: &Pixmap, scale: f64) -> Result<Vec<u8>, png::EncodingError> {
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Balanced);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    // Documents show the picture in the size of the figure, whatever its scale.
+    // The size in documents is the size of the figure and does not depend on the scale.
     let per_metre = (scale * PER_METRE).round() as u32;
     encoder.set_pixel_dims(Some(PixelDimensions {
         xppu: per_metre,

@@ -6,8 +6,8 @@ use super::*;
 fn a_picture_has_two_pixels_for_each_px_if_it_is_not_too_large() {
     assert_eq!(measure([960.0, 535.4], None), Ok((2.0, [1920, 1071])));
     assert_eq!(measure([960.0, 535.4], Some(0.5)), Ok((0.5, [480, 268])));
-    // 1000 x 100 000 px, of which a quarter of the pixels can be rendered: half a pixel for each
-    // px.
+    // A figure of 1000 x 100 000 px can have at most a quarter as many pixels, so the scale is half
+    // a pixel for each px.
     assert_eq!(measure([1e3, 1e5], None), Ok((0.5, [500, 50_000])));
 }
 
@@ -145,7 +145,7 @@ mod painted {
 
     #[test]
     fn a_character_that_no_font_has_is_a_box_and_told() {
-        // Unassigned characters; a repeated one is reported once.
+        // The characters are unassigned. A repeated character is reported once.
         let picture = text("a\u{378}b\u{378}\u{380}", "400");
         assert_eq!(picture.boxes, "\u{378}\u{380}");
         let with_box = Read::of(&picture);

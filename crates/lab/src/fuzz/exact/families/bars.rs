@@ -1,5 +1,5 @@
-//! Bodies supported by bars whose lines meet in a point or are parallel: a rotation about the
-//! point, or a translation across the bars, is free.
+//! Bodies supported by bars whose lines meet in a point or are parallel. The body can rotate about
+//! the point, or translate perpendicular to the bars.
 
 use super::super::drawing::{GROUND, Side, along};
 use super::super::ratio::Ratio;
@@ -10,7 +10,7 @@ pub(super) fn bars(pen: &mut Pen<'_>) {
     let mut held: Vec<Side> = Vec::new();
     for k in 0..n {
         let body = pen.body();
-        // The bar leads to the ground, or to the previous body.
+        // The other end of the bar is on the ground or on the previous body.
         let base = if k > 0 && pen.once_in(2) {
             held[k - 1]
         } else {

@@ -1,5 +1,5 @@
-//! Wheels and knife edges: if their normals meet in a point, the body can rotate about it; if they
-//! are parallel, it can slide.
+//! Wheels and knife edges. If the normals meet in a point, the body can rotate about this point; if
+//! the normals are parallel, the body can slide.
 
 use super::super::drawing::{GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
@@ -7,7 +7,7 @@ use super::pen::Pen;
 
 pub(super) fn edges(pen: &mut Pen<'_>) {
     let n = if pen.once_in(3) { 2 } else { 1 };
-    // Edges on a single body keep their relative positions.
+    // Knife edges on a single body have constant relative positions.
     pen.drawing.has_constant_rank = n == 1;
     let mut before = GROUND;
     for k in 0..n {
@@ -34,8 +34,8 @@ fn edge(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) {
     };
 }
 
-/// Adds three wheels at 120°, or up to six at 60°, with radial normals: irrational coordinates if
-/// the drawing is stretched by √3.
+/// Adds three wheels at 120°, or up to six at 60°, with radial normals. These angles are obtained
+/// from rational coordinates by stretching the drawing by √3.
 fn at_angles_of_the_hexagon(pen: &mut Pen<'_>, body: Side) {
     if pen.drawing.links.is_empty() {
         pen.drawing.stretch = 3;
@@ -96,7 +96,8 @@ fn parallel_edges(pen: &mut Pen<'_>, body: Side) {
         edge(pen, body, at, u);
     }
     if pen.once_in(3) {
-        // Two wheels are on one axle, or on two: both prescribe the rolling of the body.
+        // Two wheels are on one axle or on two axles; both wheels constrain the rolling motion of
+        // the body.
         let way = pen.drawing.across(u);
         let (first, second) = (pen.point(), pen.point());
         let axle = spinner(pen, body, first, way);
@@ -113,8 +114,8 @@ fn parallel_edges(pen: &mut Pen<'_>, body: Side) {
     }
 }
 
-/// Adds a wheel that rolls while a point of the body moves along u, with or without a bearing
-/// there.
+/// Adds a wheel that rolls while a point of the body moves along u, with or without a bearing at
+/// this point.
 fn spinner(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) -> Side {
     let wheel = pen.drawing.body_at(at);
     if pen.once_in(2) {

@@ -1,11 +1,11 @@
-//! Gears and racks: a closed train can carry a load if the ratios around it multiply to one, and is
-//! locked otherwise.
+//! Gears and racks. A closed train has a self-stress if the product of the ratios around the train
+//! is one; otherwise the train is locked.
 
 use super::super::drawing::{GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
 use super::pen::Pen;
 
-/// Ratios that are not exact as doubles, and whose products are not exact either.
+/// Ratios that cannot be represented exactly as doubles; their products cannot either.
 const RATIOS: [(i128, i128); 10] = [
     (1, 3),
     (-1, 3),
@@ -21,7 +21,7 @@ const RATIOS: [(i128, i128); 10] = [
 
 pub(super) fn gears(pen: &mut Pen<'_>) {
     let kind = pen.numbers.below(7);
-    // The bearings leave one rotation to each wheel, and ratios are constant.
+    // Each wheel has one rotation in its bearing, and ratios are constant.
     pen.drawing.has_constant_rank = kind < 5;
     match kind {
         0 | 1 => closed_train(pen),
@@ -54,7 +54,7 @@ fn mesh(pen: &mut Pen<'_>, first: Side, second: Side, carrier: Side, ratio: Rati
     pen.link(&[first, second, carrier], Tie::Gear { ratio });
 }
 
-/// Adds a wheel with two meshes with the ground: they are dependent for any ratios.
+/// Adds a wheel with two meshes with the ground. The two meshes are dependent for any ratios.
 fn held(pen: &mut Pen<'_>) {
     let wheel = geared(pen, GROUND);
     for _ in 0..2 {
@@ -101,7 +101,7 @@ fn closed_train(pen: &mut Pen<'_>) {
     }
 }
 
-/// Adds a sun, a ring on the ground or free, and planets on a carrier.
+/// Adds a sun wheel, a ring that is fixed to the ground or free, and planets on a carrier.
 fn planets(pen: &mut Pen<'_>) {
     let centre = pen.point();
     let (sun, carrier) = (pen.drawing.body_at(centre), pen.drawing.body_at(centre));
@@ -128,22 +128,23 @@ fn planets(pen: &mut Pen<'_>) {
         } else {
             Ratio::ONE
         };
-        // The planets have different sizes: the product of the ratios of both meshes is the same.
+        // The planets have different sizes, but the product of the ratios of both meshes is the
+        // same for all planets.
         let shrink = if k == 0 { Ratio::ONE } else { shrink };
         mesh(pen, sun, planet, carrier, inner * shrink);
         mesh(pen, planet, ring, carrier, outer * shrink.inverse() * spoil);
     }
-    // Each further planet gives the same condition on sun and ring as the first one; one different
-    // ratio locks both.
+    // Each further planet gives the same condition on sun and ring as the first planet. One
+    // different ratio locks sun and ring.
     pen.drawing.redundancy = Some(count - 1 - usize::from(is_locked));
 }
 
-/// Adds a rack on a slider or free, and pinions on both sides, geared to each other.
+/// Adds a rack that is free or on a slider, and pinions on both sides that mesh with each other.
 fn racks(pen: &mut Pen<'_>) {
     let rack = pen.body();
     let way = pen.direction();
     // Line of force that is perpendicular to the direction of the rack after the plane is
-    // stretched: the axis of this slider is the direction of the rack.
+    // stretched, so that the slider moves along the rack.
     let (k, at) = (Ratio::whole(i64::from(pen.drawing.stretch)), pen.point());
     let normal = [-(k * way[1]), way[0]];
     if !pen.once_in(4) {

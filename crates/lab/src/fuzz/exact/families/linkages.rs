@@ -1,5 +1,5 @@
-//! Linkages at flat, stretched or aligned configurations, and parallel cranks, which are redundant
-//! everywhere.
+//! Linkages at configurations in which bars are collinear, and parallel cranks, which are redundant
+//! at all configurations.
 
 use super::super::drawing::{GROUND, Side, Vector, along};
 use super::super::ratio::Ratio;
@@ -14,7 +14,8 @@ pub(super) fn linkage(pen: &mut Pen<'_>) {
     }
 }
 
-/// Adds two to five cranks under one coupler, all equal or one different; some are driven.
+/// Adds two to five cranks under one coupler. All cranks are equal, or one is different; some are
+/// driven.
 fn cranks(pen: &mut Pen<'_>) {
     let count = 2 + pen.numbers.below(4);
     let arm = pen.vector(6);
@@ -33,7 +34,7 @@ fn cranks(pen: &mut Pen<'_>) {
     };
     let [x, y] = [0, 1].map(|axis| pivots[1][axis] - pivots[0][axis]);
     if !is_spoilt && !(x * arm[1] - y * arm[0]).is_zero() {
-        // Two cranks support the coupler, which has one remaining freedom.
+        // Two cranks support the coupler, which has one degree of freedom.
         pen.drawing.redundancy = Some(count - 2 + drives.saturating_sub(1));
     }
     for (k, pivot) in pivots.into_iter().enumerate() {
@@ -50,8 +51,8 @@ fn cranks(pen: &mut Pen<'_>) {
     }
 }
 
-/// Adds hinges on a line between two pivots of the ground, on a line that may turn back; one end is
-/// driven.
+/// Adds a chain of hinges between two pivots on the ground. All hinges are on one line, the links
+/// may point forward or backward, and one end is driven.
 fn chain(pen: &mut Pen<'_>) {
     let n = 2 + pen.numbers.below(4);
     let (origin, line) = (pen.point(), pen.direction());
@@ -80,7 +81,8 @@ fn chain(pen: &mut Pen<'_>) {
     }
 }
 
-/// Adds crank and coupler, aligned or not, with the rocker or the crank locked.
+/// Adds a four-bar whose crank and coupler are collinear or not, with the rocker or the crank
+/// locked.
 fn four_bar(pen: &mut Pen<'_>) {
     let [a, d] = [pen.point(), pen.point()];
     let arm = pen.vector(4);
@@ -121,7 +123,8 @@ fn slider_crank(pen: &mut Pen<'_>) {
     pen.slider([GROUND, slider], end, normal);
     match pen.numbers.below(3) {
         0 => pen.drawing.drive(bearing),
-        // The slider is locked: the crank is at a position at which the slider cannot turn it.
+        // The slider is locked, and the crank is at a dead centre, at which the slider cannot
+        // rotate it.
         1 => {
             let anchor = along(end, Ratio::whole(2), way);
             pen.bar([GROUND, slider], anchor, end);

@@ -1,4 +1,4 @@
-//! Draws random points, directions and links of the families on a grid.
+//! Draws random points, directions and links on a grid, for the families.
 
 use super::super::drawing::{Drawing, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;
@@ -80,7 +80,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Returns a point one step off a given point, perpendicular to a direction.
+    /// Returns a point at a distance of one step from a given point, perpendicular to a direction.
     pub(super) fn beside(&mut self, p: Vector, [x, y]: Vector) -> Vector {
         let sign = self.not_zero(1);
         along(p, sign * self.step, [-y, x])
@@ -109,7 +109,7 @@ impl<'a> Pen<'a> {
         self.drawing.body()
     }
 
-    /// Returns the point in which lines meet.
+    /// Returns the point in which the lines of a drawing meet.
     pub(super) fn centre(&mut self) -> Vector {
         if self.once_in(2) {
             [Ratio::ZERO; 2]
@@ -118,8 +118,8 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Often places the origin of a body at the point in which lines meet: their lever arms vanish
-    /// there.
+    /// Often places the origin of a body at the point in which lines meet, so that the lever arms
+    /// of these lines are zero.
     pub(super) fn often_at(&mut self, body: Side, centre: Vector) {
         if let Some(k) = body.filter(|_| self.numbers.once_in(2)) {
             self.drawing.origins[k] = Some(centre);

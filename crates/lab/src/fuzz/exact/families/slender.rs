@@ -1,6 +1,6 @@
 //! Drawings of full rank near a lower rank: displaced pins, dead centres, lines at small angles,
-//! thin loops. With a tolerance of at most a third of their distance from the lower rank, the
-//! program must not call them redundant.
+//! thin loops. If the tolerance is at most a third of the distance from the lower rank, the program
+//! must not report redundant rows.
 
 use suite::numbers::Numbers;
 
@@ -19,7 +19,7 @@ pub enum Slender {
     DeadCentre,
     /// A slider-crank near its dead centre, with its slider locked.
     SliderCrank,
-    /// A bar supported by two others that nearly meet on its line.
+    /// A bar supported by two other bars whose lines nearly meet on the line of the first bar.
     ThinTriangle,
     /// A parallelogram with short sides.
     ThinLoop,
@@ -29,7 +29,7 @@ pub enum Slender {
     SteepSlot,
     /// Steered wheels that are nearly straight.
     Steering,
-    /// A closed train whose ratios nearly multiply to one.
+    /// A closed train of gears for which the product of the ratios is nearly one.
     Train,
 }
 
@@ -272,7 +272,8 @@ fn steep_slot(pen: &mut Pen<'_>) {
     );
 }
 
-/// Adds a rear wheel, and two front wheels that are steered equally: there is no common centre.
+/// Adds a rear wheel, and two front wheels with equal steering angles, so that the axles have no
+/// common centre of rotation.
 fn steering(pen: &mut Pen<'_>) {
     let (rear, ahead) = (pen.point(), pen.vector(5));
     let side = quarter(ahead);

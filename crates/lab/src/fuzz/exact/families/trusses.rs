@@ -1,5 +1,5 @@
-//! Nodes on a line are connected by distances: bars along one line have one redundant constraint
-//! for each loop, and a bar off their line does not change that.
+//! Nodes on a line are connected by distances. Bars along one line have one redundant constraint
+//! for each loop, and a bar that is not on this line does not change the redundancy.
 
 use super::super::drawing::{GROUND, Side, Vector};
 use super::pen::Pen;
@@ -9,7 +9,7 @@ pub(super) fn truss(pen: &mut Pen<'_>) {
     let n = 3 + pen.numbers.below(3);
     let mut places = pen.places(origin, line, n);
     if pen.once_in(4) {
-        // A similar drawing that is not degenerate: one node is off the line.
+        // A similar drawing that is not degenerate: one node is not on the line.
         places[0] = pen.beside(places[0], line);
     }
     let mut nodes: Vec<Side> = Vec::new();

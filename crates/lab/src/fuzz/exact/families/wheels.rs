@@ -1,5 +1,6 @@
-//! Wheels pinned at their centres: the lever arm of the pin is exactly zero, and in doubles often a
-//! few 1e-17 m. The wheels are castors on forks, and pulleys on the ground and on vehicles.
+//! Wheels pinned at their centres. The lever arm of the pin is exactly zero, but in double
+//! precision it is often a few 1e-17 m. The wheels are castors on forks, and pulleys on the ground
+//! and on vehicles.
 
 use super::super::drawing::{GROUND, Side, Tie, along};
 use super::pen::Pen;
@@ -40,7 +41,7 @@ fn wheel(pen: &mut Pen<'_>, carrier: Side) -> Side {
     let wheel = pen.drawing.body_at(centre);
     pen.hinge([carrier, wheel], centre);
     match pen.numbers.below(8) {
-        // Adds a second bearing at the centre, or a bar to it.
+        // Adds a second bearing at the centre, or a bar that ends at the centre.
         0 => {
             pen.hinge([carrier, wheel], centre);
         }
@@ -54,7 +55,7 @@ fn wheel(pen: &mut Pen<'_>, carrier: Side) -> Side {
             let rim = along(centre, pen.whole(1, 2), rim);
             pen.bar([GROUND, wheel], far, rim);
         }
-        // The wheel slips in no direction: an edge at its centre.
+        // A knife edge at the centre of the wheel prevents slip along its normal.
         3 => {
             let u = pen.direction();
             pen.link(

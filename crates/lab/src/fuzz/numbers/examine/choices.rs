@@ -1,5 +1,5 @@
-//! Test (a): the choices of the product at one state are compared with the same choices of the
-//! oracle.
+//! Test (a): solutions for the multipliers that the product computes on request at one state are
+//! compared with the same solutions of the reference solver.
 
 use std::sync::Arc;
 
@@ -15,11 +15,12 @@ use crate::fuzz::numbers::sets::{elastic, without};
 use crate::fuzz::numbers::verdicts::Judge;
 use suite::numbers::Numbers;
 
-/// Agreement of chosen numbers, as a fraction of the largest number.
+/// Largest difference that counts as agreement, as a fraction of the largest value.
 const CHOSEN: f64 = 1e-7;
 
 impl Examined<'_> {
-    /// Compares the choices of the product at one state with the same choices of the oracle.
+    /// Compares the requested solutions of the product at one state with those of the reference
+    /// solver.
     pub(super) fn choices(&self, judge: &dyn Judge, which: usize, findings: &mut Findings) {
         let state = &self.states[which];
         let (row, instant, forms) = state;
@@ -37,7 +38,7 @@ impl Examined<'_> {
             Err(error) => {
                 let at = (row.t_before, &row.q[..]);
                 let [here, near] = ranks(self.mechanism, at, &mut Numbers::new(1));
-                // At a singular configuration there may be no choices.
+                // At a singular configuration these solutions may not exist.
                 if here == near {
                     let text = format!("no solution at t = {} s: {error}", row.t);
                     findings.note(Kind::Failed, text);
@@ -78,7 +79,7 @@ impl Examined<'_> {
                 let components = &found.reactions[form.group].components;
                 let of = components.iter().find(|(name, _)| *name == form.name);
                 let Some((_, value)) = of else { continue };
-                // A missing number is not a wrong number.
+                // A missing value does not count as wrong.
                 let Some(given) = value.in_solution() else {
                     continue;
                 };

@@ -1,4 +1,4 @@
-//! Test (c) at one state: data are displaced one at a time.
+//! Test (c) at one state, with data that are displaced one at a time.
 
 use model::System;
 
@@ -7,8 +7,8 @@ use crate::fuzz::numbers::displaced::Displaced;
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
 use crate::fuzz::numbers::verdicts::Judge;
 
-/// Limits of changes with one datum: the largest for a component that is not ill-determined, and
-/// the smallest for one that is.
+/// Limits of the change caused by one datum: the largest change of a component that is not
+/// ill-determined, and the smallest change of an ill-determined component.
 const STURDY: f64 = 0.12;
 const FRAGILE: f64 = 0.08;
 
@@ -16,7 +16,7 @@ impl Examined<'_> {
     /// Performs test (c) at one state.
     pub(super) fn displaced(&self, judge: &dyn Judge, which: usize, findings: &mut Findings) {
         let (row, instant, forms) = &self.states[which];
-        // Each set of connected bodies has a separate size and separate loads.
+        // Size and loads are computed separately for each set of connected bodies.
         let joints: Vec<usize> = (0..self.mechanism.layout().groups.len()).collect();
         if instant.load <= LOAD || self.mechanism.joined(&joints).len() > 1 {
             return;

@@ -5,7 +5,8 @@ use crate::fuzz::numbers::findings::{Count, Findings, Kind};
 use crate::fuzz::numbers::run::{Row, prepared, run};
 use crate::fuzz::numbers::verdicts::Judge;
 
-/// Agreement of two runs, as a fraction of the load, if their states agree to [`SAME_STATE`].
+/// Largest difference of two runs that counts as agreement, as a fraction of the load, if their
+/// states agree to within [`SAME_STATE`].
 const BETWEEN_RUNS: f64 = 1e-7;
 const SAME_STATE: f64 = 1e-10;
 
@@ -13,7 +14,8 @@ impl Examined<'_> {
     /// Performs test (a) in separate runs, each with other redundant rows.
     pub(super) fn between_runs(&self, judge: &dyn Judge, text: &str, findings: &mut Findings) {
         for rows in self.sets.iter().take(2) {
-            // A set that is admissible during the run may not be admissible at the start.
+            // A set of rows that is admissible during the run may not be admissible at the initial
+            // state.
             let Ok(study) = prepared(text, Some(rows)) else {
                 continue;
             };

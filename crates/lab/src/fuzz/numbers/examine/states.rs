@@ -1,4 +1,5 @@
-//! Tests (a) and (b): the solutions at each state, and the value of the product there.
+//! Tests (a) and (b): compares the solutions at each state with each other and with the value of
+//! the product.
 
 use super::{AT_STATE, Examined, LOAD, span};
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
@@ -10,16 +11,16 @@ use crate::fuzz::numbers::verdicts::{Judge, Word};
 /// Two solutions differ if a component differs by more than this fraction of the load.
 const DIFFERS: f64 = 1e-6;
 
-/// A component is free if this fraction of it is in the left null space, divided by the smallest
-/// singular value. For states that satisfy the constraints to 1e-12, this is the accuracy of the
-/// null space.
+/// A component is not determined if the fraction of it in the left null space exceeds this value
+/// divided by the smallest singular value. For states that satisfy the constraints to 1e-12, this
+/// is the accuracy of the null space.
 const FREE: f64 = 1e-10;
 
 impl Examined<'_> {
     /// Performs tests (a) and (b) at each state.
     pub(super) fn at_states(&self, judge: &dyn Judge, findings: &mut Findings) {
-        // By component and stretch: whether solutions differ inside, and whether the component is
-        // free there; `None` if the stretch contains no state.
+        // By component and interval: whether solutions differ in the interval, and whether the
+        // component is not determined there. `None` if the interval contains no state.
         let own = self.verdicts.iter().map(|own| own.stretches.len());
         let mut found: Vec<Vec<Option<[bool; 2]>>> = own.map(|count| vec![None; count]).collect();
         for state in &self.states {
@@ -48,7 +49,7 @@ impl Examined<'_> {
                     }
                     self.value(judge, state, k, findings);
                 } else if own.stretches[at].from < row.t {
-                    // The instant at which the stretch begins may differ.
+                    // At the instant at which the interval begins, the component may be different.
 
                     let [differs, free] = found[k][at].get_or_insert_default();
                     *differs |= span > DIFFERS * instant.load.max(LOAD);

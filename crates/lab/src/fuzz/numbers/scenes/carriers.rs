@@ -1,10 +1,10 @@
-//! Carriers of pieces: the ground, bases that rotate or slide, vehicles.
+//! Carriers of submechanisms: the ground, bases that rotate or slide, vehicles.
 
 use super::pieces::{Stand, hinge};
 use super::sketch::{Flat, Place, Sketch, ground};
 use crate::fuzz::scenes::Space;
 
-/// A carrier of pieces.
+/// A carrier of submechanisms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Carrier {
     Ground,
@@ -36,7 +36,7 @@ impl Carrier {
     }
 }
 
-/// Returns a motion that a drive prescribes, with rates of about `size` per second.
+/// Returns a drive motion with rates of about `size` per second.
 fn motion(s: &mut Sketch<'_>, size: f64) -> String {
     let x = size * s.numbers.within(0.5, 2.0);
     match s.numbers.below(4) {
@@ -53,7 +53,7 @@ fn motion(s: &mut Sketch<'_>, size: f64) -> String {
     }
 }
 
-/// Drives one of the joint coordinates in one of `chance` cases.
+/// Drives one of the joint coordinates with probability 1/`chance`.
 pub(super) fn drive_one(s: &mut Sketch<'_>, from: usize, chance: usize) {
     let measured = s.measured[from..].to_vec();
     if measured.is_empty() || !s.numbers.once_in(chance) {
@@ -89,9 +89,9 @@ fn sliding(s: &mut Sketch<'_>, place: &Place) -> Stand {
     (base, [0.0; 2])
 }
 
-/// Draws a chassis on two to four wheels without sideways motion, in half of the cases with a
-/// steered axle; in space it also remains in the plane of its place. It moves at up to 1.5 m/s, and
-/// without a steered axle it may turn about a separate point.
+/// Draws a chassis on two to four wheels that prevent sideways motion, in half of the cases with a
+/// steered axle. In space, the chassis is also constrained to the given plane. It moves at up to
+/// 1.5 m/s. Without a steered axle it may also rotate about a separate point.
 fn vehicle(s: &mut Sketch<'_>, place: &Place) -> Stand {
     let is_steered = s.numbers.once_in(2);
     let (speed, turn) = (s.numbers.within(0.2, 1.5), s.numbers.within(-1.5, 1.5));
@@ -121,7 +121,8 @@ fn vehicle(s: &mut Sketch<'_>, place: &Place) -> Stand {
     (chassis, [0.4, 0.0])
 }
 
-/// Adds a knife edge across the direction of travel, which is the first axis of the place.
+/// Adds a knife edge that prevents motion perpendicular to the direction of travel, which is the
+/// first axis of the plane.
 fn edge(s: &mut Sketch<'_>, place: &Place, body: &str, p: Flat) {
     s.single("knife-edge", &body.to_owned());
     s.at_height(place, p, 0.0);

@@ -1,6 +1,6 @@
-//! Pieces of mechanisms: repeated pivots and slides, cranks, chains, sliders, gears, and bodies
-//! with more bars or hinges than necessary, some of them with a small misalignment. A piece returns
-//! a body and a point of it, on which another piece may be mounted.
+//! Submechanisms: repeated pivots and slides, cranks, chains, sliders, gears, and bodies with more
+//! bars or hinges than necessary, some with a small misalignment. Each function returns a body and
+//! a point of this body, on which another submechanism may be mounted.
 
 use super::sketch::{Flat, Place, Side, Sketch, across, along};
 use crate::fuzz::scenes::Space;
@@ -8,7 +8,7 @@ use crate::fuzz::scenes::Space;
 /// A body and one of its points.
 pub(super) type Stand = (Side, Flat);
 
-/// Adds a pivot of two bodies in the plane of a piece, in one of many forms, most of them
+/// Adds a pivot of two bodies in the plane of a submechanism, in one of many forms. Most forms are
 /// redundant.
 pub(super) fn pivot(s: &mut Sketch<'_>, place: &Place, [a, b]: [&Side; 2], p: Flat) {
     match s.numbers.below(8) {
@@ -41,7 +41,7 @@ pub(super) fn pivot(s: &mut Sketch<'_>, place: &Place, [a, b]: [&Side; 2], p: Fl
     }
 }
 
-/// Adds a hinge `height` above the plane; in the plane all heights are the same.
+/// Adds a hinge at `height` above the plane; in planar scenes the height has no effect.
 pub(super) fn hinge(
     s: &mut Sketch<'_>,
     place: &Place,
@@ -78,7 +78,7 @@ fn slots(s: &mut Sketch<'_>, place: &Place, pair: [&Side; 2], p: Flat, count: us
     }
 }
 
-/// Adds a point of a body on two or three lines of the ground.
+/// Constrains a point of a body to two or three lines of the ground.
 fn lines(s: &mut Sketch<'_>, place: &Place, body: &Side, p: Flat) {
     let count = 2 + s.numbers.below(2);
     for k in 0..count {
@@ -90,7 +90,7 @@ fn lines(s: &mut Sketch<'_>, place: &Place, body: &Side, p: Flat) {
     }
 }
 
-/// Adds a slide along a direction; doubled in half of the cases.
+/// Adds a slide along a direction; in half of the cases the slide is doubled.
 fn slide(s: &mut Sketch<'_>, place: &Place, pair: [&Side; 2], p: Flat, d: Flat) {
     let name = s.joint("translational", pair);
     s.at_height(place, p, 0.0);
@@ -163,7 +163,8 @@ pub(super) fn slider(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> S
     }
     let (h, l) = (s.any_heading(), s.length(4, 8));
     let tip = along(*at, l, h);
-    // The rod reaches from the tip to the line through the pivot of the crank.
+    // The rod connects the tip of the crank to the line of the slider, which passes through the
+    // pivot of the crank.
     let rod = l * s.one(&[1.5, 2.0, 2.25]);
     let off = tip[0] * d[1] - tip[1] * d[0] - (at[0] * d[1] - at[1] * d[0]);
     let reach = (rod * rod - off * off).max(0.04).sqrt();
@@ -215,7 +216,8 @@ pub(super) fn gears(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> St
     (wheels[2].clone(), p)
 }
 
-/// Adds a body on more bars than necessary; in the plane three to five, in space six to eight.
+/// Adds a body on bars, some of them redundant: three to five bars in the plane, six to eight in
+/// space.
 pub(super) fn braced(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let far = along(*at, 0.6, s.heading());
     let body = s.body(place, far);
@@ -235,8 +237,9 @@ pub(super) fn braced(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> S
     (body, far)
 }
 
-/// Adds a body that some tenths of a millimetre lock: hinges in a row with one off the axis, or a
-/// pin and a bar that nearly passes through it.
+/// Adds a body that is locked by a misalignment of some tenths of a millimetre: hinges in a row,
+/// one of them displaced from the axis, or a pin and a bar whose line nearly passes through the
+/// pin.
 pub(super) fn slightly_off(s: &mut Sketch<'_>, place: &Place, (base, at): &Stand) -> Stand {
     let h = s.heading();
     let far = along(*at, 0.6, h);

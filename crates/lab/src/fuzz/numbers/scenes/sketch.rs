@@ -1,4 +1,4 @@
-//! A mechanism that is being written as the text of a scene: pieces are drawn in a separate plane,
+//! A mechanism that is being written as the text of a scene. Submechanisms are drawn in a plane,
 //! which is the plane of the scene or any plane in space.
 
 use std::fmt::Write;
@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::fuzz::scenes::Space;
 use suite::numbers::Numbers;
 
-/// A point or direction in the plane of a piece.
+/// A point or direction in the plane of a submechanism.
 pub(super) type Flat = [f64; 2];
 
 /// A body by its name, or the ground.
@@ -17,7 +17,7 @@ pub(super) fn ground() -> Side {
     "ground".to_owned()
 }
 
-/// Position of the plane of a piece.
+/// Position of the plane of a submechanism.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     origin: [f64; 3],
@@ -78,7 +78,7 @@ impl<'n> Sketch<'n> {
         let _ = writeln!(self.text, "\n{head}");
     }
 
-    /// Returns one of these with equal probabilities.
+    /// Returns one of these values, chosen with equal probabilities.
     pub(super) fn one<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.numbers.below(from.len())]
     }
@@ -88,7 +88,7 @@ impl<'n> Sketch<'n> {
         0.05 * f64::from(self.numbers.between(low, high))
     }
 
-    /// Returns a unit vector: in three of five cases vertical, horizontal or diagonal.
+    /// Returns a unit vector, which in three of five cases is vertical, horizontal or diagonal.
     pub(super) fn heading(&mut self) -> Flat {
         match self.numbers.below(10) {
             0 | 1 => [0.0, 1.0],
@@ -106,8 +106,8 @@ impl<'n> Sketch<'n> {
         [cos, sin]
     }
 
-    /// Returns a plane for a piece: in a planar scene the plane itself, in space one of the
-    /// coordinate planes or any plane.
+    /// Returns a plane for a submechanism: in a planar scene the plane of the scene, in space one
+    /// of the coordinate planes or any plane.
     pub(super) fn place(&mut self) -> Place {
         let origin = [0, 1, 2].map(|_| self.numbers.below(3) as f64 * 0.25);
         if self.space == Space::Plane {
@@ -212,27 +212,27 @@ impl<'n> Sketch<'n> {
         name
     }
 
-    /// Adds a key with a point `height` above the plane of the piece.
+    /// Adds a key with a point at `height` above the plane of the submechanism.
     pub(super) fn at_height(&mut self, place: &Place, p: Flat, height: f64) {
         let at = self.written(place.point(p, height));
         self.line("at", &at);
     }
 
-    /// Adds a key with a direction in the plane of the piece.
+    /// Adds a key with a direction in the plane of the submechanism.
     pub(super) fn direction(&mut self, key: &str, place: &Place, d: Flat) {
         let value = self.written(place.direction(d));
         self.line(key, &value);
         self.in_ground_axes();
     }
 
-    /// Adds a key with the normal of the plane of the piece.
+    /// Adds a key with the normal of the plane of the submechanism.
     pub(super) fn normal(&mut self, key: &str, place: &Place) {
         let value = self.written(place.axes[2]);
         self.line(key, &value);
         self.in_ground_axes();
     }
 
-    /// At the start planar bodies have the axes of the ground.
+    /// At the initial configuration, planar bodies have the axes of the ground.
     fn in_ground_axes(&mut self) {
         if self.space == Space::Space {
             self.line("frame", "\"global\"");
@@ -246,7 +246,7 @@ impl<'n> Sketch<'n> {
         self.line("at", &format!("[{}, {}]", ends[0], ends[1]));
     }
 
-    /// Adds a bar between two points at heights above the plane.
+    /// Adds a bar between two points, each at a height above the plane.
     pub(super) fn bar_in_space(&mut self, place: &Place, pair: [&Side; 2], ends: [(Flat, f64); 2]) {
         self.joint("distance", pair);
         let ends = ends.map(|(p, height)| self.written(place.point(p, height)));
@@ -282,7 +282,8 @@ impl<'n> Sketch<'n> {
     }
 }
 
-/// Returns axes rotated about z by the first angle, then about the new x by the second.
+/// Returns axes that are rotated about z by the first angle, then about the new x-axis by the
+/// second.
 fn turned(first: f64, second: f64) -> [[f64; 3]; 3] {
     let ((s, c), (sin, cos)) = (first.sin_cos(), second.sin_cos());
     [

@@ -1,13 +1,14 @@
-//! Results by hand for the mechanisms of the catalogue. They come from textbooks of mechanism
-//! theory (Bennett, Sarrus, Bricard, Oldham, Hooke), and from planar results converted to space. In
-//! these, three out-of-plane rows are redundant for each loop that keeps its bodies in a plane.
+//! Hand-derived results for the mechanisms of the catalogue. The results come from textbooks of
+//! mechanism theory (Bennett, Sarrus, Bricard, Oldham, Hooke) and from planar results that are
+//! converted to space. In converted results, three out-of-plane rows are redundant for each loop
+//! that constrains its bodies to a plane.
 
 use super::*;
 use crate::fuzz::exact::expected::{Expected, Verdict};
 use crate::fuzz::exact::truth::Truth;
 use crate::fuzz::exact::wrench::{Owner, Wrench};
 
-/// Returns the results, after a check that every joint is satisfied as drawn.
+/// Checks that every joint is satisfied as drawn, and returns the results.
 fn answer(drawing: &Drawing) -> Expected {
     assert_eq!(drawing.broken(), Vec::<&str>::new());
     Expected::of(drawing)
@@ -50,7 +51,7 @@ fn v1_doors() {
     let three = hinges(&[R, R, R]);
     let expected = answer(&three);
     assert_eq!(counts(&expected), [15, 5, 10, 1]);
-    // No wrench is unique. A hinge carries no moment about its axis.
+    // No wrench is unique. A hinge transmits no moment about its axis.
     assert_eq!(all_letters(&expected), ["nnnnnu"; 3]);
     assert!(
         expected
@@ -109,7 +110,7 @@ fn v3_four_bars_with_a_universal_joint() {
 
     let mut drawing = four_bar_with_flat_cross();
     assert_eq!(counts(&answer(&drawing)), [17, 16, 1, 2]);
-    // The test repeats this with the axes in the other bodies.
+    // The test is repeated with the axes in the other bodies.
     let swapped = drawing.joints[2].kind.swapped();
     drawing.joints[2].kind = swapped.expect("its axes can be exchanged");
     assert_eq!(counts(&answer(&drawing)), [17, 16, 1, 2]);
@@ -158,7 +159,7 @@ fn v11_bennett() {
         assert!(!reaction.is_unique.is_unique());
         assert_eq!(reaction.carried - reaction.free, 2);
     }
-    // Tz of the first joint is the moment about its own axis.
+    // Tz of the first joint is the moment about the axis of this joint.
     assert_eq!(letters(&expected, 0), "nnnnnu");
     assert_eq!(all_letters(&expected)[1..], ["nnnnnn"; 3]);
 }
@@ -207,8 +208,8 @@ fn v18_hexapod() {
     assert_eq!(left, Some([72, 0, 6]));
 }
 
-/// Each parallelogram has three redundant rows, and the platform has three more, because two
-/// couples of each leg exclude its three rotations.
+/// Each parallelogram has three redundant rows. The platform has three more, because each of the
+/// three legs prevents two rotations of the platform by two couples.
 #[test]
 fn v19_delta() {
     assert_eq!(counts(&answer(&delta())), [105, 93, 12, 3]);
@@ -229,7 +230,7 @@ fn v22_cars() {
     assert_eq!(counts(&straight), [32, 29, 3, 1]);
     let turned = answer(&car(&Ratio::new(1, 10)));
     assert_eq!(counts(&turned), [32, 30, 2, 0]);
-    // The four contacts carry a pattern of normal forces with a zero sum.
+    // The four contacts have a self-stress of normal forces with a zero sum.
     for expected in [straight, turned] {
         assert_eq!(
             (expected.rank_holonomic, expected.rank_nonholonomic),

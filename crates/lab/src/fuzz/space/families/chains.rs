@@ -14,8 +14,9 @@ pub(super) fn chains(pen: &mut Pen<'_>) {
     }
 }
 
-/// Draws a tree: rows of joints that close no loop are independent. An edge on its last body is
-/// also independent, if that body can move along its normal; theory does not check this.
+/// Draws a tree. Its joint rows are independent, because no joint closes a loop. A knife edge on
+/// the last body is also independent, if this body can move along the normal of the edge; this
+/// condition is not checked.
 fn tree(pen: &mut Pen<'_>) {
     let mut bodies: Vec<Side> = vec![pen.base];
     for _ in 0..1 + pen.numbers.below(4) {
@@ -59,7 +60,8 @@ fn ring(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Draws axes through one point: all wrenches are forces through it, if the axes span space.
+/// Draws a loop of axes through one point. If the axes span space, all self-stresses are forces
+/// through this point.
 pub(super) fn spherical(pen: &mut Pen<'_>) {
     let n = 3 + pen.numbers.below(4);
     let centre = pen.point();

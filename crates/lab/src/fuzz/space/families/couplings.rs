@@ -15,8 +15,9 @@ pub(super) fn couplings(pen: &mut Pen<'_>) {
     }
 }
 
-/// Draws R P P R with parallel shafts and sliders across them, which need not be perpendicular: p
-/// = 3. With parallel sliders the shafts rotate together, or the middle piece slides: p = 4.
+/// Draws an Oldham coupling, R P P R, with parallel shafts. The sliders are perpendicular to the
+/// shafts, but not necessarily to each other: p = 3. With parallel sliders, the shafts can rotate
+/// together or the middle body can slide: p = 4.
 fn oldham(pen: &mut Pen<'_>) {
     let z = Vector::unit(2);
     let zero = Ratio::zero();
@@ -45,7 +46,7 @@ fn oldham(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Returns two shafts whose axes meet, and the axes of a cross between them.
+/// Returns two shafts whose axes intersect, and the axes of a cross between them.
 fn shafts(pen: &mut Pen<'_>) -> [Vector; 4] {
     loop {
         let (first, second) = (pen.direction(), pen.direction());
@@ -57,7 +58,7 @@ fn shafts(pen: &mut Pen<'_>) -> [Vector; 4] {
     }
 }
 
-/// Adds a bearing of a shaft, some steps from its centre.
+/// Adds a bearing of a shaft, at a distance of some steps from the centre.
 fn bearing(pen: &mut Pen<'_>, centre: &Vector, axis: &Vector) -> Vector {
     let steps = &pen.not_zero(4) * &pen.step;
     centre.along(&steps, axis)
@@ -100,7 +101,8 @@ fn universal(pen: &mut Pen<'_>) {
         bearing(pen, &centre, &first),
         bearing(pen, &centre, &second),
     );
-    // The axes of the cross are any perpendicular axes, each perpendicular to its own shaft.
+    // The axes of the cross are perpendicular to each other, and each is perpendicular to its
+    // shaft.
     let a = pen.across(&first);
     let b = second.cross(&a);
     let kinds = [
@@ -117,7 +119,7 @@ fn universal(pen: &mut Pen<'_>) {
     pen.drives(joint);
 }
 
-/// Draws a shaft between two universal joints, with or without a sliding piece.
+/// Draws a shaft between two universal joints, with or without a sliding joint.
 fn cardan(pen: &mut Pen<'_>) {
     let [first, a, _, middle] = shafts(pen);
     let centre = pen.point();

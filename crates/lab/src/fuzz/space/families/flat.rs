@@ -1,4 +1,5 @@
-//! Planar linkages in space: each loop that keeps its bodies in a plane has three redundant rows.
+//! Planar linkages in space. Each loop that constrains its bodies to a plane has three redundant
+//! rows.
 
 use super::super::catalogue::{Flat, flat as joint, revolute};
 use super::super::drawing::{Kind, Side};
@@ -50,8 +51,8 @@ fn ring(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Draws parallel revolute axes, at points of different heights: p = 3, and one more if all axes
-/// are in one plane.
+/// Draws a loop of parallel revolute axes at points of different heights. The redundancy is p = 3,
+/// and p = 4 if all axes are in one plane.
 fn revolute_ring(pen: &mut Pen<'_>) {
     let n = 4 + pen.numbers.below(2);
     let zero = Ratio::zero();
@@ -87,8 +88,8 @@ fn cranks(pen: &mut Pen<'_>) {
         let (_, joint) = pen.chain(base, coupler, &joints);
         first = first.min(joint);
     }
-    // In the plane each further crank repeats the angle of the coupler; if the cranks point along
-    // the line of all feet, the configuration is singular.
+    // In the plane, each further crank repeats the constraint on the angle of the coupler. If the
+    // cranks are parallel to a line through all ground pivots, the configuration is singular.
     let is_flat = feet.iter().all(|f| (f - &feet[0]).is_along(&crank));
     let in_plane = if is_flat { n - 1 } else { n - 2 };
     pen.expects(in_plane + 3 * (n - 1));

@@ -7,11 +7,12 @@ use super::super::vector::{Motion, Rotation, Vector};
 use super::pen::Pen;
 
 /// The four joints of a Bennett linkage with links (a, α), (b, β), (a, α), (b, β). `first` is the
-/// frame of the link 1–2: z along the axis of joint 1, x towards joint 2.
+/// frame of link 1–2, with z along the axis of joint 1 and x towards joint 2.
 ///
 /// Source: O. Bottema, B. Roth, Theoretical Kinematics (1979), ch. VII: a/sin α = b/sin β and
 /// tan(θ/2)·tan(φ/2) = (tan(β/2) + tan(α/2))/(tan(β/2) − tan(α/2)) for the angles θ, φ, −θ, −φ at
-/// the joints. So all coordinates are fractions if the half tangents and a are fractions.
+/// the joints. Therefore all coordinates are rational if a and the tangents of the half angles are
+/// rational.
 struct Bennett {
     /// The values a, tan(α/2), tan(β/2), tan(θ/2).
     length: Ratio,
@@ -40,7 +41,8 @@ impl Bennett {
         let mut frame = first.clone();
         links.map(|(length, twist, turn)| {
             let joint = revolute(&frame.shift, &frame.direction(&z));
-            // The motion is along the link and about it, then about the next joint.
+            // The transformation to the next joint frame: translation along the link and rotation
+            // about the link, then rotation about the next joint.
             let along = Motion::rigid(Rotation::about(&x, twist), x.times(length));
             let about = Motion::rigid(Rotation::about(&z, &turn), Vector::zero());
             frame = frame.after(&along).after(&about);
@@ -49,7 +51,7 @@ impl Bennett {
     }
 }
 
-/// Returns a linkage with the link of another linkage: the same a and α.
+/// Returns a linkage that has a link with the same a and α as the linkage `like`.
 fn another(pen: &mut Pen<'_>, like: Option<&Bennett>) -> Bennett {
     let (length, alpha) = match like {
         Some(b) => (b.length.clone(), b.alpha.clone()),
@@ -91,10 +93,10 @@ pub(super) fn bennett(pen: &mut Pen<'_>) {
     }
 }
 
-/// Draws two Bennett linkages that share the link 1–2. Their links 4–1 are one body, the base.
-/// Without the shared link a hinge connects the other two links at joint 2: Goldberg's 5R linkage,
-/// 25 rows of rank 23. With the shared link there are 35 rows of rank 29. If the linkages coincide,
-/// theory gives no result.
+/// Draws two Bennett linkages that share the link 1–2. Their links 4–1 are one body, the base. If
+/// the shared link is removed, a hinge connects the other two links at joint 2. The result is
+/// Goldberg's 5R linkage, with 25 rows of rank 23. With the shared link there are 35 rows of rank
+/// 29. If the linkages coincide, theory gives no result.
 fn goldberg(pen: &mut Pen<'_>, one: [Kind; 4], other: [Kind; 4], is_merged: bool) {
     let coincide = one[2] == other[2];
     let base = pen.base;
@@ -104,7 +106,8 @@ fn goldberg(pen: &mut Pen<'_>, one: [Kind; 4], other: [Kind; 4], is_merged: bool
     if is_merged {
         pen.expects(2);
     } else {
-        // The joint at 2 connects to the shared link, which has a hinge with the base at 1.
+        // The hinge at joint 2 connects to the shared link, and the hinge at joint 1 connects the
+        // shared link to the base.
         let shared = pen.body();
         pen.joint([base, shared], j1);
         pen.joint([shared, bodies[2]], k2);
@@ -125,9 +128,9 @@ pub(super) fn six_bars(pen: &mut Pen<'_>) {
     }
 }
 
-/// Draws two to four legs of three parallel revolute joints: a platform that keeps its orientation
-/// and moves along one line. Each leg constrains it by one force and two couples; together they
-/// leave one freedom if two legs differ in direction.
+/// Draws a Sarrus linkage: a platform on two to four chains of three parallel revolute joints. Each
+/// chain constrains the platform by one force and two couples. If the axes of two chains have
+/// different directions, the platform can only translate along one line.
 fn sarrus(pen: &mut Pen<'_>) {
     let n = 2 + pen.numbers.below(3);
     let (base, platform) = (pen.base, pen.body());
@@ -145,7 +148,7 @@ fn sarrus(pen: &mut Pen<'_>) {
         let joints = [low, knee, high].map(|p| revolute(&turn.of(&p.times(&pen.step)), &axis));
         let (_, joint) = pen.chain(base, platform, &joints);
         first = first.min(joint);
-        // The second leg is never opposite to the first.
+        // The second chain is never opposite to the first.
         let next = if k == 0 {
             Rotation::about(&Vector::unit(2), &Ratio::new(1, 2))
         } else {
@@ -168,19 +171,21 @@ fn cube(pen: &mut Pen<'_>) {
     pen.drives(first);
 }
 
-/// Draws Bricard's line-symmetric linkage: three axes, and their images under a half turn.
+/// Draws Bricard's line-symmetric linkage: three axes, and the images of these axes under a half
+/// turn.
 fn symmetric(pen: &mut Pen<'_>, image: impl Fn(&Vector) -> Vector) {
     let own = [0; 3].map(|_| revolute(&pen.point(), &pen.direction()));
     let joints = own.each_ref().map(|j| j.mapped(&image, &image));
     let joints: Vec<Kind> = own.into_iter().chain(joints).collect();
     let (_, first) = pen.chain(pen.base, pen.base, &joints);
-    // Generic linkages have p = 1; axes of small integers may have more common properties.
+    // Generic linkages have p = 1. Axes with small integer components may have further special
+    // positions.
     pen.unknown();
     pen.drives(first);
 }
 
-/// Draws Bricard's plane-symmetric linkage: two axes in the mirror plane, and two with their
-/// images.
+/// Draws Bricard's plane-symmetric linkage: two axes in the mirror plane, and two further axes with
+/// their mirror images.
 fn mirrored(pen: &mut Pen<'_>) {
     let zero = Ratio::zero();
     let mirror = |p: &Vector| Vector([p.0[0].clone(), p.0[1].clone(), -&p.0[2]]);

@@ -1,4 +1,4 @@
-//! Draws random points, directions and joints of the families on a grid.
+//! Draws random points, directions and joints on a grid, for the families.
 
 use super::super::drawing::{Drawing, Kind, Measure, Side};
 use super::super::pose::{any_turn, quarter};
@@ -10,7 +10,7 @@ use suite::numbers::Numbers;
 /// Step sizes of the grid.
 const STEPS: [(i64, i64); 6] = [(1, 1), (1, 2), (1, 3), (1, 10), (3, 10), (1, 7)];
 
-/// Legs and hypotenuses of right triangles.
+/// Sides of right triangles with integer lengths.
 const TRIPLES: [[i64; 3]; 6] = [
     [3, 4, 5],
     [5, 12, 13],
@@ -20,15 +20,15 @@ const TRIPLES: [[i64; 3]; 6] = [
     [12, 35, 37],
 ];
 
-/// Draws a piece in separate coordinates.
+/// Draws a submechanism in separate coordinates.
 pub(super) struct Pen<'a> {
     drawing: &'a mut Drawing,
     pub(super) numbers: &'a mut Numbers,
-    /// Base of the piece.
+    /// Base of the submechanism.
     pub(super) base: Side,
     /// The step of the grid.
     pub(super) step: Ratio,
-    /// Transformation from the coordinates of the piece to the drawing.
+    /// Transformation from the coordinates of the submechanism to the drawing.
     placement: Motion,
 }
 
@@ -54,7 +54,8 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Keeps the piece at its own coordinates, for a piece that needs the ground.
+    /// Sets the base to the ground, without a transformation, for a submechanism that needs the
+    /// ground.
     pub(super) fn stand_on_ground(&mut self) {
         self.base = None;
     }
@@ -117,14 +118,14 @@ impl<'a> Pen<'a> {
         any_across(w, self.numbers)
     }
 
-    /// Returns cosine and sine of an angle, both fractions.
+    /// Returns cosine and sine of an angle, both rational.
     pub(super) fn angle(&mut self) -> [Ratio; 2] {
         let [a, b, c] = TRIPLES[self.numbers.below(TRIPLES.len())];
         let (a, b) = if self.once_in(2) { (a, b) } else { (b, a) };
         [a, b].map(|x| Ratio::new(x, c))
     }
 
-    /// Returns a half tangent that is neither 0 nor ±1.
+    /// Returns the tangent of a half angle that is neither 0 nor ±1.
     pub(super) fn half_tangent(&mut self) -> Ratio {
         let (n, d) = (self.numbers.between(1, 4), self.numbers.between(1, 4));
         let n = if n == d { n + 1 } else { n };
@@ -135,7 +136,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// Returns a rotation about an axis of the piece, one of the three coordinate axes.
+    /// Returns a rotation about one of the three coordinate axes of the submechanism.
     pub(super) fn turn_about(&mut self, axis: usize) -> Rotation {
         Rotation::about(&Vector::unit(axis), &self.half_tangent())
     }
@@ -144,7 +145,7 @@ impl<'a> Pen<'a> {
         self.drawing.body()
     }
 
-    /// Adds a joint that is given in the coordinates of the piece; returns its index.
+    /// Adds a joint that is given in the coordinates of the submechanism; returns its index.
     pub(super) fn joint(&mut self, bodies: [Side; 2], kind: Kind) -> usize {
         let placement = &self.placement;
         let placed = kind.mapped(&|p| placement.point(p), &|d| placement.direction(d));
@@ -171,17 +172,18 @@ impl<'a> Pen<'a> {
         (bodies, first)
     }
 
-    /// Adds the redundancy of this piece according to theory.
+    /// Adds the redundancy of this submechanism according to theory.
     pub(super) fn expects(&mut self, redundancy: usize) {
         self.drawing.redundancy = self.drawing.redundancy.map(|p| p + redundancy);
     }
 
-    /// States that theory gives no result for this piece.
+    /// Records that theory gives no result for this submechanism.
     pub(super) fn unknown(&mut self) {
         self.drawing.redundancy = None;
     }
 
-    /// Drives one or two joints of the piece from a joint on, in one of three cases.
+    /// In one of three cases, drives one or two joints of the submechanism, starting at the joint
+    /// `first`.
     pub(super) fn drives(&mut self, first: usize) {
         if !self.once_in(3) {
             return;

@@ -1,4 +1,5 @@
-//! Platforms on rods and legs: rods that spin about their own axes, and dependent lines of force.
+//! Platforms on rods and legs, with rods that can spin about their axes and with dependent lines of
+//! force.
 
 use super::super::catalogue::translational;
 use super::super::drawing::{Kind, Measure};
@@ -14,7 +15,7 @@ pub(super) fn platforms(pen: &mut Pen<'_>) {
     }
 }
 
-/// Returns ends of n bars: on the base and on the platform.
+/// Returns the ends of n bars, each with one end on the base and one on the platform.
 fn ends(pen: &mut Pen<'_>, n: usize) -> Vec<[Vector; 2]> {
     let way = pen.numbers.below(6);
     let (zero, height) = (Ratio::zero(), &pen.whole(1, 6) * &pen.step);
@@ -24,7 +25,7 @@ fn ends(pen: &mut Pen<'_>, n: usize) -> Vec<[Vector; 2]> {
         let (low, high) = (pen.point_at(&zero), pen.point_at(&height));
         let factor = &pen.not_zero(3) * &pen.step;
         let pair = match way {
-            // The lines pass through one point, are parallel, or all meet one line.
+            // The lines pass through one point, are parallel, or all intersect one line.
             0 => [centre.clone(), high],
             1 => [low.clone(), low.along(&factor, &common)],
             2 => [centre.along(&factor, &common), high],
@@ -49,8 +50,8 @@ fn bars(pen: &mut Pen<'_>) {
     pen.unknown();
 }
 
-/// Draws the bars as bodies between spherical joints, each with a free spin; some have a universal
-/// joint at one end.
+/// Draws the bars as bodies between spherical joints, so that each bar can spin freely. Some bars
+/// have a universal joint at one end.
 fn rods(pen: &mut Pen<'_>) {
     let (base, platform) = (pen.base, pen.body());
     let n = 2 + pen.numbers.below(5);
@@ -93,6 +94,6 @@ fn legs(pen: &mut Pen<'_>) {
             pen.drive(joint + 1, Measure::Displacement);
         }
     }
-    // Each leg without a drive leaves all six freedoms of the platform.
+    // A leg without a drive does not constrain the six degrees of freedom of the platform.
     pen.expects(0);
 }

@@ -25,8 +25,8 @@ fn rests(pen: &mut Pen<'_>, pair: [Side; 2], at: Vector, normal: Vector) {
     pen.joint(pair, kind);
 }
 
-/// Draws a table on three to five points of a plane: three of them constrain it, or two if all are
-/// on a line.
+/// Draws a table on three to five points of a plane. Three points are independent constraints, or
+/// two if all points are on a line.
 fn table(pen: &mut Pen<'_>) {
     let (base, table) = (pen.base, pen.body());
     let zero = Ratio::zero();
@@ -77,8 +77,8 @@ fn grooves(pen: &mut Pen<'_>) {
     pen.unknown();
 }
 
-/// Draws a ball in a cone, one in a groove and one on a plane: the six rows are independent unless
-/// the groove is perpendicular to the line to the cone.
+/// Draws a body with a ball in a cone, a ball in a groove and a ball on a plane. The six rows are
+/// independent unless the groove is perpendicular to the line from the groove to the cone.
 fn cone_groove_plane(pen: &mut Pen<'_>) {
     let (base, body) = (pen.base, pen.body());
     let zero = Ratio::zero();

@@ -20,7 +20,7 @@ pub(super) fn vehicles(pen: &mut Pen<'_>) {
     }
 }
 
-/// Adds a wheel in a hub of the chassis, with its contact at z = 0 and the axis rotated about z.
+/// Adds a wheel in a hub of the chassis, with the contact at z = 0 and the axis rotated about z.
 fn wheel(pen: &mut Pen<'_>, chassis: Side, [x, y]: [&Ratio; 2], radius: &Ratio, turn: &Rotation) {
     let axis = turn.of(&Vector::unit(1));
     let contact = Vector([x.clone(), y.clone(), Ratio::zero()]);
@@ -45,9 +45,9 @@ fn wheel(pen: &mut Pen<'_>, chassis: Side, [x, y]: [&Ratio; 2], radius: &Ratio, 
 }
 
 /// Draws four wheels at the corners of a rectangle; the front wheels are steered in parallel. In
-/// the straight position there is one pattern of normal forces, and one side force on each axle. In
-/// the steered position, if the front axle is not at the rear one, the two side forces of each axle
-/// act on two separate lines, and all motion is blocked.
+/// the straight position the self-stresses are one pattern of normal forces and one side force on
+/// each axle. In the steered position with separate axles, the two side forces of each axle act on
+/// two separate lines, and all motion is blocked.
 fn car(pen: &mut Pen<'_>, half_tangent: &Ratio) {
     let chassis = pen.body();
     let (length, width) = (&pen.whole(1, 6) * &pen.step, &pen.whole(1, 4) * &pen.step);
@@ -65,7 +65,7 @@ fn car(pen: &mut Pen<'_>, half_tangent: &Ratio) {
     }
 }
 
-/// Draws three to five wheels anywhere, each rotated independently or like the others.
+/// Draws three to five wheels at random positions, each rotated independently or like the others.
 fn turned(pen: &mut Pen<'_>) {
     let chassis = pen.body();
     let n = 2 + pen.numbers.below(4);
@@ -83,7 +83,7 @@ fn turned(pen: &mut Pen<'_>) {
     }
 }
 
-/// Draws free disks that lean; some have a joint with another body at their centre or about their
+/// Draws tilted free disks. Some disks have a joint with another body at the centre or about the
 /// axis.
 fn tilted(pen: &mut Pen<'_>) {
     let body = pen.body();
@@ -94,7 +94,8 @@ fn tilted(pen: &mut Pen<'_>) {
         let [cosine, sine] = pen.angle();
         let turn = pen.turn_about(2);
         let radius = &pen.whole(1, 4) * &pen.step;
-        // The lowest spoke is (0, −sine, −cosine) before the rotation, perpendicular to the axis.
+        // The vector from the centre to the lowest point is along (0, −sine, −cosine) before the
+        // rotation, perpendicular to the axis.
         let axis = Vector([zero.clone(), cosine.clone(), -&sine]);
         let spoke = Vector([zero.clone(), -&sine, -&cosine]);
         let (axis, spoke) = (turn.of(&axis), turn.of(&spoke));
@@ -115,8 +116,8 @@ fn tilted(pen: &mut Pen<'_>) {
     }
 }
 
-/// Draws a sledge on a plane, or a free one, with edges whose normals are parallel, meet, or do
-/// neither.
+/// Draws a sledge on a plane, or a free sledge, with knife edges whose normals are parallel,
+/// intersect, or neither.
 fn edges(pen: &mut Pen<'_>) {
     let sledge = pen.body();
     let zero = Ratio::zero();

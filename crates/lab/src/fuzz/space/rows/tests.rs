@@ -1,5 +1,6 @@
-//! Tests that rows do no work in the motions that a joint allows, and that they exclude all others.
-//! The motions are listed joint by joint: velocities of the second body while the first is at rest.
+//! Tests that rows do no work in the motions that a joint allows, and that they exclude all other
+//! motions. The motions are listed joint by joint, as twists of the second body while the first
+//! body is at rest.
 
 use super::super::drawing::GROUND;
 use super::super::ratio::{Ratio, whole_multiples};
@@ -7,7 +8,8 @@ use super::super::vector::{Rotation, parts, whole};
 use super::*;
 use exact::Exact;
 
-/// A velocity of the second body: of its point at the origin of the ground, and of the rotation.
+/// A twist of the second body: velocity of the body point at the origin of the ground, and angular
+/// velocity.
 struct Twist {
     velocity: Vector,
     rotation: Vector,
@@ -37,7 +39,8 @@ fn power(wrench: &Wrench, twist: &Twist) -> Ratio {
     &wrench.force.dot(&twist.velocity) + &wrench.moment.dot(&twist.rotation)
 }
 
-/// Compares the rows of a joint between a rotated body and a second body with its free motions.
+/// Compares the rows of a joint between a rotated body and a second body with the free motions of
+/// the joint.
 fn check(kind: Kind, free: &[Twist]) {
     let name = kind.name();
     assert!(kind.holds(), "{name}");

@@ -1,4 +1,5 @@
-//! Tests that a second reader of the text, in doubles, obtains every joint at its drawn position.
+//! Tests that an independent reader of the text, which uses doubles, obtains every joint at its
+//! drawn position.
 
 use std::collections::BTreeMap;
 

@@ -16,14 +16,15 @@ const LENGTHS: [i32; 6] = [6, -6, 9, -9, 12, -12];
 
 const LINKS: usize = 6;
 
-/// A mechanism at its start.
+/// A mechanism at its initial state.
 pub(super) struct Scene {
     pub(super) name: String,
     /// The extreme quantity, and its power of ten.
     pub(super) varied: &'static str,
     pub(super) value: f64,
     pub(super) description: Description,
-    /// The words of the error message, if the data in 53 bits do not define the mechanism.
+    /// The words of the error message, if data with 53 bits are not accurate enough to define the
+    /// mechanism.
     pub(super) limit: Option<&'static str>,
 }
 
@@ -54,8 +55,8 @@ pub(super) fn scenes() -> Vec<Scene> {
             |what: &str, d: Description| Scene::new(what, "power of ten of lengths", power, d);
         scenes.extend(chains_of_lengths(power).map(|(what, d)| scene(what, d)));
     }
-    // Positions 1e12 m away are accurate to a tenth of a millimetre, which is not enough for pins
-    // one metre apart.
+    // Positions at a distance of 1e12 m are accurate to a tenth of a millimetre, which is not
+    // accurate enough for pins one metre apart.
     let is_blurred = |scene: &&mut Scene| {
         [
             "chain of alternating lengths, 1e12",
@@ -83,7 +84,7 @@ pub(super) fn scenes() -> Vec<Scene> {
     scenes
 }
 
-/// Returns a chain of rods, hanging from the origin at general angles and rates.
+/// Returns a chain of rods that hangs from the origin, with general angles and rates.
 fn chain(mass: impl Fn(usize) -> f64, length: impl Fn(usize) -> f64) -> Description {
     let mut bodies: Vec<Body> = Vec::new();
     let mut joints = Vec::new();
@@ -121,7 +122,7 @@ fn power_of_ten(power: f64) -> f64 {
     10_f64.powf(power)
 }
 
-/// Returns a mass or length that grows from 1 to 10^power along the chain.
+/// Returns a function for a mass or length that grows from 1 to 10^power along the chain.
 fn growing(power: i32) -> impl Fn(usize) -> f64 {
     move |k| power_of_ten(f64::from(power) * k as f64 / (LINKS - 1) as f64)
 }
@@ -251,8 +252,8 @@ fn robots(power: i32) -> [(&'static str, Description); 3] {
     ]
 }
 
-/// Returns the robot, rotated relative to the axes of the ground, with its trolley at an angle and
-/// its steering in motion; masses are multiplied.
+/// Returns the robot, rotated relative to the axes of the ground. The trolley is at an angle, the
+/// steering moves, and each mass is multiplied by the factor `by`.
 fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
     let steering = Function::constant_rate(0.05).expect("a finite rate");
     let mut d = robot(steering);
@@ -266,7 +267,7 @@ fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
         body.velocity = body.velocity.map(turn);
         body.angle += 0.4;
     }
-    // The trolley is perpendicular to the robot, and so rotates while the robot pulls it.
+    // The trolley is perpendicular to the robot, so it rotates while the robot pulls it.
     let hitch = turn([-0.4, 0.0]);
     let arm = 0.35_f64;
     let angle = 0.4 + 0.3;

@@ -1,4 +1,4 @@
-//! The error of a solution relative to the exact one.
+//! The error of a solution relative to the exact solution.
 
 use dynamics::{KeptRowMotion, PreparedMechanism};
 use model::System;
@@ -6,18 +6,19 @@ use model::System;
 use crate::stress::motion::worst;
 use exact::Solution;
 
-/// Accelerations below this fraction of the largest of their body and kind are compared with that
-/// fraction.
+/// For an acceleration below this fraction of the largest acceleration of the same body and kind,
+/// the error is relative to this fraction of the largest one.
 const LEAST: f64 = 1e-3;
 
 /// Errors of one solution.
 pub(super) struct Errors {
-    /// Error of accelerations, each relative to itself, or to a fraction of the largest of its body
-    /// and kind.
+    /// Largest error of accelerations. Each is relative to the acceleration, or to a fraction of
+    /// the largest acceleration of the same body and kind.
     pub(super) acceleration: f64,
-    /// Error of the multipliers of independent rows, relative to the largest of their joint.
+    /// Error of the multipliers of independent rows, relative to the largest multiplier of the same
+    /// joint.
     pub(super) multipliers: f64,
-    /// The heaviest mass or moment of inertia divided by the lightest.
+    /// The largest mass or moment of inertia divided by the smallest.
     pub(super) spread: f64,
 }
 
@@ -35,7 +36,8 @@ pub(super) fn errors(
     }
 }
 
-/// Returns `x − y` relative to a size; if the size is zero, any difference is infinite.
+/// Returns `x − y` relative to a size. If the size is zero, any nonzero difference becomes
+/// infinite.
 fn relative(x: f64, y: f64, size: f64) -> f64 {
     match x - y {
         0.0 => 0.0,
@@ -43,8 +45,8 @@ fn relative(x: f64, y: f64, size: f64) -> f64 {
     }
 }
 
-/// Returns the size of the terms of accelerations, in units of the mechanism: Q/m, v²/L, or the
-/// accelerations themselves.
+/// Returns the largest size of the terms of accelerations, in units of the mechanism: Q/m, v²/L, or
+/// the accelerations.
 fn rate(prepared: &PreparedMechanism, exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
     let unit = |j: usize| mechanism.space().unit(j, prepared.assembly.size);
@@ -59,8 +61,8 @@ fn rate(prepared: &PreparedMechanism, exact: &[f64]) -> f64 {
     worst(terms)
 }
 
-/// Returns the largest error of accelerations, each relative to its own size or to a fraction of
-/// the largest of its body and kind.
+/// Returns the largest error of accelerations. Each error is relative to the acceleration, or to a
+/// fraction of the largest acceleration of the same body and kind.
 pub(super) fn of_accelerations(prepared: &PreparedMechanism, a: &[f64], exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
     let kind = |j: usize| {

@@ -1,4 +1,5 @@
-//! Symbols of joints in space, on two bodies at general poses that satisfy them.
+//! Tests the symbols of joints in space between two bodies, at general poses that satisfy the
+//! constraints.
 
 use joints::Space3;
 use joints::space3::{
@@ -15,11 +16,12 @@ use crate::figures::symbol::Symbol;
 
 const BODIES: [BodyRef; 2] = [BodyRef::Body(0), BodyRef::Body(1)];
 
-/// Position of the centre of the second body in the axes of the first body, which has the same
-/// axes.
+/// Position of the centre of the second body in the axes of the first body. Both bodies have
+/// parallel axes.
 const APART: [f64; 3] = [0.7, -0.4, 1.1];
 
-/// A point of the first body, and an axis there with its directions across.
+/// A point of the first body, an axis through this point, and the directions perpendicular to the
+/// axis.
 const POINT: [f64; 3] = [0.3, -0.2, 0.5];
 const AXIS: [f64; 3] = [0.36, 0.48, 0.8];
 
@@ -58,8 +60,8 @@ fn of(element: impl ConstraintKernels<Space3> + 'static) -> Site {
     drawn(&d)
 }
 
-/// A point of the second body: the point of the first one, moved along these multiples of the
-/// directions across the axis and of the axis.
+/// A point of the second body: the point of the first body, displaced by these multiples of the two
+/// perpendicular directions and of the axis.
 fn second(moved: [f64; 3]) -> [f64; 3] {
     let uvw = axes().uvw();
     [0, 1, 2].map(|k| POINT[k] - APART[k] + (0..3).map(|j| moved[j] * uvw[j][k]).sum::<f64>())

@@ -1,0 +1,242 @@
+//! Bounds of the reactions that the model does not determine, for joints of any stiffness.
+
+mod answer;
+
+use model::{ConstraintId, System};
+use report::ByName;
+use solvability::{BoundsError, Group, ReactionBounds};
+
+pub use answer::{BoundsDocument, BoundsOfNumber, ElasticLoadDocument, MagnitudeDocument};
+
+use super::addition::Addition;
+use super::options::Analyze;
+use crate::configuration::ConfigurationAnalysis;
+use crate::documents::AnalysisDocument;
+use crate::documents::analysis::components;
+use crate::error::StudyError;
+use crate::refusal::Refusal;
+use crate::words::{Block, Cell, load_unit};
+
+/// Name of all drives in the list of rigid joints.
+const DRIVES: &str = "drives";
+
+/// Bounds for any stiffness.
+pub(super) struct BoundsOfReactions;
+
+impl Addition for BoundsOfReactions {
+    fn check(&self, asked: &Analyze, of: &ConfigurationAnalysis<'_>) -> Result<(), Refusal> {
+        if !asked.rigid.is_empty() && !asked.bounds {
+            let message = "--rigid selects joints for --bounds: add --bounds";
+            return Err(Refusal::input(message.to_owned()));
+        }
+        let rigid = rigid(&asked.rigid, of);
+        rigid
+            .map(|_| ())
+            .map_err(|e| Refusal::input(e.to_string()).coded(e.code()))
+    }
+
+    fn add(
+        &self,
+        asked: &Analyze,
+        of: &ConfigurationAnalysis<'_>,
+        document: &mut AnalysisDocument,
+    ) -> Result<(), StudyError> {
+        if !asked.bounds {
+            return Ok(());
+        }
+        let mut answer = BoundsDocument::new(document, of.mechanism.layout());
+        if document.evidence.permanent == Some(false) {
+            answer.reason = Some(SINGULAR.to_owned());
+        } else if !of.analysis.decision.is_decided() {
+            answer.reason = Some(BoundsError::Rank.to_string());
+        } else {
+            let rigid = rigid(&asked.rigid, of)?;
+            answer.rigid = rigid.iter().map(|id| name(of, *id)).collect();
+            let solution = of.solution()?;
+            let found = of.bounds(&solution, &rigid);
+            of_reactions(of, &found, document, &mut answer);
+            let groups = of.requested(&asked.combine)?;
+            for (group, (_, asked)) in document.groups.iter_mut().zip(&groups) {
+                let Ok(numbers) = found.group(asked) else {
+                    continue;
+                };
+                for (number, bounds) in numbers {
+                    let bounds = Some(BoundsOfNumber::new(&bounds, of.mechanism.layout()));
+                    match group.components.iter_mut().find(|c| c.name == number) {
+                        Some(component) => component.bounds = bounds,
+                        None => group.bounds = bounds,
+                    }
+                }
+            }
+            (answer.eliminations, answer.complete) = found.sets();
+        }
+        document.answers.bounds = Some(answer);
+        Ok(())
+    }
+
+    fn words(&self, d: &AnalysisDocument) -> Vec<Block> {
+        let Some(answer) = &d.answers.bounds else {
+            return Vec::new();
+        };
+        let heading = Block::Heading("Bounds for any stiffness of the joints:".to_owned());
+        if let Some(reason) = &answer.reason {
+            return vec![heading, Block::sentence(format!("no bounds: {reason}"))];
+        }
+        let mut out = vec![heading];
+        let reactions = d.reactions.iter();
+        let of_reactions = reactions.flat_map(|r| r.components.iter().map(move |c| (&r.name, c)));
+        let of_groups = d
+            .groups
+            .iter()
+            .flat_map(|g| g.components.iter().map(move |c| (&g.name, c)));
+        let of_components = of_reactions
+            .chain(of_groups)
+            .filter_map(|(owner, c)| Some((owner, c.name, load_unit(c.name), c.bounds.as_ref()?)));
+        let sums = d.groups.iter().filter_map(|g| {
+            Some((
+                &g.name,
+                "sum",
+                g.unit.unwrap_or_default(),
+                g.bounds.as_ref()?,
+            ))
+        });
+        let all = of_components
+            .chain(sums)
+            .filter(|(.., bounds)| bounds.lowest != bounds.highest);
+        let lines: Vec<[Cell; 6]> = all
+            .map(|(owner, component, unit, bounds)| {
+                let at = |loads: &[ElasticLoadDocument], reached: bool| {
+                    let names: Vec<String> = loads.iter().map(ToString::to_string).collect();
+                    let outer = if reached { "" } else { " (outer)" };
+                    format!("{}{outer}", names.join(", "))
+                };
+                [
+                    owner.into(),
+                    component.into(),
+                    Cell::quantity(bounds.lowest, unit),
+                    Cell::quantity(bounds.highest, unit),
+                    at(&bounds.at_lowest, bounds.reached[0]).into(),
+                    at(&bounds.at_highest, bounds.reached[1]).into(),
+                ]
+            })
+            .collect();
+        if lines.is_empty() && answer.without.0.is_empty() {
+            out.push(Block::sentence("all components are unique"));
+            return out;
+        }
+        let columns = [
+            "reaction",
+            "component",
+            "lowest",
+            "highest",
+            "zero at lowest",
+            "zero at highest",
+        ];
+        out.push(Block::table(columns, lines));
+        let magnitudes = d.reactions.iter().filter_map(|r| {
+            let most = r.magnitude_at_most.as_ref()?;
+            let number = |x: Option<f64>, unit| Cell::quantity(x, unit);
+            Some([
+                r.name.as_str().into(),
+                number(most.force, "N"),
+                number(most.moment, "N·m"),
+            ])
+        });
+        let magnitudes: Vec<[Cell; 3]> = magnitudes.collect();
+        if !magnitudes.is_empty() {
+            out.push(Block::table(
+                ["reaction", "force at most", "moment at most"],
+                magnitudes,
+            ));
+        }
+        for (name, reason) in &answer.without.0 {
+            out.push(Block::after("no bounds: ", format!("`{name}`: {reason}")));
+        }
+        if !answer.complete {
+            out.push(Block::sentence(
+                "too many sets of components: the values are reached, larger ones may exist",
+            ));
+        }
+        out.push(Block::after("valid ", &answer.assumption));
+        out
+    }
+}
+
+/// Reason at a singular configuration.
+const SINGULAR: &str = "this configuration is singular; analyse another time of the motion";
+
+fn name(of: &ConfigurationAnalysis<'_>, id: ConstraintId) -> String {
+    of.mechanism.layout().groups[id.0].name.clone()
+}
+
+/// Returns the joints and drives with these names; `drives` names all drives.
+fn rigid(
+    names: &[String],
+    of: &ConfigurationAnalysis<'_>,
+) -> Result<Vec<ConstraintId>, StudyError> {
+    let layout = of.mechanism.layout();
+    let mut all = Vec::new();
+    for name in names {
+        if name == DRIVES {
+            all.extend(
+                layout
+                    .constraint_ids()
+                    .filter(|id| layout.groups[id.0].is_drive()),
+            );
+        } else {
+            all.push(of.reaction(name)?);
+        }
+    }
+    Ok(all)
+}
+
+/// Adds the bounds of all reactions that are not unique.
+fn of_reactions(
+    of: &ConfigurationAnalysis<'_>,
+    found: &ReactionBounds<'_, '_>,
+    document: &mut AnalysisDocument,
+    answer: &mut BoundsDocument,
+) {
+    let layout = of.mechanism.layout();
+    let mut centres = Vec::new();
+    for (id, reaction) in layout.constraint_ids().zip(&mut document.reactions) {
+        if reaction.wrench.verdict == "unique" {
+            continue;
+        }
+        let space = layout.space;
+        let of_component = |name: &str| {
+            let term = solvability::Term {
+                reaction: id,
+                component: name.to_owned(),
+                coefficient: 1.0,
+            };
+            let numbers = found.group(&Group::Combination(vec![term]))?;
+            Ok::<_, BoundsError>(numbers.into_iter().map(|(_, bounds)| bounds).next())
+        };
+        let mut reason = None;
+        let mut has_moment = false;
+        for component in &mut reaction.components {
+            match of_component(component.name) {
+                Ok(bounds) => {
+                    let is_torque = space.load_unit(component.name) == Some("N·m");
+                    has_moment |= is_torque && component.verdict.verdict != "unique";
+                    component.bounds = bounds.map(|b| BoundsOfNumber::new(&b, layout));
+                }
+                Err(e) => reason = Some(e.to_string()),
+            }
+        }
+        match found.largest_magnitudes(id) {
+            Ok([force, moment]) => {
+                reaction.magnitude_at_most = Some(MagnitudeDocument { force, moment });
+            }
+            Err(e) => reason = Some(e.to_string()),
+        }
+        if has_moment && let Ok(place) = of.reference_point(id) {
+            centres.push((reaction.name.clone(), components(space, place)));
+        }
+        if let Some(reason) = reason {
+            answer.without.0.push((reaction.name.clone(), reason));
+        }
+    }
+    answer.centres = ByName(centres);
+}

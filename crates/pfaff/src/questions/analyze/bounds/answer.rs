@@ -1,0 +1,135 @@
+//! Bounds of reactions and their assumptions.
+
+use std::fmt;
+
+use model::Layout;
+use report::ByName;
+use serde::Serialize;
+use solvability::{Bounds, ElasticLoad};
+
+use crate::documents::AnalysisDocument;
+
+/// The assumptions of the bounds, and the extent of the search.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct BoundsDocument {
+    /// The assumptions under which the bounds are valid.
+    pub assumption: String,
+    /// Joints and drives that do not give way, if requested.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rigid: Vec<String>,
+    /// The points (m) about which the moments of joints give way, for joints whose moments are not
+    /// unique.
+    pub centres: ByName<Vec<f64>>,
+    /// Number of sets of load components that can be zero together.
+    pub eliminations: u64,
+    /// Whether all sets were examined. Otherwise the values are reached, but larger ones may exist.
+    pub complete: bool,
+    /// Joints and drives without bounds, with the reason.
+    pub without: ByName<String>,
+    /// Reason why there are no bounds at this configuration.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// The smallest and the largest value of a number for joints of any stiffness.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct BoundsOfNumber {
+    /// The smallest value (N, N·m).
+    pub lowest: f64,
+    /// The largest value (N, N·m).
+    pub highest: f64,
+    /// The loads that are zero at the smallest value.
+    pub at_lowest: Vec<ElasticLoadDocument>,
+    /// The loads that are zero at the largest value.
+    pub at_highest: Vec<ElasticLoadDocument>,
+    /// Whether the smallest and the largest value are reached in the limit of some stiffness.
+    /// Otherwise the true range may end earlier.
+    pub reached: [bool; 2],
+}
+
+/// The force or the moment of a joint or drive.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct ElasticLoadDocument {
+    /// The joint or drive.
+    pub joint: String,
+    /// `force` or `moment`.
+    pub group: &'static str,
+}
+
+/// Upper bounds of the magnitudes of a load for joints of any stiffness.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct MagnitudeDocument {
+    /// Largest magnitude of the force (N); `null` if the joint has no force.
+    pub force: Option<f64>,
+    /// Largest magnitude of the moment about the reference point (N·m); `null` if the joint has no
+    /// moment.
+    pub moment: Option<f64>,
+}
+
+impl BoundsDocument {
+    /// States the assumptions for a mechanism.
+    pub(super) fn new(document: &AnalysisDocument, layout: &Layout) -> Self {
+        let open = document.reactions.iter().zip(&layout.groups);
+        let open = open.filter(|(r, _)| r.wrench.verdict != "unique");
+        let groups: Vec<_> = open.map(|(_, group)| group).collect();
+        let slips = groups.iter().any(|g| !g.rows.nonholonomic.is_empty());
+        let holds = groups.iter().any(|g| !g.rows.holonomic.is_empty());
+        let mut assumption = "for joints that fit exactly (no preload, no misfit) and give way only in the direction of the \
+             force or moment that they carry, about their reference points, by any law and however stiff; bodies \
+             are rigid and do not vibrate"
+            .to_owned();
+        if slips {
+            assumption += "; contacts slip in proportion to their force";
+        }
+        if slips && holds {
+            assumption += ", and loads change slowly compared with this slip";
+        }
+        if document.data.tolerance.is_some() {
+            assumption +=
+                "; misfits within the tolerance cause preload, which the bounds do not contain";
+        }
+        Self {
+            assumption,
+            rigid: Vec::new(),
+            centres: ByName(Vec::new()),
+            eliminations: 0,
+            complete: true,
+            without: ByName(Vec::new()),
+            reason: None,
+        }
+    }
+}
+
+impl BoundsOfNumber {
+    /// Builds the document of bounds.
+    pub(super) fn new(bounds: &Bounds, layout: &Layout) -> Self {
+        let loads = |loads: &[ElasticLoad]| {
+            let load = |load: &ElasticLoad| ElasticLoadDocument {
+                joint: layout.groups[load.reaction.0].name.clone(),
+                group: if load.is_moment { "moment" } else { "force" },
+            };
+            loads.iter().map(load).collect()
+        };
+        Self {
+            lowest: bounds.lowest,
+            highest: bounds.highest,
+            at_lowest: loads(&bounds.at_lowest),
+            at_highest: loads(&bounds.at_highest),
+            reached: bounds.reached,
+        }
+    }
+}
+
+impl fmt::Display for ElasticLoadDocument {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {}", self.group, self.joint)
+    }
+}

@@ -1,0 +1,528 @@
+//! The convex hull of the solutions y_m, for rows of a matrix in groups.
+
+use std::collections::BTreeMap;
+
+use linalg::kernels::{dot, norm};
+use linalg::{DisjointSets, Matrix, PivotedQr, RowBasis, symmetric_eigen};
+
+use super::separation::is_separated;
+use crate::limits::{
+    CLEAR_MINOR, CLEAR_OF_ZERO, ELASTIC_SETS, EQUAL_LEVERAGE, MAGNITUDE_POINTS, SOFT, TIED_ENDS,
+    ZERO_MINOR,
+};
+
+/// A component of a load: `value + row·y` for the solution `λ₀ + Z·y`.
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    /// The load to which it belongs; loads follow each other.
+    pub(super) group: usize,
+    /// Coefficients of y.
+    pub(super) row: Vec<f64>,
+    /// Value for λ₀.
+    pub(super) value: f64,
+}
+
+/// The criterion for zero.
+#[derive(Clone, Copy)]
+struct Zero {
+    /// Numbers up to this size are zero.
+    zero: f64,
+    /// Numbers from this size on are certainly not zero.
+    clear: f64,
+}
+
+impl Zero {
+    fn new(tolerance: f64) -> Self {
+        Self {
+            zero: ZERO_MINOR.max(tolerance),
+            clear: CLEAR_MINOR.max(CLEAR_OF_ZERO * tolerance),
+        }
+    }
+
+    /// Returns whether a number of a load is zero.
+    fn holds(self, x: f64, group: usize) -> Result<bool, HullError> {
+        match x.abs() {
+            x if x <= self.zero => Ok(true),
+            x if x < self.clear => Err(HullError::Unclear { group }),
+            _ => Ok(false),
+        }
+    }
+}
+
+/// Reason why there is no hull.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum HullError {
+    /// Whether components of this load may be zero together with others is undecided.
+    Unclear { group: usize },
+    /// This number of coordinates y changes no component.
+    Free { free: usize },
+}
+
+/// The solutions y_m in independent blocks of coordinates.
+pub(super) struct Hull {
+    /// Factors of the transposed rows of the basis: `y′ = A_B·y` are the coordinates of the blocks.
+    basis: PivotedQr,
+    blocks: Vec<Block>,
+    /// Whether all sets were examined.
+    pub(super) is_complete: bool,
+    /// Number of sets in all blocks.
+    pub(super) sets: u64,
+}
+
+/// A connected component of the matroid of the elements.
+struct Block {
+    /// Its coordinates among those of all blocks.
+    coordinates: Vec<usize>,
+    points: Vec<Point>,
+}
+
+/// A solution y_m of a block.
+struct Point {
+    /// The loads of its monomial with their exponents, ascending.
+    monomial: Vec<(usize, u32)>,
+    y: Vec<f64>,
+}
+
+/// One end of the range of a linear form.
+pub(super) struct End {
+    pub(super) value: f64,
+    /// The loads that are zero.
+    pub(super) groups: Vec<usize>,
+    pub(super) is_reached: bool,
+}
+
+impl Hull {
+    /// Finds the hull for p coordinates; coefficients up to the tolerance may be rounding.
+    pub(super) fn new(elements: Vec<Element>, p: usize, tolerance: f64) -> Result<Self, HullError> {
+        let zero = Zero::new(tolerance);
+        let elements = principal(elements, p, zero)?;
+        let matrix = Matrix::from_fn(elements.len(), p, |i, j| elements[i].row[j]);
+        let basis = RowBasis::most_independent(matrix.clone(), p);
+        let outside: Vec<Vec<f64>> = (0..basis.dropped().len())
+            .map(|j| {
+                let mut t = vec![0.0; p];
+                basis.coefficients(j, &mut t);
+                t
+            })
+            .collect();
+        let mut sets = DisjointSets::new(p + outside.len());
+        for (j, row) in outside.iter().enumerate() {
+            for (k, x) in row.iter().enumerate() {
+                if !zero.holds(*x, elements[basis.dropped()[j]].group)? {
+                    sets.join(k, p + j);
+                }
+            }
+        }
+        let mut hull = Self {
+            basis: PivotedQr::of_columns(&matrix.select_rows(basis.kept()).transpose()),
+            blocks: Vec::new(),
+            is_complete: true,
+            sets: 0,
+        };
+        let of_basis = |k: usize| &elements[basis.kept()[k]];
+        for members in sets.sets() {
+            let inside: Vec<usize> = members.iter().copied().filter(|&k| k < p).collect();
+            if inside.is_empty() {
+                continue;
+            }
+            let others: Vec<usize> = members.iter().filter_map(|k| k.checked_sub(p)).collect();
+            let minors = Minors {
+                inside: inside.iter().map(|&k| of_basis(k)).collect(),
+                outside: others
+                    .iter()
+                    .map(|&j| &elements[basis.dropped()[j]])
+                    .collect(),
+                rows: Matrix::from_fn(others.len(), inside.len(), |i, k| {
+                    let x = outside[others[i]][inside[k]];
+                    if x.abs() <= zero.zero { 0.0 } else { x }
+                }),
+                zero,
+            };
+            let points = if minors.count() > ELASTIC_SETS.saturating_sub(hull.sets) {
+                hull.is_complete = false;
+                minors.soft_points()
+            } else {
+                let (points, sets) = minors.points()?;
+                hull.sets += sets;
+                points
+            };
+            hull.blocks.push(Block {
+                coordinates: inside,
+                points,
+            });
+        }
+        Ok(hull)
+    }
+
+    /// Returns the coefficients of a linear form of y in the coordinates of the blocks.
+    fn in_blocks(&self, along: &[f64]) -> Vec<f64> {
+        solved(&self.basis, along.to_vec())
+    }
+
+    /// Returns the smallest and the largest value of a linear form of y.
+    pub(super) fn ends(&self, along: &[f64]) -> [End; 2] {
+        let along = self.in_blocks(along);
+        [1.0, -1.0].map(|sign| {
+            let (mut value, mut chosen) = (0.0, Vec::new());
+            for block in &self.blocks {
+                let own: Vec<f64> = block.coordinates.iter().map(|&k| along[k]).collect();
+                let largest = own.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+                if largest <= ZERO_MINOR * norm(&along) {
+                    continue;
+                }
+                let values = block.points.iter().map(|point| dot(&own, &point.y));
+                let values: Vec<f64> = values.collect();
+                let best = values
+                    .iter()
+                    .map(|x| sign * x)
+                    .fold(f64::INFINITY, f64::min);
+                let width = values.iter().map(|x| x.abs()).fold(0.0, f64::max);
+                let is_tied = |k: &usize| sign * values[*k] <= best + TIED_ENDS * width;
+                let tied: Vec<usize> = (0..values.len()).filter(is_tied).collect();
+                value += sign * best;
+                chosen.push((block, tied));
+            }
+            let first: Vec<(&Block, usize)> =
+                chosen.iter().map(|(b, tied)| (*b, tied[0])).collect();
+            let monomials = first
+                .iter()
+                .flat_map(|(block, k)| &block.points[*k].monomial);
+            let mut groups: Vec<usize> = monomials.map(|(group, _)| *group).collect();
+            groups.sort_unstable();
+            groups.dedup();
+            let is_reached = match chosen.as_slice() {
+                [(block, tied)] => tied.iter().any(|&k| is_vertex(&[(block, k)])),
+                _ => is_vertex(&first),
+            };
+            End {
+                value,
+                groups,
+                is_reached: is_reached && self.is_complete,
+            }
+        })
+    }
+
+    /// Returns the largest norm of vectors whose components are linear in y.
+    pub(super) fn largest_norm(&self, terms: &[(f64, Vec<f64>)]) -> f64 {
+        let rows: Vec<Vec<f64>> = terms
+            .iter()
+            .map(|(_, along)| self.in_blocks(along))
+            .collect();
+        let mut sums = vec![terms.iter().map(|(value, _)| *value).collect::<Vec<f64>>()];
+        for block in &self.blocks {
+            let change = |point: &Point| -> Vec<f64> {
+                let own = |row: &Vec<f64>| {
+                    let pairs = block.coordinates.iter().zip(&point.y);
+                    pairs.map(|(&k, y)| row[k] * y).sum()
+                };
+                rows.iter().map(own).collect()
+            };
+            let changes: Vec<Vec<f64>> = block.points.iter().map(change).collect();
+            if changes.iter().flatten().all(|x| *x == 0.0) {
+                continue;
+            }
+            if sums.len() * changes.len() > MAGNITUDE_POINTS {
+                return self.norm_of_ends(terms);
+            }
+            let add = |sum: &Vec<f64>, change: &Vec<f64>| -> Vec<f64> {
+                sum.iter().zip(change).map(|(a, b)| a + b).collect()
+            };
+            let pairs = sums
+                .iter()
+                .flat_map(|sum| changes.iter().map(move |c| (sum, c)));
+            sums = pairs.map(|(sum, change)| add(sum, change)).collect();
+        }
+        sums.iter().map(|x| norm(x)).fold(0.0, f64::max)
+    }
+
+    /// Returns the norm of the largest absolute values of the components.
+    fn norm_of_ends(&self, terms: &[(f64, Vec<f64>)]) -> f64 {
+        let largest = terms.iter().map(|(value, along)| {
+            let [lowest, highest] = self.ends(along);
+            (value + lowest.value)
+                .abs()
+                .max((value + highest.value).abs())
+        });
+        norm(&largest.collect::<Vec<_>>())
+    }
+}
+
+/// The elements of a block in terms of its basis.
+struct Minors<'e> {
+    inside: Vec<&'e Element>,
+    outside: Vec<&'e Element>,
+    /// Rows of the other elements in terms of the basis.
+    rows: Matrix,
+    zero: Zero,
+}
+
+impl Minors<'_> {
+    /// Returns the number of sets of elements that replace each other, at most.
+    fn count(&self) -> u64 {
+        let (n, p) = (self.inside.len() + self.outside.len(), self.inside.len());
+        let mut count: u128 = 1;
+        for k in 0..p.min(n - p) as u128 {
+            count = count.saturating_mul(n as u128 - k) / (k + 1);
+        }
+        u64::try_from(count).unwrap_or(u64::MAX)
+    }
+
+    /// Returns y_m for all monomials, and the number of sets S.
+    ///
+    /// A set S contains the basis without the elements I, and the elements J outside. Its
+    /// determinant is the minor of `rows` with the rows J and the columns I.
+    fn points(&self) -> Result<(Vec<Point>, u64), HullError> {
+        let p = self.inside.len();
+        // The remaining values of the elements outside, if all elements of the basis are zero.
+        let at_zero: Vec<f64> = self.inside.iter().map(|e| -e.value).collect();
+        let left = self.outside.iter().enumerate();
+        let left: Vec<f64> = left
+            .map(|(i, e)| e.value + dot(self.rows.row(i), &at_zero))
+            .collect();
+        let mut sums: BTreeMap<Vec<(usize, u32)>, (f64, Vec<f64>)> = BTreeMap::new();
+        let mut sets = 0;
+        for k in 0..=p.min(self.outside.len()) {
+            let columns = combinations(p, k);
+            for rows in combinations(self.outside.len(), k) {
+                for columns in &columns {
+                    let minor = Matrix::from_fn(k, k, |i, j| self.rows[(rows[i], columns[j])]);
+                    let Some((det, change)) = self.solved(minor, &rows, &left)? else {
+                        continue;
+                    };
+                    sets += 1;
+                    let kept = (0..p).filter(|j| !columns.contains(j));
+                    let of_basis = kept.map(|j| self.inside[j].group);
+                    let of_others = rows.iter().map(|&i| self.outside[i].group);
+                    let monomial = monomial(of_basis.chain(of_others));
+                    let weight = det * det;
+                    let (total, sum) = sums.entry(monomial).or_insert((0.0, vec![0.0; p]));
+                    *total += weight;
+                    let mut y = at_zero.clone();
+                    for (&j, d) in columns.iter().zip(&change) {
+                        y[j] += d;
+                    }
+                    for (sum, y) in sum.iter_mut().zip(&y) {
+                        *sum += weight * y;
+                    }
+                }
+            }
+        }
+        let points = sums.into_iter().map(|(monomial, (total, sum))| Point {
+            monomial,
+            y: sum.iter().map(|x| x / total).collect(),
+        });
+        Ok((points.collect(), sets))
+    }
+
+    /// Returns the determinant of a minor, and the change of the coordinates that makes the
+    /// elements in its rows zero; `None` if the minor is singular.
+    fn solved(
+        &self,
+        minor: Matrix,
+        rows: &[usize],
+        left: &[f64],
+    ) -> Result<Option<(f64, Vec<f64>)>, HullError> {
+        let k = minor.nrows();
+        if k == 0 {
+            return Ok(Some((1.0, Vec::new())));
+        }
+        let most: f64 = (0..k).map(|i| norm(minor.row(i))).product();
+        if most == 0.0 {
+            return Ok(None);
+        }
+        let qr = PivotedQr::of_columns(&minor);
+        let det: f64 = qr.r_diagonal().product();
+        if self.zero.holds(det / most, self.outside[rows[0]].group)? {
+            return Ok(None);
+        }
+        let left: Vec<f64> = rows.iter().map(|&i| -left[i]).collect();
+        Ok(Some((det, solved(&qr, left))))
+    }
+
+    /// Returns solutions of springs of which one load at a time is much softer than the others.
+    fn soft_points(&self) -> Vec<Point> {
+        let all: Vec<&Element> = self.inside.iter().chain(&self.outside).copied().collect();
+        let p = self.inside.len();
+        let row = |i: usize, j: usize| match i.checked_sub(p) {
+            None => f64::from(u8::from(i == j)),
+            Some(i) => self.rows[(i, j)],
+        };
+        let mut groups: Vec<usize> = all.iter().map(|e| e.group).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        let soft = groups.iter().map(|soft| {
+            let root = |i: usize| if all[i].group == *soft { SOFT } else { 1.0 };
+            let matrix = Matrix::from_fn(all.len(), p, |i, j| root(i) * row(i, j));
+            let qr = PivotedQr::of_columns(&matrix);
+            let left = (0..all.len()).map(|i| -root(i) * all[i].value);
+            Point {
+                monomial: vec![(*soft, 1)],
+                y: solved(&qr, left.collect()),
+            }
+        });
+        soft.collect()
+    }
+}
+
+/// Rotates the components of each load to the principal axes of its leverage
+/// `A_X·(Σ AᵀA)⁻¹·A_Xᵀ`, which do not depend on the axes of the scene, and scales each load to
+/// size one. Components that do not depend on y are left out.
+fn principal(elements: Vec<Element>, p: usize, zero: Zero) -> Result<Vec<Element>, HullError> {
+    let groups = elements.chunk_by(|a, b| a.group == b.group);
+    let scaled = groups.map(|group| {
+        let squares = group.iter().map(|e| dot(&e.row, &e.row));
+        let size = squares.sum::<f64>().sqrt();
+        let scale = |e: &Element| Element {
+            row: e.row.iter().map(|x| x / size).collect(),
+            value: e.value / size,
+            ..*e
+        };
+        group.iter().map(scale).collect::<Vec<_>>()
+    });
+    let scaled: Vec<Vec<Element>> = scaled.collect();
+    let all: Vec<&Element> = scaled.iter().flatten().collect();
+    let matrix = Matrix::from_fn(all.len(), p, |i, j| all[i].row[j]);
+    let qr = PivotedQr::of_columns(&matrix);
+    let rank = qr.r_diagonal().filter(|r| r.abs() > zero.zero).count();
+    if rank < p {
+        return Err(HullError::Free { free: p - rank });
+    }
+    let mut out = Vec::new();
+    for group in &scaled {
+        // R⁻ᵀ·Aᵀ: its products are the leverage.
+        let mapped = group.iter().map(|e| {
+            let mut x: Vec<f64> = qr.permutation().iter().map(|&k| e.row[k]).collect();
+            qr.solve_r_transpose(&mut x);
+            x
+        });
+        let mapped: Vec<Vec<f64>> = mapped.collect();
+        let n = group.len();
+        let leverage = Matrix::from_fn(n, n, |i, j| dot(&mapped[i], &mapped[j]));
+        for axis in axes_of(&leverage) {
+            let sum = |of: &dyn Fn(&Element) -> f64| -> f64 {
+                axis.iter().zip(group).map(|(a, e)| a * of(e)).sum()
+            };
+            let row: Vec<f64> = (0..p).map(|j| sum(&|e| e.row[j])).collect();
+            let own = group[0].group;
+            if !zero.holds(norm(&row), own)? {
+                let value = sum(&|e| e.value);
+                out.push(Element {
+                    group: own,
+                    row,
+                    value,
+                });
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// Returns orthonormal eigenvectors; among equal eigenvalues those along the given axes.
+fn axes_of(leverage: &Matrix) -> Vec<Vec<f64>> {
+    let n = leverage.nrows();
+    let eigen = symmetric_eigen(leverage);
+    let values = &eigen.values;
+    let vector = |k: usize| -> Vec<f64> { (0..n).map(|i| eigen.vectors[(i, k)]).collect() };
+    let mut axes: Vec<Vec<f64>> = Vec::new();
+    let mut from = 0;
+    while from < n {
+        let equal = |k: &usize| (values[*k] - values[from]).abs() <= EQUAL_LEVERAGE;
+        let to = from + (from..n).take_while(equal).count();
+        let space: Vec<Vec<f64>> = (from..to).map(vector).collect();
+        // Projections of the given axes on the eigenspace, the longest ones first.
+        let project = |i: usize| -> Vec<f64> {
+            let parts = space.iter().map(|v| v.iter().map(|x| x * v[i]));
+            parts.fold(vec![0.0; n], |mut sum, part| {
+                sum.iter_mut().zip(part).for_each(|(s, x)| *s += x);
+                sum
+            })
+        };
+        let mut candidates: Vec<Vec<f64>> = (0..n).map(project).collect();
+        candidates.sort_by(|a, b| norm(b).total_cmp(&norm(a)));
+        let known = axes.len();
+        for mut candidate in candidates {
+            if axes.len() - known == space.len() {
+                break;
+            }
+            for axis in &axes[known..] {
+                let along = dot(axis, &candidate);
+                candidate
+                    .iter_mut()
+                    .zip(axis)
+                    .for_each(|(x, a)| *x -= along * a);
+            }
+            let size = norm(&candidate);
+            if size > EQUAL_LEVERAGE.sqrt() {
+                axes.push(candidate.iter().map(|x| x / size).collect());
+            }
+        }
+        from = to;
+    }
+    axes
+}
+
+/// Returns whether these points of different blocks are approached together: their monomials
+/// dominate for some compliances.
+fn is_vertex(chosen: &[(&Block, usize)]) -> bool {
+    let monomials = chosen.iter().map(|(block, k)| &block.points[*k].monomial);
+    let mut support: Vec<usize> = monomials.flatten().map(|(group, _)| *group).collect();
+    support.sort_unstable();
+    support.dedup();
+    let mut differences = Vec::new();
+    for (block, k) in chosen {
+        let own = &block.points[*k].monomial;
+        for (other, point) in block.points.iter().enumerate() {
+            // Other loads are made rigid.
+            let is_inside = |(group, _): &(usize, u32)| support.binary_search(group).is_ok();
+            if other == *k || !point.monomial.iter().all(is_inside) {
+                continue;
+            }
+            let exponent = |of: &[(usize, u32)], group: usize| {
+                let found = of.iter().find(|(own, _)| *own == group);
+                found.map_or(0.0, |(_, n)| f64::from(*n))
+            };
+            let difference = |&g: &usize| exponent(own, g) - exponent(&point.monomial, g);
+            differences.push(support.iter().map(difference).collect());
+        }
+    }
+    is_separated(&differences)
+}
+
+fn monomial(groups: impl Iterator<Item = usize>) -> Vec<(usize, u32)> {
+    let mut all: Vec<usize> = groups.collect();
+    all.sort_unstable();
+    let same = all.chunk_by(|a, b| a == b);
+    same.map(|same| (same[0], same.len() as u32)).collect()
+}
+
+/// Returns all subsets of k of the numbers below n.
+fn combinations(n: usize, k: usize) -> Vec<Vec<usize>> {
+    let mut out = Vec::new();
+    let mut chosen: Vec<usize> = (0..k).collect();
+    if k > n {
+        return out;
+    }
+    loop {
+        out.push(chosen.clone());
+        let Some(i) = (0..k).rev().find(|&i| chosen[i] < n - k + i) else {
+            return out;
+        };
+        chosen[i] += 1;
+        for j in i + 1..k {
+            chosen[j] = chosen[j - 1] + 1;
+        }
+    }
+}
+
+/// Returns the x that minimises |A·x − b|, from the factors of A with full column rank.
+fn solved(qr: &PivotedQr, mut b: Vec<f64>) -> Vec<f64> {
+    let columns = qr.permutation();
+    qr.q_transpose_mul(&mut b);
+    b.truncate(columns.len());
+    qr.solve_r(&mut b);
+    let mut x = vec![0.0; columns.len()];
+    for (b, &k) in b.iter().zip(columns) {
+        x[k] = *b;
+    }
+    x
+}

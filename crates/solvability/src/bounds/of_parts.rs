@@ -1,0 +1,152 @@
+//! Bounds of the reactions of an analysed configuration of any size.
+
+use std::sync::Arc;
+
+use model::{ConstraintId, System};
+use rayon::prelude::*;
+
+use super::{Bounds, BoundsError, ElasticLoad, ElasticSolutions};
+use crate::choices::{Solution, not_finite};
+use crate::groups::{Group, LinearForm};
+use crate::questions::Questions;
+
+/// The bounds of all reactions of a configuration.
+pub struct ReactionBounds<'q, 'm> {
+    questions: &'q Questions<'m>,
+    solution: &'q Solution,
+    /// The solutions of each part with redundant rows.
+    parts: Vec<Option<Result<ElasticSolutions<'q, 'm>, BoundsError>>>,
+}
+
+impl<'m> Questions<'m> {
+    /// Returns bounds of the reactions for joints that give way by any law, from one solution. The
+    /// joints and drives in `rigid` do not give way.
+    #[must_use]
+    pub fn bounds<'q>(
+        &'q self,
+        solution: &'q Solution,
+        rigid: &[ConstraintId],
+    ) -> ReactionBounds<'q, 'm> {
+        let lambda = solution.multipliers.as_chosen();
+        let of_part = |k: usize| {
+            let part = &self.parts()[k];
+            if part.decision.redundancy() == 0 {
+                return None;
+            }
+            let own = rigid.iter().filter_map(|id| part.extent.own_group(id.0));
+            let own: Vec<ConstraintId> = own.map(ConstraintId).collect();
+            let configuration = self.configuration(k).map_err(BoundsError::from);
+            Some(
+                configuration.and_then(|c| c.elastic_solutions(&part.extent.of_rows(lambda), &own)),
+            )
+        };
+        ReactionBounds {
+            questions: self,
+            solution,
+            parts: (0..self.parts().len())
+                .into_par_iter()
+                .map(of_part)
+                .collect(),
+        }
+    }
+}
+
+impl ReactionBounds<'_, '_> {
+    /// Returns the bounds of the numbers of a group with their names. A group of several separate
+    /// reactions has no numbers.
+    ///
+    /// # Errors
+    /// [`BoundsError`]
+    pub fn group(&self, group: &Group) -> Result<Vec<(&'static str, Bounds)>, BoundsError> {
+        let mut sums: Vec<(&'static str, Bounds)> = Vec::new();
+        for (k, name, form) in self.questions.forms(group)? {
+            let own = self.of_part(k, &form)?;
+            match sums.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, sum)) => *sum = sum.clone().plus(own),
+                None => sums.push((name, own)),
+            }
+        }
+        Ok(sums)
+    }
+
+    /// Returns the bounds of a number of a part.
+    fn of_part(&self, k: usize, form: &LinearForm) -> Result<Bounds, BoundsError> {
+        let extent = &self.questions.parts()[k].extent;
+        if let Some(why) = not_finite(&self.solution.no_finite, extent, form) {
+            return Err(BoundsError::NoFinite(Arc::clone(&why)));
+        }
+        match &self.parts[k] {
+            None => {
+                let lambda = self.solution.multipliers.as_chosen();
+                let configuration = self.questions.configuration(k)?;
+                Ok(Bounds::of(
+                    configuration.value(form, &extent.of_rows(lambda)),
+                ))
+            }
+            Some(Err(e)) => Err(e.clone()),
+            Some(Ok(solutions)) => {
+                let whole = |load: ElasticLoad| ElasticLoad {
+                    reaction: ConstraintId(extent.group(load.reaction.0)),
+                    ..load
+                };
+                let mut bounds = solutions.bounds(form)?;
+                for loads in [&mut bounds.at_lowest, &mut bounds.at_highest] {
+                    loads.iter_mut().for_each(|load| *load = whole(*load));
+                }
+                Ok(bounds)
+            }
+        }
+    }
+
+    /// Returns the largest magnitudes of the force (N) and of the moment (N·m) of a joint or drive;
+    /// `None` for a load that is identically zero.
+    ///
+    /// # Errors
+    /// [`BoundsError`]
+    pub fn largest_magnitudes(&self, id: ConstraintId) -> Result<[Option<f64>; 2], BoundsError> {
+        let group = Group::WrenchSum(vec![(1.0, id)]);
+        let forms = self.questions.forms(&group)?;
+        let space = self.questions.mechanism().space();
+        let mut found = [None; 2];
+        for (found, range) in found.iter_mut().zip([space.forces(), space.torques()]) {
+            let has_load = |k: &usize| {
+                let own = self.questions.mechanism().layout().groups[id.0].components();
+                own.contains(k)
+            };
+            if !range.clone().any(|k| has_load(&k)) {
+                continue;
+            }
+            let own: Vec<&(usize, &'static str, LinearForm)> = forms[range].iter().collect();
+            let Some((k, ..)) = own.first() else { continue };
+            *found = Some(match &self.parts[*k] {
+                Some(Ok(solutions)) => {
+                    let forms: Vec<LinearForm> =
+                        own.iter().map(|(.., form)| form.clone()).collect();
+                    solutions.largest_magnitude(&forms)?
+                }
+                Some(Err(e)) => return Err(e.clone()),
+                None => {
+                    let values = own
+                        .iter()
+                        .map(|(k, _, form)| Ok(self.of_part(*k, form)?.highest));
+                    let values: Result<Vec<f64>, BoundsError> = values.collect();
+                    linalg::kernels::norm(&values?)
+                }
+            });
+        }
+        Ok(found)
+    }
+
+    /// Returns the number of examined sets of components, and whether these are all sets.
+    #[must_use]
+    pub fn sets(&self) -> (u64, bool) {
+        let known = self
+            .parts
+            .iter()
+            .flatten()
+            .filter_map(|part| part.as_ref().ok());
+        known.fold((0, true), |(sets, all), part| {
+            (sets + part.sets(), all && part.is_complete())
+        })
+    }
+}

@@ -1,0 +1,118 @@
+//! The hull of small systems, compared with values by hand.
+
+use super::hull::{Element, Hull, HullError};
+
+fn element(group: usize, row: &[f64], value: f64) -> Element {
+    Element {
+        group,
+        row: row.to_vec(),
+        value,
+    }
+}
+
+/// A fixed sequence of numbers between −1 and 1.
+fn numbers() -> impl FnMut() -> f64 {
+    let mut x = 0.37_f64;
+    move || {
+        x = (x * 97.31 + 0.519).fract();
+        2.0 * x - 1.0
+    }
+}
+
+fn hull(elements: Vec<Element>, p: usize) -> Hull {
+    Hull::new(elements, p, 0.0).unwrap_or_else(|e| panic!("{e:?}"))
+}
+
+#[test]
+fn a_weak_component_is_undecided() {
+    let with = |weak: f64, tolerance: f64| {
+        let elements = vec![
+            element(0, &[1.0, 0.0], 1.0),
+            element(0, &[0.0, weak], 0.5),
+            element(1, &[0.0, 1.0], 2.0),
+        ];
+        Hull::new(elements, 2, tolerance).map(|hull| hull.sets)
+    };
+    // The first component and the others are independent.
+    assert_eq!(with(1e-12, 0.0), Ok(1 + 1));
+    assert_eq!(with(1e-8, 0.0), Err(HullError::Unclear { group: 0 }));
+    assert_eq!(with(1e-3, 0.0), Ok(1 + 2));
+    // With data of this accuracy the component may be zero.
+    assert_eq!(with(1e-3, 1e-2), Ok(1 + 1));
+    assert_eq!(with(1e-3, 5e-4), Err(HullError::Unclear { group: 0 }));
+    assert_eq!(
+        Hull::new(vec![element(0, &[1.0, 0.0], 1.0)], 2, 0.0).err(),
+        Some(HullError::Free { free: 1 })
+    );
+}
+
+/// Two loads with two components each: their monomials are the two squares and the product, which
+/// lies in the middle. If an end belongs to the product, no compliances reach it.
+#[test]
+fn the_middle_of_two_joints_is_not_reached() {
+    let mut next = numbers();
+    let (mut middles, mut squares) = (0, 0);
+    for _ in 0..100 {
+        let elements = (0..4).map(|k| element(k / 2, &[next(), next()], next()));
+        let hull = hull(elements.collect(), 2);
+        for end in hull.ends(&[next(), next()]) {
+            match end.groups.as_slice() {
+                [0, 1] => {
+                    middles += 1;
+                    assert!(!end.is_reached);
+                }
+                [_] => {
+                    squares += 1;
+                    assert!(end.is_reached);
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+    assert!(middles > 10 && squares > 100, "{middles} {squares}");
+}
+
+/// One free component and loads with two components: load X is (a + z·y), shortest at
+/// y = −(z·a)/|z|². The largest magnitude is found by trying these values.
+#[test]
+fn the_magnitude_is_that_of_a_vertex() {
+    let mut next = numbers();
+    for _ in 0..50 {
+        let loads: Vec<[[f64; 2]; 2]> = (0..3)
+            .map(|_| [[next(), next()], [next(), next()]])
+            .collect();
+        let elements = loads
+            .iter()
+            .enumerate()
+            .flat_map(|(group, [a, z])| (0..2).map(move |k| element(group, &[z[k]], a[k])));
+        let hull = hull(elements.collect(), 1);
+        let at = |[a, z]: &[[f64; 2]; 2]| -(z[0] * a[0] + z[1] * a[1]) / z[0].hypot(z[1]).powi(2);
+        let [a, z] = loads[0];
+        let norm = |y: f64| (a[0] + z[0] * y).hypot(a[1] + z[1] * y);
+        let expected = loads.iter().map(at).map(norm).fold(0.0, f64::max);
+        let found = hull.largest_norm(&[(a[0], vec![z[0]]), (a[1], vec![z[1]])]);
+        assert!(
+            (found - expected).abs() < 1e-12 * (1.0 + expected),
+            "{found} {expected}"
+        );
+    }
+}
+
+/// With 30 loads and 14 free components there are 145 million sets. Each load alone can be soft, and
+/// then it is zero.
+#[test]
+fn too_many_sets_give_reached_values() {
+    let mut next = numbers();
+    let elements = (0..30).map(|k| {
+        let row: Vec<f64> = (0..14).map(|_| next()).collect();
+        element(k, &row, next())
+    });
+    let elements: Vec<Element> = elements.collect();
+    let hull = hull(elements.clone(), 14);
+    assert!(!hull.is_complete);
+    for e in &elements {
+        let [lowest, highest] = hull.ends(&e.row);
+        assert!(lowest.value <= -e.value + 1e-4 && highest.value >= -e.value - 1e-4);
+        assert!(!lowest.is_reached && !highest.is_reached);
+    }
+}

@@ -1,0 +1,367 @@
+//! Bounds of reactions for joints of any stiffness, compared with closed forms and with elastic
+//! supports of many compliances, which are computed by least squares.
+
+use model::{ConstraintId, System};
+use pfaff::prelude::*;
+use pfaff::solvability::{Bounds, BoundsError, Choice, Compliance, Group, ReactionBounds, Term};
+use tests::numbers::Numbers;
+
+fn study(text: &str) -> Study {
+    let options = RunOptions {
+        t_end: Some(1.0),
+        ..RunOptions::default()
+    };
+    Study::read("bounds.toml", text, &Registry::standard(), &options)
+        .unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Returns the bounds of a component.
+fn of(found: &ReactionBounds<'_, '_>, id: usize, name: &str) -> Bounds {
+    let term = Term {
+        reaction: ConstraintId(id),
+        component: name.to_owned(),
+        coefficient: 1.0,
+    };
+    let numbers = found
+        .group(&Group::Combination(vec![term]))
+        .expect("bounds");
+    numbers[0].1.clone()
+}
+
+fn assert_range(found: &Bounds, expected: [f64; 2], what: &str) {
+    let size = 1e-9 * (1.0 + expected[0].abs().max(expected[1].abs()));
+    for (found, expected) in [found.lowest, found.highest].into_iter().zip(expected) {
+        assert!(
+            (found - expected).abs() < size,
+            "{what}: {found} {expected}"
+        );
+    }
+}
+
+/// A rigid beam has n supports at equal distances and a unit load at 0.3 of its length. On two
+/// supports a < b it is statically determinate: the load on a is (b − 0.3)/(b − a). The sets are
+/// the pairs of supports.
+#[test]
+fn a_beam_rests_on_any_two_of_its_supports() {
+    for (n, sets, first) in [
+        (3, 3, [0.0, 0.7]),
+        (5, 10, [-0.2, 0.7]),
+        (8, 28, [-1.1, 0.7]),
+    ] {
+        let supports: Vec<String> = (0..n)
+            .map(|k| {
+                let x = k as f64 / (n - 1) as f64;
+                format!(
+                    "{{ name = \"s{k}\", type = \"point-on-line\", body = \"beam\", at = [{x}, 0.0], line = [[-1.0, 0.0], [2.0, 0.0]] }},"
+                )
+            })
+            .collect();
+        let text = format!(
+            "scene = {{ name = \"beam\", space = \"plane\", gravity = [0.0, -1.0] }}\n\
+             body = [{{ name = \"beam\", mass = 1.0, inertia = 1.0, position = [0.3, 0.0] }}]\njoint = [\n{}\n]",
+            supports.join("\n")
+        );
+        let study = study(&text);
+        let start = study.analyse(0.0, None).expect("small");
+        let solution = start.solution().expect("decided");
+        let found = start.bounds(&solution, &[]);
+        assert_eq!(found.sets(), (sets, true), "{n}");
+        // The reaction on the beam is the push.
+        let of_first = of(&found, 0, "Fy");
+        assert_range(&of_first, first, &format!("{n} supports"));
+        assert_eq!(of_first.reached, [true; 2]);
+        // Closed form for every support, by all pairs.
+        for k in 0..n {
+            let at = |k: usize| k as f64 / (n - 1) as f64;
+            let push = |a: usize, b: usize| match k {
+                _ if k == a => (at(b) - 0.3) / (at(b) - at(a)),
+                _ if k == b => (0.3 - at(a)) / (at(b) - at(a)),
+                _ => 0.0,
+            };
+            let pairs = (0..n).flat_map(|b| (0..b).map(move |a| push(a, b)));
+            let all: Vec<f64> = pairs.collect();
+            let ends = [
+                all.iter().copied().fold(f64::INFINITY, f64::min),
+                all.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            ];
+            assert_range(&of(&found, k, "Fy"), ends, &format!("support {k} of {n}"));
+        }
+    }
+}
+
+/// A bar of 1 m is clamped at the left and on a roller at the right, with a unit load at a quarter.
+/// With the push R of the roller, the clamp has the force 1 − R and the moment 1/4 − R. R is 0 if
+/// the roller gives way, 1 if the force of the clamp gives way, and 1/4 if its moment gives way.
+#[test]
+fn a_clamped_bar_has_three_soft_loads() {
+    let text = r#"scene = { name = "bar", space = "plane", gravity = [0.0, -1.0] }
+        body = [{ name = "bar", mass = 1.0, inertia = 1.0, position = [0.25, 0.0] }]
+        joint = [
+            { name = "clamp", type = "fixed", bodies = ["bar", "ground"], at = [0.0, 0.0] },
+            { name = "roller", type = "point-on-line", body = "bar", at = [1.0, 0.0], line = [[0.0, 0.0], [1.0, 0.0]] },
+        ]"#;
+    let study = study(text);
+    let start = study.analyse(0.0, None).expect("small");
+    let solution = start.solution().expect("decided");
+    let found = start.bounds(&solution, &[]);
+    let ids = ["clamp", "roller"].map(|name| start.reaction(name).expect("known").0);
+    assert_range(&of(&found, ids[1], "Fy"), [0.0, 1.0], "roller");
+    assert_range(&of(&found, ids[0], "Fy"), [0.0, 1.0], "clamp");
+    assert_range(&of(&found, ids[0], "T"), [-0.75, 0.25], "moment");
+    // With a rigid clamp only the roller gives way.
+    let rigid = start.bounds(&solution, &[ConstraintId(ids[0])]);
+    assert_range(&of(&rigid, ids[1], "Fy"), [0.0, 0.0], "roller alone");
+    // Two rigid joints leave one component undetermined.
+    let both = start.bounds(&solution, &ids.map(ConstraintId));
+    let term = Group::WrenchSum(vec![(1.0, ConstraintId(ids[1]))]);
+    let refused = both.group(&term).expect_err("no joint gives way");
+    assert!(
+        refused.to_string().contains("1 load component"),
+        "{refused}"
+    );
+}
+
+/// A body on random joints in the plane or in space.
+fn random(numbers: &mut Numbers, in_space: bool) -> String {
+    let mut joints = String::new();
+    let point = |numbers: &mut Numbers| {
+        let n = if in_space { 3 } else { 2 };
+        let all: Vec<String> = (0..n).map(|_| format!("{:.3}", numbers.unit())).collect();
+        format!("[{}]", all.join(", "))
+    };
+    let kinds: &[&str] = if in_space {
+        &[
+            "spherical",
+            "spherical",
+            "revolute",
+            "fixed",
+            "point-on-plane",
+        ]
+    } else {
+        &["revolute", "revolute", "fixed", "point-on-line"]
+    };
+    // Joints in a line or on the same point are the degenerate cases.
+    let line = numbers.once_in(4);
+    let count = if in_space { 3 } else { 4 };
+    for k in 0..count + numbers.below(2) {
+        let kind = kinds[numbers.below(kinds.len())];
+        let at = if line {
+            let x = k as f64 - 1.0;
+            if in_space {
+                format!("[{x}, 0.0, 0.5]")
+            } else {
+                format!("[{x}, 0.5]")
+            }
+        } else {
+            point(numbers)
+        };
+        let more = match kind {
+            "revolute" if in_space => ", axis = [1.0, 0.0, 0.0]".to_owned(),
+            "point-on-plane" => ", normal = [0.0, 0.0, 1.0]".to_owned(),
+            "point-on-line" => format!(", line = [{at}, [2.0, {:.3}]]", numbers.unit()),
+            _ => String::new(),
+        };
+        let of = match kind {
+            "point-on-line" => "body = \"lid\"",
+            _ => "bodies = [\"lid\", \"ground\"]",
+        };
+        joints.push_str(&format!(
+            "{{ name = \"j{k}\", type = \"{kind}\", {of}, at = {at}{more} }},\n"
+        ));
+    }
+    let (space, gravity, inertia) = if in_space {
+        (
+            "spatial",
+            format!("[{:.3}, 1.0, -9.81]", numbers.unit()),
+            "[1.0, 2.0, 1.5]",
+        )
+    } else {
+        ("plane", format!("[{:.3}, -9.81]", numbers.unit()), "1.0")
+    };
+    format!(
+        "scene = {{ name = \"lid\", space = \"{space}\", gravity = {gravity} }}\n\
+         body = [{{ name = \"lid\", mass = 2.0, inertia = {inertia}, position = {} }}]\njoint = [\n{joints}]",
+        point(numbers)
+    )
+}
+
+/// Elastic supports with any compliances, equal in all directions, stay within the bounds. The
+/// values are computed by least squares, without the sets of the bounds.
+#[test]
+fn elastic_supports_stay_within_the_bounds() {
+    let mut numbers = Numbers::new(29_112_026);
+    let (mut compared, mut refused, mut widest) = (0, 0, 0.0_f64);
+    for case in 0..160 {
+        let text = random(&mut numbers, case % 2 == 0);
+        let study = study(&text);
+        let start = study.analyse(0.0, None).expect("small");
+        if start.analysis.decision.redundancy == 0 || !start.analysis.decision.is_decided() {
+            continue;
+        }
+        let solution = start.solution().expect("decided");
+        let found = start.bounds(&solution, &[]);
+        let layout = start.mechanism.layout();
+        let names = |k: usize| layout.groups[k].component_names();
+        let known: Result<Vec<Vec<Bounds>>, BoundsError> = (0..layout.groups.len())
+            .map(|k| {
+                let term = |name: &str| {
+                    let reaction = ConstraintId(k);
+                    let component = name.to_owned();
+                    Term {
+                        reaction,
+                        component,
+                        coefficient: 1.0,
+                    }
+                };
+                let of = |name| found.group(&Group::Combination(vec![term(name)]));
+                names(k)
+                    .map(|name| Ok::<_, BoundsError>(of(name)?[0].1.clone()))
+                    .collect()
+            })
+            .collect();
+        let Ok(known) = known else {
+            refused += 1;
+            continue;
+        };
+        for _ in 0..40 {
+            let mut soft = || 10_f64.powf(numbers.within(-12.0, -4.0));
+            let joints = (0..layout.groups.len()).map(|k| Compliance {
+                reaction: ConstraintId(k),
+                along: [soft(); 3],
+                rotation: soft(),
+            });
+            let choice = Choice::Compliance(joints.collect());
+            let chosen = start.distribution(&choice).expect("all joints give way");
+            for (reaction, bounds) in chosen.reactions.iter().zip(&known) {
+                for ((name, value), bounds) in reaction.components.iter().zip(bounds) {
+                    let value = value.in_solution().expect("a number");
+                    let slack = 1e-6 * (1.0 + bounds.highest - bounds.lowest + value.abs());
+                    assert!(
+                        (bounds.lowest - slack..=bounds.highest + slack).contains(&value),
+                        "{}.{name} = {value} is outside of {bounds:?}\n{text}",
+                        reaction.name
+                    );
+                    widest = widest.max(bounds.highest - bounds.lowest);
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 50_000 && widest > 1.0, "{compared} {widest}");
+    assert!(refused <= 8, "{refused}");
+}
+
+/// One soft joint at a time reaches the ends if one component is undetermined.
+#[test]
+fn soft_joints_reach_the_ends_of_one_component() {
+    let text = r#"scene = { name = "table", space = "spatial", gravity = [0.0, 0.0, -9.81] }
+        body = [{ name = "top", mass = 12.0, inertia = [1.0, 1.0, 2.0], position = [0.2, 0.1, 0.0] }]
+        joint = [
+            { name = "A", type = "point-on-plane", bodies = ["ground", "top"], at = [0.6, 0.4, 0.0], normal = [0, 0, 1] },
+            { name = "B", type = "point-on-plane", bodies = ["ground", "top"], at = [-0.6, 0.4, 0.0], normal = [0, 0, 1] },
+            { name = "C", type = "point-on-plane", bodies = ["ground", "top"], at = [-0.6, -0.4, 0.0], normal = [0, 0, 1] },
+            { name = "D", type = "point-on-plane", bodies = ["ground", "top"], at = [0.6, -0.4, 0.0], normal = [0, 0, 1] },
+        ]"#;
+    let study = study(text);
+    let start = study.analyse(0.0, None).expect("small");
+    let solution = start.solution().expect("decided");
+    let found = start.bounds(&solution, &[]);
+    // Tables on three legs, by hand: the loads of the four legs without one of them.
+    let expected = [
+        [-78.48, 0.0],
+        [-73.575, 4.905],
+        [-44.145, 34.335],
+        [-78.48, 0.0],
+    ];
+    for (k, expected) in expected.into_iter().enumerate() {
+        let bounds = of(&found, k, "Fz");
+        assert_range(&bounds, expected, &format!("leg {k}"));
+        assert_eq!(bounds.reached, [true; 2]);
+        assert_eq!((bounds.at_lowest.len(), bounds.at_highest.len()), (1, 1));
+        let most = found.largest_magnitudes(ConstraintId(k)).expect("bounds")[0];
+        let expected = expected[0].abs().max(expected[1].abs());
+        assert!((most.expect("a force") - expected).abs() < 1e-9);
+    }
+}
+
+/// Bounds belong to the mechanism: not to the axes of the scene, nor to the order of joints.
+#[test]
+fn bounds_do_not_depend_on_the_axes_of_the_scene() {
+    let lid = |angle: f64, order: [usize; 4]| {
+        let (c, s) = (angle.cos(), angle.sin());
+        let at = |x: f64, y: f64| format!("[{:?}, {:?}]", c * x - s * y, s * x + c * y);
+        let places = [[0.0, 0.0], [1.0, 0.3], [0.4, 1.0], [-0.7, 0.2]];
+        let joints: Vec<String> = order
+            .iter()
+            .map(|&k| {
+                let at = at(places[k][0], places[k][1]);
+                format!("{{ name = \"j{k}\", type = \"revolute\", bodies = [\"lid\", \"ground\"], at = {at} }},")
+            })
+            .collect();
+        format!(
+            "scene = {{ name = \"lid\", space = \"plane\", gravity = {} }}\n\
+             body = [{{ name = \"lid\", mass = 2.0, inertia = 1.0, position = {} }}]\njoint = [\n{}\n]",
+            at(3.0, -9.81),
+            at(0.3, 0.4),
+            joints.join("\n")
+        )
+    };
+    let magnitudes = |angle: f64, order: [usize; 4]| -> Vec<f64> {
+        let study = study(&lid(angle, order));
+        let start = study.analyse(0.0, None).expect("small");
+        let solution = start.solution().expect("decided");
+        let found = start.bounds(&solution, &[]);
+        let of = |k: usize| {
+            let (id, _) = (order.iter().position(|j| *j == k).expect("listed"), ());
+            found.largest_magnitudes(ConstraintId(id)).expect("bounds")[0].expect("a force")
+        };
+        (0..4).map(of).collect()
+    };
+    let first = magnitudes(0.0, [0, 1, 2, 3]);
+    for (angle, order) in [
+        (0.7, [0, 1, 2, 3]),
+        (-2.1, [3, 1, 0, 2]),
+        (0.0, [2, 3, 1, 0]),
+    ] {
+        let turned = magnitudes(angle, order);
+        for (a, b) in first.iter().zip(&turned) {
+            assert!((a - b).abs() < 1e-8 * a, "{first:?} {turned:?}");
+        }
+    }
+}
+
+/// Supports that are stiff in one direction and soft in another do not give way in the direction of
+/// their force: they leave the bounds, as the assumption states.
+#[test]
+fn supports_with_oblique_stiffness_leave_the_bounds() {
+    let mut numbers = Numbers::new(7);
+    let mut outside = 0;
+    for _ in 0..20 {
+        let study = study(&random(&mut numbers, false));
+        let start = study.analyse(0.0, None).expect("small");
+        let solution = start.solution().expect("decided");
+        let found = start.bounds(&solution, &[]);
+        let Ok(bounds) = found.group(&Group::WrenchSum(vec![(1.0, ConstraintId(0))])) else {
+            continue;
+        };
+        for _ in 0..40 {
+            let mut soft = || 10_f64.powf(numbers.within(-12.0, -4.0));
+            let joints = (0..start.mechanism.layout().groups.len()).map(|k| Compliance {
+                reaction: ConstraintId(k),
+                along: [soft(), soft(), 0.0],
+                rotation: soft(),
+            });
+            let choice = Choice::Compliance(joints.collect());
+            let chosen = start.distribution(&choice).expect("all joints give way");
+            let components = &chosen.reactions[0].components;
+            outside += usize::from(components.iter().any(|(name, value)| {
+                let value = value.in_solution().expect("a number");
+                let own = bounds.iter().find(|(known, _)| known == name);
+                let own = &own.expect("a component").1;
+                let slack = 1e-3 * (own.highest - own.lowest);
+                value < own.lowest - slack || value > own.highest + slack
+            }));
+        }
+    }
+    assert!(outside > 10, "{outside}");
+}
