@@ -40,6 +40,9 @@ pub(crate) struct KeptRows {
     reference_pivot: Option<f64>,
     /// Pivot ratio of the present partition, if there is one.
     partition: Option<PartitionPivot>,
+    /// The smallest [`Self::largest_coefficient`] since a search found no better rows; zero before
+    /// the first search.
+    pub(crate) unavoidable: f64,
 }
 
 /// Pivot ratio of a partition at its first factorisation.
@@ -78,6 +81,7 @@ impl KeptRows {
             is_far: is_far(at.size),
             reference_pivot: None,
             partition: None,
+            unavoidable: 0.0,
         })
     }
 

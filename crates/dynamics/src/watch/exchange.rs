@@ -189,12 +189,16 @@ fn better<E: std::fmt::Display>(
         time: at.s.t,
         what: e.to_string(),
     })?;
-    if !decision.is_decided() || decision.rank != old.kept.len() || decision.kept == old.kept {
+    if !decision.is_decided() || decision.rank != old.kept.len() {
+        return Ok(None);
+    }
+    old.unavoidable = old.largest_coefficient(at);
+    if decision.kept == old.kept {
         return Ok(None);
     }
     let mut rows = old.others(at, &decision)?;
     rows.factor(at)?;
     rows.compare_as(old);
-    let [new, old] = [&mut rows, old].map(|r| r.largest_coefficient(at));
-    Ok((WORTH_EXCHANGE * new < old).then_some(rows))
+    let largest = rows.largest_coefficient(at);
+    Ok((WORTH_EXCHANGE * largest < old.unavoidable).then_some(rows))
 }

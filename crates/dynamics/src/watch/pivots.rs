@@ -1,7 +1,7 @@
 //! Classification of independent rows by their pivots, for freshly factored rows.
 
 use crate::limits::{
-    DELICATE, LARGE_COEFFICIENT, PARTITION_WORN, PIVOT_LOSS, PIVOT_RECOVERY, SOUND,
+    DELICATE, LARGE_COEFFICIENT, PARTITION_WORN, PIVOT_LOSS, PIVOT_RECOVERY, SOUND, WORTH_EXCHANGE,
 };
 use crate::options::RowChoice;
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
@@ -52,9 +52,15 @@ pub(super) fn are_lost(rows: &KeptRows) -> bool {
     !rows.dropped.is_empty() && rows.relative_pivot() < PIVOT_LOSS
 }
 
-/// Whether the coefficients of the rows in the redundant rows are large.
+/// Whether the coefficients of the rows in the redundant rows are large, and have become larger
+/// since a search found no better rows.
 fn are_poor(rows: &mut KeptRows, at: &Evaluation<'_>) -> bool {
-    !rows.dropped.is_empty() && rows.largest_coefficient(at) > LARGE_COEFFICIENT
+    if rows.dropped.is_empty() {
+        return false;
+    }
+    let largest = rows.largest_coefficient(at);
+    rows.unavoidable = rows.unavoidable.min(largest);
+    largest > LARGE_COEFFICIENT.max(WORTH_EXCHANGE * rows.unavoidable)
 }
 
 #[cfg(test)]
@@ -86,6 +92,10 @@ mod tests {
             equations.factor_at(0.0, &p.q).expect("independent rows");
             let found = want_exchange(&mut equations, &RowChoice::Automatic);
             assert_eq!(found, wants, "{epsilon}");
+            // A search without a result is not repeated at once.
+            let rows = &mut equations.velocity;
+            rows.unavoidable = rows.largest_coefficient(&equations.at);
+            assert!(!want_exchange(&mut equations, &RowChoice::Automatic));
         }
     }
 }
