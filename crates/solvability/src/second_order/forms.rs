@@ -162,15 +162,16 @@ impl Forms {
             vec![0.0; mechanism.layout().n_v]
         };
         let first = usize::from(self.driven);
-        let size_of = |z: &[f64], v: &[f64], s: &Scratch| -> f64 {
-            let scale =
-                |(i, z): (usize, &f64)| z.abs() * mechanism.scales(s).acceleration(i, v, size);
-            z.iter().enumerate().map(scale).sum()
+        // The largest sum of the terms of a self-stress at velocities v.
+        let size_of = |v: &[f64], s: &Scratch| -> f64 {
+            let of_row = |i: usize| mechanism.scales(s).acceleration(i, v, size);
+            let rows: Vec<f64> = (0..mechanism.layout().rows()).map(of_row).collect();
+            let sum = |z: &Vec<f64>| z.iter().zip(&rows).map(|(z, row)| z.abs() * row).sum();
+            stresses.iter().map(sum).fold(0.0, f64::max)
         };
         mechanism.twist(natural, s);
         mechanism.gamma(s);
-        let moving = stresses.iter().map(|z| size_of(z, natural, s));
-        let mut terms = moving.fold(0.0, f64::max);
+        let mut terms = size_of(natural, s);
         // The value z·Γ at zero velocity plus a sum of motions.
         let mut values = |motions: &[(usize, f64)]| -> Vec<f64> {
             let mut v = origin.clone();
@@ -182,9 +183,7 @@ impl Forms {
             mechanism.twist(&v, s);
             mechanism.gamma(s);
             let sum = |z: &Vec<f64>| z.iter().zip(&s.gamma).map(|(z, g)| z * g).sum();
-            for z in stresses {
-                terms = terms.max(size_of(z, &v, s));
-            }
+            terms = terms.max(size_of(&v, s));
             stresses.iter().map(sum).collect()
         };
         let (d, count) = (self.basis.len() - first, self.basis.len());
