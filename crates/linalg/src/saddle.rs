@@ -133,6 +133,28 @@ impl KeptRowSaddle {
         })
     }
 
+    /// Allocates storage for the entries of these rows and computes their factors, see
+    /// [`Self::with_columns`] and [`Self::factor`].
+    ///
+    /// ```
+    /// use pfaff_linalg::{KeptRowSaddle, SparseMatrix};
+    /// let c = SparseMatrix::from_rows(3, [vec![(0, 1.0), (1, -1.0)], vec![(2, 5.0)]])?;
+    /// let mut saddle = KeptRowSaddle::of_rows(&c, &[1.0; 3])?;
+    /// let (mut a, mut lambda) = ([0.0; 3], [0.0; 2]);
+    /// saddle.solve(&[1.0, 0.0, 7.0], &[0.0, 10.0], &mut a, &mut lambda)?;
+    /// assert_eq!((a, lambda), ([0.5, 0.5, 2.0], [0.5, 1.0]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Same errors as these two functions.
+    pub fn of_rows(c: &SparseMatrix, mass: &[f64]) -> Result<Self, SaddleError> {
+        let columns: Vec<Vec<usize>> = (0..c.nrows()).map(|k| c.row(k).0.to_vec()).collect();
+        let mut saddle = Self::with_columns(c.ncols(), &columns)?;
+        saddle.factor(|k| c.row(k).1, mass)?;
+        Ok(saddle)
+    }
+
     /// Sets the spread of the masses. The solver then does not use the spread of the given masses,
     /// which depends on units.
     #[must_use]

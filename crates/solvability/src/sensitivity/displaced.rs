@@ -8,6 +8,7 @@ use model::{ConstraintId, Mechanism, System};
 
 use super::number::ReactionNumber;
 use crate::limits::{FOLLOW_CORRECTIONS, FOLLOW_END, FOLLOW_FIRST, FOLLOW_JUMP, FOLLOW_STEPS};
+use crate::sparse::rows_of;
 
 /// The equations of connected bodies at one instant, with variable data.
 pub(super) struct DisplacedEquations<'a> {
@@ -119,14 +120,10 @@ impl DisplacedEquations<'_> {
         mechanism.twist(&v, &mut s);
         mechanism.gamma(&mut s);
         let n = layout.n_v;
-        let mut rows = Matrix::zeros(self.kept.len(), n);
-        for (k, &i) in self.kept.iter().enumerate() {
-            layout.scatter_row(&s, i, rows.row_mut(k));
-        }
         let gamma: Vec<f64> = self.kept.iter().map(|&i| s.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; self.kept.len()]);
-        let mut saddle = KeptRowSaddle::new(n, self.kept.len()).ok()?;
-        saddle.factor(|k| rows.row(k), &self.mass).ok()?;
+        let rows = rows_of(mechanism, &s, self.kept.iter().copied(), |_| 1.0);
+        let mut saddle = KeptRowSaddle::of_rows(&rows, &self.mass).ok()?;
         saddle
             .solve(&self.force, &gamma, &mut a, &mut of_kept)
             .ok()?;

@@ -7,7 +7,7 @@ use crate::limits::{
 };
 use std::borrow::Cow;
 
-use linalg::{KeptRowSaddle, Matrix, PivotedQr};
+use linalg::{KeptRowSaddle, Matrix, SparseMatrix};
 use model::space::norm;
 use model::start::scene_size;
 use model::{
@@ -19,6 +19,7 @@ use super::held::{HeldMultipliers, HeldSlopes};
 use super::joined::JoinedBodies;
 use super::number::ReactionNumber;
 use crate::choices::ChoiceError;
+use crate::sparse::rows_of;
 use crate::value::{Datum, Sensitivity};
 
 /// Angle between the directions of successive unit loads (rad): the golden angle, which is far from
@@ -51,8 +52,8 @@ struct Slopes {
     by_data: DataGradients,
     /// Factored kept rows of C, if the result depends on velocities, and of Φ, with columns in
     /// velocity units.
-    c: Option<Follow>,
-    phi_q: Follow,
+    c: Option<KeptRowSaddle>,
+    phi_q: KeptRowSaddle,
 }
 
 /// Storage of one gradient.
@@ -99,12 +100,8 @@ impl<'a> SolvedEquations<'a> {
         mechanism.gamma(&mut s);
         let size = scene_size(mechanism, &joined.q);
         let units = units(mechanism, size);
-        let mut rows = Matrix::zeros(kept.len(), n);
-        for (k, &i) in kept.iter().enumerate() {
-            layout.scatter_row(&s, i, rows.row_mut(k));
-        }
-        let mut saddle = KeptRowSaddle::new(n, kept.len())?;
-        saddle.factor(|k| rows.row(k), mechanism.mass())?;
+        let rows = rows_of(mechanism, &s, kept.iter().copied(), |_| 1.0);
+        let mut saddle = KeptRowSaddle::of_rows(&rows, mechanism.mass())?;
         let mut gamma: Vec<f64> = kept.iter().map(|&i| s.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
         saddle.solve(&joined.force, &gamma, &mut a, &mut of_kept)?;
@@ -118,7 +115,7 @@ impl<'a> SolvedEquations<'a> {
             mechanism.twist(&v, &mut s);
             gamma.fill(0.0);
             mass = units.iter().map(|unit| 1.0 / (unit * unit)).collect();
-            saddle.factor(|k| rows.row(k), &mass)?;
+            saddle.factor(|k| rows.row(k).1, &mass)?;
             force = unit_loads(mechanism, size);
             saddle.solve(&force, &gamma, &mut a, &mut of_kept)?;
             load = 1.0;
@@ -139,9 +136,11 @@ impl<'a> SolvedEquations<'a> {
             let moved = workshop.max(block.tolerance.unwrap_or(0.0));
             (block, moved)
         };
-        let phi_q = Follow::new(&rows, kept[..holonomic].to_vec(), &units);
+        let follow = |first: usize| followed(&rows, &saddle, first, &units);
+        let phi_q = follow(holonomic)?;
+        let c = feels_velocities.then(|| follow(kept.len())).transpose()?;
         Ok(Self {
-            displaced: is_near_limit(&rows, &units).then(|| DisplacedEquations {
+            displaced: is_near_limit(&rows.dense(), &units).then(|| DisplacedEquations {
                 mechanism,
                 t,
                 q: &joined.q,
@@ -155,7 +154,7 @@ impl<'a> SolvedEquations<'a> {
             slopes: Slopes {
                 derivatives,
                 by_data: mechanism.data().gradients(&s, &lambda, &a, &v),
-                c: feels_velocities.then(|| Follow::new(&rows, kept.to_vec(), &units)),
+                c,
                 phi_q,
             },
             blocks: mechanism.data().blocks(&s).into_iter().map(moved).collect(),
@@ -334,13 +333,13 @@ impl<'a> SolvedEquations<'a> {
         for (&i, value) in self.kept.iter().zip(&w.y_kept) {
             w.y_lambda[i] = *value;
         }
-        let slopes = &self.slopes;
+        let slopes = &mut self.slopes;
         let d = &slopes.derivatives;
         // Contribution through the velocities, which follow the data and the configuration.
-        if let Some(c) = &slopes.c {
+        if let Some(c) = &mut slopes.c {
             w.by_pose.fill(0.0);
             add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
-            c.multipliers(&mut w.by_pose, &mut w.w_v);
+            multipliers(c, &w.by_pose, self.kept, &mut w.w_v);
         }
         // Contribution through the configuration, which follows the data.
         w.by_pose.fill(0.0);
@@ -350,7 +349,7 @@ impl<'a> SolvedEquations<'a> {
         add_transposed(d.reaction_dq.iter(), &w.y, -1.0, &mut w.by_pose);
         add_transposed(d.residual_dq.iter(), &w.y_lambda, -1.0, &mut w.by_pose);
         add_transposed(d.velocity_dq.iter(), &w.w_v, -1.0, &mut w.by_pose);
-        slopes.phi_q.multipliers(&mut w.by_pose, &mut w.w_q);
+        multipliers(&mut slopes.phi_q, &w.by_pose, self.kept, &mut w.w_q);
         let by_rows = [&w.y_lambda[..], &w.w_v, &w.w_q];
         slopes.by_data.gradient(&w.y, by_rows, out);
         out.iter_mut().for_each(|slope| *slope = -*slope);
@@ -439,38 +438,36 @@ impl Change {
     }
 }
 
-/// Rows that stay satisfied by the smallest motion if the data change.
-struct Follow {
-    rows: Vec<usize>,
-    units: Vec<f64>,
-    qr: PivotedQr,
+/// Factors the first rows, which stay satisfied by the smallest motion if the data change. `solved`
+/// contains factors of all rows.
+fn followed(
+    rows: &SparseMatrix,
+    solved: &KeptRowSaddle,
+    first: usize,
+    units: &[f64],
+) -> Result<KeptRowSaddle, ChoiceError> {
+    let weights: Vec<f64> = units.iter().map(|unit| unit.powi(-2)).collect();
+    if first < rows.nrows() {
+        let first: Vec<usize> = (0..first).collect();
+        return Ok(KeptRowSaddle::of_rows(&rows.select_rows(&first), &weights)?);
+    }
+    let mut saddle = solved.clone();
+    saddle.factor(|k| rows.row(k).1, &weights)?;
+    Ok(saddle)
 }
 
-impl Follow {
-    /// Factors the first rows of `first`; `rows` are their numbers in the mechanism.
-    fn new(first: &Matrix, rows: Vec<usize>, units: &[f64]) -> Self {
-        let scaled = |i: usize, j: usize| first[(i, j)] * units[j];
-        Self {
-            qr: PivotedQr::of_rows(Matrix::from_fn(rows.len(), units.len(), scaled)),
-            rows,
-            units: units.to_vec(),
-        }
+/// Computes `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that compensates a change δr of the
+/// followed rows, the first of `kept`. Entries of other rows are left unchanged. They are NaN if the
+/// rows are too nearly dependent.
+fn multipliers(rows: &mut KeptRowSaddle, g: &[f64], kept: &[usize], w: &mut [f64]) {
+    let (still, mut x) = (vec![0.0; rows.n_rows()], vec![0.0; g.len()]);
+    let mut found = still.clone();
+    if rows.solve(g, &still, &mut x, &mut found).is_err() {
+        found.fill(f64::NAN);
     }
-
-    /// Computes `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that compensates a change δr of the
-    /// rows. `w` covers all rows of the mechanism; entries of other rows are left unchanged.
-    /// Overwrites g.
-    fn multipliers(&self, g: &mut [f64], w: &mut [f64]) {
-        g.iter_mut()
-            .zip(&self.units)
-            .for_each(|(g, unit)| *g *= unit);
-        self.qr.q_transpose_mul(g);
-        let found = &mut g[..self.rows.len()];
-        self.qr.solve_r(found);
-        for (found, &k) in found.iter().zip(self.qr.permutation()) {
-            w[self.rows[k]] = *found;
-        }
-    }
+    kept.iter()
+        .zip(found)
+        .for_each(|(&row, found)| w[row] = found);
 }
 
 /// Computes `y ← y + factor·Aᵀ·x`.
