@@ -266,8 +266,10 @@ pub fn analyse_decided(
         let (own, q) = (part.extent.mechanism(mechanism), part.extent.coordinates(q));
         let found = match &part.certified {
             Some(certified) => {
-                let rows = UncertainRows::new(&own, t, &q, ConfigurationAccuracy::AsStored)?;
-                part_verdicts(&own, &evaluated(&own, t, &q), &rows, certified[0].clone())?
+                let s = evaluated(&own, t, &q);
+                let mut rows = UncertainRows::in_double(&own, &s, &q);
+                rows.extended.clone_from(&part.refined);
+                part_verdicts(&own, &s, &rows, certified[0].clone())?
             }
             None => judge_sparse(&own, &evaluated(&own, t, &q), &q)?,
         };

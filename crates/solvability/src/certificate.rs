@@ -36,7 +36,7 @@ pub(crate) struct UncertainRows<'a> {
     uncertain: UncertainMatrix,
     /// C at a configuration refined in double-double. `None` if the refinement is not possible:
     /// there are too many rows, or the kept rows are dependent to the last digit of `f64`.
-    extended: Option<DdMatrix>,
+    pub(crate) extended: Option<DdMatrix>,
 }
 
 impl<'a> UncertainRows<'a> {

@@ -7,6 +7,7 @@ use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
 use crate::pose::{
     decide, decide_dropping, decide_holonomic, dimensionless, evaluated, uncertainty,
 };
+use linalg::DdMatrix;
 use model::start::scene_size;
 use model::{ConfigurationAccuracy, Layout, Mechanism, Scratch, System};
 use rank::{
@@ -41,6 +42,8 @@ pub(crate) struct DecidedPart {
     /// Certified decisions on all rows and on the holonomic rows; `None` in a part that is decided
     /// with sparse matrices.
     pub(crate) certified: Option<Box<[RankDecision; 2]>>,
+    /// C at a configuration refined in double-double, if it was refined.
+    pub(crate) refined: Option<DdMatrix>,
 }
 
 impl DecidedPart {
@@ -58,6 +61,7 @@ impl DecidedPart {
                 all: (&all).into(),
                 holonomic,
                 certified: None,
+                refined: None,
             });
         }
         let rows = certificate::UncertainRows::new(part, t, q, ConfigurationAccuracy::AsStored)?;
@@ -73,6 +77,7 @@ impl DecidedPart {
             all: (&all).into(),
             holonomic: (&holonomic).into(),
             certified: Some(certified),
+            refined: rows.extended,
         })
     }
 }
@@ -310,6 +315,14 @@ fn of_parts<E: Send>(
 }
 
 impl Rows {
+    /// Returns the certified decision on all rows with all dependencies; `None` if they were decided
+    /// in several parts, or with sparse matrices.
+    #[must_use]
+    pub fn whole(&self) -> Option<&RankDecision> {
+        let one = self.parts.first().filter(|one| one.extent.is_whole())?;
+        one.certified.as_ref().map(|both| &both[0])
+    }
+
     /// Returns kept rows that cannot be distinguished from dependent rows in `f64`; the direction
     /// covers all rows. See [`inseparable`].
     #[must_use]

@@ -1,6 +1,7 @@
 //! The run of one component of a plan: its integration, its output rows, and the reason if it
 //! stops.
 
+use std::borrow::Cow;
 use std::time::Instant;
 
 use integrators::{IntegrationError, Interval, Options, OutputTimes, Rows};
@@ -178,13 +179,19 @@ fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
         return Ok(());
     }
     let (q, v) = (&prepared.q, &prepared.v);
-    let mut s = mechanism.scratch();
-    mechanism.pose(0.0, q, &mut s);
-    mechanism.phi(&mut s);
-    mechanism.c(&mut s);
-    // Rows that are redundant only within a stated tolerance do not count as redundant here.
-    let Ok(decision) = decide_dropping(mechanism, &s, q, &decision.dropped) else {
-        return Ok(());
+    let decision = match prepared.decided.as_ref().and_then(|rows| rows.whole()) {
+        Some(certified) => Cow::Borrowed(certified),
+        None => {
+            let mut s = mechanism.scratch();
+            mechanism.pose(0.0, q, &mut s);
+            mechanism.phi(&mut s);
+            mechanism.c(&mut s);
+            // Rows that are redundant only within a stated tolerance do not count as redundant here.
+            match decide_dropping(mechanism, &s, q, &decision.dropped) {
+                Ok(decision) => Cow::Owned(decision),
+                Err(_) => return Ok(()),
+            }
+        }
     };
     let found = no_finite_reactions(mechanism, (0.0, q, v), &decision)?;
     match found.into_iter().find(|found| found.decided) {
