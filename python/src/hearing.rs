@@ -1,13 +1,15 @@
 //! Connects long work with Python: Ctrl-C, and callbacks that raise exceptions or request the end.
 //!
 //! Python delivers Ctrl-C only to the calling thread. A separate thread therefore does the work,
-//! while the calling thread checks for signals.
+//! while the calling thread checks for signals. The thread then waits for the work of further
+//! calls, because starting a thread takes as long as the analysis of a small mechanism.
 
 use std::any::Any;
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::mpsc::{RecvTimeoutError, SendError, Sender, channel};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
@@ -40,15 +42,17 @@ pub(crate) fn heard<T: Send + 'static>(
     let hearing = Arc::new(Hearing::new());
     let (done, waits) = channel::<Ended<T>>();
     let own = Arc::clone(&hearing);
-    let job = move || {
+    let job = move |wait: &dyn Fn()| {
         let outcome = catch_unwind(AssertUnwindSafe(|| on_own_threads(|| work(&own))));
+        // The next call of this thread uses the same worker.
+        wait();
         // After Ctrl-C the calling thread may no longer wait for the result.
         let _ = done.send(outcome);
     };
     let listening = Arc::clone(&hearing);
     let ended = py.detach(move || -> Result<Ended<T>, Fault> {
-        let worker = thread::Builder::new().stack_size(STACK).spawn(job);
-        worker.map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
+        start(Box::new(job))
+            .map_err(|e| Refusal::stopped(format!("cannot start a thread: {e}")))?;
         let mut until: Option<Instant> = None;
         loop {
             match waits.recv_timeout(Duration::from_millis(BETWEEN)) {
@@ -75,6 +79,41 @@ pub(crate) fn heard<T: Send + 'static>(
         Ok(Ok(Err(fault))) | Err(fault) => Err(fault.raised(py)),
         Ok(Err(panic)) => Err(raised_by(py, panic.as_ref())),
     }
+}
+
+/// Work for a thread. It calls the function when the thread can take more work.
+type Job = Box<dyn FnOnce(&dyn Fn()) + Send>;
+
+/// Threads that wait for work, with the process that started them: a forked process does not have
+/// the threads of its parent.
+static WAITING: Mutex<Vec<(u32, Sender<Job>)>> = Mutex::new(Vec::new());
+
+fn waiting() -> MutexGuard<'static, Vec<(u32, Sender<Job>)>> {
+    WAITING.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Does work on a thread that waits for work, or on a new thread.
+fn start(mut job: Job) -> io::Result<()> {
+    let process = std::process::id();
+    while let Some((owner, worker)) = { waiting().pop() } {
+        if owner != process {
+            // The other end belongs to a thread that does not exist.
+            std::mem::forget(worker);
+            continue;
+        }
+        match worker.send(job) {
+            Ok(()) => return Ok(()),
+            Err(SendError(refused)) => job = refused,
+        }
+    }
+    let (worker, jobs) = channel::<Job>();
+    let wait = move || waiting().push((process, worker.clone()));
+    let work = move || {
+        job(&wait);
+        jobs.iter().for_each(|job| job(&wait));
+    };
+    thread::Builder::new().stack_size(STACK).spawn(work)?;
+    Ok(())
 }
 
 /// Does work that calls Python functions on the calling thread, and that calls `ends` often. A
