@@ -1,5 +1,5 @@
-//! Benchmarks of mechanisms in space: the kernels of one joint, and all verdicts of a four-bar and
-//! of a Delta robot. Each benchmark asserts its result before its time is measured:
+//! Benchmarks of mechanisms in space: the kernels of one joint, and all verdicts on a four-bar and
+//! on a Delta robot. Each benchmark asserts its result before its time is measured:
 //! `cargo bench -p bench --bench space`.
 
 use std::hint::black_box;
@@ -53,7 +53,7 @@ fn kernel_revolute(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// Computes all verdicts of a drawing with this rank.
+/// Computes all verdicts on a drawing with this rank.
 fn verdicts(bencher: Bencher<'_, '_>, drawing: &Drawing, rank: usize) {
     let description = description(drawing, &Precision::default()).expect("a mechanism");
     let mechanism = Mechanism::build(&description).expect("builds");
@@ -63,13 +63,13 @@ fn verdicts(bencher: Bencher<'_, '_>, drawing: &Drawing, rank: usize) {
     bencher.bench_local(analysed);
 }
 
-/// The matrix is 20 × 18.
+/// Four-bar, with a 20 × 18 matrix.
 #[divan::bench]
 fn analysis_four_bar(bencher: Bencher<'_, '_>) {
     verdicts(bencher, &four_bar([Flat::R; 4]), 17);
 }
 
-/// The matrix is 105 × 96.
+/// Delta robot, with a 105 × 96 matrix.
 #[divan::bench]
 fn analysis_delta(bencher: Bencher<'_, '_>) {
     verdicts(bencher, &delta(), 93);

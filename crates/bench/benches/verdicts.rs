@@ -15,13 +15,13 @@ fn main() {
     divan::main();
 }
 
-/// The robot at its start.
+/// Returns the robot at its initial state.
 fn prepared() -> PreparedMechanism {
     let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("the robot starts")
 }
 
-/// Returns C of the robot at its start, and the rows of its fourteen reactions.
+/// Returns C of the robot at its initial state, and the rows of its fourteen reactions.
 fn matrix() -> (Matrix, Vec<RowRanges>) {
     let p = prepared();
     let mut s = p.mechanism.scratch();

@@ -4,8 +4,8 @@ use num_bigint::BigInt;
 use num_traits::{One, Zero};
 
 /// Transforms the first `columns` columns to echelon form by exchanging rows and adding multiples
-/// of rows to others. Returns the rank r of these columns, and the rows. The first r rows are the
-/// pivot rows; in the other rows these columns are zero.
+/// of rows to others. Returns the rank r of these columns, and the transformed rows. The first r
+/// rows are the pivot rows; in the other rows, the first `columns` entries are zero.
 ///
 /// Source: E. H. Bareiss, Sylvester's identity and multistep integer-preserving Gaussian
 /// elimination, Math. Comp. 22 (1968): all entries remain minors of the matrix,

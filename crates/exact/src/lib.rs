@@ -4,10 +4,10 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `dyadic` | numbers `mantissa·2^exponent` |
+//! | `dyadic` | exact numbers `mantissa·2^exponent` |
 //! | `elimination` | elimination without fractions |
 //! | `solve` | accelerations and multipliers of the equations of motion |
-//! | `rank` | rank, left null space, and the verdicts that follow from them |
+//! | `rank` | rank, left null space, and uniqueness of multipliers and reactions |
 
 mod dyadic;
 mod elimination;

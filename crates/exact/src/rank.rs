@@ -1,4 +1,4 @@
-//! Exact rank, left null space and verdicts of a matrix of `f64`.
+//! Exact rank, left null space and uniqueness of multipliers for a matrix of `f64`.
 
 use num_bigint::BigInt;
 use num_traits::Zero;
@@ -84,7 +84,7 @@ impl Exact {
         self.rank
     }
 
-    /// Returns whether row `i` belongs to no dependency: `Z_i = 0`.
+    /// Returns whether row `i` belongs to no dependency, that is `Z_i = 0`.
     #[must_use]
     pub fn row_is_unique(&self, i: usize) -> bool {
         self.z.iter().all(|z| z[i].is_zero())
@@ -105,8 +105,8 @@ impl Exact {
         self.z.iter().all(|z| product(z).is_zero())
     }
 
-    /// Returns the rank of `B_X = C_Xᵀ·Z_X`: the number of directions in which the reaction of the
-    /// rows X is not unique.
+    /// Returns the rank of `B_X = C_Xᵀ·Z_X`, which is the number of directions in which the
+    /// reaction of the rows X is not unique.
     #[must_use]
     pub fn freedom(&self, rows: &[usize]) -> usize {
         let n = self.rows.first().map_or(0, Vec::len);
@@ -117,15 +117,15 @@ impl Exact {
         eliminate(self.z.iter().map(b_x).collect(), n).0
     }
 
-    /// Returns the rank of `Z_X`: the number of directions in which the multipliers of the rows X
-    /// are not unique.
+    /// Returns the rank of `Z_X`, which is the number of directions in which the multipliers of the
+    /// rows X are not unique.
     #[must_use]
     pub fn multiplier_freedom(&self, rows: &[usize]) -> usize {
         let z_x = |z: &Vec<BigInt>| rows.iter().map(|&i| z[i].clone()).collect();
         eliminate(self.z.iter().map(z_x).collect(), rows.len()).0
     }
 
-    /// Returns whether `ℓᵀ·λ` is unique: `ℓᵀ·Z = 0`.
+    /// Returns whether `ℓᵀ·λ` is unique, that is `ℓᵀ·Z = 0`.
     ///
     /// # Panics
     /// Panics if a coefficient is not finite.

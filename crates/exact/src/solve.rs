@@ -162,8 +162,9 @@ mod tests {
 
     #[test]
     fn a_pendulum_released_level() {
-        // A mass at distance 2 on a massless rod: (x, y, φ), with the pivot at −2 along the rod.
-        // Then φ̈ = −g/2 and ÿ = −g, and there is no force in the pivot.
+        // A mass on a massless rod, at a distance of 2 from the pivot, with the coordinates (x, y,
+        // φ). The pivot is at −2 along the rod. Then φ̈ = −g/2 and ÿ = −g, and the force in the
+        // pivot is zero.
         let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, -2.0]];
         let found = solve(&[3.0, 3.0, 0.0], &rows, &[0.0, -30.0, 0.0], &[0.0, 0.0]).unwrap();
         assert_eq!(found.a, [0.0, -10.0, -5.0]);

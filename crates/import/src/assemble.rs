@@ -227,7 +227,7 @@ impl State {
         }
     }
 
-    /// Closes the loops in steps: the gaps of the guess are reduced gradually.
+    /// Closes the loops in steps by reducing the gaps of the guess gradually.
     fn continue_from(&mut self, model: &Model, tree: &Tree) -> f64 {
         let start = tree.residual(model, &self.poses(model), &self.q);
         let (mut share, mut step): (f64, f64) = (1.0, 0.125);

@@ -22,7 +22,7 @@ pub enum Axes {
     Snapped,
 }
 
-/// An axis at the start, in ground axes.
+/// The axis of a joint at the initial pose, in ground axes.
 #[derive(Clone, Copy)]
 struct JointAxis {
     joint: usize,
@@ -30,12 +30,12 @@ struct JointAxis {
     direction: Vector3<f64>,
 }
 
-/// An axis that is tilted relative to others of its loop.
+/// An axis that is tilted relative to other axes of the same loop.
 struct Tilt {
     joint: usize,
     /// Angle (rad).
     off: f64,
-    /// The direction of the other axes, with the sense of this axis.
+    /// The direction of the other axes, with the sign chosen so that it is close to this axis.
     direction: Vector3<f64>,
     /// Names of the other axes.
     others: String,
@@ -143,8 +143,8 @@ fn sentence(words: &str) -> String {
     first.unwrap_or_default() + letters.as_str()
 }
 
-/// Reports axes of each loop that are nearly parallel or nearly intersect. `poses` are the poses of
-/// the links at the start, `tolerance` the accuracy of lengths and angles.
+/// Reports axes of each loop that are nearly parallel or nearly intersect. `poses` are the initial
+/// poses of the links, `tolerance` is the accuracy of lengths and angles.
 pub(crate) fn look(
     model: &mut Model,
     poses: &[Isometry3<f64>],

@@ -93,7 +93,7 @@ pub(crate) struct Findings {
     pub(crate) radians: Suspects,
 }
 
-/// Meaning of numbers, for the count of digits.
+/// Meaning of a number, because digits are counted separately for each meaning.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum NumberKind {
     Length,

@@ -15,8 +15,8 @@
 //! | `couple` | couplings that are not satisfied at the described pose of the links |
 //! | `digits`, `tolerance`, `angles` | the decimal places of the numbers of a file, and the accuracy of these numbers; angles in another unit |
 //! | `pose` | poses of links for given joint coordinates |
-//! | `start`, `assemble` | the start of the scene: keyframes, poses at which loops are closed |
-//! | `axes` | axes that are nearly parallel or nearly meet |
+//! | `start`, `assemble` | the initial state: keyframes, poses at which loops are closed |
+//! | `axes` | axes that are nearly parallel or nearly intersect |
 //! | `merge` | merges fixed links into other links |
 //! | `names`, `write` | the text of the scene |
 
@@ -83,7 +83,7 @@ impl ImportedScene {
 /// Reason why a file cannot be imported.
 #[derive(Clone, Debug)]
 pub struct Refusal {
-    /// The file with the problems: the given one, or one that it includes.
+    /// The file with the problems, which is the given file or an included file.
     pub file: String,
     /// Text of this file.
     pub text: String,

@@ -1,4 +1,4 @@
-//! The common data of all formats: links with mass and position, joints between them, couplings.
+//! The common data of all formats: links with mass and position, joints between links, couplings.
 //!
 //! All positions refer to the *described* pose, at which the coordinates of all joints have the
 //! values `zero`. A link that is `None` is the ground.
@@ -100,7 +100,7 @@ pub(crate) struct Joint {
     pub(crate) frames: Option<[UnitQuaternion<f64>; 2]>,
     /// Values of the coordinates at the described pose.
     pub(crate) zero: [f64; 2],
-    /// Changes of the coordinates from the described pose to the start.
+    /// Changes of the coordinates from the described pose to the initial pose.
     pub(crate) moved: [f64; 2],
     pub(crate) loads: [Load; 2],
     pub(crate) is_active: bool,
@@ -146,7 +146,7 @@ pub(crate) struct Coupling {
     pub(crate) is_active: bool,
 }
 
-/// A named point of a link: sites and frames.
+/// A named frame of a link, from a site or frame of the file.
 #[derive(Clone, Debug)]
 pub(crate) struct Frame {
     pub(crate) name: String,
@@ -160,8 +160,8 @@ pub(crate) struct Keyframe {
     pub(crate) name: String,
     /// Line in the file.
     pub(crate) line: usize,
-    /// For each joint, its coordinates: for a spherical joint a quaternion (w, x, y, z), for a free
-    /// link position and quaternion.
+    /// The coordinates of each joint. A spherical joint has a quaternion (w, x, y, z), and a free
+    /// link has position and quaternion.
     pub(crate) q: Vec<Vec<f64>>,
     /// For each joint, its velocities; for a spherical joint and the rotation of a free link, the
     /// angular velocity in the axes of the link. `None` if all are zero.

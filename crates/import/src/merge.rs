@@ -80,7 +80,8 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
     motions.retain(|_| flags.next().unwrap_or(true));
 }
 
-/// The host of each link: the link at the start of a chain of fixed joints that position the link.
+/// The host of each link. It is the first link of the chain of fixed joints that determine the
+/// position of the link.
 fn hosts(model: &Model) -> Vec<Host> {
     let before = placing(model);
     let fixed = |link: usize| {

@@ -199,7 +199,8 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Kind of omission for a tendon: springs, dampers and friction are also omitted.
+    /// Kind of omission for a tendon. The kind depends on whether springs, dampers or friction are
+    /// omitted.
     fn tendon(&mut self, element: Element<'a>) -> &'static str {
         let class = self.source.attributes(element, 0).class;
         let acts = ["stiffness", "damping", "frictionloss", "armature"]

@@ -17,7 +17,7 @@ pub struct Options {
     /// Values of joint coordinates near which loops are closed: name of the joint, and value (m or
     /// rad) with the sign convention of the file.
     pub pose: Vec<(String, f64)>,
-    /// Treatment of axes that are nearly parallel or nearly meet.
+    /// Treatment of axes that are nearly parallel or nearly intersect.
     pub axes: Axes,
     /// The keyframe at which the scene starts; without it, the scene starts at the described pose.
     pub keyframe: Option<String>,

@@ -1,5 +1,5 @@
-//! Poses of links for given joint coordinates: products of displacements relative to the described
-//! pose.
+//! Computes poses of links for given joint coordinates, as products of displacements relative to
+//! the described pose.
 //!
 //! The displacement of a link is g_child = g_parent·D(q), with the displacement g_parent of the
 //! previous link and the displacement D(q) of the joint at its described position.

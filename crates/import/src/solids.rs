@@ -1,4 +1,5 @@
-//! Common parts of URDF and SDF: poses of six numbers, tensors with named entries, tree and loops.
+//! Common parts of URDF and SDF: poses of six numbers, tensors with named entries, the tree of
+//! links and loops.
 
 use nalgebra::{Isometry3, Matrix3, UnitQuaternion, Vector3};
 

@@ -1,4 +1,4 @@
-//! The start of a scene: a keyframe, or a pose with closed loops near the requested values.
+//! The initial state of a scene: a keyframe, or a pose with closed loops near the requested values.
 
 use crate::angles;
 use crate::assemble::{self, AssemblyFailure};

@@ -288,8 +288,8 @@ impl<'a> Writer<'a> {
         format!("{}.{measure}", self.joints[joint])
     }
 
-    /// The name of a coordinate: the name of the joint in the file, if several joints were
-    /// combined.
+    /// The name of a coordinate. If several joints of the file were combined, it is the name of the
+    /// original joint.
     fn coordinate(&self, joint: usize, coordinate: usize) -> &str {
         let of = &self.model.joints[joint];
         match of.names.get(coordinate) {
@@ -501,7 +501,8 @@ fn vector(v: Vector3<f64>) -> String {
     format!("[{}, {}, {}]", number(v.x), number(v.y), number(v.z))
 }
 
-/// A direction: components below the rounding error of the others are set to zero.
+/// Writes a direction. Components below the rounding error of the largest component are set to
+/// zero.
 fn direction(v: Vector3<f64>) -> String {
     let floor = 4.0 * f64::EPSILON * v.amax();
     vector(v.map(|x| if x.abs() < floor { 0.0 } else { x }))

@@ -3,7 +3,7 @@
 //!
 //! | function | figure |
 //! | --- | --- |
-//! | [`mechanism()`] | a mechanism to scale, its joints marked by the verdict of their reactions |
+//! | [`mechanism()`] | a mechanism to scale; joints are marked by the verdicts on their reactions |
 //! | [`history()`], [`histories`] | quantities over time |
 //! | [`paths()`] | paths in the plane, with equal axes |
 //! | [`work_precision()`] | error against run time, scene by scene |

@@ -8,7 +8,7 @@
 //! are written as `.part` files, then all are renamed. Finally, files of an earlier result of the
 //! same [`Family`] are removed if the new result does not contain them.
 //!
-//! No content is written through a symbolic link: a link at the path of a file is replaced by the
+//! No content is written through a symbolic link. A link at the path of a file is replaced by the
 //! file, and the target of the link does not change. Files are not removed through links, either.
 
 mod family;
@@ -334,7 +334,8 @@ impl OutputDirectory {
         names
     }
 
-    /// The names of files that pfaff has written there and that do not belong to this family.
+    /// The names of files in the directory that pfaff has written and that do not belong to this
+    /// family.
     #[must_use]
     pub fn others(&self, family: Family) -> Vec<String> {
         let mut names = self.names();
@@ -578,7 +579,7 @@ impl OutputFile {
     /// Writes the buffer and gives the file its final name.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: the file could not be written completely and keeps the name
+    /// - [`FileError::Refused`]: the file could not be written completely and is still named
     ///   `.part`, or it could not be renamed.
     pub fn finish(self) -> Result<PathBuf, FileError> {
         self.flushed()?;

@@ -1,5 +1,5 @@
-//! The part of a run that is stored for its report: output rows, limited in number so that a report
-//! stays small. This module computes no values.
+//! The output rows of a run that are stored for the report. Their number is limited, so that the
+//! report is small. This module computes no values.
 
 use model::Reaction;
 
@@ -21,7 +21,7 @@ pub struct Frame {
     pub q: Vec<f64>,
     /// Velocities.
     pub v: Vec<f64>,
-    /// Work of drives and applied forces since the start (J).
+    /// Work of drives and applied forces since the initial time (J).
     pub work: f64,
     /// Reactions of all joints and drives; empty if no reactions are requested.
     pub reactions: Vec<Reaction>,

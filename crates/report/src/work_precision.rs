@@ -112,7 +112,7 @@ pub struct ReferenceDocument {
 }
 
 impl ReferenceDocument {
-    /// Bound on the error of the motion.
+    /// Bound on the error of the motion, which is the larger bound of position and velocity.
     #[must_use]
     pub fn motion_limit(&self) -> f64 {
         self.limits[0].max(self.limits[1])

@@ -308,7 +308,7 @@ fn nothing_is_written_through_a_link() {
 #[cfg(target_os = "linux")]
 #[test]
 fn an_unwritable_directory_is_named() {
-    // No user, not even root, can create files there.
+    // No user, not even root, can create files in this directory.
     let error = OutputDirectory::create("/proc/results").expect_err("not writable");
     assert!(error.to_string().contains("/proc/results"), "{error}");
     let directory = OutputDirectory::create("/proc").expect("it is there");

@@ -42,7 +42,7 @@ impl Case {
     }
 }
 
-/// Defines a case of this crate: the names of its files are derived from its name.
+/// Defines a case of this crate. The names of the files are derived from the name of the case.
 macro_rules! case {
     ($name:literal, $title:literal) => {
         case!(
@@ -72,8 +72,8 @@ macro_rules! case {
 /// The scene of the robot with its trolley.
 pub const ROBOT: &str = include_str!("../scenes/robot-trolley.toml");
 
-/// Cases for the comparison of methods: they have different requirements, and a run takes less than
-/// a second.
+/// Cases for the comparison of methods. The cases make different demands on a method, and each run
+/// takes less than a second.
 pub const COMPARED: [Case; 11] = [
     case!(
         "robot-trolley",

@@ -1,4 +1,5 @@
-//! Motions with a closed form, evaluated in `f64`: accurate to some units of the last digit.
+//! Motions with a closed form, which is evaluated in `f64` with an error of a few units in the last
+//! place.
 
 use crate::reference::{Fact, Instant, Quantity, Reference, Trust};
 

@@ -9,7 +9,7 @@
 //! | `table` | reference values as text |
 //! | [`closed_forms`] | motions with a closed form |
 //! | [`generate`] | scenes of any size, with their results |
-//! | [`numbers`] | seeded numbers, the same on every machine |
+//! | [`numbers`] | pseudo-random numbers, the same on every machine |
 
 pub mod cases;
 pub mod closed_forms;

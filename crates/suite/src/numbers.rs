@@ -1,4 +1,4 @@
-//! A seeded sequence of test numbers, the same on every machine.
+//! A sequence of pseudo-random numbers from a seed, which is the same on every machine.
 
 /// SplitMix64 (Steele, Lea, Flood 2014, doi 10.1145/2714064.2660195).
 #[derive(Clone, Debug)]

@@ -67,8 +67,8 @@ impl Kind {
 }
 
 impl Quantity {
-    /// All quantities with their names in tables: those of `trajectory.csv` and `reactions.csv`,
-    /// and `ax`, `ay`, `alpha`.
+    /// All quantities with their names in tables: the names in `trajectory.csv` and
+    /// `reactions.csv`, and `ax`, `ay`, `alpha`.
     pub const NAMES: [(Self, &'static str); 13] = [
         (Self::X, "x"),
         (Self::Y, "y"),

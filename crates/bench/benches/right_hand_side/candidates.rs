@@ -1,6 +1,6 @@
-//! The candidates of the comparison. Each candidate is evaluated at every state of the motion and
-//! must return the known result there before its time is measured. A new candidate needs one line
-//! in [`all`].
+//! The candidates of the comparison. Before its time is measured, each candidate is evaluated at
+//! every state of the motion and must return the known result. A new candidate needs one line in
+//! [`all`].
 
 use std::hint::black_box;
 

@@ -11,8 +11,8 @@ use num_dual::{Dual2_64, Dual64, DualNum, gradient, jacobian};
 trait Number: DualNum<Primitive = f64> + Copy {}
 impl<D: DualNum<Primitive = f64> + Copy> Number for D {}
 
-/// Bodies and positions of the revolute joints A … G at the start; all frames are parallel at the
-/// start.
+/// Bodies and positions of the revolute joints A … G at the initial state, at which all frames are
+/// parallel.
 const REVOLUTES: [(usize, usize, [f64; 2]); 7] = [
     (0, 6, [-0.4, 0.0]),
     (0, 1, [0.3, 0.0]),
@@ -48,7 +48,7 @@ pub(crate) struct DualRobot {
 }
 
 impl DualRobot {
-    /// Reads the positions of the bodies at the start from the mechanism.
+    /// Reads the initial positions of the bodies from the mechanism.
     pub(crate) fn new(mechanism: &Mechanism, drive: Function) -> Self {
         let (q, _) = mechanism.described_state();
         let local = |body: usize, [x, y]: [f64; 2]| [x - q[3 * body], y - q[3 * body + 1]];

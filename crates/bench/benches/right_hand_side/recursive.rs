@@ -10,7 +10,8 @@
 //! `(Σ Jᵀ·M·J)·u̇ = −Σ Jᵀ·M·Γ`.
 //!
 //! At states that violate the constraints, which occur in the stages of an integrator, the
-//! accelerations differ from those of the other methods. Vectors are in the frame of the platform.
+//! accelerations differ from the accelerations of the other methods. Vectors are in the frame of
+//! the platform.
 
 /// Half the wheelbase, and the distances from the hitch to the platform centre, to the trolley
 /// wheel and to the centre of the trolley (m).
@@ -22,7 +23,7 @@ const CENTRE: f64 = 0.35;
 const ARM: [f64; 2] = [-0.09, 0.05];
 /// Position of the joint between slider and front link, at d = 0.
 const EYE: [f64; 2] = [0.2, -0.2];
-/// Squared length of a link: from (0.2, −0.2) to (0.21, 0.05).
+/// Squared length of a link, which connects (0.2, −0.2) and (0.21, 0.05).
 const LINK_2: f64 = 0.01 * 0.01 + 0.25 * 0.25;
 /// Squared length of the arm of a knuckle.
 const ARM_2: f64 = ARM[0] * ARM[0] + ARM[1] * ARM[1];

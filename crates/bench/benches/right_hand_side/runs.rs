@@ -23,8 +23,8 @@ const PER_DECADE: i32 = 8;
 /// Loosest and tightest tolerance (decades).
 const DECADES: [i32; 2] = [-4, -13];
 
-/// Returns the runs, in the order of the table. Another way to simulate the robot needs one line
-/// here.
+/// Returns the runs, in the order of the table. A new method of simulation needs one line in this
+/// function.
 pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'static>>> {
     let known = end(robot)?;
     let run = |key, name, prepared, error| run(key, name, prepared, error, &known);

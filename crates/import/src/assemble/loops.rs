@@ -70,7 +70,7 @@ impl Gap {
 #[derive(Clone)]
 pub(super) struct Tree {
     pub(super) freedoms: Vec<Freedom>,
-    /// Joints and coordinates that keep their values.
+    /// Joints with the indices of coordinates whose values are fixed.
     pub(super) held: Vec<(usize, usize)>,
     /// For each link, the joints between the ground and the link.
     chains: Vec<Vec<usize>>,
@@ -147,7 +147,7 @@ impl Tree {
         }
     }
 
-    /// The same tree with coordinates that keep their values.
+    /// The same tree with the fixed coordinates `held`.
     pub(super) fn holding(&self, held: &[(usize, usize)]) -> Self {
         let mut tree = self.clone();
         tree.held = held.to_vec();

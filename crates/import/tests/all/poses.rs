@@ -162,7 +162,7 @@ fn a_keyframe_that_opens_a_loop_is_told() {
     );
 }
 
-/// Two hinges that were merged to one joint keep their names.
+/// The names of two hinges that were merged to one joint do not change.
 #[test]
 fn parts_of_a_joint_have_their_own_names() {
     let text = body(

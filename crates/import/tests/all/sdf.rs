@@ -57,7 +57,8 @@ fn loops_springs_and_limits() {
     assert_eq!(last.as_deref(), Some("[0.0, 0.6, 0.8]"));
 }
 
-/// The model is at z = 1 and rotated by 90° about z: its x-axis is the y-axis of the ground.
+/// The model is at z = 1 and rotated by 90° about z, so the x-axis of the model is the y-axis of
+/// the ground.
 #[test]
 fn frames_are_relative_to_each_other() {
     let done = imported("sdf/frames.sdf");

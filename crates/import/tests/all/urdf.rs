@@ -114,7 +114,7 @@ fn loops_in_gazebo_are_closed() {
     );
 }
 
-/// A triangle with sides 3, 4 and 5 has a right angle: its corner is at (1.8, ±2.4).
+/// A triangle with sides 3, 4 and 5 has a right angle, at the corner (1.8, ±2.4).
 #[test]
 fn loops_are_closed_from_a_guess() {
     let angle = |imported: &ImportedScene, body| {

@@ -42,7 +42,7 @@ struct Scaled {
     /// The unit of each coordinate, and the masses in these units, n_v each.
     units: Vec<f64>,
     mass: Vec<f64>,
-    /// All rows of C; the holonomic rows are those of Φq.
+    /// All rows of C; the holonomic rows are the rows of Φq.
     c: Matrix,
     /// On entry Q, on return the solution (accelerations or a correction), n_v.
     force: Vec<f64>,

@@ -3,7 +3,7 @@
 /// The treatment of redundant rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Formulation {
-    /// Independent rows, selected at the start.
+    /// Independent rows, selected at the initial state.
     KeptRows,
     /// Null-space method: a basis of the motions that C allows.
     NullSpace,

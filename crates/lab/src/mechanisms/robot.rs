@@ -1,5 +1,5 @@
-//! The robot with its trolley, written in code: the same mechanism as
-//! `crates/robot-trolley/robot-trolley.toml`, from the same dimensions, but built independently of
+//! The robot with its trolley, written in code. It is the same mechanism as in
+//! `crates/robot-trolley/robot-trolley.toml`, with the same dimensions, but built independently of
 //! the scene reader.
 
 use joints::plane::Direction;

@@ -119,7 +119,7 @@ pub fn bennett() -> Result<SpatialDescription, String> {
 /// Seed that selects the frames of [`bennett`].
 const BENNETT: u64 = 11;
 
-/// A disk that rolls steadily without slip: its centre moves on a circle.
+/// A disk that rolls steadily without slip, so that its centre moves on a circle.
 #[derive(Clone, Copy, Debug)]
 pub struct RollingDisk {
     /// Angle between the axis of the disk and the vertical (rad).

@@ -16,7 +16,7 @@ pub enum Judgement {
     Right,
     /// A correct error message that names the fault.
     Refused,
-    /// An error message although an answer exists: a limit of the program.
+    /// An error message although an answer exists. This is a limit of the program.
     Limit,
     /// A correct error message that does not name the fault.
     Misnamed,

@@ -38,7 +38,7 @@ impl<W: Write> StressTable<W> {
         Ok(Self { table })
     }
 
-    /// Writes a case. Missing numbers are `NaN`, and other missing values are empty.
+    /// Writes a case. A missing number is written as `NaN`; other missing values are empty.
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.

@@ -1,5 +1,5 @@
-//! Degenerate scenes: the results of the program equal those of exact arithmetic.
-//! `cargo run --release -p lab -- fuzz exact` tests 20 000 of them.
+//! Tests that the results of the program for degenerate scenes equal the results of exact
+//! arithmetic. `cargo run --release -p lab -- fuzz exact` tests 20 000 of them.
 
 use lab::fuzz::exact::answer::answer;
 use lab::fuzz::exact::doubles::Doubles;
@@ -313,8 +313,8 @@ fn answers_that_were_wrong_once_are_right() {
     }
 }
 
-/// Drawings of full rank keep their rank with tolerances below a third of their distance from a
-/// lower rank.
+/// If the tolerance is below a third of the distance from a lower rank, drawings of full rank are
+/// reported with full rank.
 #[test]
 fn no_tolerance_below_a_third_makes_a_row_redundant() {
     let tally = of_drawings(Suite::FullRank, 0, DRAWINGS);

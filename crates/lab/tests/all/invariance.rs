@@ -16,7 +16,7 @@ use pfaff::solvability::{Verdict, analyse};
 use proptest::prelude::*;
 use suite::numbers::Numbers;
 
-/// Seed of the drawings; proptest selects their numbers.
+/// Seed of the drawings; proptest selects the indices of the drawings.
 const SEED: u64 = 1_111;
 
 /// Number of drawings from which proptest selects: twenty of each family.

@@ -55,7 +55,7 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     let scene = read(&text).unwrap_or_else(|problems| panic!("{}", problems[0]));
     let d = scene.description.plane().expect("a planar scene");
     assert_eq!((d.bodies.len(), d.joints.len()), (68_750, 100_000));
-    // Every position is known: the last joint is the last table but one.
+    // The position of every table is stored. The last joint is the second to last table.
     let source = scene.source.as_ref().expect("places");
     let last = source.joints.last().expect("a joint");
     assert!(text[last.name_span()].starts_with("\"top-18749-"));

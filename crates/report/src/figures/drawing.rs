@@ -533,7 +533,7 @@ impl DrawnMarker {
     }
 }
 
-/// Index of a body among those that are drawn.
+/// Index of a body among the drawn bodies.
 fn drawn(bodies: &[usize], body: BodyRef) -> Option<isize> {
     match body {
         BodyRef::Ground => Some(GROUND),

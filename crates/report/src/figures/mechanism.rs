@@ -22,7 +22,7 @@ use view::View;
 pub enum Marking<'a> {
     /// All joints are marked in the same way.
     Plain,
-    /// Joints are marked by the verdicts of an analysis.
+    /// Joints are marked by the verdicts on their reactions.
     Verdicts(&'a [ReactionVerdict]),
 }
 
@@ -31,7 +31,8 @@ pub enum Marking<'a> {
 pub enum Labels {
     /// Names of joints and drives.
     Names,
-    /// Names of joints and drives, with the numbers of their rows of C, from 1, such as `B 3–4`.
+    /// Names of joints and drives with the indices of their rows of C, counted from 1, such as
+    /// `B 3–4`.
     NamesAndRows,
 }
 

@@ -99,7 +99,7 @@ impl Frame {
     }
 }
 
-/// Draws a piece of a curve.
+/// Draws a part of a curve without gaps.
 fn stroke(svg: &mut Svg, points: &[[f64; 2]], style: Style) {
     match points {
         [] => {}
@@ -147,9 +147,9 @@ const LEGEND_LINE: f64 = 18.0;
 /// Length of the sample of a curve (px).
 const SAMPLE: f64 = 24.0;
 
-/// Appearance of a curve, shown by a short piece of it.
+/// Appearance of a curve, shown by a short sample in a legend.
 pub(super) trait Sample: Copy {
-    /// Draws the piece between two points.
+    /// Draws the sample between two points.
     fn sample(self, svg: &mut Svg, ends: [[f64; 2]; 2]);
 }
 

@@ -94,7 +94,7 @@ impl Element<'_> {
         self
     }
 
-    /// Attributes that are numbers.
+    /// Adds numerical attributes.
     pub(super) fn at<const N: usize>(self, numbers: [(&str, f64); N]) -> Self {
         numbers
             .into_iter()

@@ -112,7 +112,7 @@ impl Journal {
         self.end()
     }
 
-    /// Removes the journal, as if it had not been started.
+    /// Removes the journal. The effect is the same as if the journal had not been started.
     ///
     /// # Errors
     /// [`JournalError::File`]: the journal could not be removed.

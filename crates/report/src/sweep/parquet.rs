@@ -1,5 +1,5 @@
-//! A table as Parquet: counts are INT64 with nulls, numbers DOUBLE, texts UTF-8. The description of
-//! the sweep is in the metadata of the file, under `pfaff.sweep`.
+//! Writes a table as Parquet. Counts are INT64 with nulls, numbers are DOUBLE, and texts are UTF-8.
+//! The description of the sweep is in the metadata of the file, under `pfaff.sweep`.
 
 use std::io::{self, Write};
 use std::sync::Arc;

@@ -163,8 +163,8 @@ impl RecordCollection {
         .into())
     }
 
-    /// Records that a process ended during these runs; the flag is true if the process made no
-    /// other run.
+    /// Records that a process ended during these runs. The flag of a run is true if the process
+    /// made only this run.
     pub(super) fn blame(&mut self, begun: BTreeMap<u64, bool>) {
         for (run, was_alone) in begun {
             *self.records.suspects.entry(run).or_default() += u64::from(was_alone);

@@ -13,7 +13,8 @@ pub enum SweepStatus {
     Stopped,
     /// The run did not start, because the mechanism or the motion does not exist for these values.
     Refused,
-    /// The process of the run ended twice while it made no other run.
+    /// The process that made the run ended unexpectedly in two attempts in which it made only this
+    /// run.
     Crashed,
 }
 
@@ -41,7 +42,7 @@ pub struct Extreme {
 }
 
 impl Extreme {
-    /// The value and its time in a table; NaN if it is not determined.
+    /// The value and its time in a table; both are NaN if the value is not determined.
     #[must_use]
     pub fn cells(&self) -> [f64; 2] {
         let value = self.value.determined();
@@ -74,19 +75,19 @@ pub struct SweepMotion {
     pub energy_balance: f64,
     /// Largest change of a coordinate during the assembly (m or rad).
     pub start_correction: f64,
-    /// Largest change of a velocity at the start (m/s or rad/s).
+    /// Largest change of a velocity during the assembly (m/s or rad/s).
     pub start_velocity_correction: f64,
     /// Number of events.
     pub events: u64,
-    /// Rank of C at the start.
+    /// Rank of C at the initial state.
     pub rank: u64,
-    /// Degree of redundancy at the start.
+    /// Degree of redundancy at the initial state.
     pub redundancy: u64,
     /// Number of joints and drives whose reaction is not unique or is undecided on the run. `None`
     /// if no reaction is requested, because the run then has no verdicts on reactions.
     pub not_unique: Option<u64>,
-    /// Number of joints and drives with a component that is unique at the start, but sensitive to
-    /// data (`fragile`).
+    /// Number of joints and drives with a component that is unique at the initial state, but
+    /// sensitive to data (`fragile`).
     pub fragile: u64,
     /// Time of the last output state (s); the end time of a run that is done.
     pub t_state: f64,

@@ -134,8 +134,8 @@ fn fill(folder: &Folder, of: Runs, rows: &[SweepRow]) {
     journal.finish().expect("writable");
 }
 
-/// A journal of a process that is no longer running: the lines of a running process, with another
-/// header.
+/// Writes a journal of a process that is no longer running. It contains the lines of a running
+/// process with another header.
 fn left_by(host: &str, folder: &Folder, name: &str, of: Runs, lines: &[&str]) {
     let own = Process::own();
     let host = if host.is_empty() { &own.host } else { host };

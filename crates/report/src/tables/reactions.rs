@@ -69,7 +69,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// The verdicts on the quantity; `None` if it is zero under any load.
+    /// The verdicts on the quantity; `None` if the quantity is zero under any load.
     #[must_use]
     pub fn verdicts<'s>(&self, stretches: &'s Stretches) -> Option<&'s VerdictTrack> {
         match self {
@@ -199,7 +199,7 @@ impl<W: Write> ReactionTable<W> {
     /// selected ones. `groups` contains all components of all groups.
     ///
     /// # Errors
-    /// - [`TableError::Length`]: the numbers belong to another mechanism; nothing is written.
+    /// - [`TableError::Length`]: the values belong to another mechanism; nothing is written.
     /// - [`TableError::Write`]: the writer failed.
     pub fn row(
         &mut self,

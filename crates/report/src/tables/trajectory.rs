@@ -1,4 +1,5 @@
-//! `trajectory.csv`: positions and velocities of all bodies and markers, and measures.
+//! `trajectory.csv`: positions and velocities of all bodies and markers, and the values of
+//! measures.
 
 use std::fmt;
 use std::io::Write;

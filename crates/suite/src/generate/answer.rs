@@ -1,4 +1,4 @@
-//! The known results for a generated mechanism at its start.
+//! The known results for a generated mechanism at its initial state.
 
 /// Sizes and ranks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,8 +56,8 @@ pub struct FreeReaction {
 pub enum Free {
     /// The force, in every direction.
     Force,
-    /// The force along this direction (global components, length 1); perpendicular to it the force
-    /// is determined.
+    /// The force along this direction (global components, length 1). The perpendicular force
+    /// component is determined.
     Along([f64; 2]),
     /// The force along this direction, and the torque.
     AlongAndTorque([f64; 2]),

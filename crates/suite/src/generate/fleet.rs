@@ -27,7 +27,7 @@ pub(super) struct Fleet {
     robot: Vec<Piece>,
 }
 
-/// A piece of the text of the robot.
+/// A part of the text of the robot.
 #[derive(Debug)]
 enum Piece {
     /// Text that is the same in each copy.

@@ -34,7 +34,7 @@ const ROD_MASS: f64 = 1.0;
 
 pub(super) struct Lattice {
     n: usize,
-    /// The braced blocks among those along the diagonal.
+    /// The blocks along the diagonal that are braced.
     braced: Share,
 }
 

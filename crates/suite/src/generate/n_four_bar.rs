@@ -1,5 +1,6 @@
 //! The N-four-bar has N + 1 unit uprights on the ground and N unit rods between their tops; all
-//! loops are parallelograms. The uprights are vertical at the start, and their tops move at 1 m/s.
+//! loops are parallelograms. At the initial state the uprights are vertical, and their tops move at
+//! 1 m/s.
 //!
 //! All uprights have the same angle θ from the upward vertical, with the equation of motion
 //! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ` for rods of 1 kg and 1 m. No row is redundant

@@ -322,8 +322,8 @@ impl Generator {
         self.family.answer()
     }
 
-    /// The reactions that are not unique at the start, in the order of the file; all others are
-    /// unique.
+    /// The reactions that are not unique at the initial state, in the order of the file. All other
+    /// reactions are unique.
     #[must_use]
     pub fn free_reactions(&self) -> Vec<FreeReaction> {
         self.family.free_reactions()

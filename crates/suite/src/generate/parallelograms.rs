@@ -1,5 +1,5 @@
-//! A chain of parallelogram cells: the cranks of each cell are mounted on the coupler of the
-//! previous one, and the first cranks on the ground.
+//! A chain of parallelogram cells. The cranks of each cell are mounted on the coupler of the
+//! previous cell, and the first cranks on the ground.
 //!
 //! A cell with two cranks has 9 coordinates and 8 independent rows: its coupler moves on a circle
 //! and does not rotate. A third crank adds three coordinates and four rows, and does not change the

@@ -6,7 +6,7 @@ use serde_json::Value;
 use super::findings::{Findings, Kind, list, rows};
 use super::truth::Truth;
 
-/// If there are more sets than this, they are not counted one by one.
+/// If the number of sets is larger than this value, the sets are not counted.
 const COUNTED: usize = 400;
 
 /// Compares both results with the answer.

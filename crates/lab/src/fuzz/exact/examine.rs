@@ -44,7 +44,7 @@ pub fn ranks_and_reactions(
     is_decided
 }
 
-/// Compares the verdicts of all joints and drives.
+/// Compares the verdicts on the reactions of all joints and drives.
 pub fn reactions(right: &Expected, rounding: f64, answer: &Value, findings: &mut Findings) {
     for reaction in &right.reactions {
         let mut reactions = list(&answer["reactions"]).iter();

@@ -6,7 +6,7 @@ use super::wrench::{Element, Meaning, Owner, Wrenches};
 /// The correct results for a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
-    /// Number of rows, including those of drives.
+    /// Number of rows, including the rows of drives.
     pub rows: usize,
     /// The rank of C.
     pub rank: usize,
@@ -95,8 +95,8 @@ impl From<bool> for Verdict {
     }
 }
 
-/// The unique parts of the reaction of a joint or drive: a wrench on its first body, about its
-/// reference point on that body, in the axes of the ground.
+/// The unique parts of the reaction of a joint or drive. The reaction is the wrench on the first
+/// body about the reference point on this body, in the axes of the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedReaction {
     /// The name of the joint or drive.

@@ -100,7 +100,7 @@ pub fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 
-/// Converts row numbers of the program to numbers from 0.
+/// Converts row numbers of the program, which start at 1, to indices from 0.
 pub(super) fn rows(value: &Value) -> Vec<usize> {
     let row = |x: &Value| x.as_u64().and_then(|x| x.checked_sub(1));
     list(value)

@@ -22,8 +22,8 @@ pub struct Outcome {
     pub truth: String,
     /// Whether the scene is redundant by exact arithmetic.
     pub is_redundant: bool,
-    /// Whether all results must be decided: the scene is near the origin, and a lower rank is far
-    /// away.
+    /// Whether all results must be decided, because the scene is near the origin and a lower rank
+    /// is far away.
     pub must_be_decided: bool,
 }
 
@@ -34,7 +34,7 @@ pub struct JudgedStart {
     pub findings: Findings,
     /// The rank in the answer of the program, if it is decided and no other rank is correct.
     pub rank: Option<u64>,
-    /// The reason why verdicts were not compared: another rank is also correct.
+    /// The reason why another rank is also correct. In this case verdicts were not compared.
     pub other_rank: Option<&'static str>,
 }
 

@@ -1,4 +1,4 @@
-//! Sets of scenes with a tolerance: degenerate drawings whose numbers are rounded to 3 … 16
+//! Sets of scenes with a tolerance: degenerate drawings whose coordinates are rounded to 3 … 16
 //! significant digits, and drawings of full rank near a lower rank.
 
 use suite::numbers::Numbers;

@@ -163,7 +163,8 @@ impl Truth {
         self.rank_of(&left) == self.rank_of(&own) + self.rank_of(&others)
     }
 
-    /// Whether the multiplier of a row is the same in all solutions: the row is in no dependency.
+    /// Whether the multiplier of a row is the same in all solutions, that is, whether the row is in
+    /// no dependency.
     #[must_use]
     pub fn row_is_unique(&self, row: usize) -> bool {
         self.exact.row_is_unique(row)
@@ -273,8 +274,8 @@ impl Truth {
         Some(about(self.wrench(own), place))
     }
 
-    /// Returns component `k` of a reaction in the world, in a unit that is the same for all
-    /// reactions: its rational part, and the factor of √k.
+    /// Returns the rational part and the factor of √k of component `k` of a reaction in the world.
+    /// The unit is the same for all reactions.
     fn parts(&self, reaction: &Reaction, k: usize) -> [BigInt; 2] {
         [0, 1].map(|part| {
             let terms = self.wrenches.components[k].terms.iter();

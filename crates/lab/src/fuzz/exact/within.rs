@@ -1,5 +1,5 @@
-//! Compares the answer of the program for a drawing whose numbers have a tolerance with exact
-//! arithmetic and with the distance of the data from a lower rank.
+//! Tests the answer of the program for a drawing with a tolerance. The answer is compared with
+//! exact arithmetic and with the distance of the data from a lower rank.
 
 use serde_json::Value;
 

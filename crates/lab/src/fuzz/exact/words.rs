@@ -57,8 +57,8 @@ pub fn examine(truth: &Truth, right: &Expected, answer: &Value, findings: &mut F
     }
 }
 
-/// Compares only sets of rows: they must be minimal and dependent, and their number must equal the
-/// redundancy.
+/// Compares only sets of rows. Each set must be minimal and dependent, and the number of sets must
+/// equal the redundancy.
 pub fn circuits(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let dependencies = list(&answer["dependencies"]);
     // Dependencies that are undecided within the tolerance are not compared.
@@ -370,8 +370,8 @@ fn ratio(text: &str) -> Vec<f64> {
     numbers
 }
 
-/// Compares the groups of joints that share loads: unions of components, each once, with their
-/// redundancy.
+/// Compares the groups of joints that share loads. A group is a union of components of the
+/// circuits, is listed once, and has the correct redundancy.
 fn mixing(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let mut open = truth.components_of_circuits();
     for mixing in list(&answer["mixing"]) {

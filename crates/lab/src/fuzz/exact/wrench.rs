@@ -86,7 +86,8 @@ pub enum Meaning {
     Offset(usize),
     /// The second axis does not rotate from the first axis towards u (0) or v (1).
     Direction(usize),
-    /// The second u does not rotate towards the first v: no relative rotation about w.
+    /// The axis u of the second body does not rotate towards the axis v of the first body, so that
+    /// there is no relative rotation about w.
     Turn,
     /// Two axes remain perpendicular.
     Perpendicular,

@@ -238,7 +238,7 @@ impl<'a> Displaced<'a> {
         mechanism.b(&mut s);
         let own = (!is_small).then(|| rows.of_velocities(&s));
         let by = own.as_ref().unwrap_or(&self.frozen[1]);
-        // The correction is applied twice, because the matrices are those of the undisplaced state.
+        // The correction is applied twice, because the matrices of the undisplaced state are used.
         rows.correct_velocities(&s, by, v)?;
         rows.correct_velocities(&s, by, v)?;
         mechanism.twist(v, &mut s);

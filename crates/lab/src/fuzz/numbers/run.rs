@@ -39,7 +39,7 @@ pub struct Run {
     pub rows: Vec<Row>,
     /// Times at which verdicts may change.
     pub cuts: Vec<f64>,
-    /// Verdicts of the run on its reactions.
+    /// Verdicts on the reactions in the intervals of the run.
     pub stretches: Option<Stretches>,
     /// The time that the run reached (s).
     pub reached: f64,

@@ -127,8 +127,8 @@ impl Meant {
         judged
     }
 
-    /// Returns the results of exact arithmetic that data within a tolerance cannot change: the data
-    /// rotate the null space by at most this angle.
+    /// Returns the results of exact arithmetic; results that may be different for data within a
+    /// tolerance are open. The data rotate the null space by at most the angle `turned`.
     fn open(&self, turned: f64) -> Expected {
         let (truth, margins) = (&self.truth, &self.margins);
         let mut right = self.right.clone();

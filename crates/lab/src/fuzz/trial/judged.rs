@@ -66,8 +66,8 @@ fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
             evidence.tolerance
         );
     }
-    // Within a stated tolerance some dependencies may be undecided: a warning states this, and they
-    // are not listed.
+    // Within a stated tolerance some dependencies may be undecided. A warning states this, and
+    // undecided dependencies are not listed.
     let listed = analysis.dependencies.len();
     let is_open = analysis.warnings.iter().any(|w| w.contains("not listed"));
     assert!(

@@ -157,7 +157,7 @@ impl Rows<'_> {
             ..
         } = self;
         let layout = mechanism.layout();
-        // At a break time rows contain the values just before it.
+        // At a break time, rows contain the values just before the break.
         let t_before = if t > 0.0 && layout.break_times.contains(&t) {
             t.next_down()
         } else {

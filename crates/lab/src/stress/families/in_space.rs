@@ -213,7 +213,7 @@ fn rod(t: f64, along: [f64; 2]) -> Vector {
 /// Transverse moment of inertia of the rod (kg·m²), for a mass of 1 kg.
 const ACROSS: f64 = 0.1875;
 
-/// The horizontal direction of the rod at the start.
+/// The horizontal direction of the rod at the initial state.
 const ALONG: [f64; 2] = [-0.8, 0.6];
 
 /// Returns the rod on a joint, with this axial moment of inertia and its axis along x of the body

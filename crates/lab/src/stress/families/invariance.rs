@@ -104,8 +104,8 @@ impl Change {
         [cos * x - sin * y, sin * x + cos * y]
     }
 
-    /// Returns the remaining accuracy: coordinates of 1e6 m are accurate to 1e-10 m, and rounding
-    /// errors grow by a factor of a hundred during the computation.
+    /// Returns the error bound after the change. Coordinates of 1e6 m are accurate to 1e-10 m, and
+    /// rounding errors grow by a factor of a hundred during the computation.
     fn bound(&self) -> f64 {
         let far = self.by[0].abs().max(self.by[1].abs());
         1e-10 + 1e2 * f64::EPSILON * far

@@ -1,4 +1,4 @@
-//! Fast rotation: a body on a pin that rotates up to a million times per second, for many
+//! Fast rotation of a body on a pin, with up to a million revolutions per second, for many
 //! revolutions.
 
 use std::f64::consts::TAU;

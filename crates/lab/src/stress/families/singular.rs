@@ -247,7 +247,7 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
     let ramp = Function::polynomial(&[0.0, displacement]).map_err(Outcome::refused)?;
     let mut mechanism = built(&robot(ramp))?;
     let assembly = assemble(&mut mechanism, &StartOptions::default()).map_err(Outcome::refused)?;
-    // Φq of the robot has full rank: all its rows are satisfied.
+    // Φq of the robot has full rank, so all holonomic rows can be satisfied.
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
     let mut q = assembly.q;
     for k in 1..=STEPS {

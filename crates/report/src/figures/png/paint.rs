@@ -44,7 +44,7 @@ pub(super) fn paint(svg: &str, scale: Option<f64>) -> Result<Png, PngError> {
     })
 }
 
-/// Uses the two fonts of this crate for all text, whatever the font families in the text.
+/// Uses the two fonts of this crate for all text; the font families in the text have no effect.
 fn options() -> Options<'static> {
     let mut fonts = Database::new();
     let mut add = |face: &'static [u8]| {

@@ -25,8 +25,8 @@ pub(super) fn edges(pen: &mut Pen<'_>) {
     }
 }
 
-/// Adds a condition on the velocity of a point: along the first line, or, for a wheel, across its
-/// direction of rolling.
+/// Adds a condition on the velocity of a point along the given direction, which for a wheel is
+/// perpendicular to the direction of rolling.
 fn edge(pen: &mut Pen<'_>, body: Side, at: Vector, u: Vector) {
     match pen.numbers.below(4) {
         0 => pen.link(&[body], Tie::Velocity { at, along: u }),

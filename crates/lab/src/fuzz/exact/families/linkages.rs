@@ -106,7 +106,7 @@ fn four_bar(pen: &mut Pen<'_>) {
     }
 }
 
-/// Adds a slider-crank at a dead centre, or one step of the grid off it.
+/// Adds a slider-crank at a dead centre, or displaced from the dead centre by one step of the grid.
 fn slider_crank(pen: &mut Pen<'_>) {
     let (pivot, way) = (pen.point(), pen.direction());
     let tip = along(pivot, pen.not_zero(3) * pen.step, way);

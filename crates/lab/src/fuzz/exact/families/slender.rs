@@ -147,7 +147,7 @@ fn offset_pin(pen: &mut Pen<'_>) {
             },
         );
     } else {
-        // The row along the line of the pins is omitted, because it already exists.
+        // The row along the line of the pins is omitted, because it would be redundant.
         let u = quarter(off);
         let from = beside;
         pen.link(
