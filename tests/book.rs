@@ -25,6 +25,8 @@ mod motion {}
 mod large {}
 #[doc = include_str!("../docs/book/verdict.md")]
 mod verdict {}
+#[doc = include_str!("../docs/book/bounds.md")]
+mod bounds {}
 #[doc = include_str!("../docs/book/not-unique.md")]
 mod not_unique {}
 #[doc = include_str!("../docs/book/space.md")]

@@ -3,7 +3,9 @@
 
 use model::{ConstraintId, System};
 use pfaff::prelude::*;
-use pfaff::solvability::{Bounds, BoundsError, Choice, Compliance, Group, ReactionBounds, Term};
+use pfaff::solvability::{
+    BoundsError, Choice, Compliance, ElasticBounds, Group, ReactionBounds, Term,
+};
 use tests::numbers::Numbers;
 
 fn study(text: &str) -> Study {
@@ -16,7 +18,7 @@ fn study(text: &str) -> Study {
 }
 
 /// Returns the bounds of a component.
-fn of(found: &ReactionBounds<'_, '_>, id: usize, name: &str) -> Bounds {
+fn of(found: &ReactionBounds<'_, '_>, id: usize, name: &str) -> ElasticBounds {
     let term = Term {
         reaction: ConstraintId(id),
         component: name.to_owned(),
@@ -28,7 +30,7 @@ fn of(found: &ReactionBounds<'_, '_>, id: usize, name: &str) -> Bounds {
     numbers[0].1.clone()
 }
 
-fn assert_range(found: &Bounds, expected: [f64; 2], what: &str) {
+fn assert_range(found: &ElasticBounds, expected: [f64; 2], what: &str) {
     let size = 1e-9 * (1.0 + expected[0].abs().max(expected[1].abs()));
     for (found, expected) in [found.lowest, found.highest].into_iter().zip(expected) {
         assert!(
@@ -116,7 +118,7 @@ fn a_clamped_bar_has_three_soft_loads() {
     let term = Group::WrenchSum(vec![(1.0, ConstraintId(ids[1]))]);
     let refused = both.group(&term).expect_err("no joint gives way");
     assert!(
-        refused.to_string().contains("1 load component"),
+        refused.to_string().contains("one load component"),
         "{refused}"
     );
 }
@@ -202,7 +204,7 @@ fn elastic_supports_stay_within_the_bounds() {
         let found = start.bounds(&solution, &[]);
         let layout = start.mechanism.layout();
         let names = |k: usize| layout.groups[k].component_names();
-        let known: Result<Vec<Vec<Bounds>>, BoundsError> = (0..layout.groups.len())
+        let known: Result<Vec<Vec<ElasticBounds>>, BoundsError> = (0..layout.groups.len())
             .map(|k| {
                 let term = |name: &str| {
                     let reaction = ConstraintId(k);

@@ -33,11 +33,11 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 142_200;
+const TOTAL_MOST: usize = 143_600;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 106_800;
+const PRODUCT_MOST: usize = 108_120;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
-const TOKENS_MOST: usize = 1_010_000;
+const TOKENS_MOST: usize = 1_024_000;
 /// Largest number of lines of code of `dynamics`.
 const DYNAMICS_MOST: usize = 11_250;
 /// Largest number of stateful types above the bounds.

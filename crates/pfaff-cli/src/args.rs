@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
 #[derive(Subcommand)]
 pub(crate) enum Command {
     #[command(flatten)]
-    Ask(AskCommand),
+    Ask(Box<AskCommand>),
     /// Create a scene from a template, or list the templates
     #[command(after_help = examples::NEW)]
     New(New),

@@ -47,7 +47,7 @@ pub struct ElasticLoad {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Bounds {
+pub struct ElasticBounds {
     /// The smallest value (N, N·m).
     pub lowest: f64,
     /// The largest value (N, N·m).
@@ -79,7 +79,11 @@ pub enum BoundsError {
     },
     /// The joints that give way do not determine the loads.
     #[error(
-        "the loads of joints that give way leave {free} load components undetermined: let other joints give way, too"
+        "the joints that give way do not determine {}: let other joints give way, too",
+        match free {
+            1 => "one load component".to_owned(),
+            n => format!("{n} load components"),
+        }
     )]
     Rigid {
         /// Number of load components that stay undetermined.
@@ -206,15 +210,15 @@ impl ElasticSolutions<'_, '_> {
     ///
     /// # Errors
     /// [`BoundsError::Request`], and [`BoundsError::Rank`] if the verdict is undecided.
-    pub fn bounds(&self, form: &LinearForm) -> Result<Bounds, BoundsError> {
+    pub fn bounds(&self, form: &LinearForm) -> Result<ElasticBounds, BoundsError> {
         let verdict = self.configuration.judge(form)?.verdict;
         let value = self.configuration.value(form, &self.lambda_0);
         match verdict {
-            Verdict::Unique => Ok(Bounds::of(value)),
+            Verdict::Unique => Ok(ElasticBounds::of(value)),
             Verdict::NotUnique => {
                 let [lowest, highest] = self.hull.ends(&along(form, &self.free));
                 let loads = |groups: &[usize]| groups.iter().map(|&k| self.loads[k]).collect();
-                Ok(Bounds {
+                Ok(ElasticBounds {
                     lowest: value + lowest.value,
                     highest: value + highest.value,
                     at_lowest: loads(&lowest.groups),
@@ -259,7 +263,7 @@ impl ElasticSolutions<'_, '_> {
     }
 }
 
-impl Bounds {
+impl ElasticBounds {
     /// Returns the bounds of a number that is unique.
     #[must_use]
     pub fn of(value: f64) -> Self {

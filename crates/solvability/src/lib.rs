@@ -85,7 +85,7 @@ pub use analysis::{
     Analysis, analyse, analyse_by_cycles, analyse_decided, analyse_dropping, analyse_known,
     analyse_with_progress,
 };
-pub use bounds::{Bounds, BoundsError, ElasticLoad, ElasticSolutions, ReactionBounds};
+pub use bounds::{BoundsError, ElasticBounds, ElasticLoad, ElasticSolutions, ReactionBounds};
 pub use certificate::{certify, inseparable};
 pub use choices::{
     CarriedChoices, CarriedSolution, Choice, ChoiceError, ChosenValues, Compliance, Distribution,

@@ -23,7 +23,7 @@ use serde::Serialize;
 pub use options::{Along, Analyze, Permission};
 
 use crate::along_motion::{self, VerdictsAlongMotion};
-use crate::documents::{AnalysisDocument, MakeUniqueDocument};
+use crate::documents::AnalysisDocument;
 use crate::error::StudyError;
 use crate::question::{
     Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Place, Progress, Question,
@@ -81,10 +81,8 @@ impl Question for Analyze {
                     .map_err(|e| of.refusal(e))?;
                 let mut document = document::of(self, of, &start)?;
                 document.warnings.insert(0, stands.warning.clone());
-                Ok(AnalyzeAnswer {
-                    document,
-                    hints: document::hints(&start, control)?,
-                })
+                let hints = document::hints(&start, &document, control)?;
+                Ok(AnalyzeAnswer { document, hints })
             }
             JudgedStart::Stands(stands) => Err(stands.refusal.clone()),
         }
@@ -125,7 +123,7 @@ impl Analyze {
         if let Some(found) = along.transpose()? {
             found.add_to(&mut document, configuration.mechanism.layout());
         }
-        let hints = document::hints(&configuration, control)?;
+        let hints = document::hints(&configuration, &document, control)?;
         Ok(AnalyzeAnswer { document, hints })
     }
 }
@@ -176,9 +174,9 @@ pub struct AnalyzeAnswer {
     /// Ranks, verdicts, reasons, and answers to the options.
     #[serde(flatten)]
     pub document: AnalysisDocument,
-    /// Deletions that would make reactions unique; only the text contains them.
+    /// Results that only the text contains.
     #[serde(skip)]
-    hints: Vec<MakeUniqueDocument>,
+    hints: document::Hints,
 }
 
 impl Answer for AnalyzeAnswer {

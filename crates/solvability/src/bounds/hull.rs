@@ -73,18 +73,20 @@ pub(super) struct Hull {
 struct Block {
     /// Its coordinates among those of all blocks.
     coordinates: Vec<usize>,
-    points: Vec<Point>,
+    points: Vec<HullPoint>,
 }
 
+/// The loads of a monomial with their exponents, ascending.
+type Monomial = Vec<(usize, u32)>;
+
 /// A solution y_m of a block.
-struct Point {
-    /// The loads of its monomial with their exponents, ascending.
-    monomial: Vec<(usize, u32)>,
+struct HullPoint {
+    monomial: Monomial,
     y: Vec<f64>,
 }
 
 /// One end of the range of a linear form.
-pub(super) struct End {
+pub(super) struct RangeEnd {
     pub(super) value: f64,
     /// The loads that are zero.
     pub(super) groups: Vec<usize>,
@@ -160,7 +162,7 @@ impl Hull {
     }
 
     /// Returns the smallest and the largest value of a linear form of y.
-    pub(super) fn ends(&self, along: &[f64]) -> [End; 2] {
+    pub(super) fn ends(&self, along: &[f64]) -> [RangeEnd; 2] {
         let along = self.in_blocks(along);
         [1.0, -1.0].map(|sign| {
             let (mut value, mut chosen) = (0.0, Vec::new());
@@ -194,7 +196,7 @@ impl Hull {
                 [(block, tied)] => tied.iter().any(|&k| is_vertex(&[(block, k)])),
                 _ => is_vertex(&first),
             };
-            End {
+            RangeEnd {
                 value,
                 groups,
                 is_reached: is_reached && self.is_complete,
@@ -210,7 +212,7 @@ impl Hull {
             .collect();
         let mut sums = vec![terms.iter().map(|(value, _)| *value).collect::<Vec<f64>>()];
         for block in &self.blocks {
-            let change = |point: &Point| -> Vec<f64> {
+            let change = |point: &HullPoint| -> Vec<f64> {
                 let own = |row: &Vec<f64>| {
                     let pairs = block.coordinates.iter().zip(&point.y);
                     pairs.map(|(&k, y)| row[k] * y).sum()
@@ -271,7 +273,7 @@ impl Minors<'_> {
     ///
     /// A set S contains the basis without the elements I, and the elements J outside. Its
     /// determinant is the minor of `rows` with the rows J and the columns I.
-    fn points(&self) -> Result<(Vec<Point>, u64), HullError> {
+    fn points(&self) -> Result<(Vec<HullPoint>, u64), HullError> {
         let p = self.inside.len();
         // The remaining values of the elements outside, if all elements of the basis are zero.
         let at_zero: Vec<f64> = self.inside.iter().map(|e| -e.value).collect();
@@ -279,7 +281,7 @@ impl Minors<'_> {
         let left: Vec<f64> = left
             .map(|(i, e)| e.value + dot(self.rows.row(i), &at_zero))
             .collect();
-        let mut sums: BTreeMap<Vec<(usize, u32)>, (f64, Vec<f64>)> = BTreeMap::new();
+        let mut sums: BTreeMap<Monomial, (f64, Vec<f64>)> = BTreeMap::new();
         let mut sets = 0;
         for k in 0..=p.min(self.outside.len()) {
             let columns = combinations(p, k);
@@ -307,7 +309,7 @@ impl Minors<'_> {
                 }
             }
         }
-        let points = sums.into_iter().map(|(monomial, (total, sum))| Point {
+        let points = sums.into_iter().map(|(monomial, (total, sum))| HullPoint {
             monomial,
             y: sum.iter().map(|x| x / total).collect(),
         });
@@ -340,7 +342,7 @@ impl Minors<'_> {
     }
 
     /// Returns solutions of springs of which one load at a time is much softer than the others.
-    fn soft_points(&self) -> Vec<Point> {
+    fn soft_points(&self) -> Vec<HullPoint> {
         let all: Vec<&Element> = self.inside.iter().chain(&self.outside).copied().collect();
         let p = self.inside.len();
         let row = |i: usize, j: usize| match i.checked_sub(p) {
@@ -355,7 +357,7 @@ impl Minors<'_> {
             let matrix = Matrix::from_fn(all.len(), p, |i, j| root(i) * row(i, j));
             let qr = PivotedQr::of_columns(&matrix);
             let left = (0..all.len()).map(|i| -root(i) * all[i].value);
-            Point {
+            HullPoint {
                 monomial: vec![(*soft, 1)],
                 y: solved(&qr, left.collect()),
             }
@@ -488,7 +490,7 @@ fn is_vertex(chosen: &[(&Block, usize)]) -> bool {
     is_separated(&differences)
 }
 
-fn monomial(groups: impl Iterator<Item = usize>) -> Vec<(usize, u32)> {
+fn monomial(groups: impl Iterator<Item = usize>) -> Monomial {
     let mut all: Vec<usize> = groups.collect();
     all.sort_unstable();
     let same = all.chunk_by(|a, b| a == b);

@@ -1,21 +1,25 @@
 //! Bounds of the reactions of an analysed configuration of any size.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use model::{ConstraintId, System};
 use rayon::prelude::*;
 
-use super::{Bounds, BoundsError, ElasticLoad, ElasticSolutions};
+use super::{BoundsError, ElasticBounds, ElasticLoad, ElasticSolutions};
 use crate::choices::{Solution, not_finite};
 use crate::groups::{Group, LinearForm};
 use crate::questions::Questions;
 
-/// The bounds of all reactions of a configuration.
+/// The solutions of a part, or the reason why there are none.
+type OfPart<'q, 'm> = Result<ElasticSolutions<'q, 'm>, BoundsError>;
+
+/// The bounds of all reactions of a configuration. The solutions of a part are computed on first
+/// use.
 pub struct ReactionBounds<'q, 'm> {
     questions: &'q Questions<'m>,
     solution: &'q Solution,
-    /// The solutions of each part with redundant rows.
-    parts: Vec<Option<Result<ElasticSolutions<'q, 'm>, BoundsError>>>,
+    rigid: Vec<ConstraintId>,
+    parts: Vec<OnceLock<OfPart<'q, 'm>>>,
 }
 
 impl<'m> Questions<'m> {
@@ -27,38 +31,62 @@ impl<'m> Questions<'m> {
         solution: &'q Solution,
         rigid: &[ConstraintId],
     ) -> ReactionBounds<'q, 'm> {
-        let lambda = solution.multipliers.as_chosen();
-        let of_part = |k: usize| {
-            let part = &self.parts()[k];
-            if part.decision.redundancy() == 0 {
-                return None;
-            }
-            let own = rigid.iter().filter_map(|id| part.extent.own_group(id.0));
-            let own: Vec<ConstraintId> = own.map(ConstraintId).collect();
-            let configuration = self.configuration(k).map_err(BoundsError::from);
-            Some(
-                configuration.and_then(|c| c.elastic_solutions(&part.extent.of_rows(lambda), &own)),
-            )
-        };
         ReactionBounds {
             questions: self,
             solution,
-            parts: (0..self.parts().len())
-                .into_par_iter()
-                .map(of_part)
-                .collect(),
+            rigid: rigid.to_vec(),
+            parts: self.parts().iter().map(|_| OnceLock::new()).collect(),
         }
     }
 }
 
-impl ReactionBounds<'_, '_> {
+impl<'q, 'm> ReactionBounds<'q, 'm> {
+    /// Returns the solutions of a part; `None` if it has no redundant rows.
+    fn part(&self, k: usize) -> Option<&OfPart<'q, 'm>> {
+        let part = &self.questions.parts()[k];
+        if part.decision.redundancy() == 0 {
+            return None;
+        }
+        Some(self.parts[k].get_or_init(|| {
+            let own = self
+                .rigid
+                .iter()
+                .filter_map(|id| part.extent.own_group(id.0));
+            let own: Vec<ConstraintId> = own.map(ConstraintId).collect();
+            let lambda = part.extent.of_rows(self.solution.multipliers.as_chosen());
+            self.questions
+                .configuration(k)?
+                .elastic_solutions(&lambda, &own)
+        }))
+    }
+
+    /// Computes the solutions of all parts in parallel.
+    #[must_use]
+    pub fn of_all_parts(self) -> Self {
+        (0..self.parts.len()).into_par_iter().for_each(|k| {
+            self.part(k);
+        });
+        self
+    }
+
+    /// Returns whether the part of a joint or drive leaves exactly one load component undetermined.
+    #[must_use]
+    pub fn has_one_free_component(&self, id: ConstraintId) -> bool {
+        let part = self
+            .questions
+            .parts()
+            .iter()
+            .find(|part| part.extent.own_group(id.0).is_some());
+        part.is_some_and(|part| part.decision.redundancy() == 1)
+    }
+
     /// Returns the bounds of the numbers of a group with their names. A group of several separate
     /// reactions has no numbers.
     ///
     /// # Errors
     /// [`BoundsError`]
-    pub fn group(&self, group: &Group) -> Result<Vec<(&'static str, Bounds)>, BoundsError> {
-        let mut sums: Vec<(&'static str, Bounds)> = Vec::new();
+    pub fn group(&self, group: &Group) -> Result<Vec<(&'static str, ElasticBounds)>, BoundsError> {
+        let mut sums: Vec<(&'static str, ElasticBounds)> = Vec::new();
         for (k, name, form) in self.questions.forms(group)? {
             let own = self.of_part(k, &form)?;
             match sums.iter_mut().find(|(known, _)| *known == name) {
@@ -70,16 +98,16 @@ impl ReactionBounds<'_, '_> {
     }
 
     /// Returns the bounds of a number of a part.
-    fn of_part(&self, k: usize, form: &LinearForm) -> Result<Bounds, BoundsError> {
+    fn of_part(&self, k: usize, form: &LinearForm) -> Result<ElasticBounds, BoundsError> {
         let extent = &self.questions.parts()[k].extent;
         if let Some(why) = not_finite(&self.solution.no_finite, extent, form) {
             return Err(BoundsError::NoFinite(Arc::clone(&why)));
         }
-        match &self.parts[k] {
+        match self.part(k) {
             None => {
                 let lambda = self.solution.multipliers.as_chosen();
                 let configuration = self.questions.configuration(k)?;
-                Ok(Bounds::of(
+                Ok(ElasticBounds::of(
                     configuration.value(form, &extent.of_rows(lambda)),
                 ))
             }
@@ -118,7 +146,7 @@ impl ReactionBounds<'_, '_> {
             }
             let own: Vec<&(usize, &'static str, LinearForm)> = forms[range].iter().collect();
             let Some((k, ..)) = own.first() else { continue };
-            *found = Some(match &self.parts[*k] {
+            *found = Some(match self.part(*k) {
                 Some(Ok(solutions)) => {
                     let forms: Vec<LinearForm> =
                         own.iter().map(|(.., form)| form.clone()).collect();
@@ -140,11 +168,8 @@ impl ReactionBounds<'_, '_> {
     /// Returns the number of examined sets of components, and whether these are all sets.
     #[must_use]
     pub fn sets(&self) -> (u64, bool) {
-        let known = self
-            .parts
-            .iter()
-            .flatten()
-            .filter_map(|part| part.as_ref().ok());
+        let known = self.parts.iter();
+        let known = known.filter_map(|part| part.get()?.as_ref().ok());
         known.fold((0, true), |(sets, all), part| {
             (sets + part.sets(), all && part.is_complete())
         })

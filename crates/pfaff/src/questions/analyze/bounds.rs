@@ -2,9 +2,11 @@
 
 mod answer;
 
+use model::reaction::ConstraintGroup;
+use model::words::range;
 use model::{ConstraintId, System};
 use report::ByName;
-use solvability::{BoundsError, Group, ReactionBounds};
+use solvability::{BoundsError, ElasticBounds, Group, ReactionBounds};
 
 pub use answer::{BoundsDocument, BoundsOfNumber, ElasticLoadDocument, MagnitudeDocument};
 
@@ -44,7 +46,10 @@ impl Addition for BoundsOfReactions {
         if !asked.bounds {
             return Ok(());
         }
-        let mut answer = BoundsDocument::new(document, of.mechanism.layout());
+        let reactions = document.reactions.iter().zip(&of.mechanism.layout().groups);
+        let open = reactions.filter(|(r, _)| r.wrench.verdict != "unique");
+        let open: Vec<&ConstraintGroup> = open.map(|(_, group)| group).collect();
+        let mut answer = BoundsDocument::new(&open, document.data.tolerance.is_some());
         if document.evidence.permanent == Some(false) {
             answer.reason = Some(SINGULAR.to_owned());
         } else if !of.analysis.decision.is_decided() {
@@ -53,7 +58,7 @@ impl Addition for BoundsOfReactions {
             let rigid = rigid(&asked.rigid, of)?;
             answer.rigid = rigid.iter().map(|id| name(of, *id)).collect();
             let solution = of.solution()?;
-            let found = of.bounds(&solution, &rigid);
+            let found = of.bounds(&solution, &rigid).of_all_parts();
             of_reactions(of, &found, document, &mut answer);
             let groups = of.requested(&asked.combine)?;
             for (group, (_, asked)) in document.groups.iter_mut().zip(&groups) {
@@ -132,7 +137,10 @@ impl Addition for BoundsOfReactions {
             "zero at lowest",
             "zero at highest",
         ];
-        out.push(Block::table(columns, lines));
+        let has_bounds = !lines.is_empty();
+        if has_bounds {
+            out.push(Block::table(columns, lines));
+        }
         let magnitudes = d.reactions.iter().filter_map(|r| {
             let most = r.magnitude_at_most.as_ref()?;
             let number = |x: Option<f64>, unit| Cell::quantity(x, unit);
@@ -157,13 +165,51 @@ impl Addition for BoundsOfReactions {
                 "too many sets of components: the values are reached, larger ones may exist",
             ));
         }
-        out.push(Block::after("valid ", &answer.assumption));
+        if has_bounds {
+            out.push(Block::after("valid ", &answer.assumption));
+        }
         out
     }
 }
 
 /// Reason at a singular configuration.
 const SINGULAR: &str = "this configuration is singular; analyse another time of the motion";
+
+/// Number of reactions in the line of [`in_one_line`].
+const LISTED: usize = 3;
+
+/// Describes the bounds of reactions in parts that leave one load component undetermined; of each
+/// reaction only the component with the widest range, the largest reactions first.
+pub(super) fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) -> Option<String> {
+    let layout = of.mechanism.layout();
+    let is_open = |id: &ConstraintId| d.reactions[id.0].wrench.verdict == "not_unique";
+    let mut open = layout.constraint_ids().filter(is_open).peekable();
+    open.peek()?;
+    if d.answers.bounds.is_some() || d.evidence.permanent == Some(false) {
+        return None;
+    }
+    let solution = of.solution().ok()?;
+    let found = of.bounds(&solution, &[]);
+    let widest = open
+        .filter(|id| found.has_one_free_component(*id))
+        .filter_map(|id| {
+            let own = found.group(&Group::WrenchSum(vec![(1.0, id)])).ok()?;
+            let own = own.into_iter().filter(|(_, bounds)| bounds.is_complete);
+            let width = |bounds: &ElasticBounds| bounds.highest - bounds.lowest;
+            let widest = own.max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
+            (width(&widest.1) > 0.0).then_some((id, widest))
+        });
+    let mut all: Vec<(ConstraintId, (&str, ElasticBounds))> = widest.collect();
+    let size = |(_, bounds): &(&str, ElasticBounds)| bounds.lowest.abs().max(bounds.highest.abs());
+    all.sort_by(|a, b| size(&b.1).total_cmp(&size(&a.1)));
+    let words = all.iter().take(LISTED).map(|(id, (component, bounds))| {
+        let (name, unit) = (&layout.groups[id.0].name, load_unit(component));
+        let range = range(bounds.lowest, bounds.highest, unit);
+        format!("`{name}.{component}` {range}")
+    });
+    let words: Vec<String> = words.collect();
+    (!words.is_empty()).then(|| words.join(", "))
+}
 
 fn name(of: &ConfigurationAnalysis<'_>, id: ConstraintId) -> String {
     of.mechanism.layout().groups[id.0].name.clone()

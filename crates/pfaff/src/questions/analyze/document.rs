@@ -9,6 +9,7 @@ use rank::{DeletionError, Limits};
 use solvability::{DeletableRows, EliminationError, Verdict};
 
 use super::additions::ADDITIONS;
+use super::bounds;
 use super::deletions::HINTS;
 use super::options::Analyze;
 use crate::choice;
@@ -72,14 +73,31 @@ pub(super) fn of(
     Ok(document)
 }
 
-/// Returns, for each reaction that is not unique, the deletions that would make it unique.
+/// Results that only the text contains.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Hints {
+    /// For the reactions that are not unique, the deletions that would make them unique.
+    pub(super) ways: Vec<MakeUniqueDocument>,
+    /// Bounds of reactions whose part leaves one load component undetermined.
+    pub(super) bounds: Option<String>,
+}
+
+/// Computes the results that only the text contains.
 pub(super) fn hints(
     configuration: &ConfigurationAnalysis<'_>,
+    document: &AnalysisDocument,
     control: &Control<'_>,
-) -> Result<Vec<MakeUniqueDocument>, Refusal> {
+) -> Result<Hints, Refusal> {
     if !control.wants_words {
-        return Ok(Vec::new());
+        return Ok(Hints::default());
     }
+    Ok(Hints {
+        ways: ways(configuration)?,
+        bounds: bounds::in_one_line(configuration, document),
+    })
+}
+
+fn ways(configuration: &ConfigurationAnalysis<'_>) -> Result<Vec<MakeUniqueDocument>, Refusal> {
     let limits = Limits {
         trials: HINT_TRIALS,
         ..Limits::default()

@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 
 use crate::documents::AnalysisDocument;
 use crate::documents::{
-    GroupDocument, MakeUniqueDocument, MixingDocument, ReactionDocument, ValueDocument,
-    VerdictDocument,
+    GroupDocument, MixingDocument, ReactionDocument, ValueDocument, VerdictDocument,
 };
 
 use super::additions::ADDITIONS;
+use super::document::Hints;
 use super::phrases::{coordinates, each, hanging, spoken};
 use super::{along, counts, data, deletions, numbers, rank};
 use crate::words::{Block, Cell, count, grouped, load_unit, marked};
@@ -27,7 +27,7 @@ const LINES: usize = 250;
 /// Number of warnings that are listed.
 const WARNINGS: usize = 12;
 
-pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Block> {
+pub(super) fn of(d: &AnalysisDocument, hints: &Hints) -> Vec<Block> {
     let has_lines = d.reactions.len() <= LINES;
     let mut out = vec![Block::sentence(format!(
         "{} at t = {} s",
@@ -52,7 +52,11 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
     out.extend(ADDITIONS.iter().flat_map(|addition| addition.words(d)));
     out.extend(centres(d));
     out.extend(why(d));
-    out.extend(deletions::of(d, hints));
+    if let Some(bounds) = &hints.bounds {
+        let text = format!("{bounds} (`--bounds` prints all)");
+        out.extend([Block::Gap, Block::after("for any stiffness: ", text)]);
+    }
+    out.extend(deletions::of(d, &hints.ways));
     out.extend(numbers::of(d));
     out.extend(d.answers.along.iter().flat_map(along::of));
     let is_new = |warning: &&String| {

@@ -3,11 +3,10 @@
 use std::fmt;
 
 use model::Layout;
+use model::reaction::ConstraintGroup;
 use report::ByName;
 use serde::Serialize;
-use solvability::{Bounds, ElasticLoad};
-
-use crate::documents::AnalysisDocument;
+use solvability::{ElasticBounds, ElasticLoad};
 
 /// The assumptions of the bounds, and the extent of the search.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -75,13 +74,10 @@ pub struct MagnitudeDocument {
 }
 
 impl BoundsDocument {
-    /// States the assumptions for a mechanism.
-    pub(super) fn new(document: &AnalysisDocument, layout: &Layout) -> Self {
-        let open = document.reactions.iter().zip(&layout.groups);
-        let open = open.filter(|(r, _)| r.wrench.verdict != "unique");
-        let groups: Vec<_> = open.map(|(_, group)| group).collect();
-        let slips = groups.iter().any(|g| !g.rows.nonholonomic.is_empty());
-        let holds = groups.iter().any(|g| !g.rows.holonomic.is_empty());
+    /// States the assumptions for these joints and drives, whose reactions are not unique.
+    pub(super) fn new(open: &[&ConstraintGroup], has_tolerance: bool) -> Self {
+        let slips = open.iter().any(|g| !g.rows.nonholonomic.is_empty());
+        let holds = open.iter().any(|g| !g.rows.holonomic.is_empty());
         let mut assumption = "for joints that fit exactly (no preload, no misfit) and give way only in the direction of the \
              force or moment that they carry, about their reference points, by any law and however stiff; bodies \
              are rigid and do not vibrate"
@@ -92,7 +88,7 @@ impl BoundsDocument {
         if slips && holds {
             assumption += ", and loads change slowly compared with this slip";
         }
-        if document.data.tolerance.is_some() {
+        if has_tolerance {
             assumption +=
                 "; misfits within the tolerance cause preload, which the bounds do not contain";
         }
@@ -110,7 +106,7 @@ impl BoundsDocument {
 
 impl BoundsOfNumber {
     /// Builds the document of bounds.
-    pub(super) fn new(bounds: &Bounds, layout: &Layout) -> Self {
+    pub(super) fn new(bounds: &ElasticBounds, layout: &Layout) -> Self {
         let loads = |loads: &[ElasticLoad]| {
             let load = |load: &ElasticLoad| ElasticLoadDocument {
                 joint: layout.groups[load.reaction.0].name.clone(),
