@@ -98,9 +98,9 @@ impl Scales<'_> {
         }
     }
 
-    /// Writes the sizes of the coordinates of the columns of C, n_v values. With these sizes and the
-    /// [`Scales::entry_bounds`] of a row, the caller can compute the size of the terms of this row
-    /// of Φ, as in [`Scales::position`].
+    /// Writes the sizes of the coordinates of the columns of C, n_v values. With these sizes and
+    /// the [`Scales::entry_bounds`] of a row, the caller can compute the size of the terms of this
+    /// row of Φ, as in [`Scales::position`].
     pub fn of_coordinates(mechanism: &Mechanism, q: &[f64], sizes: &mut [f64]) {
         let space = mechanism.space();
         for (j, size) in sizes.iter_mut().enumerate() {

@@ -6,7 +6,8 @@
 //! `Zᵀ·D·λ = 0` with a diagonal D ≥ 0 for orthonormal components of the wrenches, and by Cramer's
 //! rule and the Cauchy–Binet formula
 //!
-//! y = Σ_m c^m·w_m·y_m / Σ_m c^m·w_m, w_m = Σ_{S ∈ m} det²(Z_S), y_m = Σ_{S ∈ m} det²(Z_S)·y_S / w_m
+//! y = Σ_m c^m·w_m·y_m / Σ_m c^m·w_m, w_m = Σ_{S ∈ m} det²(Z_S),
+//! y_m = Σ_{S ∈ m} det²(Z_S)·y_S / w_m
 //!
 //! where S are sets of p components with det Z_S ≠ 0, y_S is the solution in which the components
 //! of S are zero, and a monomial m collects the sets with equally many components of each force and

@@ -802,8 +802,8 @@ pub(crate) const TELLABLE: usize = 8;
 /// large: weak self-stresses are ignored. Test: `a_weak_component_is_undecided`.
 pub(crate) const ZERO_MINOR: f64 = 1e-10;
 
-/// Minor of a self-stress that is certainly not zero, relative to its rows. Unit: dimensionless. Too
-/// small: bounds depend on rounding. Too large: bounds of weak self-stresses are refused. Test:
+/// Minor of a self-stress that is certainly not zero, relative to its rows. Unit: dimensionless.
+/// Too small: bounds depend on rounding. Too large: bounds of weak self-stresses are refused. Test:
 /// `a_weak_component_is_undecided`.
 pub(crate) const CLEAR_MINOR: f64 = 1e-7;
 
@@ -823,8 +823,8 @@ pub(crate) const ELASTIC_SETS: u64 = 100_000;
 pub(crate) const EQUAL_LEVERAGE: f64 = 1e-6;
 
 /// Maximum number of solutions that are compared for the magnitude of a load. Unit: solutions. Too
-/// small: the bound of a magnitude is wider than necessary. Too large: the request takes long. Test:
-/// `the_magnitude_is_that_of_a_vertex`.
+/// small: the bound of a magnitude is wider than necessary. Too large: the request takes long.
+/// Test: `the_magnitude_is_that_of_a_vertex`.
 pub(crate) const MAGNITUDE_POINTS: usize = 100_000;
 
 /// Ratio of the square roots of the compliances of a soft load and of the others. Unit:
@@ -834,7 +834,8 @@ pub(crate) const SOFT: f64 = 1e4;
 
 /// Difference of values at the end of a range that count as equal, relative to the largest value.
 /// Unit: dimensionless. Too small: an end is not marked as reached because of rounding. Too large:
-/// an end is marked as reached by another solution. Test: `the_middle_of_two_joints_is_not_reached`.
+/// an end is marked as reached by another solution. Test:
+/// `the_middle_of_two_joints_is_not_reached`.
 pub(crate) const TIED_ENDS: f64 = 1e-12;
 
 /// Weight or squared residual that counts as zero in the test of vertices. Unit: dimensionless. Too

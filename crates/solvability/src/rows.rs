@@ -315,8 +315,8 @@ fn of_parts<E: Send>(
 }
 
 impl Rows {
-    /// Returns the certified decision on all rows with all dependencies; `None` if they were decided
-    /// in several parts, or with sparse matrices.
+    /// Returns the certified decision on all rows with all dependencies; `None` if they were
+    /// decided in several parts, or with sparse matrices.
     #[must_use]
     pub fn whole(&self) -> Option<&RankDecision> {
         let one = self.parts.first().filter(|one| one.extent.is_whole())?;

@@ -186,7 +186,8 @@ fn check_finite(prepared: &PreparedMechanism) -> Result<(), MotionError> {
             mechanism.pose(0.0, q, &mut s);
             mechanism.phi(&mut s);
             mechanism.c(&mut s);
-            // Rows that are redundant only within a stated tolerance do not count as redundant here.
+            // Rows that are redundant only within a stated tolerance do not count as redundant
+            // here.
             match decide_dropping(mechanism, &s, q, &decision.dropped) {
                 Ok(decision) => Cow::Owned(decision),
                 Err(_) => return Ok(()),

@@ -98,8 +98,8 @@ fn the_magnitude_is_that_of_a_vertex() {
     }
 }
 
-/// With 30 loads and 14 free components there are 145 million sets. Each load alone can be soft, and
-/// then it is zero.
+/// With 30 loads and 14 free components there are 145 million sets. Each load alone can be soft,
+/// and then it is zero.
 #[test]
 fn too_many_sets_give_reached_values() {
     let mut next = numbers();

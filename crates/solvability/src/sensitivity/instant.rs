@@ -457,8 +457,8 @@ fn followed(
 }
 
 /// Computes `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that compensates a change δr of the
-/// followed rows, the first of `kept`. Entries of other rows are left unchanged. They are NaN if the
-/// rows are too nearly dependent.
+/// followed rows, the first of `kept`. Entries of other rows are left unchanged. They are NaN if
+/// the rows are too nearly dependent.
 fn multipliers(rows: &mut KeptRowSaddle, g: &[f64], kept: &[usize], w: &mut [f64]) {
     let (still, mut x) = (vec![0.0; rows.n_rows()], vec![0.0; g.len()]);
     let mut found = still.clone();
