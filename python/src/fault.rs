@@ -29,7 +29,8 @@ impl From<PyErr> for Fault {
     }
 }
 
-/// Converts an error about an object that has no text.
+/// Converts an error about an object that was not read from a text, so that the message quotes no
+/// text.
 impl From<StudyError> for Fault {
     fn from(error: StudyError) -> Self {
         Refusal::of(("", ""), error).into()

@@ -134,7 +134,7 @@ LONG = """
 @POSIX
 @pytest.mark.parametrize("kind", ["check", "analyze", "document", "matrices", "import", "simulate_of"])
 def test_ctrl_c_is_heard_by_work_that_does_not_ask(kind: str) -> None:
-    """Without Ctrl-C, each call would take some seconds in the quick profile."""
+    """Ctrl-C ends each call early. In the quick profile, an uninterrupted call takes some seconds."""
     text = chain(30_000)
     if kind == "import":
         body = "<body name='b{0}' pos='0 0 {0}'><joint type='hinge' axis='0 1 0'/><geom size='0.1' mass='1'/></body>"

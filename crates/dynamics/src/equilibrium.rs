@@ -1,5 +1,6 @@
-//! Finds a static equilibrium near a start: Φ(q, t) = 0, v = 0 and `Zᵀ·Q(q, 0, t) = 0` at the time
-//! of the start. Z is a basis of the velocities that the rows allow.
+//! Finds a static equilibrium near an initial state. The equilibrium satisfies Φ(q, t) = 0, v = 0
+//! and `Zᵀ·Q(q, 0, t) = 0` at the initial time t. Z is a basis of the velocities that the rows
+//! allow.
 //!
 //! Each step of the search follows the unbalanced forces. It solves `(K + μ·I)·y = Zᵀ·Q`. K is the
 //! stiffness of the forces and of the multipliers, and μ makes `K + μ·I` positive definite and
@@ -118,8 +119,8 @@ impl RestStability {
     }
 }
 
-/// Finds a static equilibrium near the start of a prepared mechanism, at the time of the start; the
-/// velocities of the start have no influence.
+/// Finds a static equilibrium near the initial configuration of a prepared mechanism, at the
+/// initial time. The initial velocities have no influence.
 ///
 /// ```
 /// use pfaff_dynamics::equilibrium::{EquilibriumOptions, RestStability, equilibrium};

@@ -1,4 +1,4 @@
-//! Reasons why a motion stops or does not start.
+//! Errors that stop a motion or prevent its start.
 
 mod rows;
 
@@ -432,8 +432,8 @@ fn implied(drives: &[String]) -> String {
     }
 }
 
-/// States the limit with which a residual was compared. A run continues up to the last allowed
-/// state, so both values may be equal when printed.
+/// States the limit that a residual exceeds. A run stops as soon as a residual exceeds its limit,
+/// so the residual and the limit may be equal after rounding for the message.
 fn above(residual: f64, tolerance: f64) -> String {
     let [found, allowed] = [residual, tolerance].map(short);
     if found == allowed {

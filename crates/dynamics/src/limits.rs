@@ -491,9 +491,10 @@ pub(crate) const SMOOTH: f64 = 0.01;
 /// Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
 pub(crate) const KINK: f64 = 0.25;
 
-/// A contradiction of constraints is reported as the cause of a collapsed step size if it was found
-/// at most this share of the run later. Unit: share of the run. Too small: the contradiction is not
-/// reported as the cause. Too large: an unrelated contradiction is reported. Test:
+/// If the step size becomes too small, a contradiction of constraints is reported as the cause. The
+/// contradiction must lie at most this share of the run after the last state. Unit: share of the
+/// run. Too small: the contradiction is not reported as the cause. Too large: a later contradiction
+/// is reported as the cause, although it did not stop the run. Test:
 /// `a_contradiction_just_ahead_is_why_a_run_stops`.
 pub(crate) const JUST_AHEAD: f64 = 1e-9;
 

@@ -120,8 +120,8 @@ impl<'m> KeptRowMotion<'m> {
         self.equations.velocity.pivot_ratio()
     }
 
-    /// Switches the motion to independent coordinates, chosen at q, which must satisfy the
-    /// constraints at t.
+    /// Changes to a formulation with independent coordinates, which are chosen at the configuration
+    /// q. This configuration must satisfy the constraints at time t.
     ///
     /// ```
     /// use pfaff_dynamics::{KeptRowMotion, RowChoice, prepare};

@@ -30,7 +30,7 @@ pub struct PreparedMechanism {
     pub v: Vec<f64>,
     /// The requested choice of independent rows.
     pub choice: RowChoice,
-    /// Options of the start, for example coordinates that the assembly must not change.
+    /// Options for the initial state, for example coordinates that the assembly must not change.
     pub start: StartOptions,
     /// Whether a tolerance is stated and there are redundant rows. These rows may be redundant only
     /// within the tolerance. Then they have constraint violations, and the choice of the

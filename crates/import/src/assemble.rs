@@ -33,7 +33,7 @@ pub(crate) enum AssemblyFailure {
     TooLarge(usize),
 }
 
-/// The largest gap of a loop at the described pose.
+/// Returns the largest gap of a loop at the described pose.
 pub(crate) fn gap(model: &Model) -> f64 {
     let tree = Tree::new(model);
     let state = State::new(model, &[]);
@@ -94,9 +94,9 @@ pub(crate) fn assemble(
     })
 }
 
-/// Makes a pose the described pose. Springs, couplings and the orientations of welds still refer to
-/// the pose of the file. This is not possible for springs of spherical joints that have rotated:
-/// these springs are removed, and the names of their joints are returned.
+/// Replaces the described pose by the pose that was found. Springs, couplings and the orientations
+/// of welds still refer to the pose of the file. This is not possible for springs of spherical
+/// joints that have rotated: these springs are removed, and the names of their joints are returned.
 pub(crate) fn describe(model: &mut Model, found: &Assembly) -> Vec<String> {
     let mut removed = Vec::new();
     for k in 0..model.joints.len() {

@@ -1,5 +1,5 @@
-//! Computes poses of links for given joint coordinates, as products of displacements relative to
-//! the described pose.
+//! Computes poses of links for given joint coordinates, as products of displacements. Displacements
+//! are relative to the pose of the links in the imported file (the described pose).
 //!
 //! The displacement of a link is g_child = g_parent·D(q), with the displacement g_parent of the
 //! previous link and the displacement D(q) of the joint at its described position.
@@ -8,7 +8,8 @@ use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
 use crate::mechanism::{Joint, JointKind, Model};
 
-/// A joint that determines the position of a link, at the described pose in ground axes.
+/// A joint that determines the position of a link. Point and axis are in ground axes, with the
+/// links at the described pose.
 pub(crate) struct JointPlacement {
     pub(crate) point: Vector3<f64>,
     pub(crate) axis: Vector3<f64>,

@@ -11,8 +11,8 @@ pub enum Cause<E: Error + 'static> {
     /// Error control requires shorter steps.
     #[error("error control (the last estimated local error is {norm:.3e} of the permitted one)")]
     ErrorTest {
-        /// Weighted norm of the last estimated error. It is ≤ 1 if that step was accepted and the
-        /// next one had to be shorter.
+        /// Weighted norm of the last estimated error. If the norm is ≤ 1, the step to which it
+        /// belongs was accepted, and error control then required a shorter next step.
         norm: f64,
     },
     /// A derivative or a new state was not finite.

@@ -117,14 +117,16 @@ impl<'a, O: Ode> Step<'a, O> {
         self.statistics
     }
 
-    /// Returns the problem, for computations by an observer.
+    /// Returns the differential equations of this integration, so that an observer can evaluate
+    /// them.
     pub fn ode(&mut self) -> &mut O {
         self.ode
     }
 
-    /// Writes y(t) to `out` (length n) without evaluating f. The output is less accurate than the
-    /// steps, with the order that each method states. It is suitable for drawings and for locating
-    /// events approximately.
+    /// Writes y(t) to `out` (length n) without evaluating f. The interpolated state is less
+    /// accurate than the states at the ends of steps; the documentation of each method states its
+    /// order. The interpolated state is suitable for drawings and for locating events
+    /// approximately.
     ///
     /// # Errors
     ///

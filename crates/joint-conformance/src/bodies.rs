@@ -1,5 +1,5 @@
-//! Operations on the bodies of a space: random poses, rigid motions, and the forces on bodies. In
-//! this module, velocities are lists of numbers, one for each velocity component.
+//! Operations on the bodies of a space. They generate random poses, apply rigid motions, and
+//! compute the forces on bodies. In this module, a velocity is the list of its components.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

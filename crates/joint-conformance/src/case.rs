@@ -12,9 +12,9 @@ use crate::bodies::{Bodies, axes};
 pub const ORDINARY_CASES: usize = 1000;
 /// Number of cases with each special property in one check.
 pub const AWKWARD_CASES: usize = 25;
-/// Number of motions of one case. For one motion, a right-hand side with only one row can be zero
-/// by chance, and its relative error is then meaningless; this is unlikely for several motions
-/// together.
+/// Number of motions of one case. If a constraint has only one row, its right-hand side can be zero
+/// for one motion by chance, and the relative error is then meaningless. It is unlikely that the
+/// right-hand sides of several motions are all zero.
 pub(crate) const MOTIONS: usize = 4;
 
 /// Largest magnitude of the coordinates of ordinary poses.

@@ -286,8 +286,8 @@ impl Claim<'_> {
     }
 }
 
-/// Returns the failure for a fact that is not a comparison of blocks: `found` is the observed
-/// value, `expected` the required one.
+/// Returns the failure of a check that compares two values and not two blocks of entries: `found`
+/// is the computed value, and `expected` is the required value.
 pub(crate) fn fact(
     definition: &'static str,
     property: Property,

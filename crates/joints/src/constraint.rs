@@ -51,8 +51,9 @@ pub trait ConstraintKernels<S: Space = Plane>: Element<f64, S> + Reaction<f64, S
     fn stored(&self, out: &mut Vec<f64>);
 
     /// Calls `entry` for each nonzero derivative of these values with respect to the values of
-    /// [`crate::Definition::data`]. Its arguments are the index of the value for the programs, the
-    /// index in `data`, and the derivative.
+    /// [`crate::Definition::data`]. The arguments of `entry` are the index of the stored value, the
+    /// index of the datum in `data`, and the derivative of the stored value with respect to the
+    /// datum.
     fn d_stored_dp(&self, entry: &mut dyn FnMut(usize, usize, f64));
 
     /// Computes the entries of `∂(Cᵀλ)/∂x` with respect to displacements along the velocity

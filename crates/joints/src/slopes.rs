@@ -1,6 +1,7 @@
-//! Derivatives of the rows with dual numbers, computed with the programs of the kernels. They are
-//! with respect to the values that a constraint stores, and also with respect to poses and
-//! velocities if no closed form is compiled.
+//! Differentiates the rows of a constraint automatically: the programs of the kernels run with dual
+//! numbers. This gives the derivatives with respect to the values that a constraint stores. It also
+//! gives the derivatives with respect to poses and velocities if these derivatives have no compiled
+//! closed form.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

@@ -297,8 +297,9 @@ impl<'m> Data<'m> {
         }
     }
 
-    /// Returns the largest length (m) that is added to the points of a constraint: their own
-    /// coordinates, the arms of the bodies, and the positions of the bodies.
+    /// Returns the largest length (m) that occurs in the computation of the points of a constraint.
+    /// The lengths are the distances of the points from the origins of their frames, the lever arms
+    /// of the bodies, and the distances of the bodies from the global origin.
     fn length_scale(self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
         let points = c.spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];

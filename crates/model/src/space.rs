@@ -399,7 +399,8 @@ impl SpaceKind {
         largest
     }
 
-    /// Copies the freedoms of these columns of C from another configuration, exactly.
+    /// Copies the coordinates that belong to these columns of C from another configuration, without
+    /// rounding.
     pub(crate) fn take(self, q: &mut [f64], from: &[f64], columns: &[usize]) {
         in_space!(self, S => {
             for column in columns {

@@ -39,8 +39,8 @@ use crate::within;
 pub struct AssembledScene {
     /// The scene, read from a text or built by a program.
     pub scene: Scene,
-    /// The mechanism of the scene. Before the assembly, its initial values are those of the
-    /// described start.
+    /// The mechanism of the scene. Its initial values are those given in the scene, before the
+    /// assembly.
     pub mechanism: Mechanism,
 }
 

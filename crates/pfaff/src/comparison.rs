@@ -368,8 +368,10 @@ struct Instant {
     freedom: Vec<Freedom>,
 }
 
-/// Selects sets of rows such that each row that can be without reaction is in one of them, if there
-/// are enough sets; the best determined sets come first.
+/// Selects sets of redundant rows that can be deleted. If enough sets exist, every row that can be
+/// deleted belongs to at least one selected set. Each step selects the set with most rows that are
+/// not yet in a selected set. Among several such sets, it selects the set with the largest pivots,
+/// because the remaining reactions are then determined best.
 fn eliminations(decision: &RankDecision) -> Vec<Vec<usize>> {
     let z = dependencies(decision);
     let all = deletions(decision, CANDIDATES).unwrap_or_default();

@@ -399,7 +399,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         self.questions.elimination_sets(limit)
     }
 
-    /// Finds the smallest deletions that make a reaction unique without a change of motion.
+    /// Finds the smallest sets of rows that can be deleted so that a reaction becomes unique and
+    /// the motion does not change.
     ///
     /// # Errors
     /// [`EliminationError`]: the rank or an answer is undecided, an allowed row does not exist, or

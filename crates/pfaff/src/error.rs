@@ -1,4 +1,4 @@
-//! Reasons why there are no results, or only partial results.
+//! Errors of computations that give no results or only partial results.
 
 use crate::documents::RunDocument;
 use dynamics::equilibrium::EquilibriumError;

@@ -10,8 +10,8 @@ use solvability::Stretches;
 
 use crate::error::StudyError;
 
-/// Receives the rows of a run during the run, and its verdicts at its end. Before the end, the
-/// numbers of reactions are those of one choice.
+/// Receives the output rows of a run while it is computed, and the verdicts after its end. Until
+/// the run ends, the values of nonunique reactions belong to one of the possible solutions.
 pub trait RowSink {
     /// Receives a row. A quantity of the sample is computed at the first access.
     ///

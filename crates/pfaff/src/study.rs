@@ -239,9 +239,9 @@ impl Study {
 
     /// Finds an equilibrium near the start, and returns it with the study of the same scene that
     /// starts there, at rest, for all further questions. Reference points, initial values and the
-    /// zeros of joint coordinates are those of the described start. Drives are locked at their
-    /// positions at the start; if they would accelerate immediately ([`Equilibrium::moving_on`]),
-    /// the static forces are those of [`Self::held_at`].
+    /// zeros of joint coordinates are still computed from the poses given in the scene. Drives are
+    /// locked at their positions at the start; if they would accelerate immediately
+    /// ([`Equilibrium::moving_on`]), the static forces are those of [`Self::held_at`].
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -268,7 +268,8 @@ impl Study {
     ) -> Result<(Equilibrium, Self), StudyError> {
         let mut found = equilibrium(&self.prepared, options)?;
         let mut there = self.starting_at(&found.q)?;
-        // A search from a singular start uses the rank of the start, which may hold only there.
+        // A search that starts at a singular configuration uses the rank of this configuration,
+        // which may be lower than at all other configurations.
         let rank = |study: &Self| study.prepared.decision.rank;
         for _ in 0..SEARCHES {
             let before = rank(&there);

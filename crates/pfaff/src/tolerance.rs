@@ -201,8 +201,8 @@ impl<'r> ToleranceStudy<'r> {
         self.nominal.row(self.list(), sample)
     }
 
-    /// Returns names and positions of markers in these samples (m), with the described position
-    /// first.
+    /// Returns the names of the markers and their positions (m). For each marker, the first
+    /// position follows from the data given in the scene, and the others are those of the samples.
     #[must_use]
     pub fn clouds(&self, samples: &[Sample]) -> Vec<(String, Vec<[f64; 3]>)> {
         self.nominal.clouds(samples)

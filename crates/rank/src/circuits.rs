@@ -23,8 +23,9 @@ pub struct Circuit {
     pub rows: Vec<usize>,
     /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient (for equilibrated rows, relative to the largest of all) that counts
-    /// as zero only within a stated tolerance; zero if there is no such coefficient.
+    /// Some coefficients count as zero only because data within their stated tolerances could make
+    /// them zero. This is the largest of them, for equilibrated rows and divided by the largest
+    /// coefficient of the circuit. The value is zero if there is no such coefficient.
     pub left_out: f64,
 }
 

@@ -76,8 +76,8 @@ pub(crate) const CORRECTIONS_MAX: usize = 5;
 
 /// Number of primes of the zero tests. A minor of thousands of bits is divisible by fewer than 2¹⁰
 /// of the 2⁵⁵ primes. Therefore three primes agree by coincidence with a probability below 2⁻¹³⁰.
-/// Unit: primes. Too small: a minor is zero by coincidence. Too large: the decision takes longer.
-/// Test: `primes_that_divide_a_determinant_are_outvoted`.
+/// Unit: primes. Too small: a nonzero minor may be zero modulo all primes and then counts as zero.
+/// Too large: the decision takes longer. Test: `primes_that_divide_a_determinant_are_outvoted`.
 pub(crate) const WITNESSES: usize = 3;
 
 /// σ_{r+1} vanishes if it decreases by ten digits below the 1e-16 of `f64`. The remaining value
@@ -159,8 +159,9 @@ pub(crate) const STATED_MAX: f64 = 0.1;
 /// `within_a_tolerance_only_what_is_small_is_zero`.
 pub const STATED_ZERO: f64 = 1e-3;
 
-/// Within a stated tolerance, a coefficient that exceeds its change by this factor is certainly not
-/// zero. All data together would have to be wrong by as many tolerances, as for ranks. Unit: 1. Too
+/// Data that vary within their stated tolerances change a coefficient. A coefficient that is larger
+/// than this factor times its change is certainly not zero. To make it zero, all data would have to
+/// be wrong by this number of tolerances at the same time. Ranks use the same factor. Unit: 1. Too
 /// small: the accuracy of data is overestimated. Too large: more coefficients are undecided. Test:
 /// `within_a_tolerance_only_what_is_small_is_zero`.
 pub const BEYOND_DOUBT: f64 = 3.0;

@@ -109,7 +109,8 @@ pub(crate) const RATE: Signature = Signature {
 /// The axes in which the equations are solved.
 #[derive(Clone, Copy)]
 enum View {
-    /// The axes of the equations: angular velocities in space are along principal axes.
+    /// The equations use ground axes for translations. In space, the components of angular
+    /// velocities are along the principal axes of the body.
     Ground,
     /// In the plane: in the frame of the body whose angle has this index in q.
     Angle(usize),

@@ -2,9 +2,10 @@
 //! the elimination chooses pivots that are suitable for the whole motion. The values at states that
 //! do not belong to the motion show which values are equal.
 //!
-//! Values are compared because simplification of expressions is not sufficient: `Rᵀ·R = 1` is not a
-//! rule of polynomials. In addition, joints outside the library need no second kernel. The tests
-//! and `with_code` compare every result with that of the interpreter.
+//! Numerical values are compared, because symbolic simplification does not find all equal
+//! expressions. For example, `Rᵀ·R = 1` holds for rotation matrices, but not for the polynomials in
+//! their entries. In addition, joints that are defined outside the library need no second, symbolic
+//! kernel. The tests and `with_code` compare every result with that of the interpreter.
 
 use symbolic::{Program, Value};
 

@@ -14,7 +14,7 @@ use crate::table::Table;
 /// The bodies of the text.
 pub(crate) struct Bodies<S: SceneSpace> {
     pub(crate) list: Vec<S::Body>,
-    /// Initial poses of the bodies whose initial pose differs from the described pose.
+    /// Initial poses of the bodies that do not start at their pose in the scene.
     pub(crate) poses: Vec<StartPose>,
     pub(crate) names: BodyNames,
     /// Markers by name.

@@ -19,7 +19,7 @@ use crate::source_map::Entry;
 use crate::space::SceneSpace;
 use crate::table::Table;
 
-/// A space whose bodies can be read.
+/// A space (plane or space) for which bodies can be read from a scene.
 pub(crate) trait SceneBody: SceneSpace {
     /// Keys of a body, except its name.
     const BODY_KEYS: &'static [Key];
@@ -27,7 +27,8 @@ pub(crate) trait SceneBody: SceneSpace {
     /// Reads one body; values that cannot be read are replaced by zero.
     fn read_body(table: &mut Table, name: &str) -> Self::Body;
 
-    /// The key for the initial pose of a body, if it differs from the described pose.
+    /// The key `start`, which gives the initial pose of a body that does not start at its pose in
+    /// the scene.
     const START: Key;
 
     /// Reads the value of this key; coordinates that are not given have their described values.

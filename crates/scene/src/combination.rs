@@ -61,12 +61,13 @@ pub enum CombinationProblem {
         /// The character found in place of a sign.
         found: char,
     },
-    /// A whole reaction is in a sum of components, or a component is in a sum of whole reactions.
+    /// The sum mixes terms of both kinds: some terms are single components, and others are
+    /// reactions with all their components.
     #[error("`{text}` is {}; write all terms with a component, or none", mixed(.whole))]
     Mixed {
         /// Text of the term.
         text: String,
-        /// Whether the term is a whole reaction.
+        /// Whether the term is a reaction with all its components.
         whole: bool,
     },
     /// There is no `*` between a number and a term.

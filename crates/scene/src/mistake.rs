@@ -60,7 +60,7 @@ pub(crate) enum Mistake {
     Inactive,
     /// A marker that belongs to a wrong body.
     ForeignMarker,
-    /// Joints that do not support two wheels on one carrier.
+    /// The joints listed as `bearings` do not connect two wheels to the same carrier.
     Bearings,
     /// An output with too many rows.
     TooManyRows,

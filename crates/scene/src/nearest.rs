@@ -175,7 +175,8 @@ pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// Writes the characters to compare to `out`; upper and lower case count as equal.
+/// Writes the lower-case characters of a text to `out`, so that comparisons ignore upper and lower
+/// case.
 fn lower(text: &str, out: &mut Vec<char>) {
     out.clear();
     if text.is_ascii() {

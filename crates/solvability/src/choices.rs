@@ -199,7 +199,7 @@ impl Distribution {
         Ok(Value::new(value, verdict, Some(&self.label)))
     }
 
-    /// Returns the solution without the numbers of reactions that have no finite value.
+    /// Returns the solution without the values of reaction components that are not finite.
     pub(crate) fn without(mut self, no_finite: &[Arc<NoFiniteReaction>]) -> Self {
         let remove = |value: &mut Value, why: &Arc<NoFiniteReaction>| {
             *value = Value::not_finite(value.verdict().clone(), Arc::clone(why));
@@ -250,8 +250,8 @@ impl Distribution {
     }
 }
 
-/// Returns why a linear form of the multipliers of a part has no value, if it contains a row
-/// without a finite multiplier.
+/// If a linear form uses a row whose multiplier is not finite, returns the reason why the form has
+/// no value. The form belongs to the part `extent`.
 pub(crate) fn not_finite(
     no_finite: &[Arc<NoFiniteReaction>],
     extent: &Extent,

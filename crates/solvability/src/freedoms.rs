@@ -1,5 +1,5 @@
-//! Degrees of freedom: rank, redundancy and mobility of the rows without drives, and the free
-//! motions as text and numbers.
+//! Degrees of freedom: rank, redundancy and mobility of the rows without drives. The free motions
+//! are described as text and as velocity components.
 //!
 //! A drive adds to the rank like any other row: with its drive, a four-bar has mobility 0, like a
 //! truss. Without drives, the two mechanisms differ, and the remaining motions show the difference.
@@ -46,7 +46,7 @@ pub struct Freedoms {
     pub blocked: Vec<FreeMotion>,
     /// A basis of the motions for which second order neither excludes nor proves a finite motion.
     pub undecided: Vec<FreeMotion>,
-    /// The freedoms without the drives. `None` if there are no drives.
+    /// The possible motions if the drives are removed. `None` if there are no drives.
     pub without_drives: Option<FreedomsWithoutDrives>,
     /// Whether no motion is possible. This is true if no velocity is free without the drives, or if
     /// second order excludes every velocity that is free without the drives. It is also true if
@@ -163,7 +163,7 @@ fn blocked_without_drives(
 }
 
 impl Freedoms {
-    /// Computes the freedoms from the ranks of all rows, part by part.
+    /// Computes the free motions from the ranks of all rows, separately for each part.
     fn of(
         mechanism: &Mechanism,
         t: f64,

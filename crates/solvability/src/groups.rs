@@ -24,7 +24,7 @@ pub use reactions::ReactionForms;
 
 use crate::verdict::{Judgement, worst};
 
-/// The verdict of a group.
+/// The verdict on a group: whether its components are unique.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -9,7 +9,7 @@
 //! | [`mod@rows`] | independent rows for simulations, also of large mechanisms |
 //! | [`state`] | checks of coordinates and velocities that the caller passes |
 //! | [`existence`] | existence of a solution: contradictions between redundant rows |
-//! | [`finite`] | whether finite reactions exist where second order blocks a freedom |
+//! | [`finite`] | whether finite reactions exist if second-order terms block a velocity |
 //! | [`mod@generic`] | whether a redundancy is permanent or exists at one configuration only |
 //! | [`freedoms`] | free motions with and without the drives |
 //! | [`groups`] | combinations of reactions, resultants |
@@ -28,7 +28,7 @@
 //! | `sparse`, `large` | analysis of a large set of joints with sparse matrices |
 //! | [`mod@explain`] | explanations: coupled reactions, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
-//! | [`sensitivity`] | how much unique numbers of reactions depend on the data |
+//! | [`sensitivity`] | how much unique reaction components depend on the data |
 //! | [`mod@second_order`] | whether the motion is unique where the rank drops |
 //! | [`mod@stretches`] | verdicts of a simulation, by time interval and component |
 //! | [`along`] | verdicts along a motion by time interval, and its singular configurations |

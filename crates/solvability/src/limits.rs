@@ -68,10 +68,10 @@ pub(crate) const MOTION_CLEARANCE: f64 = 30.0;
 /// rounding. Too large: redundant rows near singular configurations are undecided. Test: none.
 pub(crate) const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
 
-/// The entries of the map from multipliers to a reaction are products of a few numbers near one. A
-/// row below this share of the largest row is rounding. Unit: share of the largest row. Too small:
-/// rounding counts as a component of a reaction. Too large: small components count as zero. Test:
-/// none.
+/// The entries of the map from multipliers to a reaction are products of a few numbers near one. If
+/// a row is below this share of the largest row, it contains only rounding errors. Unit: share of
+/// the largest row. Too small: rounding counts as a component of a reaction. Too large: small
+/// components count as zero. Test: none.
 pub(crate) const ROUNDING_OF_MAP: f64 = 1e-14;
 
 /// A first-order estimate is not valid for larger angles (rad). Unit: rad. Too small: estimates
@@ -79,9 +79,10 @@ pub(crate) const ROUNDING_OF_MAP: f64 = 1e-14;
 /// of validity. Test: none.
 pub(crate) const LARGEST_TURN: f64 = 0.1;
 
-/// A component of a unit vector above this value is reported, even if a stated tolerance could make
-/// it zero. Without this component the direction would be a different one. Unit: part of a unit
-/// vector. Too small: rounding is reported. Too large: small components are reported as zero. Test:
+/// A component of a unit vector is reported if it is above this value, even if data within their
+/// stated tolerances could make it zero. If it were left out, the printed vector would have a
+/// different direction. Unit: part of a unit vector. Too small: rounding is reported. Too large:
+/// small components are reported as zero. Test:
 /// `a_part_of_a_direction_is_told_however_uncertain_coefficients_are`.
 pub(crate) const LARGEST_ROUNDING: f64 = 1e-5;
 
@@ -152,9 +153,9 @@ pub(crate) const PAIRS: usize = 4;
 /// too small. Test: `a_misfit_above_the_rounding_of_entries_is_one_of_data`.
 pub(crate) const ENTRY_ROUNDINGS: f64 = 16.0;
 
-/// Number of configurations on each side of the start in a continuation. Unit: poses. Too small:
-/// redundancy at one configuration counts as permanent. Too large: the analysis takes longer. Test:
-/// `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
+/// Number of configurations on each side of the start in a continuation. Unit: poses. Too small: a
+/// redundancy that exists only at the start is reported as permanent. Too large: the analysis takes
+/// longer. Test: `a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on`.
 pub(crate) const WALK_POSES: usize = 3;
 
 /// Distance from one configuration to the next, as a share of the size or in radians. It is short,
@@ -339,9 +340,10 @@ pub(crate) const RUNS_NOTICE: f64 = 1e-9;
 
 // Analysis along a motion.
 
-/// Maximum number of iterations of a search. So many halvings reduce any interval to rounding.
-/// Unit: iterations. Too small: times are not accurate to rounding. Too large: the search takes
-/// longer if there is no root. Test: `roots_to_rounding_also_multiple_ones`.
+/// Maximum number of iterations of a search. This number of bisections reduces any interval to the
+/// size of the rounding error. Unit: iterations. Too small: times are not accurate to rounding. Too
+/// large: the search takes longer if there is no root. Test:
+/// `roots_to_rounding_also_multiple_ones`.
 pub(crate) const SEARCH_ITERATIONS: usize = 120;
 
 /// Intervals shorter than this share of their times are not divided. Unit: share of a time. Too
@@ -547,15 +549,15 @@ pub(crate) const ROUNDING_PUSH: f64 = 1e-12;
 pub const MOTIONS_REPORTED: usize = 12;
 
 /// A velocity of length one satisfies a form if the value of the form is below this limit. The
-/// limit covers rounding of a null space and is far below any freedom of practical interest. Unit:
-/// velocity of length one. Too small: freedoms are missed because of rounding. Too large: moving
-/// bodies count as resting. Test: `links_of_a_chain_turn_about_their_own_joints`.
+/// limit is above the rounding errors of a null space and far below any velocity of practical
+/// interest. Unit: velocity of length one. Too small: freedoms are missed because of rounding. Too
+/// large: moving bodies count as resting. Test: `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const SATISFIED: f64 = 1e-9;
 
 /// A velocity of length one is new if it differs from the chosen ones by more than this. The limit
-/// exceeds [`SATISFIED`], so that the rounding of several conditions does not count as a freedom.
-/// Unit: velocity of length one. Too small: rounding counts as a freedom. Too large: freedoms are
-/// missed. Test: `links_of_a_chain_turn_about_their_own_joints`.
+/// exceeds [`SATISFIED`], so that the rounding errors of several conditions do not count as a free
+/// motion. Unit: velocity of length one. Too small: rounding counts as a freedom. Too large:
+/// freedoms are missed. Test: `links_of_a_chain_turn_about_their_own_joints`.
 pub(crate) const NEW_MOTION: f64 = 1e-6;
 
 /// A velocity below this share of the fastest one is zero; rotations are multiplied by the size of
@@ -657,7 +659,7 @@ pub(crate) const FOLLOW_CORRECTIONS: usize = 12;
 /// `near_its_limit_a_reaction_changes_by_more_than_first_order`.
 pub(crate) const FOLLOW_END: f64 = 1e-11;
 
-/// A number of a reaction is sensitive to data if it changes by more than this share of itself, or
+/// A reaction component is sensitive to data if it changes by more than this share of its value, or
 /// of the largest load. Unit: share of the number, or of the largest load. Too small: all reactions
 /// count as sensitive. Too large: no reaction counts as sensitive. Test: `a_beam_by_hand`.
 pub const FRAGILE: f64 = 0.1;
@@ -719,14 +721,14 @@ pub(crate) const OF_ENTRY: usize = 350;
 /// are rejected. Test: none, work only.
 pub(crate) const OF_VELOCITY: usize = 340;
 
-/// Number of dense matrices of all rows and columns that the analysis of a small mechanism stores
-/// at the same time. Unit: matrices. Too small: memory is exhausted. Too large: runs are rejected.
-/// Test: none, work only.
+/// The analysis of a small mechanism needs this number of dense matrices (all rows × all columns)
+/// in memory. Unit: matrices. Too small: memory is exhausted. Too large: runs are rejected. Test:
+/// none, work only.
 pub(crate) const DENSE_MATRICES: usize = 16;
 
-/// Number of dense matrices of all rows and columns that the certification of the rank of several
-/// parts stores at the same time. Unit: matrices. Too small: memory is exhausted. Too large: runs
-/// are rejected. Test: none, work only.
+/// A mechanism of several parts needs this number of dense matrices (all rows × all columns) in
+/// memory when its rank is certified. Unit: matrices. Too small: memory is exhausted. Too large:
+/// runs are rejected. Test: none, work only.
 pub(crate) const CERTIFIED_MATRICES: usize = 9;
 
 /// Largest distance of a reported point about which the moment of free wrenches vanishes. Free

@@ -179,9 +179,10 @@ impl Wrenches {
 }
 
 impl Places {
-    /// Describes the common point of forces, up to free moments: a joint of the sentence if there
-    /// is one at this point. The text is empty if the forces act at the reference points of all
-    /// their joints. Otherwise it lists the remaining moments.
+    /// Describes a point on the lines of action of all forces; the moments `couples` are arbitrary
+    /// and are ignored. If a joint of the sentence is at this point, the text names the joint. The
+    /// text is empty if the forces act at the reference points of all their joints. If no such
+    /// point exists, the text states the remaining moments.
     fn through(&self, own: &[bool], loads: &[Wrench], couples: &[[f64; 3]]) -> String {
         // The forces are unit vectors, so that moments are lengths.
         let sizes = loads.iter().map(|[force, _]| norm(force));

@@ -61,8 +61,8 @@ impl Solvability {
     /// Works like [`Self::of`], for a matrix with exact entries: every verdict is exact and
     /// decided.
     ///
-    /// Tests for zero use arithmetic modulo primes. Margins are computed in `f64`; below 1e-15 they
-    /// are upper estimates.
+    /// Tests for zero use arithmetic modulo primes. Margins are computed in `f64`. The true margin
+    /// may be smaller than a reported margin below 1e-15.
     ///
     /// # Errors
     /// Returns an error if an entry is not finite.

@@ -7,8 +7,8 @@
 //! If there is no other solution, the new motions are blocked at second order. If there is one, the
 //! motion branches. If second order does not decide, the result is undecided.
 //!
-//! The same equations restrict the freedoms of a mechanism with locked functions of time
-//! ([`restrictions()`]): a locked drive is a row like any other.
+//! The same equations restrict the free velocities of a mechanism whose functions of time are
+//! locked ([`restrictions()`]). A locked drive is then a constraint like any other.
 //!
 //! Source: S. Pellegrino, C. R. Calladine, Matrix analysis of statically and kinematically
 //! indeterminate frameworks, Int. J. Solids Structures 22 (1986) 409–428, here with velocities of

@@ -1,17 +1,17 @@
-//! Computes how strongly numbers of reactions depend on the data: the fraction by which a
-//! component, a direction, a sum or a moment changes if one point moves slightly. A number may be
-//! unique and nevertheless depend on the last digits of a drawing.
+//! Computes how strongly reactions depend on the data: the relative change of a component, of a
+//! component along any direction, of a sum or of a moment if one point moves slightly. A component
+//! may be unique and nevertheless depend on the last digits of the data of a drawing.
 //!
 //! The rank and the applied loads are constant. The equations `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` then
 //! depend on a point in three ways. The point has its own entries in C and Γ. The configuration
 //! changes with the point so that `Φ_K = 0`. The velocities change so that `C_K·v = b`. For a
-//! number `w(q, d)ᵀ·λ`, one solution y of the same symmetric equations with right-hand side (0, w)
-//! gives the derivatives with respect to all points: `−y_aᵀ·δCᵀ·λ + y_λᵀ·(δΓ − δC·a) + δwᵀ·λ`.
+//! component `w(q, d)ᵀ·λ`, one solution y of the same symmetric equations with right-hand side (0,
+//! w) gives the derivatives with respect to all points: `−y_aᵀ·δCᵀ·λ + y_λᵀ·(δΓ − δC·a) + δwᵀ·λ`.
 //!
 //! This estimate is of first order. Near a limit position, reactions grow faster. If the
-//! independent rows are nearly dependent and a number changes by 1 % to 10 % to first order, the
-//! mechanism with the displaced point is also solved (`displaced`). The larger of the two changes
-//! is reported.
+//! independent rows are nearly dependent and the first-order change of a component is 1 % to 10 %,
+//! the equations of the mechanism with the displaced point are also solved (module `displaced`).
+//! The larger of the two changes is reported.
 //!
 //! Size and loads are those of a set of connected bodies. The result for a robot is therefore the
 //! same for the robot alone and in a fleet, even if springs couple it to other robots. The load of

@@ -217,7 +217,7 @@ pub(crate) fn worst<'v>(verdicts: impl Iterator<Item = &'v Verdict>) -> &'v Verd
     worst.unwrap_or(&Verdict::Unique)
 }
 
-/// The verdicts on a joint or drive during a simulation.
+/// The verdicts on the reaction of a joint or drive, as functions of time during a simulation.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReactionStretches {

@@ -1,4 +1,4 @@
-//! A number of a reaction together with its verdict.
+//! The value of a reaction component together with its verdict.
 
 mod label;
 mod no_finite;
@@ -16,9 +16,9 @@ pub use no_finite::NoFiniteReaction;
 pub(crate) use sensitivity::change_in_words;
 pub use sensitivity::{Datum, Sensitivity};
 
-/// A number of a reaction (a component, a sum, a multiplier) with its verdict and with how strongly
-/// it depends on the data. A number that is not unique is stored with the choice on which it
-/// depends, or is omitted.
+/// The value of a reaction component, a sum or a multiplier, with its verdict and its sensitivity
+/// to the data. If the value is not unique, it is stored together with the choice on which it
+/// depends, or it is omitted.
 ///
 /// Serialised, it is
 /// `{ value, verdict, fragile, sensitivity, reason, choice, no_finite_reaction }`. `value` is

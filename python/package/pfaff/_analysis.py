@@ -207,7 +207,7 @@ class GroupVerdict:
     values: dict[str, float]
     """Values of the sum; NaN for values that are not unique."""
     sensitivity: float | None = None
-    """Largest relative change of a unique value by one point; ``None`` without such a value."""
+    """Largest relative change of a unique value if one point moves; ``None`` if no value is unique."""
     fragile: bool = False
     """Whether a value of the sum is unique, but sensitive to the last digits of the data."""
 

@@ -115,7 +115,7 @@ class Line:
     points: list[Point]
 
     def done(self) -> list[Point]:
-        """Returns the points that reached the end."""
+        """Returns the points whose run reached its end time."""
         return [point for point in self.points if point.is_done]
 
     def best(self) -> Point | None:

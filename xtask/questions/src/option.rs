@@ -38,7 +38,8 @@ pub(crate) enum Kind {
 }
 
 impl QuestionOption {
-    /// The argument of a question with these options.
+    /// Creates the description of a command-line argument. `options` is the JSON schema of the
+    /// options to which the argument belongs.
     pub(crate) fn new(argument: &Arg, options: &Value) -> Self {
         let key = argument.get_id().to_string();
         let (inside, schema) = place(&key, options);

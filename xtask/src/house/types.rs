@@ -18,7 +18,7 @@ pub(super) const FIELDS_MOST: usize = 12;
 /// Largest number of methods.
 pub(super) const METHODS_MOST: usize = 30;
 
-/// A type with its numbers of fields and methods.
+/// A type, with the number of its fields and the number of its methods.
 #[derive(Debug)]
 pub(super) struct Type {
     pub(super) name: String,

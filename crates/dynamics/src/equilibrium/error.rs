@@ -1,4 +1,4 @@
-//! Reasons why no equilibrium was found.
+//! Errors of the search for an equilibrium.
 
 use model::codes::Code;
 use model::words::{estimate, listed, rough, rounded};

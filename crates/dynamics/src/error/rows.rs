@@ -1,5 +1,5 @@
-//! Reasons why requested rows cannot be treated as redundant. Messages count rows from 1, as users
-//! do.
+//! Errors if the rows requested by the user cannot be treated as redundant. Messages count rows
+//! from 1, as users do.
 
 use model::RowLabel;
 use model::codes::Code;

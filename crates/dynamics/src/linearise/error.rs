@@ -1,4 +1,4 @@
-//! Reasons why a motion cannot be linearised.
+//! Errors of the linearisation of a motion.
 
 use model::codes::Code;
 use model::words::{quantity, rounded, short};

@@ -14,9 +14,9 @@ pub struct Linearisation {
     pub time: f64,
     /// Coordinates of the state, n_q.
     pub q: Vec<f64>,
-    /// The positions in x; they come first.
+    /// The positions in the state vector x. They are its first components.
     pub positions: Vec<Coordinate>,
-    /// The velocities in x; they come after the positions.
+    /// The velocities in the state vector x. They follow the positions.
     pub velocities: Vec<Coordinate>,
     /// The inputs u.
     pub inputs: Vec<Input>,

@@ -1,5 +1,5 @@
-//! The run of one component of a plan: its integration, its output rows, and the reason if it
-//! stops.
+//! Simulates one component of a plan: integrates its equations, computes its output rows, and
+//! stores the reason if the simulation stops early.
 
 use std::borrow::Cow;
 use std::time::Instant;

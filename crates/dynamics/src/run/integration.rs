@@ -108,7 +108,7 @@ impl<'r, 'm> Run<'r, 'm> {
         }
     }
 
-    /// Passes the row of the start to the caller, if it is requested.
+    /// Passes the output row of the initial state to the caller, if this row is requested.
     fn show_start(&mut self, y0: &[f64]) -> ControlFlow<()> {
         let Self {
             equations,

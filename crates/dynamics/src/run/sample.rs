@@ -20,7 +20,8 @@ pub struct Sample<'s, 'm> {
     /// Events since the previous row; their times may be later than the time of the row, by less
     /// than a step.
     pub events: &'s [Event],
-    /// The rows (from 0) whose multipliers are zero by choice in this output row.
+    /// The constraint rows (counted from 0) that are redundant at this output row and whose
+    /// multipliers are set to zero.
     pub dropped: &'s [usize],
     /// The additional choices for which reactions are requested.
     pub choices: &'s [NamedChoice],

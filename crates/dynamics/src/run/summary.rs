@@ -87,13 +87,14 @@ pub struct ComponentSummary {
 }
 
 impl DroppedRows {
-    /// Rows (from 0, ascending) that have no multiplier from an output row on.
+    /// Creates the list of the constraint rows without multipliers, valid from time `from` (s). The
+    /// constraint rows are counted from 0, in ascending order.
     #[must_use]
     pub fn new(from: f64, rows: Vec<usize>) -> Self {
         Self { from, rows }
     }
 
-    /// The rows without multiplier of all components, as rows of the whole mechanism.
+    /// Merges the lists of all components, with the rows renumbered as in the whole mechanism.
     pub(super) fn together(components: &[ComponentSummary]) -> Vec<Self> {
         let each = components.iter().map(|c| &c.summary.dropped);
         let mut times: Vec<f64> = each.flatten().map(|dropped| dropped.from).collect();

@@ -49,7 +49,8 @@ impl ScaledVectors {
     }
 }
 
-/// The unit of each column of C for a mechanism of this size (m).
+/// Returns the unit of the velocity of each column of C, for a mechanism of this size (m). All
+/// columns of the same physical dimension have the same unit.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let exponents = mechanism.layout().dimension_scaling(size).cols;
     exponents.iter().map(|&e| f64::from(e).exp2()).collect()

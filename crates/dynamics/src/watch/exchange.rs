@@ -86,8 +86,9 @@ impl Exchange {
         }))
     }
 
-    /// Uses the new rows. Returns the event, and whether the rows that determine the position have
-    /// changed. If they have, the position must be settled again.
+    /// Uses the new rows. Returns the event, and whether the rows of the position constraints have
+    /// changed. If these rows have changed, the caller must project the coordinates onto the
+    /// position constraints again.
     pub(crate) fn keep(
         self,
         equations: &mut KeptEquations<'_>,

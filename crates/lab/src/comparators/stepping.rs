@@ -10,7 +10,7 @@ use super::equations::Equations;
 /// The first step, as a fraction of the available time.
 const FIRST: f64 = 1e-3;
 
-/// Steps shorter than this number of rounding errors of the time are too short.
+/// A step is too short if it is less than this number times the rounding error of the time.
 const SHORTEST: f64 = 16.0;
 
 /// Factor of the step size after a step that failed.

@@ -30,7 +30,7 @@
 //! | [`ratio`] | fractions, and sums with one square root |
 //! | [`drawing`] | bodies and joints at one configuration, in fractions |
 //! | [`families`] | families of degenerate drawings, with similar drawings that are not degenerate |
-//! | [`pose`] | written forms of a drawing: translated, rotated, swapped, in another order |
+//! | [`pose`] | variants of a drawing: translated, rotated, swapped, in another order |
 //! | [`text`] | the scene as text |
 //! | [`lift`] | the rows of a drawing as wrenches in space |
 //! | [`doubles`] | a drawing in double precision, at any configuration and for any data |
@@ -71,7 +71,7 @@ use drawing::Drawing;
 use families::Family;
 use pose::{Posed, Writing};
 
-/// One scene: a drawing in one written form.
+/// One scene, which contains one variant of a drawing.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Family of the scene.

@@ -27,7 +27,7 @@
 //! | [`catalogue`] | mechanisms with results derived by hand |
 //! | [`families`] | random mechanisms with planted redundancy |
 //! | [`relatives`] | the same mechanisms with fewer rows in one joint, or with one rotated axis |
-//! | [`pose`] | written forms of a drawing: moved, with other frames, in another order |
+//! | [`pose`] | variants of a drawing: moved, with other frames, in another order |
 //! | [`text`] | the scene as text |
 //! | [`mod@examine`] | comparison of the answer of the program with exact arithmetic |
 //! | [`lifted`] | planar scenes converted to space |
@@ -63,7 +63,7 @@ use families::Family;
 use pose::Writing;
 use text::Precision;
 
-/// One scene: a drawing in one written form.
+/// One scene, which contains one variant of a drawing.
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// Number of the scene.

@@ -21,7 +21,7 @@ use suite::numbers::Numbers;
 
 const SEED: u64 = 1;
 
-/// Twelve scenes of each family in each written form.
+/// Twelve scenes of each family in each variant.
 const SCENES: u64 = 384;
 
 #[test]
@@ -64,8 +64,8 @@ fn exact_arithmetic_finds_what_theory_tells() {
     assert!(answer > 80, "{answer}");
 }
 
-/// Asserts for all written forms that the result of exact arithmetic equals the result found by
-/// hand, and that the program returns the same result.
+/// Asserts for all variants that the result of exact arithmetic equals the result found by hand,
+/// and that the program returns the same result.
 fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
     for seed in 0..8 * Writing::ALL.len() as u64 {
         let writing = Writing::ALL[seed as usize % Writing::ALL.len()];

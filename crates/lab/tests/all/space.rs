@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 
 const SEED: u64 = 3;
 
-/// Two drawings of each family in each written form.
+/// Two drawings of each family in each variant.
 const SCENES: u64 = 96;
 
 #[test]

@@ -1,8 +1,8 @@
-//! Reasons why saddle equations are not solved, and checks of their arguments.
+//! Errors of the solvers of saddle-point equations, and checks of the arguments of these solvers.
 
 use crate::kernels::all_finite;
 
-/// Reason why the saddle equations have no (unique) solution.
+/// Error of a solver of saddle-point equations.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SaddleError {

@@ -39,7 +39,7 @@ pub(super) struct TallLu {
 /// one repeats it.
 #[derive(Debug, Clone)]
 struct PivotRows {
-    /// The row of C for each row in use, and its pivot coordinate.
+    /// For each row in use, its index in C. `pivot` contains its pivot coordinate.
     used: Vec<usize>,
     pivot: Vec<usize>,
     /// Whether each row of C is in use.

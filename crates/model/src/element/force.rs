@@ -83,8 +83,8 @@ impl PlacedForce {
         placed.collect()
     }
 
-    /// Returns the kernels in space, if their axes differ from the axes of the coordinates of the
-    /// bodies.
+    /// Returns the kernels in space and the transformation of their axes; `None` if the kernels use
+    /// the same axes as the coordinates of the bodies.
     fn between(&self) -> Option<(&TurnedSlots, &dyn ForceKernels<Space3>)> {
         match (&self.turned, &self.element) {
             (Some(turned), AnyForce::Space3(kernels)) => Some((turned, kernels.as_ref())),

@@ -1,4 +1,4 @@
-//! Reasons why a law or a callback has no finite value.
+//! The error if a law or a callback has no finite value.
 
 use super::operation::{Join, UnaryFunction};
 

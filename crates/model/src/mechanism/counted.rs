@@ -68,8 +68,8 @@ impl Elements {
         }
     }
 
-    /// Sets the unwrapped angles of the kernels at the current poses; the numbers of revolutions
-    /// are taken from the approximate angles `known`.
+    /// Computes the unwrapped angles at the current poses for the kernels. The approximate angles
+    /// `known` determine the numbers of revolutions.
     #[inline]
     pub(super) fn count_turns(&self, known: &[f64], slots: &mut Slots) {
         for (angle, &known) in self.counted.iter().zip(known) {
@@ -92,8 +92,8 @@ impl Elements {
         }
     }
 
-    /// Changes the unwrapped angles by the rotations of a displacement d; they start at index
-    /// `first` of q. The coordinates of the bodies in q are still those before the displacement.
+    /// Adds the rotations of a displacement d to the unwrapped angles, which start at index `first`
+    /// of q. This function must be called before the coordinates of the bodies in q are displaced.
     #[inline]
     pub(super) fn displace_angles(&self, first: usize, q: &mut [f64], d: &[f64]) {
         for (k, angle) in (first..).zip(&self.counted) {
@@ -102,8 +102,8 @@ impl Elements {
         }
     }
 
-    /// Computes the unwrapped angles from the poses of the bodies and keeps their numbers of
-    /// revolutions; they start at index `first` of q.
+    /// Recomputes the unwrapped angles from the poses of the bodies. The values already in q
+    /// determine the numbers of revolutions. The angles start at index `first` of q.
     #[inline]
     pub(crate) fn settle_angles(&self, first: usize, q: &mut [f64]) {
         for (k, angle) in (first..).zip(&self.counted) {

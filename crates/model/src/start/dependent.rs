@@ -1,5 +1,5 @@
-//! Computes dependent velocities. They satisfy rows of C and have the smallest kinetic energy:
-//! `½·vᵀ·M·v → min` under `C·v = b`.
+//! Computes the velocities that the initial velocities do not state. Among all velocities that
+//! satisfy the velocity constraints `C·v = b`, these minimise the kinetic energy `½·vᵀ·M·v`.
 //!
 //! Sets of rows that have no dependent velocity in common are solved separately. Small sets are
 //! solved directly, after the rank of their columns has been determined. The remaining rows form

@@ -1,4 +1,4 @@
-//! Reasons why no consistent initial state was found.
+//! Errors that are returned if no consistent initial state was found.
 
 use crate::words::{quantity, short};
 use std::fmt;

@@ -15,12 +15,13 @@ pub struct StartOptions {
     /// of the scene, or of given velocities by more than a thousandth of the largest velocity
     /// coupled with them.
     pub correction: CorrectionLimit,
-    /// Bodies whose initial poses differ from their described poses. Reference points, initial
-    /// values and the zeros of joint coordinates are still taken from the described poses.
+    /// Initial poses of bodies that do not start at the pose given in their definition. Reference
+    /// points, initial values and the zeros of joint coordinates are still computed from the pose
+    /// in the definition.
     pub poses: Vec<StartPose>,
 }
 
-/// The initial pose of a body, if it differs from the described pose.
+/// The initial pose of a body that does not start at the pose given in its definition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StartPose {
     /// Index of the body in the list.

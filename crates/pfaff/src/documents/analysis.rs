@@ -269,7 +269,8 @@ impl AnalysisDocument {
         }
     }
 
-    /// Adds the possible motions. The freedoms must belong to the analysis.
+    /// Adds the possible motions. `freedoms` must belong to the mechanism and configuration of the
+    /// analysis.
     #[must_use]
     pub fn with_freedoms(mut self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         self.ranks.freedoms = FreedomsDocument::new(freedoms, mechanism);

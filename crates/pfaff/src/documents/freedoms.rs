@@ -75,7 +75,7 @@ pub struct LeftOutDocument {
 }
 
 impl FreedomsDocument {
-    /// Builds the document of the freedoms of a mechanism.
+    /// Builds the document of the free motions of a mechanism.
     #[must_use]
     pub fn new(freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         let without_drives = freedoms.without_drives.as_ref();
@@ -134,8 +134,8 @@ impl FreedomsDocument {
         }
     }
 
-    /// Returns the freedoms of first order as a phrase, if there are any: "mobility 1", or
-    /// "mobility 1 without its drive" if the drive alone removes the last freedom.
+    /// Returns the mobility at first order as a phrase, if it is not zero: "mobility 1", or
+    /// "mobility 1 without its drive" if only the drive removes the last degree of freedom.
     #[must_use]
     pub fn first_order(&self, mobility: usize) -> Option<String> {
         match (&self.without_drives, mobility) {
@@ -220,7 +220,8 @@ impl FreedomsDocument {
 /// Introduction, sentence, and the motion if it is described.
 type MotionSentence<'a> = (String, String, Option<&'a FreeMotionDocument>);
 
-/// Adds motions that are not yet in the list, and the number of freedoms that are only counted.
+/// Adds the motions that are not yet in the list, and the number of free motions that are only
+/// counted.
 fn tell<'a>(
     told: &mut Vec<MotionSentence<'a>>,
     lead: &str,

@@ -48,8 +48,8 @@ impl SensitivityDocument {
         }
     }
 
-    /// Returns the sensitivity of a group with this name: the largest sensitivity of its numbers;
-    /// the text names the number if there are several.
+    /// Returns the sensitivity of the group `name`, which is the largest sensitivity of its
+    /// components. If the group has several components, the text names the most sensitive one.
     #[must_use]
     pub fn of_group(found: &GroupSensitivities, name: &str, layout: &Layout) -> Self {
         let whole = found.whole.as_ref();
@@ -60,7 +60,8 @@ impl SensitivityDocument {
         }
     }
 
-    /// Returns the sensitivity of a number of a group with this name: the sum, or a component.
+    /// Returns the sensitivity of one component of a group; `number` is the name of the component,
+    /// or `sum`.
     #[must_use]
     pub fn of_group_number(
         found: &GroupSensitivities,
@@ -72,7 +73,7 @@ impl SensitivityDocument {
         Self::of_number(found.number(number), &name, layout)
     }
 
-    /// Returns the name of a number of a group for use in sentences.
+    /// Returns the name of a component of a group for use in sentences.
     pub(super) fn name_in_group(group: &str, number: &str) -> String {
         match number {
             "sum" => group.to_owned(),

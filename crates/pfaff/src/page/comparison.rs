@@ -12,7 +12,7 @@ pub struct Comparison {
     pub freedom: Vec<Vec<Freedom>>,
 }
 
-/// A choice with its numbers.
+/// A choice, with the reactions that it gives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedChoice {
     /// Name of the choice.

@@ -42,11 +42,11 @@ pub struct RunPage<'a> {
 /// Kind of a page.
 #[derive(Clone, Copy)]
 pub enum Shows<'a> {
-    /// Page of a start alone.
+    /// Page of the initial state only.
     Start,
-    /// Page of a run, with its numbers.
+    /// Page of a run, with its results.
     Run(&'a RunDocument),
-    /// Page of a mode of small motions, with a sentence about it.
+    /// Page that animates one mode of the linearised motion. The text is a sentence about the mode.
     Mode(&'a str),
 }
 

@@ -105,7 +105,7 @@ fn table(out: &mut String, page: &RunPage<'_>, reactions: &[&ReactionDocument]) 
     );
 }
 
-/// Explains why the verdict of the run differs from that of the start.
+/// Explains why the verdict on the run differs from the verdict on the initial state.
 fn over_the_run(r: &ReactionDocument, run: &RunReactionDocument) -> String {
     let start = r.wrench.verdict.replace('_', " ");
     let on = run.of_run.iter().flat_map(|track| &track.determined);

@@ -58,7 +58,7 @@ impl Default for Sweep {
     }
 }
 
-/// Code of a sweep with unfinished runs.
+/// Error code if a sweep ends with unfinished runs.
 const NOT_DONE: Code = Code::new(514);
 
 impl Question for Sweep {

@@ -69,7 +69,8 @@ impl SweepCode {
         )
     }
 
-    /// Prepares a run for the code with its numbers; `None` if the run must be interpreted.
+    /// Prepares the generated code for a run, with the values of the varied keys. Returns `None` if
+    /// the equations of the run must be interpreted.
     pub(super) fn of_run(
         &self,
         study: &mut Study,

@@ -1,4 +1,4 @@
-//! Reasons why a sweep does not begin or continue. Errors of single runs are reported in their
+//! Errors that prevent a sweep from starting or end it. Errors of single runs are reported in their
 //! rows.
 
 use model::codes::Code;

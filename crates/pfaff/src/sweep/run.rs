@@ -1,4 +1,5 @@
-//! One run of a sweep: the scene with its numbers, simulated and recorded.
+//! Simulates one run of a sweep, with the values of the varied keys for this run, and records the
+//! results.
 
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;

@@ -1,5 +1,5 @@
-//! Reasons why no samples are computed. Samples that cannot be assembled are counted and are not an
-//! error.
+//! Errors that prevent the computation of all samples. Samples that cannot be assembled are counted
+//! and are not an error.
 
 use model::codes::Code;
 use scene::KeyError;

@@ -54,7 +54,7 @@ pub(super) struct Nominal {
     pub(super) mechanism: Mechanism,
     pub(super) t: f64,
     pub(super) base: Base,
-    /// Columns of C along which the start keeps positions fixed.
+    /// Columns of C whose coordinates are fixed at the start.
     pub(super) kept_columns: Vec<usize>,
     pub(super) size: f64,
     pub(super) data: Vec<DisplacedDatum>,

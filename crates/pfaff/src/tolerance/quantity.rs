@@ -1,10 +1,11 @@
-//! The numbers of reactions that have ranges: components, and magnitudes of forces and torques.
+//! The scalar quantities of a reaction whose ranges are computed: components, and magnitudes of
+//! force and torque.
 
 use linalg::kernels::norm;
 use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
 use solvability::Configuration;
 
-/// A number of a reaction.
+/// A kind of scalar quantity of a reaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
     /// The named component of the definition.
@@ -17,7 +18,7 @@ pub(super) enum Kind {
     Torque,
 }
 
-/// A number of the reaction of a joint or drive.
+/// A scalar quantity of the reaction of a joint or drive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Quantity {
     pub(super) id: ConstraintId,
@@ -26,7 +27,7 @@ pub(super) struct Quantity {
     pub(super) unit: &'static str,
 }
 
-/// Returns the verdict on two numbers together.
+/// Returns the less favourable of two verdicts.
 pub(super) fn worse(one: &'static str, other: &'static str) -> &'static str {
     let severity = |word: &str| match word {
         "unique" => 0,

@@ -175,9 +175,10 @@ impl Nominal {
         ))
     }
 
-    /// Returns the configuration on the independent rows that is closest to the described one,
-    /// measured in lengths, with angles times the size: `q = q₀ + argmin ‖δ‖` under the rows
-    /// linearised at q, repeated. Coordinates that the start keeps fixed do not change.
+    /// Returns the configuration that satisfies the independent position constraints and is closest
+    /// to the configuration given in the scene. Distances are lengths; angles are multiplied by the
+    /// size of the mechanism. Each iteration computes `q = q₀ + argmin ‖δ‖` under the constraints
+    /// linearised at q. Coordinates that are fixed at the start do not change.
     fn closest(&self, mechanism: &Mechanism, base: &[f64]) -> Result<Vec<f64>, SampleFailure> {
         let (space, rows) = (mechanism.space(), &self.position_kept);
         let n = mechanism.layout().n_v;

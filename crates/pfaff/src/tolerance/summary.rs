@@ -231,7 +231,7 @@ impl Nominal {
         }
     }
 
-    /// Summarises a number of a reaction over all samples.
+    /// Summarises a component or magnitude of a reaction over all samples.
     fn quantity(
         &self,
         k: usize,
@@ -417,7 +417,8 @@ impl Nominal {
         row
     }
 
-    /// Returns names and positions of markers, the described position first.
+    /// Returns the names of the markers and their positions. For each marker, the first position
+    /// follows from the data given in the scene.
     pub(super) fn clouds(&self, samples: &[Sample]) -> Vec<(String, Vec<[f64; 3]>)> {
         let Ok(described) = self.assembled(&self.mechanism, &self.base) else {
             return Vec::new();

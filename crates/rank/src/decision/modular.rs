@@ -2,11 +2,11 @@
 //! coefficients are reconstructed from their residues.
 //!
 //! The matrix is scaled by powers of two to integers A (exact). For a row basis K with pivot
-//! columns J every coefficient of `A_D = T·A_K` is a quotient of minors of order r,
-//! `T_ji = N_ji/det A_KJ`. Minors are computed modulo each prime. Primes whose product exceeds
+//! columns J, the dropped rows are `A_D = T·A_K`. Each coefficient is a quotient of minors of order
+//! r: `T_ji = N_ji/det A_KJ`. Minors are computed modulo each prime. Primes whose product exceeds
 //! twice Hadamard's bound determine the minors completely, and the quotients follow to full
-//! precision. The same primes prove that all minors of order r + 1 vanish. The module `graded`
-//! determines the order of preference of the rows.
+//! precision. If all minors of order r + 1 are zero modulo the same primes, this proves that they
+//! are zero. The module `graded` determines the order of preference of the rows.
 //!
 //! Source: mixed radix digits after H. L. Garner, The residue number system, IRE Trans. Electron.
 //! Comput. EC-8 (1959) 140–147.

@@ -99,7 +99,7 @@ pub(super) fn bridges(incidence: &Incidence) -> Vec<usize> {
 /// A vertex on the current path of the search.
 struct PathVertex {
     vertex: usize,
-    /// The edge by which it was reached.
+    /// The edge along which the search reached this vertex.
     through: Option<usize>,
     /// Number of ends examined so far.
     next: usize,

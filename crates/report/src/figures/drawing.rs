@@ -215,9 +215,9 @@ impl DrawingModel {
 pub struct Stage<'a> {
     /// The mechanism, or the part of it that is drawn.
     pub mechanism: &'a Mechanism,
-    /// Indices of the drawn bodies among all bodies.
+    /// For each drawn body, its index in the list of all bodies.
     pub bodies: &'a [usize],
-    /// Indices of the coordinates of the drawn part among all coordinates.
+    /// For each coordinate of the drawn part, its index in the list of all coordinates.
     pub coordinates: &'a [usize],
     /// The rows of the run.
     pub frames: &'a [Frame],

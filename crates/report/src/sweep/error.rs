@@ -1,4 +1,4 @@
-//! Reasons why the files of a sweep cannot be used.
+//! Errors if the files of a sweep cannot be used.
 
 use std::path::{Path, PathBuf};
 

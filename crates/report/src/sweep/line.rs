@@ -55,11 +55,11 @@ fn text(line: &[u8]) -> Option<&[u8]> {
     (u64::from_str_radix(written, 16).ok()? == digest(text)).then_some(text)
 }
 
-/// The content of a line after the first one.
+/// The content of a line; the first line of a file has a different content.
 pub(super) enum Entry {
     /// These runs start together.
     Begin(Vec<u64>),
-    /// This run starts, and the process makes no other run at the same time.
+    /// This run starts. The process makes no other run until it is finished.
     Alone(u64),
     /// The process ended the attempt intentionally; the started runs did not cause the end.
     End,

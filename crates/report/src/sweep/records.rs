@@ -163,8 +163,8 @@ impl RecordCollection {
         .into())
     }
 
-    /// Records that a process ended during these runs. The flag of a run is true if the process
-    /// made only this run.
+    /// Records that a process ended during these runs. For each run, the map contains whether the
+    /// process made no other run at that time.
     pub(super) fn blame(&mut self, begun: BTreeMap<u64, bool>) {
         for (run, was_alone) in begun {
             *self.records.suspects.entry(run).or_default() += u64::from(was_alone);

@@ -7,9 +7,10 @@ use super::path::{Path, Sample};
 use crate::stretches::{Stretches, worst};
 use crate::verdict::{Judgement, Verdict};
 
-/// Lists the verdicts at an instant that differ from those of its time intervals: first of each
-/// whole reaction, then of its components. `judged` contains the verdicts on all components, in the
-/// order of joints and drives.
+/// Lists the verdicts at an instant that differ from the verdicts on the adjacent time intervals.
+/// For each reaction, the verdict on all components together comes first, and then the verdicts on
+/// single components. `judged` contains the verdicts on all components, in the order of joints and
+/// drives.
 pub(super) fn differences(
     mechanism: &Mechanism,
     verdicts: &Stretches,

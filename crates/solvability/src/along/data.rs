@@ -103,7 +103,7 @@ pub enum PassageKind {
 pub struct Difference {
     /// Name of the joint or drive.
     pub reaction: String,
-    /// The component of the reaction; `None` for the whole reaction.
+    /// The component of the reaction; `None` if the verdict is on all components together.
     pub component: Option<&'static str>,
     /// Verdict on the interval that contains the instant.
     pub generic: Verdict,

@@ -1,8 +1,9 @@
-//! Choices at the states of a motion, solved with the row factors that the simulation has computed
-//! there.
+//! Computes the reactions for given choices at the states of a motion. The equations are solved
+//! with the factored rows that the simulation has already computed at each state.
 //!
-//! The rank is that of the motion, as for verdicts along a motion. The left null space follows from
-//! the factored kept rows, and the scales of the rows are those of the start.
+//! The rank is the rank that the simulation uses, as for verdicts along a motion. The left null
+//! space is computed from the factored kept rows. The rows are scaled with the factors of the
+//! initial state.
 
 use std::borrow::Cow;
 
@@ -23,7 +24,7 @@ use crate::pose::evaluated;
 /// A choice with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedChoice {
-    /// Name of the choice, printed with its numbers.
+    /// Name of the choice, printed with the reactions that it gives.
     pub label: Label,
     /// The rule.
     pub choice: Choice,
@@ -43,14 +44,14 @@ struct FreePart<'m> {
     mechanism: Cow<'m, Mechanism>,
     /// Length that makes C dimensionless (m).
     size: f64,
-    /// Factors of rows and columns in the equilibrated rows of the start.
+    /// Factors of rows and columns with which C was equilibrated at the initial state.
     row_factor: Vec<f64>,
     column_factor: Vec<f64>,
     /// The smallest singular value at the start, and the smallest permitted one for kept rows.
     sigma: f64,
     required: f64,
     tolerance: f64,
-    /// The share of this part in each choice.
+    /// For each choice, the rules that concern the rows of this part.
     choices: Vec<Choice>,
 }
 
@@ -60,19 +61,20 @@ pub struct CarriedSolution<'s> {
     pub t: f64,
     /// Coordinates, which satisfy the constraints.
     pub q: &'s [f64],
-    /// Scratch in which C has been evaluated at this state.
+    /// Work space that contains C, evaluated at this state.
     pub scratch: &'s Scratch,
     /// Rows whose multipliers are zero in the solution, from 0.
     pub dropped: &'s [usize],
-    /// The dependency of each of these rows on the others, `Cᵀ·z = 0`, over all rows in SI units.
+    /// For each row in `dropped`, the vector z with `Cᵀ·z = 0` that states how this row depends on
+    /// the other rows. z has one element for each row of C; the rows are in SI units.
     pub dependencies: &'s [Vec<f64>],
     /// The multipliers of all rows.
     pub multipliers: &'s [f64],
 }
 
 impl<'m> CarriedChoices<'m> {
-    /// Prepares the choices for a motion that starts at time t with coordinates q and drops these
-    /// rows.
+    /// Prepares the choices for a motion that starts at time t with coordinates q. The multipliers
+    /// of the rows `dropped` are zero in the motion.
     ///
     /// # Errors
     /// [`AnalysisError`]: C cannot be analysed at the start.

@@ -186,7 +186,8 @@ impl JointsFirst {
         Some(v)
     }
 
-    /// Returns the residuals of redundant drives that exceed a fraction of the terms of their rows.
+    /// Returns the contradictions of redundant drives. A drive contradicts the other rows if the
+    /// residual of its row is larger than `share` times the terms of this row.
     pub(super) fn contradictions(
         &self,
         mechanism: &Mechanism,

@@ -1,5 +1,6 @@
-//! Chooses readable vectors from a space of velocities. Conditions are imposed one after the other,
-//! and a condition is kept if it leaves a new vector. This module decides no rank.
+//! Chooses basis vectors with simple coefficients for a space of velocities. Conditions are imposed
+//! one after the other. A condition is used only if a velocity that satisfies it is independent of
+//! the chosen ones. The rank is decided in other modules.
 
 use crate::limits::{NEW_MOTION, SATISFIED};
 use linalg::{Matrix, PivotedQr};
@@ -18,7 +19,8 @@ pub(super) struct Space<'a> {
 /// A subspace: orthonormal columns of coefficients, f × k.
 pub(super) type Subspace = Matrix;
 
-/// Linear forms that must vanish, in coefficients of a space: one row of f numbers for each form.
+/// Linear forms that must be zero. Each row contains the f coefficients of one form with respect to
+/// a basis of the space.
 pub(super) type Condition = Matrix;
 
 impl<'a> Space<'a> {
@@ -28,7 +30,7 @@ impl<'a> Space<'a> {
         Self { all, chosen }
     }
 
-    /// Returns the number of freedoms that have not been chosen.
+    /// Returns the dimension of the space minus the number of velocities already chosen.
     pub(super) fn left(&self) -> usize {
         self.all.ncols() - self.chosen.len()
     }

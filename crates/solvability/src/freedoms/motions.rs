@@ -9,15 +9,15 @@ use super::ranks::WithoutDrives;
 pub struct FreeMotions {
     /// The motions as text and numbers, at most [`MOTIONS_REPORTED`](crate::MOTIONS_REPORTED).
     pub motions: Vec<FreeMotion>,
-    /// Freedoms that are not described. `None` if all freedoms are described.
+    /// Free motions that are not described. `None` if all free motions are described.
     pub left_out: Option<LeftOut>,
 }
 
-/// Freedoms that are counted, but not described.
+/// Free motions that are counted but not described.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LeftOut {
-    /// Number of these freedoms.
+    /// Number of these free motions.
     pub freedoms: usize,
     /// Reason why they are not described.
     pub reason: String,

@@ -101,7 +101,7 @@ impl<'a> Configuration<'a> {
         })
     }
 
-    /// Returns the numbers of reactions as linear forms.
+    /// Returns the reaction components as linear forms of the multipliers.
     #[must_use]
     pub fn reactions(&self) -> &ReactionForms<'a> {
         &self.reactions

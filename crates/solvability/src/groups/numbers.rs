@@ -35,8 +35,9 @@ impl<'m> GroupNumbers<'m> {
         &self.groups
     }
 
-    /// Returns all numbers at time t and coordinates q, group by group in the order of
-    /// [`Group::number_names`] (N, N·m), for multipliers of all rows.
+    /// Returns the values of all group components (N, N·m) at time t and coordinates q, computed
+    /// from the multipliers of all rows. The values of one group follow each other, in the order of
+    /// [`Group::number_names`].
     ///
     /// # Errors
     /// Same errors as [`crate::judge_groups`].

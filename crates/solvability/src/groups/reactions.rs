@@ -1,6 +1,6 @@
-//! The numbers of reactions at one configuration, as linear forms of the multipliers: components,
-//! sums of components, sums of wrenches, and resultants. This module does not determine which of
-//! them are unique.
+//! Reaction components at one configuration, sums of components, sums of wrenches, and resultants.
+//! Each is a linear form of the multipliers. Other modules determine which of these forms are
+//! unique.
 
 use std::borrow::Cow;
 
@@ -168,7 +168,8 @@ impl<'a> ReactionForms<'a> {
         Ok(forms)
     }
 
-    /// Adds `coefficient` times all components of a reaction about a point to their forms.
+    /// For each component of the reaction `id`, adds `coefficient` times this component to the form
+    /// with the same index. Torques are about the point `about`.
     pub(super) fn add_reaction(
         &self,
         forms: &mut [LinearForm],

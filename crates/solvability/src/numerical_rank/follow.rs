@@ -32,9 +32,10 @@ impl FollowedRows {
         Self { rows, columns, qr }
     }
 
-    /// Splits a gradient with respect to coordinates into two gradients (physical units). One is
-    /// with respect to the values of the rows: one number for each of `rows` rows of the mechanism.
-    /// The other is along the motions that the rows leave free.
+    /// Splits the derivatives of a function with respect to the coordinates into two parts
+    /// (physical units). The first part contains the derivatives with respect to the values of the
+    /// rows, one for each of the `rows` rows of the mechanism. The second part is the derivative
+    /// along the motions that the rows leave free.
     pub(super) fn split(&self, gradient: &[f64], rows: usize) -> (Vec<f64>, Vec<f64>) {
         let mut answer: Vec<f64> = gradient
             .iter()

@@ -161,22 +161,25 @@ impl Question<'_> {
         most_independent_of(&scaled, &lowest.kept)
     }
 
-    /// Examines the rank `lower` on the rows that are most independent at this configuration.
-    /// Returns `None` if its distance is above `limit` (m).
+    /// Examines the rank `lower`, with the rows kept that are most independent at this
+    /// configuration. Returns `None` if the data must change by more than `limit` (m) to give this
+    /// rank.
     fn lower(&self, lower: usize, limit: f64) -> Option<Lower<'_>> {
         let (scaled, scaling) = self.uniform(self.s);
         let candidate = Candidate::of_rank(&scaled, lower);
         self.examined(scaled, scaling, candidate, limit)
     }
 
-    /// Examines the rank with only these rows kept.
+    /// Examines the rank of C if only the rows `kept` are independent.
     fn lower_of(&self, kept: Vec<usize>, limit: f64) -> Option<Lower<'_>> {
         let (scaled, scaling) = self.uniform(self.s);
         let candidate = Candidate::of_rows(&scaled, kept);
         self.examined(scaled, scaling, candidate, limit)
     }
 
-    /// Examines the rank of a candidate for C with one unit for all lengths.
+    /// Examines whether C could have the lower rank of `candidate` after a change of data. `scaled`
+    /// is C with the same unit for all lengths. Returns `None` if the necessary change is above
+    /// `limit` (m).
     fn examined(
         &self,
         scaled: Matrix,

@@ -1,7 +1,7 @@
 //! Proves that no other velocity exists. The proof is a combination of the forms that does not
 //! contain the motion and is positive definite in the new motions, `Σ w_s·M_s = [0 0; 0 G]` with
-//! `yᵀ·G·y > 0`. It implies y = 0. For one new motion the proof exists whenever the statement is
-//! true.
+//! `yᵀ·G·y > 0`. Every solution then has y = 0. If y has one component, such a combination exists
+//! whenever no other velocity exists.
 
 use crate::limits::{BLOCKED_CORRECTIONS, FORM_NOISE, MARGIN};
 use linalg::Matrix;

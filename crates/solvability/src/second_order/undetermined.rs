@@ -1,9 +1,10 @@
-//! Reasons why second order does not decide.
+//! Describes why the second-order terms of the constraints do not decide whether the mechanism can
+//! move.
 
 use model::words::{rough, short};
 use rank::{Doubt, RankError};
 
-/// Reason why second order does not decide.
+/// Reason why the second-order terms of the constraints do not decide whether a motion is possible.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

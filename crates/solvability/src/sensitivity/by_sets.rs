@@ -1,7 +1,8 @@
-//! Computes changes of numbers that may depend on several sets of connected bodies, set by set.
+//! Computes how much reaction components, and sums of them, change when data change. A sum may
+//! contain components of several sets of connected bodies; each set is treated separately.
 //!
-//! Different sets have different data, so the largest change of a sum is the largest change of its
-//! shares.
+//! A datum belongs to only one set, so the largest change of a sum by one datum is the largest
+//! change of the contribution of one set.
 
 use model::{ConstraintId, Mechanism, System};
 
@@ -13,11 +14,12 @@ use crate::limits::ROWS_MAX;
 use crate::parts::{Extent, Partition};
 use crate::row_decision::RowDecision;
 
-/// The share of one set in a number.
+/// The contribution of one set of connected bodies to a reaction component, or to a sum of
+/// components.
 struct Share {
-    /// Index of the number in the list.
+    /// Index of the component or sum in the list.
     number: usize,
-    /// Number of its terms that belong to the set.
+    /// Number of terms of the sum that belong to the set.
     terms: usize,
     change: Change,
 }
@@ -81,7 +83,8 @@ pub(super) fn changes(
     }
 }
 
-/// Returns the numbers that contain the reaction of each joint or drive.
+/// Returns, for each joint or drive, the indices of the reaction components and sums in which its
+/// reaction occurs.
 fn by_joint(mechanism: &Mechanism, numbers: &[ReactionNumber]) -> Vec<Vec<usize>> {
     let mut of_joint = vec![Vec::new(); mechanism.layout().groups.len()];
     for (k, number) in numbers.iter().enumerate() {
@@ -94,7 +97,8 @@ fn by_joint(mechanism: &Mechanism, numbers: &[ReactionNumber]) -> Vec<Vec<usize>
     of_joint
 }
 
-/// Returns the numbers that contain reactions of a part, ascending.
+/// Returns the ascending indices of the reaction components and sums in which a reaction of this
+/// part occurs.
 fn within(extent: &Extent, part: &Mechanism, of_joint: &[Vec<usize>]) -> Vec<usize> {
     let groups = 0..part.layout().groups.len();
     let mut own: Vec<usize> = groups
@@ -121,7 +125,7 @@ fn of_set(
         return Err(SetError::Loads);
     }
     let kept = own_kept(kept, extent, part);
-    // The numbers in the numbering of the set.
+    // The same components, with the joints numbered as in the set.
     let own: Vec<ReactionNumber> = wanted.iter().map(|&k| numbers[k].within(extent)).collect();
     let mut shares = if part.layout().rows() <= ROWS_MAX {
         let places: Vec<usize> = (0..own.len()).collect();
@@ -150,8 +154,9 @@ fn place(change: &mut Change, extent: &Extent) {
     }
 }
 
-/// Returns the shares of connected bodies in these numbers, with respect to all data of these
-/// bodies. `places` are the indices of the numbers in a list of the caller.
+/// Returns the contribution of one set of connected bodies to each reaction component in `own`, and
+/// the change of this contribution when data of these bodies change. `places` contains the index of
+/// each component in the list of the caller.
 fn of_joined(
     joined: &JoinedBodies<'_>,
     t: f64,
@@ -170,8 +175,8 @@ fn of_joined(
     Ok(shares.map(share).collect())
 }
 
-/// Works like [`of_joined`], part by part, each with respect to its own data; parts that are too
-/// large are omitted.
+/// Works like [`of_joined`], but separately for each part, with changes of the data of this part
+/// only. Parts that are too large are omitted.
 fn by_parts(
     joined: &JoinedBodies<'_>,
     t: f64,

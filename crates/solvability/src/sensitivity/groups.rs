@@ -9,28 +9,28 @@ use crate::choices::ChoiceError;
 use crate::groups::{Group, GroupVerdict};
 use crate::value::Sensitivity;
 
-/// Sensitivities of the unique numbers of a group.
+/// Sensitivities of the unique components of a group.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct GroupSensitivities {
-    /// Sensitivities of its numbers by their names, as in [`Group::number_names`]. The terms of a
+    /// Sensitivities of the components, with the names of [`Group::number_names`]. The terms of a
     /// sum change together, so their changes may cancel in the sum.
     pub numbers: Vec<(&'static str, Sensitivity)>,
-    /// The largest sensitivity of the group. For several separate reactions, it is the largest
-    /// sensitivity of these reactions, if all are unique. `None` if no number is unique, or if the
-    /// sensitivity is not known.
+    /// The largest sensitivity of a component. If the group consists of several separate reactions
+    /// that are all unique, the value is the largest sensitivity of these reactions. `None` if no
+    /// component is unique, or if the sensitivity is not known.
     pub whole: Option<Sensitivity>,
 }
 
 impl GroupSensitivities {
-    /// Returns the sensitivity of a unique number, by its name.
+    /// Returns the sensitivity of the unique component with this name.
     #[must_use]
     pub fn number(&self, name: &str) -> Option<&Sensitivity> {
         let mut numbers = self.numbers.iter();
         numbers.find(|(known, _)| *known == name).map(|(_, s)| s)
     }
 
-    /// Returns whether one of its numbers is sensitive to data (fragile).
+    /// Returns whether a component of the group is sensitive to data (fragile).
     #[must_use]
     pub fn is_fragile(&self) -> bool {
         self.whole.as_ref().is_some_and(Sensitivity::is_fragile)

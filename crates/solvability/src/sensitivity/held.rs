@@ -1,5 +1,6 @@
-//! Computes how numbers of reactions change with the configuration and the data at constant
-//! multipliers: the directions of rows and the reference points of joints move.
+//! Computes how reaction components change with the configuration and the data if the multipliers
+//! are constant. The components change because the directions of the rows and the reference points
+//! of the joints move.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,7 @@ use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
 use super::number::ReactionNumber;
 use crate::limits::SLOPE_STEP;
 
-/// Derivatives of one number at fixed multipliers.
+/// Derivatives of one reaction component at constant multipliers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct HeldSlopes {
     /// Derivatives with respect to velocity directions of the configuration.

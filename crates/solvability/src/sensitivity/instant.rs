@@ -1,5 +1,5 @@
-//! The solved equations of motion of connected bodies at one instant, and the gradients of numbers
-//! of reactions with respect to all data.
+//! The solved equations of motion of connected bodies at one instant, and the derivatives of
+//! reaction components with respect to all data.
 
 use crate::limits::{
     ALIKE, FIRST_ORDER, FOLLOW_CORRECTIONS, FOLLOW_STEPS, FOLLOWED_DATA, FOLLOWED_WORK, FRAGILE,
@@ -309,7 +309,8 @@ impl<'a> SolvedEquations<'a> {
         joints.into_iter().map(of_joint).sum()
     }
 
-    /// Returns the gradient of a number with respect to all numbers of the constraints.
+    /// Computes the derivatives of a reaction component with respect to all data of the
+    /// constraints.
     fn gradient(
         &mut self,
         number: &ReactionNumber,

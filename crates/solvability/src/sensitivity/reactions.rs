@@ -119,8 +119,8 @@ impl Sensitivities {
         sentences(self.fragile_names(id, layout), layout)
     }
 
-    /// Returns the sensitive parts of a reaction, with names for sentences: the whole reaction, or
-    /// otherwise components.
+    /// Returns what is sensitive to the data, with names for sentences: the reaction with all its
+    /// components, or only some components.
     fn fragile_names(&self, id: ConstraintId, layout: &Layout) -> Vec<(String, Sensitivity)> {
         let Some(all) = self.each.get(id.0) else {
             return Vec::new();
@@ -280,8 +280,9 @@ fn aligned(reaction: &ReactionVerdict, direction: &[f64]) -> Option<&'static str
     is_alone.then_some(component.name)
 }
 
-/// Returns the unique numbers of a reaction: its components, the named component of its definition,
-/// and directions that are not parallel to a component.
+/// Returns the unique scalar components of a reaction. They are components along the axes, the
+/// named component of the definition of the joint, and components along unique directions that are
+/// not parallel to an axis.
 fn numbers_of(
     mechanism: &Mechanism,
     reaction: &ReactionVerdict,

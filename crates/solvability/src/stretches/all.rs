@@ -70,8 +70,8 @@ impl Stretches {
         own.flat_map(|reaction| reaction.components.iter().map(|(_, track)| track))
     }
 
-    /// Returns mutable verdicts on all components. [`Self::sum_up`] recomputes the verdicts on
-    /// whole reactions from them.
+    /// Returns mutable verdicts on all components. [`Self::sum_up`] recomputes from them the
+    /// verdicts on joints and drives.
     pub(crate) fn components_mut(&mut self) -> impl Iterator<Item = &mut VerdictTrack> {
         let own = self.reactions.iter_mut();
         own.flat_map(|reaction| reaction.components.iter_mut().map(|(_, track)| track))
@@ -126,7 +126,7 @@ impl Stretches {
         }
     }
 
-    /// Computes the verdicts on whole reactions and groups from the verdicts on their numbers.
+    /// Computes the verdict on each joint, drive or group from the verdicts on its components.
     pub fn sum_up(&mut self, groups: &[Group]) {
         for reaction in &mut self.reactions {
             let own: Vec<&VerdictTrack> = reaction.components.iter().map(|(_, t)| t).collect();

@@ -1,4 +1,4 @@
-//! Reasons why reactions have no finite value.
+//! Errors if a reaction has no finite value.
 
 use model::ConstraintId;
 use model::words::listed;

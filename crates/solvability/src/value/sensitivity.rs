@@ -1,21 +1,21 @@
-//! Sensitivity of a number of a reaction to the data, and its text.
+//! Sensitivity of a reaction component to the data, and the text that describes this sensitivity.
 
 use crate::limits::{BEYOND, FRAGILE, MANY};
 use model::words::{estimate, rough};
 use model::{ConstraintId, DataUnit, Layout};
 
-/// Change of a number of a reaction with one point.
+/// Change of a reaction component if one datum changes.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Sensitivity {
-    /// Largest change, relative to the larger of the number and the largest applied or inertial
-    /// load. For moments, the load is multiplied by the size.
+    /// Largest change, divided by the value of the component or by the largest applied or inertial
+    /// load, whichever is larger. For moments, the load is multiplied by the size of the mechanism.
     pub change: f64,
-    /// The datum with the largest effect. `None` if no datum changes the number.
+    /// The datum with the largest effect; `None` if no datum changes the component.
     pub by: Option<Datum>,
 }
 
-/// A point, direction or number of a joint or drive, and its displacement.
+/// A point, direction or scalar parameter of a joint or drive, and the displacement of this datum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Datum {
@@ -27,7 +27,7 @@ pub struct Datum {
     pub moved: f64,
     /// Unit of the displacement.
     pub unit: DataUnit,
-    /// Whether the datum is a single number and not a point or a direction.
+    /// Whether the datum is a scalar parameter and not a point or a direction.
     pub is_number: bool,
 }
 

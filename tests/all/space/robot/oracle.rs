@@ -33,7 +33,7 @@ const LEFT: [f64; 3] = [0.0, 1.0, 0.0];
 /// Radius of the wheels.
 const RADIUS: f64 = 0.08;
 
-/// Kind of a joint, with directions in the axes of the start of the scene.
+/// Kind of a joint. Directions are in ground axes at the initial state of the scene.
 #[derive(Clone, Copy)]
 enum Kind {
     Ball,
@@ -274,7 +274,7 @@ fn table(q: &[f64], pins: Pins) -> Table {
         Pins::Hinges if PINS.contains(name) => Kind::Hinge(UP),
         _ => *kind,
     };
-    // Moves a point and a direction of the start of the scene with a body.
+    // Moves a point and a direction, given at the initial state of the scene, with a body.
     let carried = |body: usize, at: [f64; 3]| {
         poses[body].place + poses[body].turn * (Vector::from(at) - Vector::from(BODIES[body].1))
     };

@@ -443,7 +443,7 @@ impl Pen<'_> {
 }
 
 impl Doubles {
-    /// Converts the drawing in its present written form.
+    /// Converts the present variant of the drawing.
     #[must_use]
     pub fn of(posed: &Posed) -> Self {
         let k = posed.stretch;

@@ -25,8 +25,8 @@ pub enum Family {
     Trusses,
     /// Bodies supported by bars that meet in a point or are parallel.
     Bars,
-    /// Knife edges, prescribed velocities and rolling wheels whose lines meet in a point or are
-    /// parallel.
+    /// Knife edges, prescribed velocities and rolling wheels. The lines of action of their
+    /// reactions meet in a point or are parallel.
     Edges,
     /// Castors and pulleys pinned at their centres.
     Wheels,

@@ -11,8 +11,7 @@ use super::findings::{Findings, Kind};
 pub struct Outcome {
     /// Family of the scene.
     pub family: &'static str,
-    /// Index of the written form, of the number of digits, or of the tolerance in the list of the
-    /// suite.
+    /// Index of the variant, of the number of digits, or of the tolerance in the list of the suite.
     pub way: usize,
     /// Text of the scene.
     pub text: String,

@@ -1,14 +1,14 @@
-//! Written forms of a drawing. The drawing is moved as a whole, bodies have other frames, or bodies
-//! and joints are in another order. First and second body may be exchanged, and positions may be
-//! given in the world or in the frames of bodies. The correct answer is the same for all written
-//! forms.
+//! Variants of a drawing, which describe the same mechanism in different ways. The drawing is moved
+//! as a whole, bodies have other frames, or bodies and joints are in another order. First and
+//! second body may be exchanged, and positions may be given in the world or in the frames of
+//! bodies. The correct answer is the same for all variants.
 
 use suite::numbers::Numbers;
 
 use super::drawing::{Drawing, Link, Side, Tie, Vector};
 use super::ratio::{Ratio, Surd};
 
-/// A written form of a drawing.
+/// A variant of a drawing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Writing {
     /// The original drawing.
@@ -23,10 +23,10 @@ pub enum Writing {
 }
 
 impl Writing {
-    /// All written forms.
+    /// All variants.
     pub const ALL: [Self; 4] = [Self::AsDrawn, Self::Reordered, Self::Moved, Self::Far];
 
-    /// Returns the name of the written form.
+    /// Returns the name of the variant.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -63,7 +63,7 @@ pub struct Frame {
     pub turn: Turn,
 }
 
-/// A joint or drive with its written form.
+/// A joint or drive, and how the scene states its points and direction.
 #[derive(Clone, Debug)]
 pub struct Placed {
     /// The joint.
@@ -99,7 +99,7 @@ pub struct Posed {
 }
 
 impl Posed {
-    /// Creates a written form of a drawing with random numbers.
+    /// Creates a random variant of a drawing.
     #[must_use]
     pub fn new(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Self {
         let n = drawing.origins.len();
@@ -224,7 +224,9 @@ fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Nu
     }
 }
 
-/// Returns the joints and drives in a random order, each with its written form.
+/// Returns the joints and drives in a random order. For each one, selects at random whether its
+/// bodies are exchanged, in which frames its points are given, and how long its direction vector
+/// is.
 fn placed(
     drawing: &Drawing,
     order: &[usize],

@@ -18,7 +18,7 @@ use crate::fuzz::space;
 /// Number of scenes that are listed for each kind of finding.
 const LISTED: usize = 8;
 
-/// Number of scenes of each family, written form and kind that are stored as files.
+/// Number of scenes of each family, variant and kind that are stored as files.
 const KEPT: usize = 2;
 
 /// Fewer than one scene in this number may be undecided if all digits are written.
@@ -49,8 +49,8 @@ pub enum Suite {
 }
 
 impl Suite {
-    /// Returns the number n of written forms of a drawing. Scenes `n·k` to `n·k + n − 1` contain
-    /// the same drawing.
+    /// Returns the number n of variants of a drawing. Scenes `n·k` to `n·k + n − 1` contain the
+    /// same drawing.
     #[must_use]
     pub fn ways(self) -> usize {
         match self {
@@ -60,7 +60,7 @@ impl Suite {
         }
     }
 
-    /// Returns the name of a written form.
+    /// Returns the name of a variant.
     #[must_use]
     pub fn way(self, way: usize) -> String {
         match self {
@@ -72,7 +72,7 @@ impl Suite {
         }
     }
 
-    /// Whether scenes in this written form state a tolerance.
+    /// Whether scenes in this variant state a tolerance.
     fn has_tolerance(self, way: usize) -> bool {
         match self {
             Self::Plane | Self::Space | Self::Lifted => false,
@@ -206,9 +206,9 @@ impl Count {
 pub struct Tally {
     /// The scenes.
     pub suite: Suite,
-    /// Counts by family and written form.
+    /// Counts by family and variant.
     pub counts: BTreeMap<(&'static str, usize), Count>,
-    /// Drawings with different ranks in two written forms.
+    /// Drawings with different ranks in two variants.
     pub contradicting: Vec<u64>,
 }
 
@@ -270,7 +270,7 @@ impl Tally {
         self
     }
 
-    /// Returns the sum of the counts of some families and written forms.
+    /// Returns the sum of the counts of some families and variants.
     #[must_use]
     pub fn sum(&self, wanted: impl Fn(&str, usize) -> bool) -> Count {
         let mut sum = Count::default();

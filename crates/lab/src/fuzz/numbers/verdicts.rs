@@ -57,7 +57,7 @@ impl OnRun {
     }
 }
 
-/// A source of the verdicts and sensitivities that are tested.
+/// Computes the verdicts and sensitivities that the tests check.
 pub trait Judge: Sync {
     /// Returns the verdicts on components along a run.
     ///

@@ -63,7 +63,7 @@ pub fn all() -> Vec<(&'static str, Drawing)> {
     ]
 }
 
-/// A kind of joint in a planar figure with its normal along the third axis.
+/// A kind of joint of a planar mechanism in space. The normal of its plane is the third axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flat {
     /// Revolute joint about the normal.

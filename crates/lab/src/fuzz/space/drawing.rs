@@ -138,7 +138,8 @@ pub enum Measure {
 }
 
 impl Drawing {
-    /// Returns the frame of a side: position and orientation.
+    /// Returns position and orientation of the frame of the body on one side of a joint; `None` is
+    /// the ground.
     #[must_use]
     pub fn frame(&self, side: Side) -> Motion {
         match side {

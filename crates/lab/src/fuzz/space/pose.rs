@@ -1,7 +1,7 @@
-//! Written forms of a drawing. The drawing is moved as a whole, bodies have other frames and mass
-//! centres, bodies and joints are in another order, and first and second body are exchanged. The
-//! uniqueness of a wrench does not depend on the written form; only the components of the wrench
-//! change.
+//! Variants of a drawing, which describe the same mechanism in different ways. The drawing is moved
+//! as a whole, bodies have other frames and mass centres, bodies and joints are in another order,
+//! and first and second body are exchanged. The uniqueness of a wrench is the same for all
+//! variants; only the components of the wrench change.
 
 use suite::numbers::Numbers;
 
@@ -12,7 +12,7 @@ use super::ratio::Ratio;
 use super::rows;
 use super::vector::{Motion, Rotation, Vector};
 
-/// Creates a written form of a drawing with random numbers.
+/// Creates a random variant of a drawing.
 #[must_use]
 pub fn posed(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Drawing {
     let mut posed = drawing.clone();

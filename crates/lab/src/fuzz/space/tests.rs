@@ -9,14 +9,14 @@ use crate::fuzz::exact::expected::Verdict;
 use crate::fuzz::exact::truth::{Reaction, Truth};
 use crate::fuzz::exact::wrench::Owner;
 
-/// Number of scenes: five of each of the 12 families, in each of the 4 written forms.
+/// Number of scenes: five of each of the 12 families, in each of the 4 variants.
 const SCENES: u64 = 12 * 4 * 5;
 
 /// For each joint or drive, by name: whether wrench and force are unique, the number of directions
 /// of its wrenches, and the number of directions that are not unique.
 type Verdicts = BTreeMap<String, (bool, bool, usize, usize)>;
 
-/// Returns the results that do not depend on the written form: ranks and verdicts.
+/// Returns the results that do not depend on the variant: ranks and verdicts.
 fn invariants(right: &Expected) -> ([usize; 6], Verdicts) {
     let ranks = [
         right.rows,

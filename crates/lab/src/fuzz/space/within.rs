@@ -27,7 +27,7 @@ const CHANGES: f64 = 4.0;
 /// Returns the results for one drawing, translated by up to its size, with each number of digits.
 #[must_use]
 pub fn outcomes(seed: u64, drawn: u64) -> Vec<Outcome> {
-    // The third written form.
+    // The third variant.
     let scene = super::scene(seed, 4 * drawn + 2);
     let meant = Meant::of(&scene.drawing);
     let one = |(way, &digits): (usize, &usize)| {

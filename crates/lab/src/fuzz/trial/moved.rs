@@ -28,8 +28,9 @@ const FAR_ROUNDINGS: f64 = 8.0 * f64::EPSILON;
 /// Largest rates of a body at rest, as a fraction of the size of the mechanism per second.
 const REST: f64 = 1e-14;
 
-/// Runs the motion within the limits of a trial; returns the stage that the motion reached and the
-/// number of rows. Tables are written in the format of `simulate`, and must be readable.
+/// Simulates the motion within the limits of a trial. Returns how far the simulation came, and the
+/// number of output rows. The tables are written in the format of `simulate`, and the function
+/// checks that they can be read.
 pub(super) fn check(study: &Study) -> (Reach, usize) {
     let plan = match study.plan() {
         Ok(plan) => plan,

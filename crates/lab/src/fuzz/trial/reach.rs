@@ -18,11 +18,11 @@ pub enum Reach {
     NoStart,
     /// The reactions were analysed, but no motion can begin at the initial state.
     JudgedStart,
-    /// A motion began, and stopped with an error message.
+    /// A simulation began, and stopped with an error message.
     Stopped,
-    /// A motion reached the limits of a trial.
+    /// A simulation was ended early, because it reached the limits of a trial.
     Cut,
-    /// A motion reached its end.
+    /// A simulation reached its end time.
     Moved,
 }
 

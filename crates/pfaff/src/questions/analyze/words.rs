@@ -100,7 +100,8 @@ fn size(d: &AnalysisDocument) -> Block {
     ))
 }
 
-/// Lists components with other verdicts at other configurations.
+/// Lists the reaction components whose verdict at this configuration differs from their verdict at
+/// most other configurations.
 fn elsewhere(d: &AnalysisDocument) -> impl Iterator<Item = Block> {
     let differing = d.reactions.iter().flat_map(|r| r.differing());
     let verdicts = grouped(differing.map(|(name, generic)| (generic, name)));

@@ -1,5 +1,5 @@
-//! The page `tolerance.html` with the ranges of verdicts, reactions and positions for data that
-//! vary within their tolerances. The page is one file that opens offline and contains no scripts.
+//! The page `tolerance.html`. It shows how verdicts, reactions and positions vary if the data vary
+//! within their tolerances. The page is a single file without scripts that can be opened offline.
 
 use crate::documents::{
     MarkerRangeDocument, RangeDocument, ReactionRangeDocument, ToleranceDocument,
@@ -80,7 +80,7 @@ fn reactions(page: &mut String, d: &ToleranceDocument) {
     list(page, &d.without_range());
 }
 
-/// Writes the numbers of a reaction, one row for each number.
+/// Writes the components of a reaction, one row of the table for each component.
 fn reaction_rows(page: &mut String, reaction: &ReactionRangeDocument) {
     let verdict = match (reaction.verdict, reaction.fragile) {
         ("unique", true) => "unique, fragile".to_owned(),

@@ -7,8 +7,9 @@ use crate::fuzz::numbers::displaced::Displaced;
 use crate::fuzz::numbers::findings::{Count, Findings, Kind};
 use crate::fuzz::numbers::verdicts::Judge;
 
-/// Limits of the change caused by one datum: the largest change of a component that is not
-/// ill-determined, and the smallest change of an ill-determined component.
+/// Limits for the change of a reaction component when one datum changes. A component that is
+/// reported as well determined must not change by more than `STURDY`. A component that is reported
+/// as fragile is expected to change by more than `FRAGILE`.
 const STURDY: f64 = 0.12;
 const FRAGILE: f64 = 0.08;
 

@@ -23,8 +23,8 @@ pub(super) struct Scene {
     pub(super) varied: &'static str,
     pub(super) value: f64,
     pub(super) description: Description,
-    /// The words of the error message, if data with 53 bits are not accurate enough to define the
-    /// mechanism.
+    /// The expected words of the error message, if the rounding of the data to 53 bits already
+    /// makes the mechanism undetermined; otherwise `None`.
     pub(super) limit: Option<&'static str>,
 }
 
