@@ -53,16 +53,13 @@ pub struct ElasticBounds {
     pub lowest: f64,
     /// The largest value (N, N·m).
     pub highest: f64,
-    /// The loads that are zero at the smallest value, because their joints give way.
+    /// The loads whose joints give way at the smallest value.
     pub at_lowest: Vec<ElasticLoad>,
-    /// The loads that are zero at the largest value, because their joints give way.
+    /// The loads whose joints give way at the largest value.
     pub at_highest: Vec<ElasticLoad>,
     /// Whether the smallest and the largest value are reached in the limit of some compliances.
     /// Otherwise the true range may end earlier.
     pub reached: [bool; 2],
-    /// Whether all sets of components were examined. Otherwise the values are reached, but larger
-    /// ones may exist.
-    pub is_complete: bool,
 }
 
 /// Reason why there are no bounds.
@@ -72,6 +69,9 @@ pub enum BoundsError {
     /// The rank is undecided.
     #[error("the rank is undecided")]
     Rank,
+    /// Whether the number is unique is undecided.
+    #[error("its verdict is undecided")]
+    Verdict,
     /// Whether a component can be zero is undecided.
     #[error("for `{reaction}` it is undecided which components may be zero at the same time")]
     Undecided {
@@ -90,6 +90,9 @@ pub enum BoundsError {
         /// Number of load components that stay undetermined.
         free: usize,
     },
+    /// Too many sets of components can be zero together.
+    #[error("more than 100 000 sets of load components would have to be examined")]
+    Many,
     /// No finite reactions exist.
     #[error("no finite reaction exists")]
     NoFinite(Arc<NoFiniteReaction>),
@@ -150,6 +153,7 @@ impl<'m> Configuration<'m> {
                 reaction: self.layout().groups[loads[group].reaction.0].name.clone(),
             },
             HullError::Free { free } => BoundsError::Rigid { free },
+            HullError::Many => BoundsError::Many,
         })?;
         Ok(ElasticSolutions {
             configuration: self,
@@ -210,7 +214,7 @@ impl ElasticSolutions<'_, '_> {
     /// Returns the bounds of a number; they are equal if the number is unique.
     ///
     /// # Errors
-    /// [`BoundsError::Request`], and [`BoundsError::Rank`] if the verdict is undecided.
+    /// [`BoundsError::Request`], [`BoundsError::Verdict`]
     pub fn bounds(&self, form: &LinearForm) -> Result<ElasticBounds, BoundsError> {
         let verdict = self.configuration.judge(form)?.verdict;
         let value = self.configuration.value(form, &self.lambda_0);
@@ -225,15 +229,13 @@ impl ElasticSolutions<'_, '_> {
                     at_lowest: loads(&lowest.groups),
                     at_highest: loads(&highest.groups),
                     reached: [lowest.is_reached, highest.is_reached],
-                    is_complete: self.hull.is_complete,
                 })
             }
-            _ => Err(BoundsError::Rank),
+            _ => Err(BoundsError::Verdict),
         }
     }
 
-    /// Returns the largest magnitude of a vector with these components. The value is an upper bound
-    /// of the magnitude if the search was complete.
+    /// Returns the largest magnitude of a vector with these components.
     ///
     /// # Errors
     /// [`BoundsError::Request`]
@@ -241,20 +243,14 @@ impl ElasticSolutions<'_, '_> {
         let mut terms = Vec::with_capacity(forms.len());
         for form in forms {
             let value = self.configuration.value(form, &self.lambda_0);
-            let along = if self.configuration.judge(form)?.verdict.is_unique() {
-                vec![0.0; self.free.z.ncols()]
-            } else {
-                along(form, &self.free)
+            let along = match self.configuration.judge(form)?.verdict {
+                Verdict::Unique => vec![0.0; self.free.z.ncols()],
+                Verdict::NotUnique => along(form, &self.free),
+                _ => return Err(BoundsError::Verdict),
             };
             terms.push((value, along));
         }
         Ok(self.hull.largest_norm(&terms))
-    }
-
-    /// Returns whether all sets of components were examined.
-    #[must_use]
-    pub fn is_complete(&self) -> bool {
-        self.hull.is_complete
     }
 
     /// Returns the number of sets of components that can be zero together.
@@ -274,7 +270,6 @@ impl ElasticBounds {
             at_lowest: Vec::new(),
             at_highest: Vec::new(),
             reached: [true; 2],
-            is_complete: true,
         }
     }
 
@@ -288,7 +283,6 @@ impl ElasticBounds {
         for (own, other) in self.reached.iter_mut().zip(other.reached) {
             *own &= other;
         }
-        self.is_complete &= other.is_complete;
         self
     }
 }

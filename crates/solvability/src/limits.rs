@@ -814,9 +814,9 @@ pub(crate) const CLEAR_MINOR: f64 = 1e-7;
 /// tolerance are refused. Test: `a_weak_component_is_undecided`.
 pub(crate) const CLEAR_OF_ZERO: f64 = 10.0;
 
-/// Maximum number of sets of components that are examined for bounds. Unit: sets. Too small: bounds
-/// of small mechanisms are incomplete. Too large: the request takes long. Test:
-/// `too_many_sets_give_reached_values`.
+/// Maximum number of sets of components that are examined for bounds. Unit: sets. Too small: small
+/// mechanisms have no bounds. Too large: the request takes long. Test:
+/// `too_many_sets_are_refused`.
 pub(crate) const ELASTIC_SETS: u64 = 100_000;
 
 /// Difference of leverages that count as equal. Unit: dimensionless. Too small: axes depend on
@@ -829,10 +829,10 @@ pub(crate) const EQUAL_LEVERAGE: f64 = 1e-6;
 /// Test: `the_magnitude_is_that_of_a_vertex`.
 pub(crate) const MAGNITUDE_POINTS: usize = 100_000;
 
-/// Ratio of the square roots of the compliances of a soft load and of the others. Unit:
-/// dimensionless. Too small: the values are far from the limit of a soft load. Too large: other
-/// loads are lost to rounding. Test: `too_many_sets_give_reached_values`.
-pub(crate) const SOFT: f64 = 1e4;
+/// Maximum number of products of solutions for which two blocks of self-stresses with a common load
+/// are merged. Unit: products. Too small: ranges depend on the axes of the scene. Too large: the
+/// request takes long. Test: `a_common_load_couples_its_components`.
+pub(crate) const MERGED_POINTS: usize = 20_000;
 
 /// Difference of values at the end of a range that count as equal, relative to the largest value.
 /// Unit: dimensionless. Too small: an end is not marked as reached because of rounding. Too large:

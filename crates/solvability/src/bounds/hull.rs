@@ -1,14 +1,15 @@
 //! The convex hull of the solutions y_m, for rows of a matrix in groups.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::iter;
 
 use linalg::kernels::{dot, norm};
 use linalg::{DisjointSets, Matrix, PivotedQr, RowBasis, symmetric_eigen};
 
 use super::separation::is_separated;
 use crate::limits::{
-    CLEAR_MINOR, CLEAR_OF_ZERO, ELASTIC_SETS, EQUAL_LEVERAGE, MAGNITUDE_POINTS, SOFT, TIED_ENDS,
-    ZERO_MINOR,
+    CLEAR_MINOR, CLEAR_OF_ZERO, ELASTIC_SETS, EQUAL_LEVERAGE, MAGNITUDE_POINTS, MERGED_POINTS,
+    TIED_ENDS, ZERO_MINOR,
 };
 
 /// A component of a load: `value + row·y` for the solution `λ₀ + Z·y`.
@@ -54,6 +55,8 @@ impl Zero {
 pub(super) enum HullError {
     /// Whether components of this load may be zero together with others is undecided.
     Unclear { group: usize },
+    /// There are too many sets.
+    Many,
     /// This number of coordinates y changes no component.
     Free { free: usize },
 }
@@ -63,8 +66,6 @@ pub(super) struct Hull {
     /// Factors of the transposed rows of the basis: `y′ = A_B·y` are the coordinates of the blocks.
     basis: PivotedQr,
     blocks: Vec<Block>,
-    /// Whether all sets were examined.
-    pub(super) is_complete: bool,
     /// Number of sets in all blocks.
     pub(super) sets: u64,
 }
@@ -79,9 +80,92 @@ struct Block {
 /// The loads of a monomial with their exponents, ascending.
 type Monomial = Vec<(usize, u32)>;
 
+impl Block {
+    fn loads(&self) -> BTreeSet<usize> {
+        let monomials = self.points.iter().flat_map(|point| &point.monomial);
+        monomials.map(|(load, _)| *load).collect()
+    }
+
+    fn shares_a_load(&self, other: &Self) -> bool {
+        !self.loads().is_disjoint(&other.loads())
+    }
+
+    /// Returns whether a point is approached for some compliances: its monomial dominates there.
+    fn is_vertex(&self, k: usize) -> bool {
+        let own = &self.points[k].monomial;
+        let exponent = |of: &Monomial, load: usize| {
+            let found = of.iter().find(|(known, _)| *known == load);
+            found.map_or(0.0, |(_, n)| f64::from(*n))
+        };
+        let others = self
+            .points
+            .iter()
+            .enumerate()
+            .filter(|(other, _)| *other != k);
+        // Loads outside of the monomial are made rigid.
+        let others = others.filter(|(_, point)| {
+            let is_inside = |(load, _): &(usize, u32)| exponent(own, *load) > 0.0;
+            point.monomial.iter().all(is_inside)
+        });
+        let differences = others.map(|(_, point)| {
+            let difference =
+                |&(load, n): &(usize, u32)| f64::from(n) - exponent(&point.monomial, load);
+            own.iter().map(difference).collect()
+        });
+        is_separated(&differences.collect::<Vec<Vec<f64>>>())
+    }
+
+    /// Returns the block of all coordinates of both.
+    fn times(&self, other: &Self) -> Self {
+        let mut sums = Sums::default();
+        for a in &self.points {
+            for b in &other.points {
+                let both = a.monomial.iter().chain(&b.monomial);
+                let loads = both.flat_map(|&(load, n)| iter::repeat_n(load, n as usize));
+                sums.add(
+                    monomial(loads),
+                    a.weight * b.weight,
+                    [a.y.as_slice(), &b.y].concat(),
+                );
+            }
+        }
+        Self {
+            coordinates: [self.coordinates.as_slice(), &other.coordinates].concat(),
+            points: sums.points(),
+        }
+    }
+}
+
+/// Sums of weighted solutions for each monomial.
+#[derive(Default)]
+struct Sums(BTreeMap<Monomial, (f64, Vec<f64>)>);
+
+impl Sums {
+    fn add(&mut self, monomial: Monomial, weight: f64, y: Vec<f64>) {
+        let new = || (0.0, vec![0.0; y.len()]);
+        let (total, sum) = self.0.entry(monomial).or_insert_with(new);
+        *total += weight;
+        for (sum, y) in sum.iter_mut().zip(&y) {
+            *sum += weight * y;
+        }
+    }
+
+    fn points(self) -> Vec<HullPoint> {
+        let all = self.0.into_iter();
+        let all = all.map(|(monomial, (weight, sum))| HullPoint {
+            monomial,
+            weight,
+            y: sum.iter().map(|x| x / weight).collect(),
+        });
+        all.collect()
+    }
+}
+
 /// A solution y_m of a block.
 struct HullPoint {
     monomial: Monomial,
+    /// Sum of the squared determinants.
+    weight: f64,
     y: Vec<f64>,
 }
 
@@ -118,7 +202,6 @@ impl Hull {
         let mut hull = Self {
             basis: PivotedQr::of_columns(&matrix.select_rows(basis.kept()).transpose()),
             blocks: Vec::new(),
-            is_complete: true,
             sets: 0,
         };
         let of_basis = |k: usize| &elements[basis.kept()[k]];
@@ -140,20 +223,37 @@ impl Hull {
                 }),
                 zero,
             };
-            let points = if minors.count() > ELASTIC_SETS.saturating_sub(hull.sets) {
-                hull.is_complete = false;
-                minors.soft_points()
-            } else {
-                let (points, sets) = minors.points()?;
-                hull.sets += sets;
-                points
-            };
+            if minors.count() > ELASTIC_SETS.saturating_sub(hull.sets) {
+                return Err(HullError::Many);
+            }
+            let (points, sets) = minors.points()?;
+            hull.sets += sets;
             hull.blocks.push(Block {
                 coordinates: inside,
                 points,
             });
         }
+        hull.merge();
         Ok(hull)
+    }
+
+    /// Merges blocks with a common load, because its compliance is the same in both.
+    fn merge(&mut self) {
+        let mut merged: Vec<Block> = Vec::new();
+        for mut block in std::mem::take(&mut self.blocks) {
+            let mut k = 0;
+            while k < merged.len() {
+                let is_small = merged[k].points.len() * block.points.len() <= MERGED_POINTS;
+                if is_small && merged[k].shares_a_load(&block) {
+                    block = merged.swap_remove(k).times(&block);
+                    k = 0;
+                } else {
+                    k += 1;
+                }
+            }
+            merged.push(block);
+        }
+        self.blocks = merged;
     }
 
     /// Returns the coefficients of a linear form of y in the coordinates of the blocks.
@@ -192,14 +292,18 @@ impl Hull {
             let mut groups: Vec<usize> = monomials.map(|(group, _)| *group).collect();
             groups.sort_unstable();
             groups.dedup();
-            let is_reached = match chosen.as_slice() {
-                [(block, tied)] => tied.iter().any(|&k| is_vertex(&[(block, k)])),
-                _ => is_vertex(&first),
-            };
+            // Blocks that were not merged may have a common load.
+            let mut loads: Vec<usize> = chosen.iter().flat_map(|(b, _)| b.loads()).collect();
+            let all = loads.len();
+            loads.sort_unstable();
+            loads.dedup();
+            let is_vertex =
+                |(block, tied): &(&Block, Vec<usize>)| tied.iter().any(|&k| block.is_vertex(k));
+            let is_reached = loads.len() == all && chosen.iter().all(is_vertex);
             RangeEnd {
                 value,
                 groups,
-                is_reached: is_reached && self.is_complete,
+                is_reached,
             }
         })
     }
@@ -281,7 +385,7 @@ impl Minors<'_> {
         let left: Vec<f64> = left
             .map(|(i, e)| e.value + dot(self.rows.row(i), &at_zero))
             .collect();
-        let mut sums: BTreeMap<Monomial, (f64, Vec<f64>)> = BTreeMap::new();
+        let mut sums = Sums::default();
         let mut sets = 0;
         for k in 0..=p.min(self.outside.len()) {
             let columns = combinations(p, k);
@@ -296,24 +400,15 @@ impl Minors<'_> {
                     let of_basis = kept.map(|j| self.inside[j].group);
                     let of_others = rows.iter().map(|&i| self.outside[i].group);
                     let monomial = monomial(of_basis.chain(of_others));
-                    let weight = det * det;
-                    let (total, sum) = sums.entry(monomial).or_insert((0.0, vec![0.0; p]));
-                    *total += weight;
                     let mut y = at_zero.clone();
                     for (&j, d) in columns.iter().zip(&change) {
                         y[j] += d;
                     }
-                    for (sum, y) in sum.iter_mut().zip(&y) {
-                        *sum += weight * y;
-                    }
+                    sums.add(monomial, det * det, y);
                 }
             }
         }
-        let points = sums.into_iter().map(|(monomial, (total, sum))| HullPoint {
-            monomial,
-            y: sum.iter().map(|x| x / total).collect(),
-        });
-        Ok((points.collect(), sets))
+        Ok((sums.points(), sets))
     }
 
     /// Returns the determinant of a minor, and the change of the coordinates that makes the
@@ -339,30 +434,6 @@ impl Minors<'_> {
         }
         let left: Vec<f64> = rows.iter().map(|&i| -left[i]).collect();
         Ok(Some((det, solved(&qr, left))))
-    }
-
-    /// Returns solutions of springs of which one load at a time is much softer than the others.
-    fn soft_points(&self) -> Vec<HullPoint> {
-        let all: Vec<&Element> = self.inside.iter().chain(&self.outside).copied().collect();
-        let p = self.inside.len();
-        let row = |i: usize, j: usize| match i.checked_sub(p) {
-            None => f64::from(u8::from(i == j)),
-            Some(i) => self.rows[(i, j)],
-        };
-        let mut groups: Vec<usize> = all.iter().map(|e| e.group).collect();
-        groups.sort_unstable();
-        groups.dedup();
-        let soft = groups.iter().map(|soft| {
-            let root = |i: usize| if all[i].group == *soft { SOFT } else { 1.0 };
-            let matrix = Matrix::from_fn(all.len(), p, |i, j| root(i) * row(i, j));
-            let qr = PivotedQr::of_columns(&matrix);
-            let left = (0..all.len()).map(|i| -root(i) * all[i].value);
-            HullPoint {
-                monomial: vec![(*soft, 1)],
-                y: solved(&qr, left.collect()),
-            }
-        });
-        soft.collect()
     }
 }
 
@@ -461,33 +532,6 @@ fn axes_of(leverage: &Matrix) -> Vec<Vec<f64>> {
         from = to;
     }
     axes
-}
-
-/// Returns whether these points of different blocks are approached together: their monomials
-/// dominate for some compliances.
-fn is_vertex(chosen: &[(&Block, usize)]) -> bool {
-    let monomials = chosen.iter().map(|(block, k)| &block.points[*k].monomial);
-    let mut support: Vec<usize> = monomials.flatten().map(|(group, _)| *group).collect();
-    support.sort_unstable();
-    support.dedup();
-    let mut differences = Vec::new();
-    for (block, k) in chosen {
-        let own = &block.points[*k].monomial;
-        for (other, point) in block.points.iter().enumerate() {
-            // Other loads are made rigid.
-            let is_inside = |(group, _): &(usize, u32)| support.binary_search(group).is_ok();
-            if other == *k || !point.monomial.iter().all(is_inside) {
-                continue;
-            }
-            let exponent = |of: &[(usize, u32)], group: usize| {
-                let found = of.iter().find(|(own, _)| *own == group);
-                found.map_or(0.0, |(_, n)| f64::from(*n))
-            };
-            let difference = |&g: &usize| exponent(own, g) - exponent(&point.monomial, g);
-            differences.push(support.iter().map(difference).collect());
-        }
-    }
-    is_separated(&differences)
 }
 
 fn monomial(groups: impl Iterator<Item = usize>) -> Monomial {

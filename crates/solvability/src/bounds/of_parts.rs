@@ -1,6 +1,6 @@
 //! Bounds of the reactions of an analysed configuration of any size.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 use model::{ConstraintId, System};
 use rayon::prelude::*;
@@ -97,12 +97,19 @@ impl<'q, 'm> ReactionBounds<'q, 'm> {
         Ok(sums)
     }
 
+    /// Checks that a number of a part has finite values.
+    fn check_finite(&self, k: usize, form: &LinearForm) -> Result<(), BoundsError> {
+        let extent = &self.questions.parts()[k].extent;
+        match not_finite(&self.solution.no_finite, extent, form) {
+            Some(why) => Err(BoundsError::NoFinite(why)),
+            None => Ok(()),
+        }
+    }
+
     /// Returns the bounds of a number of a part.
     fn of_part(&self, k: usize, form: &LinearForm) -> Result<ElasticBounds, BoundsError> {
+        self.check_finite(k, form)?;
         let extent = &self.questions.parts()[k].extent;
-        if let Some(why) = not_finite(&self.solution.no_finite, extent, form) {
-            return Err(BoundsError::NoFinite(Arc::clone(&why)));
-        }
         match self.part(k) {
             None => {
                 let lambda = self.solution.multipliers.as_chosen();
@@ -146,6 +153,9 @@ impl<'q, 'm> ReactionBounds<'q, 'm> {
             }
             let own: Vec<&(usize, &'static str, LinearForm)> = forms[range].iter().collect();
             let Some((k, ..)) = own.first() else { continue };
+            for (k, _, form) in &own {
+                self.check_finite(*k, form)?;
+            }
             *found = Some(match self.part(*k) {
                 Some(Ok(solutions)) => {
                     let forms: Vec<LinearForm> =
@@ -165,13 +175,11 @@ impl<'q, 'm> ReactionBounds<'q, 'm> {
         Ok(found)
     }
 
-    /// Returns the number of examined sets of components, and whether these are all sets.
+    /// Returns the number of examined sets of components.
     #[must_use]
-    pub fn sets(&self) -> (u64, bool) {
+    pub fn sets(&self) -> u64 {
         let known = self.parts.iter();
         let known = known.filter_map(|part| part.get()?.as_ref().ok());
-        known.fold((0, true), |(sets, all), part| {
-            (sets + part.sets(), all && part.is_complete())
-        })
+        known.map(ElasticSolutions::sets).sum()
     }
 }

@@ -98,21 +98,36 @@ fn the_magnitude_is_that_of_a_vertex() {
     }
 }
 
-/// With 30 loads and 14 free components there are 145 million sets. Each load alone can be soft,
-/// and then it is zero.
+/// With 30 loads and 14 free components there are 145 million sets.
 #[test]
-fn too_many_sets_give_reached_values() {
+fn too_many_sets_are_refused() {
     let mut next = numbers();
     let elements = (0..30).map(|k| {
         let row: Vec<f64> = (0..14).map(|_| next()).collect();
         element(k, &row, next())
     });
-    let elements: Vec<Element> = elements.collect();
-    let hull = hull(elements.clone(), 14);
-    assert!(!hull.is_complete);
-    for e in &elements {
-        let [lowest, highest] = hull.ends(&e.row);
-        assert!(lowest.value <= -e.value + 1e-4 && highest.value >= -e.value - 1e-4);
-        assert!(!lowest.is_reached && !highest.is_reached);
-    }
+    assert_eq!(
+        Hull::new(elements.collect(), 14, 0.0).err(),
+        Some(HullError::Many)
+    );
+}
+
+/// Two loads along x and y: (1 + x, 1 + y) and (x, y). For any compliances, x = y, because both
+/// components of a load have one compliance. In separate blocks x − y would be between −1 and 1.
+#[test]
+fn a_common_load_couples_its_components() {
+    let elements = vec![
+        element(0, &[1.0, 0.0], 1.0),
+        element(0, &[0.0, 1.0], 1.0),
+        element(1, &[1.0, 0.0], 0.0),
+        element(1, &[0.0, 1.0], 0.0),
+    ];
+    let hull = hull(elements, 2);
+    let [lowest, highest] = hull.ends(&[1.0, -1.0]);
+    assert!(lowest.value.abs() < 1e-12 && highest.value.abs() < 1e-12);
+    let [lowest, highest] = hull.ends(&[1.0, 0.0]);
+    assert!((lowest.value + 1.0).abs() < 1e-12 && highest.value.abs() < 1e-12);
+    assert!(lowest.is_reached && highest.is_reached);
+    let longest = hull.largest_norm(&[(1.0, vec![1.0, 0.0]), (1.0, vec![0.0, 1.0])]);
+    assert!((longest - 2.0_f64.sqrt()).abs() < 1e-12);
 }

@@ -3,7 +3,7 @@
 mod answer;
 
 use model::reaction::ConstraintGroup;
-use model::words::range;
+use model::words::{listed, range};
 use model::{ConstraintId, System};
 use report::ByName;
 use solvability::{BoundsError, ElasticBounds, Group, ReactionBounds};
@@ -73,7 +73,7 @@ impl Addition for BoundsOfReactions {
                     }
                 }
             }
-            (answer.eliminations, answer.complete) = found.sets();
+            answer.eliminations = found.sets();
         }
         document.answers.bounds = Some(answer);
         Ok(())
@@ -94,26 +94,23 @@ impl Addition for BoundsOfReactions {
             .groups
             .iter()
             .flat_map(|g| g.components.iter().map(move |c| (&g.name, c)));
-        let of_components = of_reactions
-            .chain(of_groups)
-            .filter_map(|(owner, c)| Some((owner, c.name, load_unit(c.name), c.bounds.as_ref()?)));
-        let sums = d.groups.iter().filter_map(|g| {
-            Some((
-                &g.name,
-                "sum",
-                g.unit.unwrap_or_default(),
-                g.bounds.as_ref()?,
-            ))
+        let of_components = of_reactions.chain(of_groups).filter_map(|(owner, c)| {
+            let bounds = c.bounds.as_ref()?;
+            Some((&c.verdict, (owner, c.name, load_unit(c.name), bounds)))
         });
-        let all = of_components
-            .chain(sums)
-            .filter(|(.., bounds)| bounds.lowest != bounds.highest);
+        let sums = d.groups.iter().filter_map(|g| {
+            let unit = g.unit.unwrap_or_default();
+            Some((&g.verdict, (&g.name, "sum", unit, g.bounds.as_ref()?)))
+        });
+        let all = of_components.chain(sums);
+        let all = all.filter(|(verdict, _)| verdict.verdict == "not_unique");
+        let all = all.map(|(_, line)| line);
         let lines: Vec<[Cell; 6]> = all
             .map(|(owner, component, unit, bounds)| {
                 let at = |loads: &[ElasticLoadDocument], reached: bool| {
                     let names: Vec<String> = loads.iter().map(ToString::to_string).collect();
                     let outer = if reached { "" } else { " (outer)" };
-                    format!("{}{outer}", names.join(", "))
+                    format!("{}{outer}", listed(&names))
                 };
                 [
                     owner.into(),
@@ -134,12 +131,15 @@ impl Addition for BoundsOfReactions {
             "component",
             "lowest",
             "highest",
-            "zero at lowest",
-            "zero at highest",
+            "soft at lowest",
+            "soft at highest",
         ];
         let has_bounds = !lines.is_empty();
         if has_bounds {
             out.push(Block::table(columns, lines));
+        }
+        if !answer.rigid.is_empty() {
+            out.push(Block::after("rigid: ", answer.rigid.join(", ")));
         }
         let magnitudes = d.reactions.iter().filter_map(|r| {
             let most = r.magnitude_at_most.as_ref()?;
@@ -159,11 +159,6 @@ impl Addition for BoundsOfReactions {
         }
         for (name, reason) in &answer.without.0 {
             out.push(Block::after("no bounds: ", format!("`{name}`: {reason}")));
-        }
-        if !answer.complete {
-            out.push(Block::sentence(
-                "too many sets of components: the values are reached, larger ones may exist",
-            ));
         }
         if has_bounds {
             out.push(Block::after("valid ", &answer.assumption));
@@ -194,7 +189,7 @@ pub(super) fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) 
         .filter(|id| found.has_one_free_component(*id))
         .filter_map(|id| {
             let own = found.group(&Group::WrenchSum(vec![(1.0, id)])).ok()?;
-            let own = own.into_iter().filter(|(_, bounds)| bounds.is_complete);
+            let own = own.into_iter();
             let width = |bounds: &ElasticBounds| bounds.highest - bounds.lowest;
             let widest = own.max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
             (width(&widest.1) > 0.0).then_some((id, widest))
@@ -268,14 +263,15 @@ fn of_reactions(
                     has_moment |= is_torque && component.verdict.verdict != "unique";
                     component.bounds = bounds.map(|b| BoundsOfNumber::new(&b, layout));
                 }
-                Err(e) => reason = Some(e.to_string()),
+                Err(e) => reason = Some(format!("{}: {e}", component.name)),
             }
         }
         match found.largest_magnitudes(id) {
             Ok([force, moment]) => {
                 reaction.magnitude_at_most = Some(MagnitudeDocument { force, moment });
             }
-            Err(e) => reason = Some(e.to_string()),
+            Err(e) if reason.is_none() => reason = Some(e.to_string()),
+            Err(_) => {}
         }
         if has_moment && let Ok(place) = of.reference_point(id) {
             centres.push((reaction.name.clone(), components(space, place)));

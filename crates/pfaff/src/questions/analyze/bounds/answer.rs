@@ -23,8 +23,6 @@ pub struct BoundsDocument {
     pub centres: ByName<Vec<f64>>,
     /// Number of sets of load components that can be zero together.
     pub eliminations: u64,
-    /// Whether all sets were examined. Otherwise the values are reached, but larger ones may exist.
-    pub complete: bool,
     /// Joints and drives without bounds, with the reason.
     pub without: ByName<String>,
     /// Reason why there are no bounds at this configuration.
@@ -41,9 +39,9 @@ pub struct BoundsOfNumber {
     pub lowest: f64,
     /// The largest value (N, N·m).
     pub highest: f64,
-    /// The loads that are zero at the smallest value.
+    /// The loads whose joints give way at the smallest value.
     pub at_lowest: Vec<ElasticLoadDocument>,
-    /// The loads that are zero at the largest value.
+    /// The loads whose joints give way at the largest value.
     pub at_highest: Vec<ElasticLoadDocument>,
     /// Whether the smallest and the largest value are reached in the limit of some stiffness.
     /// Otherwise the true range may end earlier.
@@ -97,7 +95,6 @@ impl BoundsDocument {
             rigid: Vec::new(),
             centres: ByName(Vec::new()),
             eliminations: 0,
-            complete: true,
             without: ByName(Vec::new()),
             reason: None,
         }
