@@ -35,7 +35,7 @@ use crate::tree::root;
 /// Largest number of lines of code of all groups except tests and developers' tools.
 const TOTAL_MOST: usize = 143_600;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 108_120;
+const PRODUCT_MOST: usize = 108_140;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
 const TOKENS_MOST: usize = 1_024_000;
 /// Largest number of lines of code of `dynamics`.
