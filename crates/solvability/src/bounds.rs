@@ -133,15 +133,15 @@ impl<'m> Configuration<'m> {
             .filter(|id| !rigid.contains(id))
         {
             for (is_moment, forms) in self.load_forms(id)? {
-                let rows = forms.iter().map(|form| along(form, &free));
-                let values = forms.iter().map(|form| form.value(lambda_0));
-                let rows: Vec<(Vec<f64>, f64)> = rows.zip(values).collect();
                 if self.is_unique(&forms)? {
                     continue;
                 }
                 let group = loads.len();
-                let load = |(row, value)| Element { group, row, value };
-                elements.extend(rows.into_iter().map(load));
+                elements.extend(forms.iter().map(|form| Element {
+                    group,
+                    row: along(form, &free),
+                    value: form.value(lambda_0),
+                }));
                 loads.push(ElasticLoad {
                     reaction: id,
                     is_moment,
@@ -238,7 +238,7 @@ impl ElasticSolutions<'_, '_> {
     /// Returns the largest magnitude of a vector with these components.
     ///
     /// # Errors
-    /// [`BoundsError::Request`]
+    /// [`BoundsError::Request`], [`BoundsError::Verdict`]
     pub fn largest_magnitude(&self, forms: &[LinearForm]) -> Result<f64, BoundsError> {
         let mut terms = Vec::with_capacity(forms.len());
         for form in forms {
@@ -253,7 +253,7 @@ impl ElasticSolutions<'_, '_> {
         Ok(self.hull.largest_norm(&terms))
     }
 
-    /// Returns the number of sets of components that can be zero together.
+    /// Returns the number of examined sets of components, summed over independent blocks.
     #[must_use]
     pub fn sets(&self) -> u64 {
         self.hull.sets

@@ -116,7 +116,7 @@ impl<'a> Questions<'a> {
     }
 
     /// Returns the part of a joint or drive, and its number in that part.
-    fn place(&self, id: ConstraintId) -> Result<(usize, ConstraintId), RequestError> {
+    pub(crate) fn place(&self, id: ConstraintId) -> Result<(usize, ConstraintId), RequestError> {
         let reactions = self.part_of.len();
         let part = self.part_of.get(id.0).copied();
         let own = part.and_then(|k| Some((k, self.parts()[k].extent.own_group(id.0)?)));

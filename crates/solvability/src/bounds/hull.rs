@@ -172,7 +172,7 @@ struct HullPoint {
 /// One end of the range of a linear form.
 pub(super) struct RangeEnd {
     pub(super) value: f64,
-    /// The loads that are zero.
+    /// The loads whose joints give way.
     pub(super) groups: Vec<usize>,
     pub(super) is_reached: bool,
 }

@@ -10,7 +10,7 @@ use crate::choices::{Solution, not_finite};
 use crate::groups::{Group, LinearForm};
 use crate::questions::Questions;
 
-/// The solutions of a part, or the reason why there are none.
+/// The solutions of a part, or the reason why the part has no bounds.
 type OfPart<'q, 'm> = Result<ElasticSolutions<'q, 'm>, BoundsError>;
 
 /// The bounds of all reactions of a configuration. The solutions of a part are computed on first
@@ -72,12 +72,8 @@ impl<'q, 'm> ReactionBounds<'q, 'm> {
     /// Returns whether the part of a joint or drive leaves exactly one load component undetermined.
     #[must_use]
     pub fn has_one_free_component(&self, id: ConstraintId) -> bool {
-        let part = self
-            .questions
-            .parts()
-            .iter()
-            .find(|part| part.extent.own_group(id.0).is_some());
-        part.is_some_and(|part| part.decision.redundancy() == 1)
+        let part = self.questions.place(id);
+        part.is_ok_and(|(k, _)| self.questions.parts()[k].decision.redundancy() == 1)
     }
 
     /// Returns the bounds of the numbers of a group with their names. A group of several separate

@@ -8,8 +8,8 @@ use crate::limits::{SEPARATED, SEPARATION_STEPS};
 /// is also false if the search does not end.
 ///
 /// The method looks for nonnegative weights x with `Σ x·d = 0` and `Σ x = 1` (C. L. Lawson and
-/// R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter 23). If there are none, the
-/// residual separates the vectors from zero.
+/// R. J. Hanson, *Solving Least Squares Problems*, 1974, chapter 23). If no such weights exist,
+/// the residual separates the vectors from zero.
 pub(super) fn is_separated(vectors: &[Vec<f64>]) -> bool {
     let Some(first) = vectors.first() else {
         return true;

@@ -6,12 +6,13 @@ use model::reaction::ConstraintGroup;
 use model::words::{listed, range};
 use model::{ConstraintId, System};
 use report::ByName;
-use solvability::{BoundsError, ElasticBounds, Group, ReactionBounds};
+use solvability::{BoundsError, ElasticBounds, Group, PartAnalysis, ReactionBounds};
 
 pub use answer::{BoundsDocument, BoundsOfNumber, ElasticLoadDocument, MagnitudeDocument};
 
 use super::addition::Addition;
 use super::options::Analyze;
+use super::phrases::LINES;
 use crate::configuration::ConfigurationAnalysis;
 use crate::documents::AnalysisDocument;
 use crate::documents::analysis::components;
@@ -62,9 +63,10 @@ impl Addition for BoundsOfReactions {
             of_reactions(of, &found, document, &mut answer);
             let groups = of.requested(&asked.combine)?;
             for (group, (_, asked)) in document.groups.iter_mut().zip(&groups) {
-                let Ok(numbers) = found.group(asked) else {
-                    continue;
-                };
+                let numbers = found.group(asked).unwrap_or_else(|e| {
+                    answer.without.0.push((group.name.clone(), e.to_string()));
+                    Vec::new()
+                });
                 for (number, bounds) in numbers {
                     let bounds = Some(BoundsOfNumber::new(&bounds, of.mechanism.layout()));
                     match group.components.iter_mut().find(|c| c.name == number) {
@@ -180,7 +182,9 @@ pub(super) fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) 
     let is_open = |id: &ConstraintId| d.reactions[id.0].wrench.verdict == "not_unique";
     let mut open = layout.constraint_ids().filter(is_open).peekable();
     open.peek()?;
-    if d.answers.bounds.is_some() || d.evidence.permanent == Some(false) {
+    let has_one = |part: &PartAnalysis| part.decision.redundancy() == 1;
+    let is_short = d.reactions.len() <= LINES && of.analysis.parts.iter().any(has_one);
+    if !is_short || d.answers.bounds.is_some() || d.evidence.permanent == Some(false) {
         return None;
     }
     let solution = of.solution().ok()?;
@@ -189,9 +193,10 @@ pub(super) fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) 
         .filter(|id| found.has_one_free_component(*id))
         .filter_map(|id| {
             let own = found.group(&Group::WrenchSum(vec![(1.0, id)])).ok()?;
-            let own = own.into_iter();
             let width = |bounds: &ElasticBounds| bounds.highest - bounds.lowest;
-            let widest = own.max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
+            let widest = own
+                .into_iter()
+                .max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
             (width(&widest.1) > 0.0).then_some((id, widest))
         });
     let mut all: Vec<(ConstraintId, (&str, ElasticBounds))> = widest.collect();

@@ -5,6 +5,9 @@ use model::words::{rough, short};
 
 use crate::words::grouped;
 
+/// Largest number of joints and drives that the text describes one by one.
+pub(super) const LINES: usize = 250;
+
 /// Converts a word of the document to prose, such as `not unique` for `not_unique`.
 pub(super) fn spoken(word: &str) -> String {
     word.replace('_', " ")

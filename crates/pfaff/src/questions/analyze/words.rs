@@ -11,7 +11,7 @@ use crate::documents::{
 
 use super::additions::ADDITIONS;
 use super::document::Hints;
-use super::phrases::{coordinates, each, hanging, spoken};
+use super::phrases::{LINES, coordinates, each, hanging, spoken};
 use super::{along, counts, data, deletions, numbers, rank};
 use crate::words::{Block, Cell, count, grouped, load_unit, marked};
 
@@ -20,9 +20,6 @@ const REASONS: usize = 10;
 
 /// Number of self-stresses of a set of joints that are listed.
 const LISTED: usize = 5;
-
-/// Largest number of joints and drives for which the table has one line each.
-const LINES: usize = 250;
 
 /// Number of warnings that are listed.
 const WARNINGS: usize = 12;
@@ -245,7 +242,7 @@ fn groups(d: &AnalysisDocument) -> Vec<Block> {
     out
 }
 
-/// Formats the number of a value, or states that there is none.
+/// Formats the number of a value; `none` if the value has no number.
 fn number(value: &ValueDocument, unit: &str) -> String {
     let number = value.value.in_solution();
     number.map_or("none".to_owned(), |x| {
