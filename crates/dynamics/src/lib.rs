@@ -42,7 +42,7 @@ pub use error::{DropError, MotionError, MotionFault};
 pub use events::{Event, EventKind, ReactionImpulse};
 pub use manifold::Correction;
 pub use motion::KeptRowMotion;
-pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
+pub use options::{FORMULATION, INDEPENDENT_ROWS, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{OutputRequest, Plan};
 pub use prepare::{PreparedMechanism, prepare, prepare_after, start_velocity, unmovable};
 pub use run::{

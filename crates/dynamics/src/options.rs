@@ -60,6 +60,9 @@ impl Method {
 /// treatment.
 pub const FORMULATION: &str = "kept-rows";
 
+/// [`FORMULATION`] in words.
+pub const INDEPENDENT_ROWS: &str = "independent rows";
+
 /// Method that prevents drift from the constraints.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]

@@ -105,7 +105,7 @@ impl Prefix {
     /// Prefixes, each with the smallest number of units that is printed with it. Hundredths of a
     /// millimetre are common, but hundredths of a metre are not. The bounds are slightly smaller
     /// because of rounding.
-    const ALL: [(f64, Self); 6] = [
+    pub const ALL: [(f64, Self); 6] = [
         (0.9995e6, Self::new("M", 1e6)),
         (0.9995e3, Self::new("k", 1e3)),
         (0.099, Self::NONE),
@@ -115,7 +115,7 @@ impl Prefix {
     ];
 
     /// Symbols of units that may have a prefix.
-    const PREFIXED: [&str; 8] = ["N", "J", "W", "m", "rad", "s", "Hz", "Pa"];
+    pub const UNITS: [&str; 8] = ["N", "J", "W", "m", "rad", "s", "Hz", "Pa"];
 
     const fn new(symbol: &'static str, factor: f64) -> Self {
         Self { symbol, factor }
@@ -131,7 +131,7 @@ impl Prefix {
     #[must_use]
     pub fn of(size: f64, unit: &str) -> Self {
         let end = unit.find(['·', '/']).unwrap_or(unit.len());
-        if !Self::PREFIXED.contains(&&unit[..end]) {
+        if !Self::UNITS.contains(&&unit[..end]) {
             return Self::NONE;
         }
         let found = Self::ALL.iter().find(|(from, _)| size >= *from);

@@ -20,7 +20,7 @@ use crate::groups::{LinearForm, ReactionForms};
 use crate::loads::{self, LoadDescription};
 use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Verdict;
-use crate::words::{list, names};
+use crate::words::{self, list, names};
 
 /// Explanation of the redundancy of a configuration.
 #[derive(Clone, Debug)]
@@ -336,8 +336,8 @@ fn determined_sums(
         forms.place(reactions[0]),
     ) {
         let place = &place[..space.forces().len()];
-        let numbers: Vec<String> = place.iter().map(|x| model::words::short(*x)).collect();
-        last.push_str(&format!(" about ({})", numbers.join(", ")));
+        let size = place.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        last.push_str(&format!(" about {}", words::place(place, size)));
     }
     names
 }

@@ -13,7 +13,7 @@ use model::space::{cross, difference, dot, norm};
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use crate::limits::{SAME_PLACE, TOLD_LOADS, VISIBLE};
-use crate::words::{list, names, vector};
+use crate::words::{list, names, place, vector};
 use model::words::short;
 
 /// Description of the loads on some joints.
@@ -232,7 +232,7 @@ impl Places {
             let along = dot(point, *force);
             point = std::array::from_fn(|k| point[k] - along * force[k]);
         }
-        let through = format!(" through {}", vector(point, self.size));
+        let through = format!(" through {}", place(&point, self.size));
         match (meet(p), units.as_slice()) {
             (true, _) => through,
             (false, [[force, moment]]) if couples.is_empty() => {

@@ -19,6 +19,11 @@ pub(crate) fn vector(p: [f64; 3], size: f64) -> String {
     components(&p, size)
 }
 
+/// Formats the coordinates of a point (m) as "(0.25, −1) m" without the quotes.
+pub(crate) fn place(p: &[f64], size: f64) -> String {
+    format!("{} m", components(p, size))
+}
+
 /// Formats any number of components in this way.
 pub(crate) fn components(p: &[f64], size: f64) -> String {
     let shown = p

@@ -12,7 +12,7 @@ use super::split::elimination;
 use crate::choose;
 use crate::error::MotionError;
 use crate::motion::KeptRowMotion;
-use crate::options::{FORMULATION, Method, MotionOptions};
+use crate::options::{INDEPENDENT_ROWS, Method, MotionOptions};
 use crate::prepare::PreparedMechanism;
 
 /// The decisions for one component.
@@ -118,7 +118,7 @@ fn elimination_of(
     let (rows, n, entries) = (sizes.rank, sizes.velocities, work.entries);
     if prepared.is_schur() {
         let reason = format!(
-            "{FORMULATION}, {entries} entries of C; many motions are free, and the order of elimination is chosen once"
+            "{INDEPENDENT_ROWS}, {entries} entries of C; many motions are free, and the order of elimination is chosen once"
         );
         return Decision::new([rows, n], format!("Schur complement, {rows} × {n}"), reason);
     }
@@ -127,7 +127,7 @@ fn elimination_of(
     let order = (n + rows) as u64;
     let whole = order * order * order / 3;
     let reason = format!(
-        "{FORMULATION}, {entries} entries of C; saved against LU of the whole saddle matrix"
+        "{INDEPENDENT_ROWS}, {entries} entries of C; saved against LU of the whole saddle matrix"
     );
     Decision::new([rows, n], format!("null space, {rows} × {n}"), reason).saving(
         whole.saturating_sub(all),

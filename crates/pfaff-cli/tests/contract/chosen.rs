@@ -125,7 +125,7 @@ fn each_choice_has_its_table() {
     );
     // The page names the choices at their curves.
     let page = folder.read("report.html");
-    assert!(page.contains("elastic supports") && !page.contains("this run: kept-rows"));
+    assert!(page.contains("elastic supports") && !page.contains("this run: row"));
 
     // A single choice has no separate file in the summary, and no file of the earlier run remains.
     let output = with_scene(

@@ -247,8 +247,8 @@ fn the_run_names_its_choice() {
     let output = pfaff(&simulate);
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     let text = stdout(&output);
-    assert!(text.contains("(kept-rows, projection)"), "{text}");
-    assert!(text.contains("kept-rows, rows 20, 21 deleted"), "{text}");
+    assert!(text.contains("(independent rows, projection)"), "{text}");
+    assert!(text.contains("(rows 20, 21 deleted)"), "{text}");
     let summary = json(&folder.read("summary.json"));
     let choice = &summary["choice"][0];
     assert_eq!(summary["formulation"], "kept-rows");

@@ -43,7 +43,9 @@ fn the_plan_of_the_robot_is_a_table_and_a_document() {
     let output = pfaff(&["plan", ROBOT]);
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let text = stdout(&output);
-    assert!(text.starts_with("robot-trolley: plan of a run to t = 10 s (kept-rows, projection)"));
+    assert!(
+        text.starts_with("robot-trolley: plan of a run to t = 10 s (independent rows, projection)")
+    );
     for words in ["decision", "solved as one", "2 monitored", "b and Φt of 1"] {
         assert!(text.contains(words), "{words}: {text}");
     }

@@ -269,7 +269,7 @@ impl ChoiceDocument {
             file: None,
             from: dropped.from,
             to,
-            name: "kept-rows".to_owned(),
+            name: FORMULATION.to_owned(),
             deleted_rows: from_one(&dropped.rows),
             gap: None,
         })
@@ -279,12 +279,12 @@ impl ChoiceDocument {
 
 impl fmt::Display for ChoiceDocument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if self.name != "kept-rows" {
+        if self.name != FORMULATION {
             return f.write_str(&self.name);
         }
         let rows: Vec<String> = self.deleted_rows.iter().map(usize::to_string).collect();
         let word = if rows.len() == 1 { "row" } else { "rows" };
-        write!(f, "{}, {word} {} deleted", self.name, listed(&rows))
+        write!(f, "{word} {} deleted", listed(&rows))
     }
 }
 

@@ -518,7 +518,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     let choices = choices.map(|c| (c.from, c.to, c.deleted_rows.as_slice()));
     let expected = [(0.0, 1.25, &[4][..]), (1.25, 1.5, &[2])];
     assert_eq!(choices.collect::<Vec<_>>(), expected);
-    assert_eq!(open.choice[1].to_string(), "kept-rows, row 2 deleted");
+    assert_eq!(open.choice[1].to_string(), "row 2 deleted");
 }
 
 /// The mechanism is a crank with its motor. The document contains `null` without drives, and

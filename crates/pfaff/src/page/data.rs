@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use model::words::Prefix;
 use model::{ConstraintId, Mechanism, SpaceKind, System};
 use serde::Serialize;
 use solvability::Value;
@@ -40,6 +41,10 @@ pub(super) struct Data<'a> {
     /// Units of the scene for the units of the curves, with the number of scene units in one SI
     /// unit.
     units: BTreeMap<&'static str, (String, f64)>,
+    /// Prefixes of other units: the smallest number with the prefix, its symbol and its value.
+    prefixes: Vec<(f64, &'static str, f64)>,
+    /// Symbols of the units that may have a prefix.
+    prefixed: [&'static str; 8],
 }
 
 /// A time that is written with ten digits.
@@ -209,6 +214,11 @@ impl<'a> Data<'a> {
                     Some((si, (unit, value.recip())))
                 })
                 .collect(),
+            prefixes: Prefix::ALL
+                .iter()
+                .map(|(from, prefix)| (*from, prefix.symbol, prefix.factor))
+                .collect(),
+            prefixed: Prefix::UNITS,
             events: page.run().map_or(&[], |run| &run.events),
         }
     }

@@ -1,6 +1,7 @@
 //! Information needed to reproduce the page: scene, options, versions and numbers of the run; and a
 //! list of the parts that the page omits.
 
+use dynamics::INDEPENDENT_ROWS;
 use model::System;
 
 use super::curves;
@@ -60,7 +61,7 @@ fn numbers(out: &mut String, run: &RunDocument) {
             "Method",
             format!(
                 "{} ({}, {})",
-                run.method, run.formulation, run.stabilisation
+                run.method, INDEPENDENT_ROWS, run.stabilisation
             ),
         ),
         ("Time reached", format!("t = {} s", run.t_end)),

@@ -7,7 +7,7 @@ use model::{BodyRef, ConstraintId, Mechanism, System};
 
 use super::component::{Component, Velocities};
 use super::movement::{Line, Movement, Twist};
-use crate::words::{components, list};
+use crate::words::{components, list, place};
 use model::words::short;
 
 /// Describes a motion of a component and returns its velocities with the sign that the text
@@ -54,13 +54,13 @@ pub(super) fn free(mechanism: &Mechanism, bodies: &[usize]) -> String {
 pub(super) fn alone(mechanism: &Mechanism, body: usize, movement: Movement, size: f64) -> String {
     let name = named(mechanism, &[body]);
     let space = mechanism.space();
-    let shown = |p: [f64; 3], size: f64| components(&p[space.forces()], size);
+    let own = |p: [f64; 3]| p[space.forces()].to_vec();
     let line = |Line { point, along }: Line| match space.n_rotations() {
-        1 => shown(point, size),
+        1 => place(&own(point), size),
         _ => format!(
             "the line through {} along {}",
-            shown(point, size),
-            shown(along, 1.0)
+            place(&own(point), size),
+            components(&own(along), 1.0)
         ),
     };
     match movement {
@@ -70,7 +70,7 @@ pub(super) fn alone(mechanism: &Mechanism, body: usize, movement: Movement, size
             line(about),
             short(pitch)
         ),
-        Movement::Slide(along) => format!("{name} slides along {}", shown(along, 1.0)),
+        Movement::Slide(along) => format!("{name} slides along {}", components(&own(along), 1.0)),
     }
 }
 
@@ -113,7 +113,7 @@ fn sentence(of: &Component<'_>, v: &Velocities, one: usize, bodies: &[usize]) ->
             short(pitch)
         ),
         Movement::Slide(along) => {
-            format!("{names} slide{s}{together} along {}", point(of, along, 1.0))
+            format!("{names} slide{s}{together} along {}", direction(of, along))
         }
     }
 }
@@ -177,14 +177,17 @@ fn movement(of: &Component<'_>, v: &Velocities, body: usize) -> Movement {
 fn about(of: &Component<'_>, bodies: &[usize], line: Line) -> String {
     let through = match (joints_on(of, bodies, line).as_slice(), bodies) {
         ([], [only]) if is_on(of, of.origin(*only), line) => "its centre of mass".to_owned(),
-        ([], _) => point(of, line.nearest_to_origin(), of.size),
+        ([], _) => {
+            let point = line.nearest_to_origin();
+            place(&point[of.mechanism.space().forces()], of.size)
+        }
         (joints, _) => list(joints),
     };
     match of.mechanism.space().n_rotations() {
         1 => through,
         _ => format!(
             "the axis through {through} along {}",
-            point(of, line.along, 1.0)
+            direction(of, line.along)
         ),
     }
 }
@@ -219,9 +222,9 @@ fn is_on(of: &Component<'_>, point: [f64; 3], line: Line) -> bool {
     norm(&cross(difference(point, line.point), line.along)) <= SAME_PLACE * of.size
 }
 
-/// Formats a point as "(0.25, −1)" without the quotes, in m.
-fn point(of: &Component<'_>, p: [f64; 3], size: f64) -> String {
-    components(&p[of.mechanism.space().forces()], size)
+/// Formats a unit vector as "(0.6, −0.8)" without the quotes.
+fn direction(of: &Component<'_>, unit: [f64; 3]) -> String {
+    components(&unit[of.mechanism.space().forces()], 1.0)
 }
 
 /// Returns the names of bodies, with a count in place of a long list.

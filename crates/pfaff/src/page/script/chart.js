@@ -28,6 +28,14 @@ function legendEntry(parent, s) {
   make(parent, "span", { className: "entry" }, key, s.label);
 }
 
+/** The unit of a chart and its number in one SI unit: that of the scene, or with a prefix. Tips show SI units, too. */
+function printedUnit(si, range, floor) {
+  if (data.units[si]) return data.units[si];
+  const largest = Math.max(...(range ?? [0]).map(Math.abs), floor);
+  const found = data.prefixed.includes(si.split(/[·/]/)[0]) && data.prefixes.find(([from]) => largest >= from);
+  return found ? [`${found[1]}${si}`, 1 / found[2]] : [si, 1];
+}
+
 class Chart {
   /**
    * @param {HTMLElement} parent where the figure goes
@@ -67,8 +75,10 @@ class Chart {
   show(series, { band = null, title = null, unit = null, badge = null, floor = 0, legend = true } = {}) {
     if (title !== null) this.options.title = title;
     if (unit !== null) this.options.unit = unit;
-    // Curves are drawn in the units of the scene; tips tell SI, too.
-    const [name, factor] = data.units[this.options.unit] ?? [this.options.unit, 1];
+    const curves = series.map((s) => s.values);
+    const [name, factor] = this.options.logarithmic
+      ? [this.options.unit, 1]
+      : printedUnit(this.options.unit, rangeOf(band ? [...curves, band.low, band.high] : curves), floor);
     const scaled = (values) => (factor === 1 ? values : values.map((x) => factor * x));
     [this.unit, this.factor] = [name, factor];
     this.series = series.map((s) => ({ ...s, values: scaled(s.values) }));
@@ -94,8 +104,8 @@ class Chart {
       const top = Math.max(Math.ceil(high), LEAST_DECADE + 1);
       return [Math.min(Math.max(Math.floor(low), LEAST_DECADE), top - 1), top];
     }
-    // What is zero everywhere is shown between −1 and 1.
-    const least = Math.max(this.floor, 1e-9 * Math.max(Math.abs(low), Math.abs(high))) || 1;
+    // What is zero everywhere is shown between −1 and 1. Ticks have six digits: smaller changes are shown as constant.
+    const least = Math.max(this.floor, 2e-5 * Math.max(Math.abs(low), Math.abs(high))) || 1;
     if (high - low < least) {
       const half = Math.max(least, 0.05 * Math.abs(high));
       [low, high] = [(low + high) / 2 - half, (low + high) / 2 + half];

@@ -75,7 +75,7 @@ impl Addition for Moments {
         let lines =
             lines.map(|(r, moment)| vec![r.name.clone().into(), each(&moment.components).into()]);
         vec![
-            Block::Heading(format!("Moments about {about} m:")),
+            Block::Heading(format!("Moments about {about}:")),
             Block::Table(lines.collect()),
         ]
     }

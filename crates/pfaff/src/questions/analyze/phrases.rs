@@ -42,9 +42,14 @@ pub(super) fn each(components: &[ComponentDocument]) -> String {
     words.collect::<Vec<_>>().join("; ")
 }
 
+/// Numbers below this fraction of the largest coordinate of a point are rounding errors and are
+/// printed as zero.
+const VISIBLE: f64 = 1e-9;
+
 /// Formats a point.
 pub(super) fn coordinates(point: &[f64]) -> String {
-    let rounded = |x: &f64| short((1e4 * x).round() / 1e4);
+    let largest = point.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let rounded = |x: &f64| short(if x.abs() > VISIBLE * largest { *x } else { 0.0 });
     let numbers: Vec<String> = point.iter().map(rounded).collect();
-    format!("({})", numbers.join(", "))
+    format!("({}) m", numbers.join(", "))
 }

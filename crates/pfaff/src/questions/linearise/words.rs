@@ -1,7 +1,8 @@
 //! Text on small motions.
 
 use super::answer::{LineariseAnswer, ModeOfMotion};
-use crate::words::{Block, count, marked};
+use crate::words::{Block, Cell, count, marked};
+use model::words::short;
 
 pub(super) fn of(d: &LineariseAnswer) -> Vec<Block> {
     let velocities = d.states.len() - d.positions;
@@ -34,24 +35,22 @@ pub(super) fn of(d: &LineariseAnswer) -> Vec<Block> {
     let lines = modes.iter().enumerate().map(|(k, mode)| {
         let ratio = mode.damping_ratio.filter(|_| mode.frequency != 0.0);
         [
-            (k + 1).to_string(),
-            value([mode.real, mode.imaginary]),
-            hertz(Some(mode.frequency).filter(|f| *f != 0.0)),
-            hertz(mode.natural_frequency),
+            (k + 1).to_string().into(),
+            value([mode.real, mode.imaginary]).into(),
+            Cell::quantity(Some(mode.frequency).filter(|f| *f != 0.0), "Hz"),
+            Cell::quantity(mode.natural_frequency, "Hz"),
             // The damping ratio of an undamped motion is a rounding error and is printed without a
             // sign.
-            ratio.map_or("–".to_owned(), |x| {
-                format!("{:.4} %", (1e6 * x).round() / 1e4 + 0.0)
-            }),
-            movers(mode, d.positions),
+            Cell::quantity(ratio.map(|x| (1e6 * x).round() / 1e4), "%"),
+            movers(mode, d.positions).into(),
         ]
     });
     let columns = [
         "mode",
         "eigenvalue (1/s)",
-        "damped (Hz)",
-        "undamped (Hz)",
-        "damping",
+        "damped",
+        "undamped",
+        "damping ratio",
         "moves",
     ];
     blocks.push(Block::table(columns, lines));
@@ -99,17 +98,12 @@ fn ranges(all: &[usize]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Formats the frequency of an oscillating mode.
-fn hertz(frequency: Option<f64>) -> String {
-    frequency.map_or("–".to_owned(), |f| format!("{f:.6}"))
-}
-
 /// Formats an eigenvalue; a conjugate pair is one text.
 pub(super) fn value([re, im]: [f64; 2]) -> String {
     match (re, im) {
         (0.0, 0.0) => "0".to_owned(),
-        (re, 0.0) => format!("{re:.6}"),
-        (re, im) => format!("{re:.6} ± {im:.6}i"),
+        (re, 0.0) => short(re),
+        (re, im) => format!("{} ± {}i", short(re), short(im)),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Text on the plan of a run.
 
+use dynamics::INDEPENDENT_ROWS;
+
 use super::answer::{PlanAnswer, PlannedDecision};
 use crate::memory::Bytes;
 use crate::words::{Block, count};
@@ -8,10 +10,10 @@ use crate::words::{Block, count};
 pub(super) fn of(d: &PlanAnswer) -> Vec<Block> {
     let memory = Bytes(d.memory as u64);
     let (scene, t_end) = (&d.scene, d.t_end);
-    let (formulation, stabilisation) = (d.formulation, d.stabilisation);
+    let stabilisation = d.stabilisation;
     let mut blocks = vec![
         Block::sentence(format!(
-            "{scene}: plan of a run to t = {t_end} s ({formulation}, {stabilisation}), about {memory} of memory"
+            "{scene}: plan of a run to t = {t_end} s ({INDEPENDENT_ROWS}, {stabilisation}), about {memory} of memory"
         )),
         table(d, None),
     ];
@@ -37,7 +39,7 @@ fn table(d: &PlanAnswer, component: Option<&str>) -> Block {
     let of = |line: &&PlannedDecision| line.component.as_deref() == component;
     let lines = d.decisions.iter().filter(of).map(|line| {
         [
-            line.decision.replace('_', " "),
+            in_words(&line.decision),
             line.taken.clone(),
             line.saves
                 .as_ref()
@@ -46,4 +48,14 @@ fn table(d: &PlanAnswer, component: Option<&str>) -> Block {
         ]
     });
     Block::table(["decision", "result", "saves", "reason"], lines)
+}
+
+/// Returns the question that a decision answers, as it is printed.
+fn in_words(decision: &str) -> String {
+    match decision {
+        "dropped_rows" => "redundant rows".to_owned(),
+        "rows_of_gamma" => "rows with Γ".to_owned(),
+        "rows_of_time" => "driven rows".to_owned(),
+        key => key.replace('_', " "),
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::documents::RunDocument;
 use crate::documents::{ChoiceDocument, MisfitDocument, RunReactionDocument, choice_file};
+use dynamics::INDEPENDENT_ROWS;
 use model::words::{listed, rough, rounded};
 
 use super::SimulateAnswer;
@@ -24,7 +25,7 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
     };
     say(format!(
         "{}: {ending} with {} ({}, {})",
-        answer.scene, d.method, d.formulation, d.stabilisation
+        answer.scene, d.method, INDEPENDENT_ROWS, d.stabilisation
     ));
     say(format!(
         "{} steps, {} rejected, {} evaluations in {:.2} ms",
