@@ -172,7 +172,8 @@ fn clamped_and_pinned_bar() {
         along: [1e-9, y, 0.0],
         rotation,
     };
-    let elastic = Choice::Compliance(vec![compliance(0, 0.0, 3e-4), compliance(1, 1e-4, 0.0)]);
+    let elastic =
+        Choice::Compliance(vec![compliance(0, 0.0, 3e-4), compliance(1, 1e-4, 0.0)].into());
     let d = state.distribute(&elastic).expect("determined");
     assert_close(
         -component(&d, "pin", "Fy").0,
@@ -197,7 +198,12 @@ fn beam_on_three_springs() {
             rotation: 0.0,
         };
         state.distribute(&Choice::Compliance(
-            compliances.into_iter().enumerate().map(joint).collect(),
+            compliances
+                .into_iter()
+                .enumerate()
+                .map(joint)
+                .collect::<Vec<_>>()
+                .into(),
         ))
     };
     let forces = |d: &Distribution| supports.map(|(name, _)| component(d, name, "Fy").0);

@@ -84,7 +84,13 @@ fn choices(study: &Study) -> Vec<Choice> {
     let sets = start.elimination_sets(40).expect("decided");
     vec![
         Choice::MinimumNorm(NormWeights::with_arm(0.3)),
-        Choice::Compliance(layout.constraint_ids().map(spring).collect()),
+        Choice::Compliance(
+            layout
+                .constraint_ids()
+                .map(spring)
+                .collect::<Vec<_>>()
+                .into(),
+        ),
         Choice::Elimination(sets.last().expect("redundant").clone()),
     ]
 }

@@ -2,13 +2,11 @@
 
 use std::collections::HashSet;
 
-use model::ConstraintId;
-use solvability::{Choice, Compliance, DeletableRows, NormWeights};
+use model::{ConstraintId, SpaceKind};
+use solvability::{Choice, Compliance, DeletableRows, ElasticSupports, Misfit, NormWeights};
 
-use crate::error::StudyError;
 use crate::refusal::Refusal;
 use crate::run_options::NO_ROW;
-use crate::start::Start;
 
 /// Rows that `--allow` permits to be deleted, in a mechanism with this number of rows.
 ///
@@ -26,27 +24,23 @@ pub fn allowed(text: &str, rows: usize) -> Result<DeletableRows, Refusal> {
     }
 }
 
-/// The scope of choices: the number of rows of a mechanism, and its joints and drives by name.
-pub type ChoiceScope<'a> = (usize, &'a dyn Fn(&str) -> Result<ConstraintId, StudyError>);
+/// Finds a joint or drive by its name.
+pub type FindReaction<'a> = &'a dyn Fn(&str) -> Result<ConstraintId, Refusal>;
+
+/// The scope of choices: the space and the number of rows of a mechanism, and its joints and drives
+/// by name.
+pub type ChoiceScope<'a> = (SpaceKind, usize, FindReaction<'a>);
 
 /// Parses the choices of `--choose`.
 ///
 /// # Errors
 /// Describes the expected text, or names the joint or drive that does not exist.
-pub fn choices(
-    texts: &[String],
-    of: &Start<'_>,
-    named: ChoiceScope<'_>,
-) -> Result<Vec<Choice>, Refusal> {
-    let each = texts.iter().map(|text| choice(text, of, named));
+pub fn choices(texts: &[String], named: ChoiceScope<'_>) -> Result<Vec<Choice>, Refusal> {
+    let each = texts.iter().map(|text| choice(text, named));
     each.collect()
 }
 
-fn choice(
-    text: &str,
-    of: &Start<'_>,
-    (rows, reaction): ChoiceScope<'_>,
-) -> Result<Choice, Refusal> {
+fn choice(text: &str, (space, rows, reaction): ChoiceScope<'_>) -> Result<Choice, Refusal> {
     let (kind, rest) = match text.split_once(':') {
         Some((kind, rest)) => (kind, Some(rest)),
         None => (text, None),
@@ -66,9 +60,17 @@ fn choice(
             }
         }
         ("compliance", Some(rest)) => {
-            let joints = terms(rest).into_iter();
-            let joints = joints.map(|term| compliance(text, term, of, reaction));
-            Ok(Choice::Compliance(joints.collect::<Result<_, _>>()?))
+            let (stiff, misfits) = match rest.split_once(";misfit:") {
+                Some((stiff, misfits)) => (stiff, misfits.split(";misfit:").collect()),
+                None => (rest, Vec::new()),
+            };
+            let misfits = misfits.into_iter();
+            Ok(Choice::Compliance(ElasticSupports {
+                compliances: compliances("--choose", stiff, reaction)?,
+                misfits: misfits
+                    .map(|term| misfit(term.trim(), space, reaction))
+                    .collect::<Result<_, _>>()?,
+            }))
         }
         ("drop", Some(rest)) => Ok(Choice::Elimination(row_list("--choose drop", rest, rows)?)),
         ("compliance", None) => Err(wrong(
@@ -78,7 +80,7 @@ fn choice(
         ("drop", None) => Err(wrong(text, "rows, as `drop:6,21`")),
         _ => Err(wrong(
             text,
-            "`minimum-norm`, `minimum-norm:length=L`, `compliance:…` or `drop:…`",
+            "`minimum-norm`, `minimum-norm:length=L`, `compliance:…`, `compliance:…;misfit:…` or `drop:…`",
         )),
     }
 }
@@ -100,23 +102,35 @@ fn terms(text: &str) -> Vec<&str> {
     terms
 }
 
-/// Parses `W3=1e-6` (m/N in every direction), or `W3=1e-6/1e-3` with rad/(N·m).
-fn compliance(
+/// Parses a list of compliances: `W3=1e-6` (m/N in every direction), or `W3=1e-6/1e-3` with
+/// rad/(N·m).
+///
+/// # Errors
+/// Describes the expected text of the option, or names the joint or drive that does not exist.
+pub fn compliances(
+    option: &str,
     text: &str,
-    term: &str,
-    of: &Start<'_>,
-    reaction: &dyn Fn(&str) -> Result<ConstraintId, StudyError>,
-) -> Result<Compliance, Refusal> {
+    reaction: FindReaction<'_>,
+) -> Result<Vec<Compliance>, Refusal> {
+    let each = terms(text).into_iter();
+    each.map(|term| compliance(option, term, reaction))
+        .collect()
+}
+
+fn compliance(option: &str, term: &str, reaction: FindReaction<'_>) -> Result<Compliance, Refusal> {
     let expected =
         "NAME=COMPLIANCE in m/N, or NAME=COMPLIANCE/ROTATION with rad/(N·m), finite numbers ≥ 0";
-    let (name, numbers) = term.rsplit_once('=').ok_or_else(|| wrong(text, expected))?;
-    let reaction = reaction(name.trim()).map_err(|e| of.refusal(e))?;
+    let (name, numbers) = term.rsplit_once('=').ok_or_else(|| {
+        let message = format!("{option}: a compliance is `{term}`, need {expected}");
+        Refusal::input(message)
+    })?;
+    let reaction = reaction(name.trim())?;
     let number = |word: &str| {
         let x = word.trim().parse::<f64>().ok();
         x.filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(|| {
             let found = word.trim();
             Refusal::input(format!(
-                "--choose compliance: that of `{}` is {found}, need {expected}",
+                "{option}: the compliance of `{}` is {found}, need {expected}",
                 name.trim()
             ))
         })
@@ -128,6 +142,38 @@ fn compliance(
     Ok(Compliance {
         reaction,
         along: [along; 3],
+        rotation,
+    })
+}
+
+/// Parses `A=dx,dy` (m), or `A=dx,dy,angle` with rad; in space `A=dx,dy,dz` and three angles.
+fn misfit(term: &str, space: SpaceKind, reaction: FindReaction<'_>) -> Result<Misfit, Refusal> {
+    let (translations, rotations) = (space.n_translations(), space.n_rotations());
+    let expected = match rotations {
+        1 => "NAME=DX,DY in m, or NAME=DX,DY,ANGLE with rad",
+        _ => "NAME=DX,DY,DZ in m, or NAME=DX,DY,DZ,RX,RY,RZ with rad",
+    };
+    let wrong = || {
+        let message = format!("--choose: a misfit is `{term}`, need {expected}");
+        Refusal::input(message)
+    };
+    let (name, numbers) = term.rsplit_once('=').ok_or_else(wrong)?;
+    let reaction = reaction(name.trim())?;
+    let numbers = numbers.split(',').map(|word| {
+        let x = word.trim().parse::<f64>().ok();
+        x.filter(|x| x.is_finite()).ok_or_else(wrong)
+    });
+    let numbers = numbers.collect::<Result<Vec<f64>, _>>()?;
+    if numbers.len() != translations && numbers.len() != translations + rotations {
+        return Err(wrong());
+    }
+    let (mut along, mut rotation) = ([0.0; 3], [0.0; 3]);
+    along[..translations].copy_from_slice(&numbers[..translations]);
+    let turns = &numbers[translations..];
+    rotation[3 - turns.len()..].copy_from_slice(turns);
+    Ok(Misfit {
+        reaction,
+        along,
         rotation,
     })
 }

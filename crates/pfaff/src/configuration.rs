@@ -14,11 +14,12 @@ use rank::Limits;
 use scene::Scene;
 use solvability::{
     Analysis, Choice, ChoiceError, Continuation, Contradiction, DeletableRows, Distribution,
-    EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, Group,
-    GroupVerdict, MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions,
-    ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Rows, Sensitivities,
-    Sensitivity, Solution, State, analyse_decided, analyse_dropping, analyse_with_progress,
-    generic, generic_with_verdicts, is_locked, no_finite_reactions, second_order, solution,
+    Elasticity, EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict,
+    Group, GroupVerdict, MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals,
+    Questions, ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Rows,
+    Sensitivities, Sensitivity, Solution, State, analyse_decided, analyse_dropping,
+    analyse_with_progress, generic, generic_with_verdicts, is_locked, no_finite_reactions,
+    second_order, solution,
 };
 
 use crate::error::StudyError;
@@ -478,14 +479,13 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(found)
     }
 
-    /// Returns bounds of the reactions for joints of any stiffness, from one solution; the listed
-    /// joints and drives do not give way.
+    /// Returns bounds of the reactions for elastic joints, from one solution.
     pub fn bounds<'s>(
         &'s self,
         solution: &'s Solution,
-        rigid: &[ConstraintId],
+        elasticity: &Elasticity,
     ) -> ReactionBounds<'s, 'a> {
-        self.questions.bounds(solution, rigid)
+        self.questions.bounds(solution, elasticity)
     }
 
     /// Returns the groups of the scene and these combinations, with their names.

@@ -38,6 +38,7 @@ pub mod command;
 mod comparison;
 pub mod configuration;
 pub mod documents;
+mod elasticity;
 pub mod error;
 pub mod explain;
 pub mod forked;

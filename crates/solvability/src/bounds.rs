@@ -44,6 +44,73 @@ pub struct ElasticLoad {
     pub is_moment: bool,
 }
 
+/// The joints and drives that give way.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Elasticity {
+    /// Joints and drives that do not give way.
+    pub rigid: Vec<ConstraintId>,
+    /// A range of the compliances; without it, they are arbitrary.
+    pub within: Option<ComplianceRange>,
+}
+
+/// Compliances between nominal values and a multiple of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComplianceRange {
+    /// The multiple, at least 1.
+    pub factor: f64,
+    /// Nominal compliances; the loads of other joints and drives do not give way. Without nominal
+    /// compliances, all loads give way equally.
+    pub nominal: Option<Vec<NominalCompliance>>,
+}
+
+/// Nominal compliance of a joint or drive, equal in all directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NominalCompliance {
+    /// The joint or drive.
+    pub reaction: ConstraintId,
+    /// Compliance along the force (m/N).
+    pub force: f64,
+    /// Compliance about the moment (rad/(N·m)).
+    pub moment: f64,
+}
+
+impl Elasticity {
+    /// Returns the same statements about the joints and drives of a part, with their numbers there.
+    fn of_reactions(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Self {
+        Self {
+            rigid: self.rigid.iter().filter_map(|id| own(*id)).collect(),
+            within: self.within.as_ref().map(|range| range.of_reactions(own)),
+        }
+    }
+}
+
+impl ComplianceRange {
+    fn of_reactions(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Self {
+        let of = |c: &NominalCompliance| {
+            let reaction = own(c.reaction)?;
+            Some(NominalCompliance { reaction, ..*c })
+        };
+        let nominal = self.nominal.as_ref();
+        Self {
+            factor: self.factor,
+            nominal: nominal.map(|all| all.iter().filter_map(of).collect()),
+        }
+    }
+
+    /// Returns the nominal compliance of a load; `None` if it does not give way.
+    fn of(&self, reaction: ConstraintId, is_moment: bool) -> Option<f64> {
+        let Some(nominal) = &self.nominal else {
+            return Some(1.0);
+        };
+        let own = nominal.iter().filter(|c| c.reaction == reaction);
+        // Compliances of springs in series add up.
+        let sum: f64 = own
+            .map(|c| if is_moment { c.moment } else { c.force })
+            .sum();
+        Some(sum).filter(|sum| *sum > 0.0)
+    }
+}
+
 /// The smallest and the largest value of a number for joints that give way by any law.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -90,6 +157,20 @@ pub enum BoundsError {
         /// Number of load components that stay undetermined.
         free: usize,
     },
+    /// Forces and moments share a load, and their compliances cannot be compared.
+    #[error(
+        "the force of `{force}` and the moment of `{moment}` share a load, and their compliances have different \
+         units: state nominal compliances"
+    )]
+    Mixed {
+        /// A joint or drive with a force.
+        force: String,
+        /// A joint or drive with a moment.
+        moment: String,
+    },
+    /// The range of the compliances is not valid.
+    #[error("compliances range from nominal values > 0 to a multiple ≥ 1 of them, not {0}")]
+    Range(f64),
     /// Too many sets of components can be zero together.
     #[error("more than 100 000 sets of load components would have to be examined")]
     Many,
@@ -111,15 +192,14 @@ pub struct ElasticSolutions<'c, 'm> {
 }
 
 impl<'m> Configuration<'m> {
-    /// Returns the solutions for joints that give way by any law, from one solution λ₀. The joints
-    /// and drives in `rigid` do not give way.
+    /// Returns the solutions for joints that give way by any law, from one solution λ₀.
     ///
     /// # Errors
     /// [`BoundsError`]
     pub fn elastic_solutions<'c>(
         &'c self,
         lambda_0: &[f64],
-        rigid: &[ConstraintId],
+        elasticity: &Elasticity,
     ) -> Result<ElasticSolutions<'c, 'm>, BoundsError> {
         if !self.solvability().decision().is_decided() {
             return Err(BoundsError::Rank);
@@ -127,15 +207,22 @@ impl<'m> Configuration<'m> {
         let free = FreeMultipliers::of(self.solvability());
         let p = free.z.ncols();
         let (mut loads, mut elements) = (Vec::new(), Vec::new());
-        for id in self
-            .layout()
-            .constraint_ids()
-            .filter(|id| !rigid.contains(id))
-        {
-            for (is_moment, forms) in self.load_forms(id)? {
+        let (mut nominal, mut units) = (Vec::new(), Vec::new());
+        let gives_way = |id: &ConstraintId| !elasticity.rigid.contains(id);
+        for id in self.layout().constraint_ids().filter(gives_way) {
+            for (is_moment, unit, forms) in self.load_forms(id)? {
+                let compliance = match &elasticity.within {
+                    Some(range) => range.of(id, unit == "N·m"),
+                    None => Some(1.0),
+                };
+                let Some(compliance) = compliance else {
+                    continue;
+                };
                 if self.is_unique(&forms)? {
                     continue;
                 }
+                nominal.push(compliance);
+                units.push(unit);
                 let group = loads.len();
                 elements.extend(forms.iter().map(|form| Element {
                     group,
@@ -148,13 +235,36 @@ impl<'m> Configuration<'m> {
                 });
             }
         }
-        let hull = Hull::new(elements, p, free.tolerance).map_err(|e| match e {
+        let mut hull = Hull::new(elements, p, free.tolerance).map_err(|e| match e {
             HullError::Unclear { group } => BoundsError::Undecided {
                 reaction: self.layout().groups[loads[group].reaction.0].name.clone(),
             },
             HullError::Free { free } => BoundsError::Rigid { free },
             HullError::Many => BoundsError::Many,
         })?;
+        if let Some(range) = &elasticity.within {
+            if range.nominal.is_none() {
+                let name = |load: usize| {
+                    let ElasticLoad { reaction, .. } = loads[load];
+                    self.layout().groups[reaction.0].name.clone()
+                };
+                let mixed = hull.loads().find_map(|own| {
+                    let of = |unit: &str| own.iter().copied().find(|load| units[*load] == unit);
+                    Some([of("N")?, of("N·m")?])
+                });
+                if let Some([force, moment]) = mixed.map(|pair| pair.map(name)) {
+                    return Err(BoundsError::Mixed { force, moment });
+                }
+            }
+            if !(range.factor >= 1.0 && range.factor.is_finite()) {
+                return Err(BoundsError::Range(range.factor));
+            }
+            let factor = range.factor;
+            hull.restrict(&hull::Range {
+                factor,
+                nominal: &nominal,
+            });
+        }
         Ok(ElasticSolutions {
             configuration: self,
             free,
@@ -164,13 +274,14 @@ impl<'m> Configuration<'m> {
         })
     }
 
-    /// Returns the components of the force and of the moment of a joint along orthonormal axes:
-    /// those of the joint if it has any.
-    fn load_forms(&self, id: ConstraintId) -> Result<Vec<(bool, Vec<LinearForm>)>, RequestError> {
+    /// Returns the components of the force and of the moment of a joint along orthonormal axes,
+    /// those of the joint if it has any, each with whether they are a moment, and the unit.
+    fn load_forms(&self, id: ConstraintId) -> Result<Vec<LoadForms>, RequestError> {
         let layout = self.layout();
         let group = &layout.groups[id.0];
         if let Some(name) = group.own_load() {
-            return Ok(vec![(false, vec![self.reactions().component(id, name)?])]);
+            let forms = vec![self.reactions().component(id, name)?];
+            return Ok(vec![(false, layout.load_unit(id, name), forms)]);
         }
         let space = group.space;
         let own = group.components();
@@ -186,10 +297,13 @@ impl<'m> Configuration<'m> {
             }
             forms[range].iter().map(|(_, form)| form.clone()).collect()
         };
-        let both = [(false, of(space.forces())), (true, of(space.torques()))];
+        let both = [
+            (false, "N", of(space.forces())),
+            (true, "N·m", of(space.torques())),
+        ];
         Ok(both
             .into_iter()
-            .filter(|(_, forms)| !forms.is_empty())
+            .filter(|(.., forms)| !forms.is_empty())
             .collect())
     }
 
@@ -203,6 +317,9 @@ impl<'m> Configuration<'m> {
         Ok(true)
     }
 }
+
+/// Components of a load, with whether they are a moment, and their unit.
+type LoadForms = (bool, &'static str, Vec<LinearForm>);
 
 /// Returns ℓᵀ·Z in the coordinates of the free multipliers.
 fn along(form: &LinearForm, free: &FreeMultipliers<'_>) -> Vec<f64> {

@@ -44,9 +44,9 @@ pub enum Choice {
     MinimumNorm(NormWeights),
     /// The forces that elastic supports with these compliances would carry, in the limit of stiff
     /// supports. The choice minimises the complementary energy
-    /// `½·Σ (Σ along_k·F_k² + rotation·T²)`, where T² is the square of the torque vector. Joints
-    /// and drives that are not listed are rigid.
-    Compliance(Vec<Compliance>),
+    /// `½·Σ (Σ along_k·F_k² + rotation·T²) − Σ (d·F + φ·T)`, where T² is the square of the torque
+    /// vector, and d and φ are the misfits. Joints and drives without a compliance are rigid.
+    Compliance(ElasticSupports),
     /// Sets the reactions in these rows (from 0) to zero.
     Elimination(Vec<usize>),
 }
@@ -77,15 +77,9 @@ impl Choice {
     pub(crate) fn share_of(&self, extent: &Extent, listed: &ListedRows<'_>) -> Self {
         match self {
             Self::MinimumNorm(weights) => Self::MinimumNorm(*weights),
-            Self::Compliance(joints) => {
-                let own = |joint: &Compliance| {
-                    let reaction = extent.own_group(joint.reaction.0)?;
-                    Some(Compliance {
-                        reaction: ConstraintId(reaction),
-                        ..*joint
-                    })
-                };
-                Self::Compliance(joints.iter().filter_map(own).collect())
+            Self::Compliance(supports) => {
+                let own = |id: ConstraintId| extent.own_group(id.0).map(ConstraintId);
+                Self::Compliance(supports.of_reactions(own))
             }
             Self::Elimination(_) => Self::Elimination(extent.own_rows(listed)),
         }
@@ -122,6 +116,60 @@ impl NormWeights {
             torque: length.recip(),
         }
     }
+}
+
+/// Joints and drives that give way, and those that do not fit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ElasticSupports {
+    /// Compliances; other joints and drives are rigid.
+    pub compliances: Vec<Compliance>,
+    /// Misfits; other joints and drives fit exactly.
+    pub misfits: Vec<Misfit>,
+}
+
+impl From<Vec<Compliance>> for ElasticSupports {
+    fn from(compliances: Vec<Compliance>) -> Self {
+        Self {
+            compliances,
+            misfits: Vec::new(),
+        }
+    }
+}
+
+impl ElasticSupports {
+    /// Returns the joints and drives with a compliance or a misfit.
+    pub(crate) fn listed(&self) -> impl Iterator<Item = ConstraintId> + '_ {
+        let misfits = self.misfits.iter().map(|m| m.reaction);
+        self.compliances.iter().map(|c| c.reaction).chain(misfits)
+    }
+
+    /// Returns the share of the joints and drives of a part, with their numbers there.
+    fn of_reactions(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Self {
+        let compliance = |c: &Compliance| {
+            let reaction = own(c.reaction)?;
+            Some(Compliance { reaction, ..*c })
+        };
+        let misfit = |m: &Misfit| {
+            let reaction = own(m.reaction)?;
+            Some(Misfit { reaction, ..*m })
+        };
+        Self {
+            compliances: self.compliances.iter().filter_map(compliance).collect(),
+            misfits: self.misfits.iter().filter_map(misfit).collect(),
+        }
+    }
+}
+
+/// Misfit of a joint or drive without loads: displacement of its second member, or of the ground,
+/// from the place at which the joint fits, in global components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Misfit {
+    /// The joint or drive.
+    pub reaction: ConstraintId,
+    /// Displacement along x, y and z at the reference point (m).
+    pub along: [f64; 3],
+    /// Rotation about x, y and z (rad); in the plane only about z.
+    pub rotation: [f64; 3],
 }
 
 /// Compliance of a joint or drive, in global components at its reference point.
@@ -298,7 +346,7 @@ impl Configuration<'_> {
         choice: &Choice,
     ) -> Result<Distribution, ChoiceError> {
         let rigid = match choice {
-            Choice::Compliance(joints) => self.rigid(joints),
+            Choice::Compliance(supports) => self.rigid(&supports.compliances),
             _ => Vec::new(),
         };
         self.distribute_as(lambda_0, choice, label(self.layout(), choice, &rigid))
@@ -318,7 +366,7 @@ impl Configuration<'_> {
         }
         let lambda = match choice {
             Choice::MinimumNorm(weights) => self.least_norm(lambda_0, *weights)?,
-            Choice::Compliance(joints) => self.choosing().elastic(lambda_0, joints)?,
+            Choice::Compliance(supports) => self.choosing().elastic(lambda_0, supports)?,
             Choice::Elimination(rows) => self.eliminated(lambda_0, rows)?,
         };
         let mut distribution = Distribution {

@@ -85,11 +85,15 @@ pub use analysis::{
     Analysis, analyse, analyse_by_cycles, analyse_decided, analyse_dropping, analyse_known,
     analyse_with_progress,
 };
-pub use bounds::{BoundsError, ElasticBounds, ElasticLoad, ElasticSolutions, ReactionBounds};
+pub use bounds::{
+    BoundsError, ComplianceRange, ElasticBounds, ElasticLoad, ElasticSolutions, Elasticity,
+    NominalCompliance, ReactionBounds,
+};
 pub use certificate::{certify, inseparable};
 pub use choices::{
     CarriedChoices, CarriedSolution, Choice, ChoiceError, ChosenValues, Compliance, Distribution,
-    Equations, NamedChoice, NormWeights, ReactionValues, RowTerms, Solution, minimise, solution,
+    ElasticSupports, Equations, Misfit, NamedChoice, NormWeights, ReactionValues, RowTerms,
+    Solution, minimise, solution,
 };
 pub use error::AnalysisError;
 pub use existence::{

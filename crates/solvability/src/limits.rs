@@ -834,6 +834,11 @@ pub(crate) const MAGNITUDE_POINTS: usize = 100_000;
 /// request takes long. Test: `a_common_load_couples_its_components`.
 pub(crate) const MERGED_POINTS: usize = 20_000;
 
+/// Maximum number of products of corners and solutions for which the corners of a range of
+/// compliances are examined. Unit: products. Too small: the bounds within a factor are wider than
+/// necessary. Too large: the request takes long. Test: `bounds_within_a_factor_are_those_of_corners`.
+pub(crate) const CORNER_POINTS: usize = 1_000_000;
+
 /// Difference of values at the end of a range that count as equal, relative to the largest value.
 /// Unit: dimensionless. Too small: an end is not marked as reached because of rounding. Too large:
 /// an end is marked as reached by another solution. Test:

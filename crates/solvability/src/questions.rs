@@ -417,9 +417,9 @@ impl<'a> Questions<'a> {
         let reactions = self.part_of.len();
         let eliminated = choice.listed_rows();
         let rigid = match choice {
-            Choice::Compliance(joints) => {
-                for joint in joints {
-                    self.place(joint.reaction)?;
+            Choice::Compliance(supports) => {
+                for id in supports.listed() {
+                    self.place(id)?;
                 }
                 self.rigid(choice)?
             }
@@ -475,8 +475,8 @@ impl<'a> Questions<'a> {
             if part.decision.redundancy() == 0 {
                 continue;
             }
-            if let Choice::Compliance(joints) = choice.share(&part.extent) {
-                let own = self.configuration(k)?.rigid(&joints);
+            if let Choice::Compliance(supports) = choice.share(&part.extent) {
+                let own = self.configuration(k)?.rigid(&supports.compliances);
                 rigid.extend(own.iter().map(|id| ConstraintId(part.extent.group(id.0))));
             }
         }

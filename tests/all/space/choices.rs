@@ -30,7 +30,7 @@ fn elastic<const N: usize>(study: &Study, joints: [(&str, [f64; 3], f64); N]) ->
         along,
         rotation,
     };
-    Choice::Compliance(joints.map(compliance).to_vec())
+    Choice::Compliance(joints.map(compliance).to_vec().into())
 }
 
 /// Returns a component of a reaction on the body: the ground is the first body of all joints.

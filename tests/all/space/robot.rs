@@ -295,7 +295,10 @@ fn choices_cannot_be_improved_by_a_load_that_nothing_feels() {
     let of_norm = vec![[1.0, 1.0 / 0.09]; groups.len()];
     for (choice, weights) in [
         (norm, of_norm),
-        (Choice::Compliance(elastic.collect()), compliances.clone()),
+        (
+            Choice::Compliance(elastic.collect::<Vec<_>>().into()),
+            compliances.clone(),
+        ),
     ] {
         for (t, q) in [&rows[0], &rows[30], &rows[150]] {
             let analysis = study.analyse(*t, None).unwrap_or_else(|e| panic!("{e}"));

@@ -11,6 +11,7 @@ use crate::documents::RunDocument;
 use model::System;
 use report::OutputDirectory;
 use serde::{Deserialize, Serialize};
+use solvability::Choice;
 
 use crate::choice::choices;
 use crate::error::StudyError;
@@ -62,9 +63,15 @@ impl Question for Simulate {
             ..self.run.clone()
         };
         let mut study = of.prepared(&run, control)?;
-        let rows = study.prepared.mechanism.layout().rows();
-        let reaction = |name: &str| study.reaction(name);
-        study.choices = choices(&self.choose, of, (rows, &reaction))?;
+        let mechanism = &study.prepared.mechanism;
+        let scope = (mechanism.space(), mechanism.layout().rows());
+        let reaction = |name: &str| study.reaction(name).map_err(|e| of.refusal(e));
+        study.choices = choices(&self.choose, (scope.0, scope.1, &reaction))?;
+        let has_misfit = |choice: &Choice| matches!(choice, Choice::Compliance(supports) if !supports.misfits.is_empty());
+        if study.choices.iter().any(has_misfit) {
+            let message = "a misfit is stated in ground axes at one instant: use `analyze --at-time T --choose …`";
+            return Err(Refusal::input(message.to_owned()));
+        }
         let memory = study.memory(of.text.len()).map_err(|e| of.refusal(e))?;
         of.budget.allow(memory, "this run")?;
         let Some(options) = &study.options else {

@@ -8,8 +8,8 @@ use linalg::{DisjointSets, Matrix, PivotedQr, RowBasis, symmetric_eigen};
 
 use super::separation::is_separated;
 use crate::limits::{
-    CLEAR_MINOR, CLEAR_OF_ZERO, ELASTIC_SETS, EQUAL_LEVERAGE, MAGNITUDE_POINTS, MERGED_POINTS,
-    TIED_ENDS, ZERO_MINOR,
+    CLEAR_MINOR, CLEAR_OF_ZERO, CORNER_POINTS, ELASTIC_SETS, EQUAL_LEVERAGE, MAGNITUDE_POINTS,
+    MERGED_POINTS, TIED_ENDS, ZERO_MINOR,
 };
 
 /// A component of a load: `value + row·y` for the solution `λ₀ + Z·y`.
@@ -61,11 +61,22 @@ pub(super) enum HullError {
     Free { free: usize },
 }
 
+/// Compliances between nominal values and a multiple of them.
+#[derive(Clone, Debug)]
+pub(super) struct Range<'n> {
+    /// The multiple.
+    pub(super) factor: f64,
+    /// The nominal compliance of each load.
+    pub(super) nominal: &'n [f64],
+}
+
 /// The solutions y_m in independent blocks of coordinates.
 pub(super) struct Hull {
     /// Factors of the transposed rows of the basis: `y′ = A_B·y` are the coordinates of the blocks.
     basis: PivotedQr,
     blocks: Vec<Block>,
+    /// Sizes by which the components of each load were divided.
+    sizes: Vec<f64>,
     /// Number of sets in all blocks.
     pub(super) sets: u64,
 }
@@ -75,6 +86,20 @@ struct Block {
     /// Its coordinates among those of all blocks.
     coordinates: Vec<usize>,
     points: Vec<HullPoint>,
+    /// Restriction of the weights of the points.
+    weights: Weights,
+}
+
+/// The weights with which the points of a block are averaged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Weights {
+    /// Any weights c^m·w_m: a point is reached where its monomial dominates.
+    Monomials,
+    /// Any weights; every point is reached.
+    Corners,
+    /// Between the weight of each point and this multiple of it. More averages are possible than
+    /// with any compliances.
+    UpTo(f64),
 }
 
 /// The loads of a monomial with their exponents, ascending.
@@ -132,6 +157,120 @@ impl Block {
         Self {
             coordinates: [self.coordinates.as_slice(), &other.coordinates].concat(),
             points: sums.points(),
+            weights: Weights::Monomials,
+        }
+    }
+
+    /// Restricts the compliances. If each load has at most one component in each monomial, y is a
+    /// ratio of functions that are affine in each compliance, and its extremes belong to the
+    /// corners of the range. Otherwise the weight of a monomial of degree p varies by the factor to
+    /// the power p.
+    fn restrict(&mut self, range: &Range<'_>, sizes: &[f64]) {
+        for point in &mut self.points {
+            for &(load, n) in &point.monomial {
+                let nominal = range.nominal[load] * sizes[load] * sizes[load];
+                point.weight *= nominal.powi(n.cast_signed());
+            }
+        }
+        let degree = self.coordinates.len();
+        let loads: Vec<usize> = self.loads().into_iter().collect();
+        let mut monomials = self.points.iter().flat_map(|point| &point.monomial);
+        let is_affine = monomials.all(|(_, n)| *n == 1);
+        let corners = u32::try_from(loads.len()).ok();
+        let corners = corners.and_then(|n| 1_usize.checked_shl(n));
+        let corners = corners.filter(|n| n.saturating_mul(self.points.len()) <= CORNER_POINTS);
+        match corners {
+            _ if degree == 1 => {
+                self.weights = Weights::UpTo(range.factor);
+                self.points = [1.0, -1.0].map(|sign| self.end(sign)).into();
+                self.weights = Weights::Corners;
+            }
+            Some(corners) if is_affine => {
+                let points = (0..corners).map(|corner| {
+                    let is_soft = |load: &usize| {
+                        let place = loads.binary_search(load);
+                        place.is_ok_and(|k| corner >> k & 1 == 1)
+                    };
+                    self.average(is_soft, range.factor)
+                });
+                self.points = points.collect();
+                self.weights = Weights::Corners;
+            }
+            _ => {
+                let factor = range.factor.powi(degree.min(i32::MAX as usize) as i32);
+                self.weights = Weights::UpTo(factor);
+            }
+        }
+    }
+
+    /// Returns the smallest y of a block with one coordinate, or the largest for the sign −1.
+    fn end(&self, sign: f64) -> HullPoint {
+        let values = self.points.iter().map(|point| sign * point.y[0]);
+        let (least, soft) = self.least(&values.collect::<Vec<f64>>());
+        let soft = soft.iter().flat_map(|&k| &self.points[k].monomial);
+        HullPoint {
+            monomial: monomial(soft.map(|(load, _)| *load)),
+            weight: 1.0,
+            y: vec![sign * least],
+        }
+    }
+
+    /// Returns the solution whose soft loads are softer by a factor.
+    fn average(&self, is_soft: impl Fn(&usize) -> bool, factor: f64) -> HullPoint {
+        let (mut total, mut y) = (0.0, vec![0.0; self.coordinates.len()]);
+        for point in &self.points {
+            let soft = point.monomial.iter().filter(|(load, _)| is_soft(load));
+            let weight = soft.fold(point.weight, |w, _| w * factor);
+            total += weight;
+            y.iter_mut()
+                .zip(&point.y)
+                .for_each(|(sum, y)| *sum += weight * y);
+        }
+        HullPoint {
+            monomial: self
+                .loads()
+                .into_iter()
+                .filter(is_soft)
+                .map(|load| (load, 1))
+                .collect(),
+            weight: total,
+            y: y.iter().map(|y| y / total).collect(),
+        }
+    }
+
+    /// Returns the smallest average of these values of the points, and the points that it weights
+    /// most.
+    fn least(&self, values: &[f64]) -> (f64, Vec<usize>) {
+        let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let Weights::UpTo(factor) = self.weights else {
+            let width = values.iter().map(|x| x.abs()).fold(0.0, f64::max);
+            let is_tied = |k: &usize| values[*k] <= least + TIED_ENDS * width;
+            return (least, (0..values.len()).filter(is_tied).collect());
+        };
+        let mut order: Vec<usize> = (0..values.len()).collect();
+        order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
+        let weight = |k: &usize| self.points[*k].weight;
+        let moment = |k: &usize| weight(k) * (values[*k] - least);
+        let mut total: f64 = order.iter().map(weight).sum();
+        let mut sum: f64 = order.iter().map(moment).sum();
+        let (mut best, mut most) = (sum / total, 0);
+        for (n, k) in order.iter().enumerate() {
+            total += (factor - 1.0) * weight(k);
+            sum += (factor - 1.0) * moment(k);
+            if sum / total < best {
+                (best, most) = (sum / total, n + 1);
+            }
+        }
+        order.truncate(most);
+        (least + best, order)
+    }
+
+    /// Returns whether the average with these points is that of some compliances.
+    fn is_reached(&self, tied: &[usize]) -> bool {
+        match self.weights {
+            Weights::Monomials => tied.iter().any(|&k| self.is_vertex(k)),
+            Weights::Corners => true,
+            Weights::UpTo(_) => false,
         }
     }
 }
@@ -181,7 +320,7 @@ impl Hull {
     /// Finds the hull for p coordinates; coefficients up to the tolerance may be rounding.
     pub(super) fn new(elements: Vec<Element>, p: usize, tolerance: f64) -> Result<Self, HullError> {
         let zero = Zero::new(tolerance);
-        let elements = principal(elements, p, zero)?;
+        let (elements, sizes) = principal(elements, p, zero)?;
         let matrix = Matrix::from_fn(elements.len(), p, |i, j| elements[i].row[j]);
         let basis = RowBasis::most_independent(matrix.clone(), p);
         let outside: Vec<Vec<f64>> = (0..basis.dropped().len())
@@ -202,6 +341,7 @@ impl Hull {
         let mut hull = Self {
             basis: PivotedQr::of_columns(&matrix.select_rows(basis.kept()).transpose()),
             blocks: Vec::new(),
+            sizes,
             sets: 0,
         };
         let of_basis = |k: usize| &elements[basis.kept()[k]];
@@ -231,6 +371,7 @@ impl Hull {
             hull.blocks.push(Block {
                 coordinates: inside,
                 points,
+                weights: Weights::Monomials,
             });
         }
         hull.merge();
@@ -256,6 +397,18 @@ impl Hull {
         self.blocks = merged;
     }
 
+    /// Returns the loads of each independent block.
+    pub(super) fn loads(&self) -> impl Iterator<Item = BTreeSet<usize>> + '_ {
+        self.blocks.iter().map(Block::loads)
+    }
+
+    /// Restricts the compliances of all loads.
+    pub(super) fn restrict(&mut self, range: &Range<'_>) {
+        for block in &mut self.blocks {
+            block.restrict(range, &self.sizes);
+        }
+    }
+
     /// Returns the coefficients of a linear form of y in the coordinates of the blocks.
     fn in_blocks(&self, along: &[f64]) -> Vec<f64> {
         solved(&self.basis, along.to_vec())
@@ -272,23 +425,18 @@ impl Hull {
                 if largest <= ZERO_MINOR * norm(&along) {
                     continue;
                 }
-                let values = block.points.iter().map(|point| dot(&own, &point.y));
-                let values: Vec<f64> = values.collect();
-                let best = values
-                    .iter()
-                    .map(|x| sign * x)
-                    .fold(f64::INFINITY, f64::min);
-                let width = values.iter().map(|x| x.abs()).fold(0.0, f64::max);
-                let is_tied = |k: &usize| sign * values[*k] <= best + TIED_ENDS * width;
-                let tied: Vec<usize> = (0..values.len()).filter(is_tied).collect();
-                value += sign * best;
-                chosen.push((block, tied));
+                let values = block.points.iter().map(|point| sign * dot(&own, &point.y));
+                let (least, points) = block.least(&values.collect::<Vec<f64>>());
+                value += sign * least;
+                chosen.push((block, points));
             }
-            let first: Vec<(&Block, usize)> =
-                chosen.iter().map(|(b, tied)| (*b, tied[0])).collect();
-            let monomials = first
+            let soft = chosen
                 .iter()
-                .flat_map(|(block, k)| &block.points[*k].monomial);
+                .filter_map(|(block, points)| match block.weights {
+                    Weights::Monomials | Weights::Corners => Some(&block.points[*points.first()?]),
+                    Weights::UpTo(_) => None,
+                });
+            let monomials = soft.flat_map(|point| &point.monomial);
             let mut groups: Vec<usize> = monomials.map(|(group, _)| *group).collect();
             groups.sort_unstable();
             groups.dedup();
@@ -297,9 +445,10 @@ impl Hull {
             let all = loads.len();
             loads.sort_unstable();
             loads.dedup();
-            let is_vertex =
-                |(block, tied): &(&Block, Vec<usize>)| tied.iter().any(|&k| block.is_vertex(k));
-            let is_reached = loads.len() == all && chosen.iter().all(is_vertex);
+            let is_reached = loads.len() == all
+                && chosen
+                    .iter()
+                    .all(|(block, points)| block.is_reached(points));
             RangeEnd {
                 value,
                 groups,
@@ -327,7 +476,8 @@ impl Hull {
             if changes.iter().flatten().all(|x| *x == 0.0) {
                 continue;
             }
-            if sums.len() * changes.len() > MAGNITUDE_POINTS {
+            let is_restricted = matches!(block.weights, Weights::UpTo(_));
+            if is_restricted || sums.len() * changes.len() > MAGNITUDE_POINTS {
                 return self.norm_of_ends(terms);
             }
             let add = |sum: &Vec<f64>, change: &Vec<f64>| -> Vec<f64> {
@@ -439,12 +589,19 @@ impl Minors<'_> {
 
 /// Rotates the components of each load to the principal axes of its leverage
 /// `A_X·(Σ AᵀA)⁻¹·A_Xᵀ`, which do not depend on the axes of the scene, and scales each load to
-/// size one. Components that do not depend on y are left out.
-fn principal(elements: Vec<Element>, p: usize, zero: Zero) -> Result<Vec<Element>, HullError> {
+/// size one. Components that do not depend on y are left out. The sizes are returned, too.
+fn principal(
+    elements: Vec<Element>,
+    p: usize,
+    zero: Zero,
+) -> Result<(Vec<Element>, Vec<f64>), HullError> {
     let groups = elements.chunk_by(|a, b| a.group == b.group);
-    let scaled = groups.map(|group| {
+    let size = |group: &[Element]| {
         let squares = group.iter().map(|e| dot(&e.row, &e.row));
-        let size = squares.sum::<f64>().sqrt();
+        squares.sum::<f64>().sqrt()
+    };
+    let sizes: Vec<f64> = groups.clone().map(size).collect();
+    let scaled = groups.zip(&sizes).map(|(group, &size)| {
         let scale = |e: &Element| Element {
             row: e.row.iter().map(|x| x / size).collect(),
             value: e.value / size,
@@ -487,7 +644,7 @@ fn principal(elements: Vec<Element>, p: usize, zero: Zero) -> Result<Vec<Element
             }
         }
     }
-    Ok(out)
+    Ok((out, sizes))
 }
 
 /// Returns orthonormal eigenvectors; among equal eigenvalues those along the given axes.

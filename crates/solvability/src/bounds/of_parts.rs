@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use model::{ConstraintId, System};
 use rayon::prelude::*;
 
-use super::{BoundsError, ElasticBounds, ElasticLoad, ElasticSolutions};
+use super::{BoundsError, ElasticBounds, ElasticLoad, ElasticSolutions, Elasticity};
 use crate::choices::{Solution, not_finite};
 use crate::groups::{Group, LinearForm};
 use crate::questions::Questions;
@@ -18,23 +18,22 @@ type OfPart<'q, 'm> = Result<ElasticSolutions<'q, 'm>, BoundsError>;
 pub struct ReactionBounds<'q, 'm> {
     questions: &'q Questions<'m>,
     solution: &'q Solution,
-    rigid: Vec<ConstraintId>,
+    elasticity: Elasticity,
     parts: Vec<OnceLock<OfPart<'q, 'm>>>,
 }
 
 impl<'m> Questions<'m> {
-    /// Returns bounds of the reactions for joints that give way by any law, from one solution. The
-    /// joints and drives in `rigid` do not give way.
+    /// Returns bounds of the reactions for joints that give way by any law, from one solution.
     #[must_use]
     pub fn bounds<'q>(
         &'q self,
         solution: &'q Solution,
-        rigid: &[ConstraintId],
+        elasticity: &Elasticity,
     ) -> ReactionBounds<'q, 'm> {
         ReactionBounds {
             questions: self,
             solution,
-            rigid: rigid.to_vec(),
+            elasticity: elasticity.clone(),
             parts: self.parts().iter().map(|_| OnceLock::new()).collect(),
         }
     }
@@ -48,11 +47,8 @@ impl<'q, 'm> ReactionBounds<'q, 'm> {
             return None;
         }
         Some(self.parts[k].get_or_init(|| {
-            let own = self
-                .rigid
-                .iter()
-                .filter_map(|id| part.extent.own_group(id.0));
-            let own: Vec<ConstraintId> = own.map(ConstraintId).collect();
+            let own = |id: ConstraintId| part.extent.own_group(id.0).map(ConstraintId);
+            let own = self.elasticity.of_reactions(own);
             let lambda = part.extent.of_rows(self.solution.multipliers.as_chosen());
             self.questions
                 .configuration(k)?

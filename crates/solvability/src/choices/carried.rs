@@ -184,7 +184,7 @@ impl<'m> FreePart<'m> {
         let choices = self.choices.iter();
         let solved = choices.map(|choice| match choice {
             Choice::MinimumNorm(weights) => choosing.least_norm(lambda, *weights),
-            Choice::Compliance(joints) => choosing.elastic(lambda, joints),
+            Choice::Compliance(supports) => choosing.elastic(lambda, supports),
             Choice::Elimination(rows) => {
                 self.check_rows(whole, &z, rows)?;
                 Ok(choosing.free.eliminated(lambda, rows))

@@ -43,6 +43,22 @@ pub enum ChoiceError {
         /// The weight.
         value: f64,
     },
+    /// A misfit is not a finite number.
+    #[error("a misfit is {value}, need a finite number", value = short(*value))]
+    Misfit {
+        /// The value.
+        value: f64,
+    },
+    /// A misfit causes a load through rows that slip.
+    #[error(
+        "the misfit of `{misfit}` loads `{slipping}`, which slips: its load does not last, and no preload is computed"
+    )]
+    Slips {
+        /// The joint or drive that does not fit.
+        misfit: String,
+        /// The joint that slips.
+        slipping: String,
+    },
     /// A weight of a norm is not positive.
     #[error("the norm has the weight {value}, need a finite number > 0", value = short(*value))]
     NormWeight {
@@ -116,6 +132,8 @@ impl ChoiceError {
             | Self::Saddle { .. }
             | Self::Contradiction { .. }
             | Self::Weight { .. }
+            | Self::Misfit { .. }
+            | Self::Slips { .. }
             | Self::NormWeight { .. }
             | Self::Indeterminate { .. }
             | Self::Hidden { .. }

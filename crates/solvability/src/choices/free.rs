@@ -3,10 +3,10 @@
 use linalg::Matrix;
 use model::{ConstraintId, RowRanges, System};
 
-use super::minimise::{independent_columns, minimise_in};
+use super::minimise::{Term, independent_columns, minimise_in, strain};
 use super::multipliers::FreeMultipliers;
-use super::{ChoiceError, Compliance, NormWeights};
-use crate::groups::{LinearForm, ReactionForms, RequestError};
+use super::{ChoiceError, ElasticSupports, Misfit, NormWeights};
+use crate::groups::{ReactionForms, RequestError};
 
 /// Returns `C_Xᵀ·Z_X` of equilibrated rows X.
 type Cancelling<'a> = Box<dyn Fn(&RowRanges) -> Result<Matrix, RequestError> + 'a>;
@@ -41,17 +41,17 @@ impl Choosing<'_> {
         })
     }
 
-    /// Returns the λ of elastic supports with these compliances.
+    /// Returns the λ of elastic supports.
     pub(crate) fn elastic(
         &self,
         lambda_0: &[f64],
-        joints: &[Compliance],
+        supports: &ElasticSupports,
     ) -> Result<Vec<f64>, ChoiceError> {
         let mechanism = &self.reactions.mechanism;
         let space = mechanism.space();
         let rigid = ([0.0; 3], 0.0);
         let mut of_joint = vec![rigid; mechanism.layout().groups.len()];
-        for joint in joints {
+        for joint in &supports.compliances {
             self.reactions.check_id(joint.reaction)?;
             let (along, rotation) = &mut of_joint[joint.reaction.0];
             let totals = along.iter_mut().chain([rotation]);
@@ -63,14 +63,51 @@ impl Choosing<'_> {
                 *total += compliance;
             }
         }
-        self.least(lambda_0, |id, component| {
-            let (along, rotation) = of_joint[id.0];
-            if space.forces().contains(&component) {
-                along[space.axis_of(component)]
-            } else {
-                rotation
+        let mut misfits = vec![[[0.0; 3]; 2]; mechanism.layout().groups.len()];
+        for misfit in &supports.misfits {
+            self.reactions.check_id(misfit.reaction)?;
+            let own = &mut misfits[misfit.reaction.0];
+            for (own, given) in own.iter_mut().zip([misfit.along, misfit.rotation]) {
+                for (own, given) in own.iter_mut().zip(given) {
+                    if !given.is_finite() {
+                        return Err(ChoiceError::Misfit { value: given });
+                    }
+                    *own += given;
+                }
             }
-        })
+        }
+        let terms = self.terms(|id, component| {
+            let (along, rotation) = of_joint[id.0];
+            let (axis, [d, phi]) = (space.axis_of(component), misfits[id.0]);
+            if space.forces().contains(&component) {
+                (along[axis], d[axis])
+            } else {
+                (rotation, phi[axis])
+            }
+        })?;
+        self.check_fits(&terms, &supports.misfits)?;
+        minimise_in(&self.free, lambda_0, &terms)
+    }
+
+    /// Checks that a misfit causes no load through nonholonomic rows: these rows slip, and a load
+    /// through them does not last.
+    fn check_fits(&self, terms: &[Term], misfits: &[Misfit]) -> Result<(), ChoiceError> {
+        let layout = self.reactions.mechanism.layout();
+        let (strain, most) = strain(&self.free, terms);
+        let pushes = strain.iter().any(|x| x.abs() > most * self.free.tolerance);
+        let z = &self.free.z;
+        let is_shared = |row: usize| z.row(row).iter().any(|z| z.abs() > self.free.tolerance);
+        let mut slipping = layout.groups.iter().filter(|group| {
+            let rows = group.rows.nonholonomic.clone();
+            rows.into_iter().any(is_shared)
+        });
+        match (pushes, misfits.first(), slipping.next()) {
+            (true, Some(misfit), Some(group)) => Err(ChoiceError::Slips {
+                misfit: layout.groups[misfit.reaction.0].name.clone(),
+                slipping: group.name.clone(),
+            }),
+            _ => Ok(()),
+        }
     }
 
     /// Minimises the weighted sum of squares of all wrenches.
@@ -79,25 +116,39 @@ impl Choosing<'_> {
         lambda_0: &[f64],
         weights: impl Fn(ConstraintId, usize) -> f64,
     ) -> Result<Vec<f64>, ChoiceError> {
+        let terms = self.terms(|id, component| (weights(id, component), 0.0))?;
+        minimise_in(&self.free, lambda_0, &terms)
+    }
+
+    /// Returns the components of all wrenches with their weights and misfits.
+    fn terms(
+        &self,
+        of: impl Fn(ConstraintId, usize) -> (f64, f64),
+    ) -> Result<Vec<Term>, ChoiceError> {
         let groups = &self.reactions.mechanism.layout().groups;
         let mut terms = Vec::new();
         for (k, group) in groups.iter().enumerate() {
             let id = ConstraintId(k);
             for c in group.components() {
                 let form = self.reactions.component(id, group.space.components()[c])?;
-                terms.push((form, weights(id, c)));
+                let (weight, misfit) = of(id, c);
+                terms.push(Term {
+                    form,
+                    weight,
+                    misfit,
+                });
             }
         }
         self.check_visible(&terms)?;
-        minimise_in(&self.free, lambda_0, &terms)
+        Ok(terms)
     }
 
     /// Checks that every free direction changes at least one of the wrenches.
-    fn check_visible(&self, terms: &[(LinearForm, f64)]) -> Result<(), ChoiceError> {
+    fn check_visible(&self, terms: &[Term]) -> Result<(), ChoiceError> {
         let (p, tolerance) = (self.free.z.ncols(), self.free.tolerance);
         let images: Vec<Vec<f64>> = terms
             .iter()
-            .map(|(form, _)| form.image(&self.free).0)
+            .map(|term| term.form.image(&self.free).0)
             .collect();
         let rows: Vec<&[f64]> = images.iter().map(Vec::as_slice).collect();
         let visible = independent_columns(&rows, p, tolerance).len();

@@ -5,7 +5,7 @@ use crate::limits::{FIRST_NAMED, NAMED_ROWS};
 use model::{ConstraintId, Layout, RowLabel};
 
 use super::error::{list, row_word};
-use super::{Choice, Compliance};
+use super::{Choice, Compliance, Misfit};
 use crate::value::Label;
 use crate::words;
 
@@ -16,7 +16,7 @@ pub(crate) fn label(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) ->
             "minimum norm, forces weighted by {}/N and torques by {}/(N·m)",
             w.force, w.torque
         ),
-        Choice::Compliance(joints) => {
+        Choice::Compliance(supports) => {
             let joint = |j: &Compliance| {
                 let name = &layout.groups[j.reaction.0].name;
                 let axes = ["x", "y", "z"].into_iter().zip(j.along);
@@ -33,12 +33,31 @@ pub(crate) fn label(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) ->
                     format!("`{name}` {along}, {:e} rad/(N·m)", j.rotation)
                 }
             };
-            let listed: Vec<String> = joints.iter().map(joint).collect();
+            let listed: Vec<String> = supports.compliances.iter().map(joint).collect();
             let rigid = match words::names(layout, rigid).as_slice() {
                 [] => String::new(),
                 names => format!("; rigid: {}", names.join(", ")),
             };
-            format!("elastic supports: {}{rigid}", listed.join("; "))
+            let misfit = |m: &Misfit| {
+                let name = &layout.groups[m.reaction.0].name;
+                let part = |numbers: &[f64], unit| {
+                    let numbers = numbers.iter().map(|x| format!("{x}"));
+                    let numbers: Vec<String> = numbers.collect();
+                    format!("({}) {unit}", numbers.join(", "))
+                };
+                let along = part(&m.along[..layout.space.n_translations()], "m");
+                match layout.space.n_rotations() {
+                    _ if m.rotation == [0.0; 3] => format!("`{name}` {along}"),
+                    1 => format!("`{name}` {along}, {} rad", m.rotation[2]),
+                    _ => format!("`{name}` {along}, {}", part(&m.rotation, "rad")),
+                }
+            };
+            let misfits: Vec<String> = supports.misfits.iter().map(misfit).collect();
+            let misfits = match misfits.as_slice() {
+                [] => String::new(),
+                all => format!("; misfit: {}", all.join("; ")),
+            };
+            format!("elastic supports: {}{rigid}{misfits}", listed.join("; "))
         }
         Choice::Elimination(rows) => {
             let known = rows.iter().filter_map(|&i| layout.labels.get(i));

@@ -43,28 +43,54 @@ pub fn minimise(
     lambda_0: &[f64],
     terms: &[(LinearForm, f64)],
 ) -> Result<Vec<f64>, ChoiceError> {
-    minimise_in(&FreeMultipliers::of(solvability), lambda_0, terms)
+    let terms = terms.iter().map(|(form, weight)| Term {
+        form: form.clone(),
+        weight: *weight,
+        misfit: 0.0,
+    });
+    let terms: Vec<Term> = terms.collect();
+    minimise_in(&FreeMultipliers::of(solvability), lambda_0, &terms)
 }
 
-/// Works like [`minimise`], for free multipliers.
+/// A term `½·weight·(ℓᵀ·λ)² − misfit·ℓᵀ·λ`.
+pub(super) struct Term {
+    pub(super) form: LinearForm,
+    pub(super) weight: f64,
+    pub(super) misfit: f64,
+}
+
+/// Returns Zᵀ·Σ misfit·ℓ, and the size of its terms.
+pub(super) fn strain(free: &FreeMultipliers<'_>, terms: &[Term]) -> (Vec<f64>, f64) {
+    let (mut sum, mut most) = (vec![0.0; free.z.ncols()], 0.0);
+    for term in terms.iter().filter(|term| term.misfit != 0.0) {
+        let (image, size) = term.form.image(free);
+        most += (term.misfit * size).abs();
+        for (sum, x) in sum.iter_mut().zip(&image) {
+            *sum += term.misfit * size * x;
+        }
+    }
+    (sum, most)
+}
+
+/// Works like [`minimise`], for free multipliers and with misfits.
 pub(super) fn minimise_in(
     free: &FreeMultipliers<'_>,
     lambda_0: &[f64],
-    terms: &[(LinearForm, f64)],
+    terms: &[Term],
 ) -> Result<Vec<f64>, ChoiceError> {
     let z = &free.z;
     check("multipliers", lambda_0, z.nrows())?;
-    for (form, weight) in terms {
+    for Term { form, weight, .. } in terms {
         check("linear form", form.coefficients(), z.nrows())?;
         if !(weight.is_finite() && *weight >= 0.0) {
             return Err(ChoiceError::Weight { value: *weight });
         }
     }
-    let images: Vec<(Vec<f64>, f64)> = terms.iter().map(|(form, _)| form.image(free)).collect();
+    let images: Vec<(Vec<f64>, f64)> = terms.iter().map(|term| term.form.image(free)).collect();
     let rows: Vec<&[f64]> = images.iter().map(|(image, _)| &image[..]).collect();
     let visible = independent_columns(&rows, z.ncols(), free.tolerance);
 
-    let roots: Vec<f64> = terms.iter().map(|(_, weight)| weight.sqrt()).collect();
+    let roots: Vec<f64> = terms.iter().map(|term| term.weight.sqrt()).collect();
     let scales: Vec<f64> = roots.iter().zip(&images).map(|(r, i)| r * i.1).collect();
     let largest = scales.iter().fold(0.0, |a: f64, &b| a.max(b));
     let weighted = Matrix::from_fn(terms.len(), visible.len(), |i, j| {
@@ -80,14 +106,19 @@ pub(super) fn minimise_in(
     }
     let columns = qr.permutation().iter().map(|&k| visible[k]);
     let columns: Vec<usize> = columns.collect();
+    // (Z_Vᵀ·Lᵀ·L·Z_V)·y = Zᵀ·Σ misfit·ℓ for the visible columns V.
+    let (all, _) = strain(free, terms);
+    let mut strain: Vec<f64> = columns.iter().map(|&k| all[k]).collect();
+    qr.solve_r_transpose(&mut strain);
     let mut lambda = lambda_0.to_vec();
     for _ in 0..CHOICE_SOLVES {
         let pairs = terms.iter().zip(&roots);
         let mut y: Vec<f64> = pairs
-            .map(|((form, _), r)| r * form.value(&lambda))
+            .map(|(term, r)| r * term.form.value(&lambda))
             .collect();
         qr.q_transpose_mul(&mut y);
         y.truncate(visible.len());
+        y.iter_mut().zip(&strain).for_each(|(y, s)| *y -= s);
         qr.solve_r(&mut y);
         free.leave(&mut lambda, &columns, &y);
     }

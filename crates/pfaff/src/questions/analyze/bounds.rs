@@ -6,7 +6,7 @@ use model::reaction::ConstraintGroup;
 use model::words::{listed, range};
 use model::{ConstraintId, System};
 use report::ByName;
-use solvability::{BoundsError, ElasticBounds, Group, PartAnalysis, ReactionBounds};
+use solvability::{BoundsError, ElasticBounds, Elasticity, Group, PartAnalysis, ReactionBounds};
 
 pub use answer::{BoundsDocument, BoundsOfNumber, ElasticLoadDocument, MagnitudeDocument};
 
@@ -16,26 +16,17 @@ use super::phrases::LINES;
 use crate::configuration::ConfigurationAnalysis;
 use crate::documents::AnalysisDocument;
 use crate::documents::analysis::components;
+use crate::elasticity::BoundsOptions;
 use crate::error::StudyError;
 use crate::refusal::Refusal;
 use crate::words::{Block, Cell, load_unit};
-
-/// Name of all drives in the list of rigid joints.
-const DRIVES: &str = "drives";
 
 /// Bounds for any stiffness.
 pub(super) struct BoundsOfReactions;
 
 impl Addition for BoundsOfReactions {
     fn check(&self, asked: &Analyze, of: &ConfigurationAnalysis<'_>) -> Result<(), Refusal> {
-        if !asked.rigid.is_empty() && !asked.bounds {
-            let message = "--rigid selects joints for --bounds: add --bounds";
-            return Err(Refusal::input(message.to_owned()));
-        }
-        let rigid = rigid(&asked.rigid, of);
-        rigid
-            .map(|_| ())
-            .map_err(|e| Refusal::input(e.to_string()).coded(e.code()))
+        elasticity(asked, of).map(|_| ())
     }
 
     fn add(
@@ -44,22 +35,23 @@ impl Addition for BoundsOfReactions {
         of: &ConfigurationAnalysis<'_>,
         document: &mut AnalysisDocument,
     ) -> Result<(), StudyError> {
-        if !asked.bounds {
+        // The options have been checked before.
+        let Ok(Some(elasticity)) = elasticity(asked, of) else {
             return Ok(());
-        }
+        };
         let reactions = document.reactions.iter().zip(&of.mechanism.layout().groups);
         let open = reactions.filter(|(r, _)| r.wrench.verdict != "unique");
         let open: Vec<&ConstraintGroup> = open.map(|(_, group)| group).collect();
-        let mut answer = BoundsDocument::new(&open, document.data.tolerance.is_some());
+        let has_tolerance = document.data.tolerance.is_some();
+        let mut answer = BoundsDocument::new(&open, has_tolerance, elasticity.within.as_ref());
         if document.evidence.permanent == Some(false) {
             answer.reason = Some(SINGULAR.to_owned());
         } else if !of.analysis.decision.is_decided() {
             answer.reason = Some(BoundsError::Rank.to_string());
         } else {
-            let rigid = rigid(&asked.rigid, of)?;
-            answer.rigid = rigid.iter().map(|id| name(of, *id)).collect();
+            answer.rigid = elasticity.rigid.iter().map(|id| name(of, *id)).collect();
             let solution = of.solution()?;
-            let found = of.bounds(&solution, &rigid).of_all_parts();
+            let found = of.bounds(&solution, &elasticity).of_all_parts();
             of_reactions(of, &found, document, &mut answer);
             let groups = of.requested(&asked.combine)?;
             for (group, (_, asked)) in document.groups.iter_mut().zip(&groups) {
@@ -85,7 +77,10 @@ impl Addition for BoundsOfReactions {
         let Some(answer) = &d.answers.bounds else {
             return Vec::new();
         };
-        let heading = Block::Heading("Bounds for any stiffness of the joints:".to_owned());
+        let heading = Block::Heading(match answer.within {
+            None => "Bounds for any stiffness of the joints:".to_owned(),
+            Some(factor) => format!("Bounds for compliances within a factor of {factor}:"),
+        });
         if let Some(reason) = &answer.reason {
             return vec![heading, Block::sentence(format!("no bounds: {reason}"))];
         }
@@ -188,7 +183,7 @@ pub(super) fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) 
         return None;
     }
     let solution = of.solution().ok()?;
-    let found = of.bounds(&solution, &[]);
+    let found = of.bounds(&solution, &Elasticity::default());
     let widest = open
         .filter(|id| found.has_one_free_component(*id))
         .filter_map(|id| {
@@ -215,25 +210,22 @@ fn name(of: &ConfigurationAnalysis<'_>, id: ConstraintId) -> String {
     of.mechanism.layout().groups[id.0].name.clone()
 }
 
-/// Returns the joints and drives with these names; `drives` names all drives.
-fn rigid(
-    names: &[String],
+/// Reads the options; `None` if no bounds are requested.
+fn elasticity(
+    asked: &Analyze,
     of: &ConfigurationAnalysis<'_>,
-) -> Result<Vec<ConstraintId>, StudyError> {
-    let layout = of.mechanism.layout();
-    let mut all = Vec::new();
-    for name in names {
-        if name == DRIVES {
-            all.extend(
-                layout
-                    .constraint_ids()
-                    .filter(|id| layout.groups[id.0].is_drive()),
-            );
-        } else {
-            all.push(of.reaction(name)?);
-        }
-    }
-    Ok(all)
+) -> Result<Option<Elasticity>, Refusal> {
+    let options = BoundsOptions {
+        bounds: asked.bounds,
+        rigid: &asked.rigid,
+        within: asked.within,
+        compliance: asked.compliance.as_deref(),
+    };
+    let named = |name: &str| {
+        let found = of.reaction(name);
+        found.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))
+    };
+    options.read(of.mechanism.layout(), &named)
 }
 
 /// Adds the bounds of all reactions that are not unique.

@@ -35,8 +35,8 @@ pub(super) fn of(
     let wanted = asked.make_unique.iter();
     let wanted: Result<Vec<_>, _> = wanted.map(|name| configuration.reaction(name)).collect();
     let wanted = wanted.map_err(failure)?;
-    let reaction = |name: &str| configuration.reaction(name);
-    let choices = choice::choices(&asked.choose, of, (layout.rows(), &reaction))?;
+    let reaction = |name: &str| configuration.reaction(name).map_err(failure);
+    let choices = choice::choices(&asked.choose, (layout.space, layout.rows(), &reaction))?;
     for addition in ADDITIONS {
         addition.check(asked, configuration)?;
     }

@@ -65,6 +65,16 @@ pub struct Analyze {
         arg(long, value_name = "NAMES", value_delimiter = ',')
     )]
     pub rigid: Vec<String>,
+    /// Limit the compliances in --bounds to a range from the nominal ones to K times these
+    #[cfg_attr(
+        feature = "command",
+        arg(long, value_name = "K", allow_hyphen_values = true)
+    )]
+    pub within: Option<f64>,
+    /// Nominal compliances for --within, as W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)); others
+    /// do not give way. Default: all equal
+    #[cfg_attr(feature = "command", arg(long, value_name = "LIST"))]
+    pub compliance: Option<String>,
     /// Print Φq, Ψ and Γ with names of rows and columns; --out writes them as CSV
     #[cfg_attr(feature = "command", arg(long))]
     pub matrices: bool,
@@ -73,7 +83,8 @@ pub struct Analyze {
     #[cfg_attr(feature = "command", arg(long, value_name = "T_END", num_args = 0..=1, default_missing_value = STATED, allow_negative_numbers = true))]
     pub along: Option<Along>,
     /// Compute reactions for a choice: minimum-norm, minimum-norm:length=L (L: arm that converts
-    /// torques to forces), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)), drop:6,21;
+    /// torques to forces), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)), the same with
+    /// ;misfit:W3=DX,DY (m, then rad: the second body, or the ground, is displaced), drop:6,21;
     /// repeatable
     #[cfg_attr(feature = "command", arg(long, value_name = "CHOICE"))]
     pub choose: Vec<String>,

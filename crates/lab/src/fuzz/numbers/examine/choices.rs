@@ -59,7 +59,7 @@ impl Examined<'_> {
             })
             .collect();
         let own = elastic(instant, least, (self.mechanism, forms), &self.compliances);
-        asked.push((Choice::Compliance(self.compliances.clone()), own));
+        asked.push((Choice::Compliance(self.compliances.clone().into()), own));
         for (choice, own) in asked {
             let Some(own) = own else { continue };
             let found = match questions.distribute(&solved, &choice) {

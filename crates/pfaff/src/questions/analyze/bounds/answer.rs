@@ -6,7 +6,7 @@ use model::Layout;
 use model::reaction::ConstraintGroup;
 use report::ByName;
 use serde::Serialize;
-use solvability::{ElasticBounds, ElasticLoad};
+use solvability::{ComplianceRange, ElasticBounds, ElasticLoad};
 
 /// The assumptions of the bounds, and the extent of the search.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -18,6 +18,9 @@ pub struct BoundsDocument {
     /// Joints and drives that do not give way, if requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rigid: Vec<String>,
+    /// The largest ratio of compliances to the nominal ones, if requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub within: Option<f64>,
     /// The points (m) about which the moments of joints give way, for joints whose moments are not
     /// unique.
     pub centres: ByName<Vec<f64>>,
@@ -73,13 +76,25 @@ pub struct MagnitudeDocument {
 
 impl BoundsDocument {
     /// States the assumptions for these joints and drives, whose reactions are not unique.
-    pub(super) fn new(open: &[&ConstraintGroup], has_tolerance: bool) -> Self {
+    pub(super) fn new(
+        open: &[&ConstraintGroup],
+        has_tolerance: bool,
+        within: Option<&ComplianceRange>,
+    ) -> Self {
         let slips = open.iter().any(|g| !g.rows.nonholonomic.is_empty());
         let holds = open.iter().any(|g| !g.rows.holonomic.is_empty());
         let mut assumption = "for joints that fit exactly (no preload, no misfit) and give way only in the direction of the \
              force or moment that they carry, about their reference points, by any law and however stiff; bodies \
              are rigid and do not vibrate"
             .to_owned();
+        if let Some(ComplianceRange { factor, nominal }) = within {
+            assumption = assumption.replace("by any law and however stiff", "by a linear law");
+            let nominal = match nominal {
+                None => "of each other",
+                Some(_) => "of the nominal ones",
+            };
+            assumption += &format!("; compliances are within a factor of {factor} {nominal}");
+        }
         if slips {
             assumption += "; contacts slip in proportion to their force";
         }
@@ -93,6 +108,7 @@ impl BoundsDocument {
         Self {
             assumption,
             rigid: Vec::new(),
+            within: within.map(|range| range.factor),
             centres: ByName(Vec::new()),
             eliminations: 0,
             without: ByName(Vec::new()),
