@@ -173,6 +173,7 @@ impl AssembledScene {
             prepared,
             options,
             choices: Vec::new(),
+            bounds: None,
         })
     }
 

@@ -4,6 +4,7 @@
 
 pub(crate) mod analysis;
 mod answers;
+mod bounds;
 mod freedoms;
 mod impulses;
 mod misfits;
@@ -32,6 +33,7 @@ pub use answers::{
     CodeDocument, CodesDocument, EndedDocument, ImportDocument, NewDocument, OmissionDocument,
     RefusalDocument, TemplateDocument, TemplatesDocument, ViewDocument,
 };
+pub use bounds::{ExtremeDocument, MagnitudeOfRunDocument, RangeOfRunDocument, RunBoundsDocument};
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use impulses::ImpulseDocument;
 pub use misfits::{MisfitDocument, SpreadDocument};

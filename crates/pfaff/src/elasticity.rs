@@ -1,6 +1,8 @@
 //! Options of bounds: the joints and drives that give way.
 
 use model::Layout;
+use model::reaction::ConstraintGroup;
+use scene::WantedBounds;
 use solvability::{ComplianceRange, Elasticity, NominalCompliance};
 
 use crate::choice::{FindReaction, compliances};
@@ -20,6 +22,17 @@ pub(crate) struct BoundsOptions<'o> {
     pub(crate) within: Option<f64>,
     /// Nominal compliances.
     pub(crate) compliance: Option<&'o str>,
+}
+
+impl<'o> From<&'o WantedBounds> for BoundsOptions<'o> {
+    fn from(wanted: &'o WantedBounds) -> Self {
+        Self {
+            bounds: true,
+            rigid: &wanted.rigid,
+            within: wanted.within,
+            compliance: wanted.compliance.as_deref(),
+        }
+    }
 }
 
 impl BoundsOptions<'_> {
@@ -57,12 +70,12 @@ impl BoundsOptions<'_> {
             (None, None) => None,
             (None, Some(_)) => {
                 return refuse(
-                    "--compliance states nominal compliances: add --within K, the largest ratio to them",
+                    "nominal compliances are the smallest ones: add `within`, the largest ratio to them",
                 );
             }
             (Some(factor), _) if !(factor.is_finite() && factor >= 1.0) => {
                 let message = format!(
-                    "--within is {factor}, need a ratio ≥ 1 of the largest to the smallest compliance"
+                    "`within` is {factor}, need a ratio ≥ 1 of the largest to the smallest compliance"
                 );
                 return Err(Refusal::input(message));
             }
@@ -81,4 +94,39 @@ impl BoundsOptions<'_> {
         };
         Ok(Some(Elasticity { rigid, within }))
     }
+}
+
+/// States the assumptions of bounds for these joints and drives, whose reactions are not unique.
+pub(crate) fn assumption(
+    open: &[&ConstraintGroup],
+    has_tolerance: bool,
+    within: Option<&ComplianceRange>,
+) -> String {
+    let slips = open.iter().any(|g| !g.rows.nonholonomic.is_empty());
+    let holds = open.iter().any(|g| !g.rows.holonomic.is_empty());
+    let law = match within {
+        None => "any law and however stiff",
+        Some(_) => "a linear law",
+    };
+    let mut text = format!(
+        "for joints that fit exactly (no preload, no misfit) and give way only in the direction of the force or \
+         moment that they carry, about their reference points, by {law}; bodies are rigid and do not vibrate"
+    );
+    if let Some(ComplianceRange { factor, nominal }) = within {
+        let nominal = match nominal {
+            None => "of each other",
+            Some(_) => "of the nominal ones",
+        };
+        text += &format!("; compliances are within a factor of {factor} {nominal}");
+    }
+    if slips {
+        text += "; contacts slip in proportion to their force";
+    }
+    if slips && holds {
+        text += ", and loads change slowly compared with this slip";
+    }
+    if has_tolerance {
+        text += "; misfits within the tolerance cause preload, which the bounds do not contain";
+    }
+    text
 }

@@ -33,7 +33,7 @@ mod verdicts;
 use model::Mechanism;
 
 pub use comparison::{ComparedChoice, Comparison, Freedom};
-pub use run_page::{DriveCurve, Origin, RunPage, Shows, WrittenScene};
+pub use run_page::{Band, DriveCurve, Origin, RunPage, Shows, WrittenScene};
 
 /// Returns the number of values in a row of a recording, including those that a page shows.
 #[must_use]

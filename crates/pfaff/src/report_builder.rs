@@ -4,6 +4,7 @@
 
 use std::ops::ControlFlow;
 
+use crate::bounds_of_run::FoundBounds;
 use crate::documents::MakeUniqueDocument;
 use crate::documents::{AnalysisDocument, RunDocument};
 use crate::page::{DriveCurve, Origin, RunPage, Shows, WrittenScene, numbers_per_row, run_page};
@@ -11,7 +12,7 @@ use dynamics::plan::Rows;
 use dynamics::{MotionOptions, Plan, PreparedMechanism, Sample};
 use model::{Mechanism, System};
 use rank::Limits;
-use report::{Frame, Recording};
+use report::{Frame, ReactionColumn, Recording};
 use scene::Scene;
 use solvability::{DeletableRows, Sensitivities, Stretches, Verdict};
 
@@ -33,6 +34,8 @@ pub(crate) struct OfRun<'a> {
     pub(crate) document: &'a RunDocument,
     /// Verdicts of the run; `None` if no reactions were requested.
     pub(crate) stretches: Option<&'a Stretches>,
+    /// Bounds of the columns of reactions, if they were requested.
+    pub(crate) bounds: Option<(&'a [ReactionColumn], &'a FoundBounds)>,
 }
 
 /// Rows of a run that are collected for its page.
@@ -121,6 +124,7 @@ impl<'a> ReportBuilder<'a> {
             sensitivities,
             document: run,
             stretches,
+            bounds,
         } = *of_run;
         let choices = if self.has_choices {
             run.choice.iter().map(ToString::to_string).collect()
@@ -143,6 +147,10 @@ impl<'a> ReportBuilder<'a> {
                     .to_owned(),
             );
         }
+        let bands = bounds.zip(stretches);
+        let bands = bands.map_or_else(Vec::new, |((columns, found), stretches)| {
+            found.bands(columns, stretches, &self.recording.frames)
+        });
         run_page(&RunPage {
             mechanism,
             analysis: Some(&analysis),
@@ -151,6 +159,7 @@ impl<'a> ReportBuilder<'a> {
             stretches,
             recording: &self.recording,
             comparisons: &comparisons,
+            bands: &bands,
             drives: &self.drives(),
             origin,
             scene: written_scene(self.scene),

@@ -27,12 +27,13 @@ use report::{
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
-    Choice, ChosenValues, Contradiction, Freedoms, Group, GroupNumbers, GroupSensitivities,
-    NamedChoice, ReactionVerdict, Sensitivities, Sensitivity, State, Stretches,
+    Choice, ChosenValues, Contradiction, Elasticity, Freedoms, Group, GroupNumbers,
+    GroupSensitivities, NamedChoice, ReactionVerdict, Sensitivities, Sensitivity, State, Stretches,
     contradicting_drives_along,
 };
 
 use crate::assembled::{AssembledScene, refused};
+use crate::bounds_of_run::{self, BOUNDS, BoundsOfRun};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 use crate::report_builder::{OfRun, ReportBuilder};
@@ -70,6 +71,9 @@ pub struct Study {
     /// Choices that give values to the numbers that the model does not determine, in a run; without
     /// a choice, the multipliers of the redundant rows are zero.
     pub choices: Vec<Choice>,
+    /// Elastic joints for which a run computes bounds of the reactions that the model does not
+    /// determine; without them, no bounds are computed.
+    pub bounds: Option<Elasticity>,
 }
 
 /// A run that has ended.
@@ -297,6 +301,7 @@ impl Study {
             prepared: self.prepared.held_at(t),
             options: self.options.clone(),
             choices: self.choices.clone(),
+            bounds: self.bounds.clone(),
         }
     }
 
@@ -805,7 +810,8 @@ impl Study {
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
         let begun = self.begun()?;
-        if !begun.choices.is_empty() && matches!(output.reactions, WantedReactions::None) {
+        let needs_reactions = !begun.choices.is_empty() || self.bounds.is_some();
+        if needs_reactions && matches!(output.reactions, WantedReactions::None) {
             return Err(StudyError::NoReactions);
         }
         plan.choices.clone_from(&begun.choices);
@@ -827,6 +833,19 @@ impl Study {
                 self.prepared.decision.redundancy == 0,
             )?),
             None => None,
+        };
+        let is_plain = self.prepared.decision.redundancy == 0;
+        let elasticity = self.bounds.as_ref();
+        let mut bounds = match (elasticity, selection(&output.reactions)) {
+            (Some(elasticity), Some(selection)) if !is_plain => Some(BoundsOfRun::begin(
+                directory,
+                mechanism,
+                elasticity,
+                begun.columns(&selection)?,
+                &plan,
+                (table_rows, output.report),
+            )?),
+            _ => None,
         };
         let asked = self.options.as_ref().ok_or(StudyError::NoEnd)?;
         let builder = || ReportBuilder::new(&self.scene, &self.prepared, asked, &plan);
@@ -850,6 +869,7 @@ impl Study {
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut counter];
         sinks.extend(trajectory.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(reactions.as_mut().map(|sink| sink as &mut dyn RowSink));
+        sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(report_builder.as_mut().map(|sink| sink as &mut dyn RowSink));
         let ended = run_into(&plan, (&watch, stop), &mut |t| go_on(t), &mut sinks)?;
         for sink in &mut sinks {
@@ -862,8 +882,10 @@ impl Study {
             Some(tables) => (&tables.choice_files, &tables.gaps),
             None => (&[], &[]),
         };
-        let files = files_of(output, choice_files);
-        let document = begun.document(
+        let found = bounds.as_ref().map(BoundsOfRun::found);
+        let has_bounds = found.is_some_and(|(_, found)| found.has_table);
+        let files = files_of(output, choice_files, has_bounds);
+        let mut document = begun.document(
             &plan,
             &ended,
             WrittenRun {
@@ -875,6 +897,9 @@ impl Study {
                 peaks,
             },
         );
+        if let Some(elasticity) = elasticity {
+            bounds_of_run::add_to(&mut document, mechanism, elasticity, found);
+        }
         let mut text = Vec::new();
         write_json(&mut text, &document).map_err(|source| TableError::Write {
             table: "summary.json",
@@ -890,6 +915,7 @@ impl Study {
                 sensitivities: &begun.sensitivities,
                 document: &document,
                 stretches: ended.summary.verdicts.as_ref(),
+                bounds: found,
             };
             let page = report_builder.page(&of_run, origin, figure.as_deref());
             directory.write("report.html", page.as_bytes())?;
@@ -987,12 +1013,14 @@ pub const FAMILY: Family = Family(&[
     "reactions.csv",
     "choice.csv",
     "choice_*.csv",
+    "bounds.csv",
+    "bounds_*.csv",
     "summary.json",
     "report.html",
 ]);
 
-/// Returns the files of a run with this output and these tables of choices.
-fn files_of(output: &Output, choices: &[String]) -> Vec<String> {
+/// Returns the files of a run with this output, these tables of choices, and a table of bounds.
+fn files_of(output: &Output, choices: &[String], has_bounds: bool) -> Vec<String> {
     let reactions = !matches!(output.reactions, WantedReactions::None);
     let tables = [
         ("trajectory.csv", output.trajectory),
@@ -1002,6 +1030,7 @@ fn files_of(output: &Output, choices: &[String]) -> Vec<String> {
     let wanted = |(name, is): (&str, bool)| is.then(|| name.to_owned());
     let tables = tables.into_iter().filter_map(wanted);
     let tables = tables.chain(choices.iter().cloned());
+    let tables = tables.chain(has_bounds.then(|| BOUNDS.to_owned()));
     tables
         .chain(others.into_iter().filter_map(wanted))
         .collect()

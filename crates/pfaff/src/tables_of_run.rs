@@ -50,7 +50,7 @@ impl TableRows {
 }
 
 /// Gives a file its final name; the run may have ended early.
-fn finished(file: OutputFile, ending: &Ending<'_>) -> Result<PathBuf, FileError> {
+pub(crate) fn finished(file: OutputFile, ending: &Ending<'_>) -> Result<PathBuf, FileError> {
     match ending {
         Ending::Complete => file.finish(),
         Ending::Interrupted | Ending::Stopped(_) => file.finish_partial(),

@@ -110,6 +110,7 @@ fn page(start: &ConfigurationAnalysis<'_>, document: &AnalysisDocument, origin: 
         stretches: None,
         recording: &recording,
         comparisons: &[],
+        bands: &[],
         drives: &[],
         origin,
         scene: crate::written_scene(start.scene),

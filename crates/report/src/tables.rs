@@ -4,6 +4,7 @@
 //!
 //! The caller chooses the times and the destination of rows.
 
+mod bounds;
 mod reactions;
 #[cfg(test)]
 mod tests;
@@ -14,6 +15,7 @@ use std::io::{self, BufWriter, Write};
 
 use serde::Serialize;
 
+pub use bounds::{BoundsTable, write_open_bounds};
 pub use reactions::{
     Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, reaction_columns,
     write_chosen, write_determined,

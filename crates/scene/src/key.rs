@@ -53,6 +53,8 @@ pub(crate) enum Takes {
     Orientation,
     /// A table with these keys.
     Table(&'static [Key]),
+    /// `true` or `false`, or a table with these keys.
+    FlagOr(&'static [Key]),
     /// A list of at least this number of numbers.
     Tensor,
     /// A list of at least this number of texts.

@@ -10,7 +10,7 @@ use model::SpaceKind;
 use crate::active;
 use crate::combination::{self, Combination, Reactions};
 use crate::field::Field;
-use crate::key::{Key, Takes};
+use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::table::Table;
 
@@ -33,7 +33,7 @@ pub enum GroupContent {
 }
 
 /// Requested output. Values that are not requested are not computed.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Output {
     /// `trajectory.csv`
     pub trajectory: bool,
@@ -41,6 +41,19 @@ pub struct Output {
     pub reactions: WantedReactions,
     /// `report.html`
     pub report: bool,
+    /// `bounds.csv`
+    pub bounds: Option<WantedBounds>,
+}
+
+/// Requested bounds of the reactions that are not determined.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WantedBounds {
+    /// Joints and drives that do not give way.
+    pub rigid: Vec<String>,
+    /// The largest ratio of compliances to the nominal ones.
+    pub within: Option<f64>,
+    /// Nominal compliances as text, such as `A=1e-6, B=2e-6`.
+    pub compliance: Option<String>,
 }
 
 impl Default for Output {
@@ -49,6 +62,7 @@ impl Default for Output {
             trajectory: true,
             reactions: WantedReactions::All,
             report: true,
+            bounds: None,
         }
     }
 }
@@ -89,8 +103,26 @@ const REPORT: Key = Key::optional("report", "true or false", Takes::Flag)
     .doc("Whether `report.html` is written")
     .or(|| Output::default().report.into());
 
+const RIGID: Key = Key::optional("rigid", "a list of joints and drives", Takes::Texts(0))
+    .doc("Joints and drives that do not give way");
+const WITHIN: Key = Key::optional("within", "a number ≥ 1", Takes::Number(Interval::Any))
+    .doc("The largest ratio of compliances to the nominal ones");
+const COMPLIANCE: Key = Key::optional("compliance", "a list as \"A=1e-6, B=2e-6\"", Takes::Text)
+    .doc("Nominal compliances (m/N; after a slash in rad/(N·m)); other joints do not give way");
+
+/// Keys of `bounds`.
+const BOUNDS_KEYS: [Key; 3] = [RIGID, WITHIN, COMPLIANCE];
+
+const BOUNDS: Key = Key::optional(
+    "bounds",
+    "true, false, or a table { rigid, within, compliance }",
+    Takes::FlagOr(&BOUNDS_KEYS),
+)
+.doc("Whether `bounds.csv` is written: bounds of the reactions that the model does not determine")
+.or(|| false.into());
+
 /// Keys of `[output]`.
-pub(crate) const OUTPUT_KEYS: [Key; 3] = [TRAJECTORY, REACTIONS, REPORT];
+pub(crate) const OUTPUT_KEYS: [Key; 4] = [TRAJECTORY, REACTIONS, REPORT, BOUNDS];
 
 /// Components that can be requested: force and torque, even if they are identically zero, and the
 /// component named by the definition.
@@ -150,9 +182,33 @@ pub(crate) fn output(mut table: Table, names: &Reactions) -> Output {
         trajectory: table.flag(&TRAJECTORY).unwrap_or(defaults.trajectory),
         reactions: reactions.unwrap_or_default(),
         report: table.flag(&REPORT).unwrap_or(defaults.report),
+        bounds: table
+            .optional(&BOUNDS)
+            .and_then(|field| bounds(&field, names)),
     };
     table.close();
     output
+}
+
+/// Reads the requested bounds.
+fn bounds(field: &Field, names: &Reactions) -> Option<WantedBounds> {
+    if let Some(wanted) = field.value.get_ref().as_bool() {
+        return wanted.then(WantedBounds::default);
+    }
+    let mut table = field.table(BOUNDS.expected)?;
+    let rigid = table.optional(&RIGID);
+    let compliance = table.optional(&COMPLIANCE);
+    let bounds = WantedBounds {
+        rigid: rigid
+            .and_then(|field| members(&field, names))
+            .unwrap_or_default(),
+        within: table.number(&WITHIN),
+        compliance: compliance
+            .and_then(|field| field.text(COMPLIANCE.expected))
+            .map(str::to_owned),
+    };
+    table.close();
+    Some(bounds)
 }
 
 /// Reads a list of joints and drives without repetitions.

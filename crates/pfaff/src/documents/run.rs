@@ -11,8 +11,8 @@ use solvability::{Freedoms, ReactionVerdict, Sensitivities};
 
 use super::plan::{short, short_of};
 use super::{
-    ByName, DataDocument, FreedomsDocument, ImpulseDocument, MisfitDocument, RunGroupDocument,
-    RunReactionDocument, RunVerdicts, SpecialDocument, SpreadDocument, from_one,
+    ByName, DataDocument, FreedomsDocument, ImpulseDocument, MisfitDocument, RunBoundsDocument,
+    RunGroupDocument, RunReactionDocument, RunVerdicts, SpecialDocument, SpreadDocument, from_one,
 };
 
 /// A run and its results.
@@ -119,6 +119,9 @@ pub struct RunDocument {
     /// Verdicts of the groups of the scene, by name.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub groups: ByName<RunGroupDocument>,
+    /// The assumptions of the bounds, if bounds were requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<RunBoundsDocument>,
     /// Instants at which a verdict differs from the verdict of its stretch of the run.
     pub special: Vec<SpecialDocument>,
     /// The choices that determine the numbers of `choice.csv` and of further files; empty if every
@@ -357,6 +360,7 @@ impl RunDocument {
                 .collect(),
             reactions,
             groups,
+            bounds: None,
             special: verdicts.map_or_else(Vec::new, |v| {
                 SpecialDocument::all(v.stretches, v.groups, mechanism.layout())
             }),

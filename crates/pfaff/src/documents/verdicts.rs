@@ -9,7 +9,9 @@ use solvability::{
     Sensitivity, Stretches, Value, Verdict, VerdictTrack,
 };
 
-use super::{ByName, SensitivityDocument, VerdictDocument};
+use super::{
+    ByName, MagnitudeOfRunDocument, RangeOfRunDocument, SensitivityDocument, VerdictDocument,
+};
 use report::peaks::Peak;
 use report::tables::{Quantity, ReactionColumn};
 
@@ -76,6 +78,9 @@ pub struct RunReactionDocument {
     /// empty if no reactions were requested.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub components: ByName<RunNumberDocument>,
+    /// Upper bounds of the magnitudes over the run, if bounds were requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub magnitude_at_most: Option<MagnitudeOfRunDocument>,
 }
 
 impl RunReactionDocument {
@@ -102,6 +107,10 @@ pub struct RunNumberDocument {
     /// The largest value over the determined cells of the table; absent if there is no such cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<PeakDocument>,
+    /// The range of the bounds over the run, if bounds were requested and the number is not
+    /// determined throughout.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<RangeOfRunDocument>,
 }
 
 /// The peak of a number over a run.
@@ -135,6 +144,9 @@ pub struct RunGroupDocument {
     /// The peak of a sum that is a single number.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub peak: Option<PeakDocument>,
+    /// The range of the bounds of such a sum over the run, if bounds were requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<RangeOfRunDocument>,
 }
 
 /// An instant at which a verdict differs from the verdict of its stretch.
@@ -195,6 +207,7 @@ impl RunVerdicts<'_> {
             of_run: track.into(),
             data: SensitivityDocument::of_number(known, name, layout),
             peak: self.peak(quantity, known),
+            bounds: None,
         }
     }
 
@@ -253,6 +266,7 @@ impl RunVerdicts<'_> {
             of_run: (&found.whole).into(),
             data: SensitivityDocument::of_group(known, name, layout),
             peak: peak.and_then(|(_, number)| number.peak.clone()),
+            bounds: None,
             components: ByName(if is_sum { Vec::new() } else { numbers }),
         }
     }
@@ -310,6 +324,7 @@ impl RunReactionDocument {
                 }
                 _ => ByName(Vec::new()),
             },
+            magnitude_at_most: None,
         }
     }
 }

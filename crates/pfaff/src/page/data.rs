@@ -72,6 +72,9 @@ struct Joint<'a> {
     choice: Option<String>,
     /// Components of the reaction, and the named component; `None` if reactions were not requested.
     reaction: Option<Reaction>,
+    /// The smallest and the largest value of components with bounds.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    bounds: BTreeMap<&'static str, [Channel; 2]>,
 }
 
 #[derive(Serialize)]
@@ -253,7 +256,24 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
             first.map(ToString::to_string)
         }),
         reaction: reaction(page, id, noise),
+        bounds: bounds(page, id, noise),
     }
+}
+
+/// Returns the bounds of the components of the wrench at the frames.
+fn bounds(
+    page: &RunPage<'_>,
+    id: ConstraintId,
+    noise: f64,
+) -> BTreeMap<&'static str, [Channel; 2]> {
+    let is_wrench = |name: &str| page.mechanism.space().component(name).is_some();
+    let own = page.bands.iter();
+    let own = own.filter(|band| band.id == id && is_wrench(band.component));
+    own.map(|band| {
+        let end = |k: usize| Channel::above(noise, band.ends.iter().map(move |ends| ends[k]));
+        (band.component, [end(0), end(1)])
+    })
+    .collect()
 }
 
 /// Returns the components of a reaction with their verdicts over the run, or otherwise at the

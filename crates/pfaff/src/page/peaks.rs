@@ -1,13 +1,13 @@
 //! The largest force and the largest moment of each reaction over the run, with their times, as a
 //! table. A number that the model does not determine has no peak of its own: it is shown with the
-//! choice on which it depends, or it is left out.
+//! bound of joints of any stiffness, or it is left out.
 
 use model::words::short;
 use model::{ConstraintId, Mechanism, Reaction, System};
 
 use super::run_page::RunPage;
 use super::{data, verdicts};
-use crate::documents::RunReactionDocument;
+use crate::documents::{ExtremeDocument, RunReactionDocument};
 use crate::words::{Scale, UnitSystem};
 use report::Frame;
 use report::page::{add, safe};
@@ -75,6 +75,7 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
             let named = peaks.named.map(|peak| (component, unit, peak));
             return PeakLine {
                 name,
+                is_bound: false,
                 force: peaks.force,
                 moment: peaks.moment,
                 components: named.into_iter().collect(),
@@ -90,12 +91,22 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
             let unit = layout.load_unit(id, name);
             Some((Some(name.as_str()), unit, Peak { value, t }))
         });
+        let most = document.magnitude_at_most.as_ref();
+        let bound = |extreme: Option<ExtremeDocument>| {
+            let (value, t) = extreme.map(|extreme| (extreme.value, extreme.time))?;
+            (value > noise).then_some(Peak { value, t })
+        };
+        let mut holds = holds(document);
+        if most.is_some() {
+            holds += "; ≤: joints of any stiffness that fit exactly";
+        }
         PeakLine {
             name,
-            force: None,
-            moment: None,
+            is_bound: most.is_some(),
+            force: most.and_then(|most| bound(most.force)),
+            moment: most.and_then(|most| bound(most.moment)),
             components: determined.collect(),
-            holds: holds(document),
+            holds,
         }
     });
     let lines: Vec<PeakLine<'_>> = lines.collect();
@@ -126,6 +137,8 @@ const MOMENT: &str = "N·m";
 /// A line of the table.
 struct PeakLine<'a> {
     name: &'a str,
+    /// Whether force and moment are upper bounds.
+    is_bound: bool,
     force: Option<Peak>,
     moment: Option<Peak>,
     /// Components with their names and units.
@@ -176,7 +189,8 @@ impl PeakLine<'_> {
             format!("<td class=\"{class}\" data-label=\"{label}\">{told}</td>")
         };
         let total = |label: &str, peak: Option<Peak>, unit: &str| {
-            let value = peak.map(|p| scale.number(p.value, unit));
+            let sign = if self.is_bound { "≤ " } else { "" };
+            let value = peak.map(|p| format!("{sign}{}", scale.number(p.value, unit)));
             let label = format!("{label} ({})", scale.unit(unit).0);
             cell(&label, value.as_slice()) + &cell("at (s)", peak.map(|p| short(p.t)).as_slice())
         };

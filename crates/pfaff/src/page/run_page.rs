@@ -1,6 +1,6 @@
 //! The data from which a page is made.
 
-use model::Mechanism;
+use model::{ConstraintId, Mechanism};
 use solvability::Stretches;
 
 use super::comparison::Comparison;
@@ -25,6 +25,8 @@ pub struct RunPage<'a> {
     pub recording: &'a Recording,
     /// Non-unique reactions for several choices.
     pub comparisons: &'a [Comparison],
+    /// Bounds of components that are not unique, if bounds were requested.
+    pub bands: &'a [Band],
     /// The values that drives prescribe, at the frames.
     pub drives: &'a [DriveCurve],
     /// Information to reproduce the run.
@@ -37,6 +39,17 @@ pub struct RunPage<'a> {
     pub left_out: &'a [String],
     /// Figure of error against run time, as SVG, if there is one.
     pub work_precision: Option<&'a str>,
+}
+
+/// Bounds of a component of a reaction at the frames; NaN without bounds.
+#[derive(Clone, Debug)]
+pub struct Band {
+    /// The joint or drive.
+    pub id: ConstraintId,
+    /// Name of the component.
+    pub component: &'static str,
+    /// The smallest and the largest value at each frame (N, N·m).
+    pub ends: Vec<[f64; 2]>,
 }
 
 /// Kind of a page.

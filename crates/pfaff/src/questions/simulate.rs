@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 use solvability::Choice;
 
 use crate::choice::choices;
+use crate::elasticity::BoundsOptions;
 use crate::error::StudyError;
 use crate::question::{
     Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Progress, Question, Writing,
@@ -40,6 +41,24 @@ pub struct Simulate {
     /// Write choice.csv (choice_2.csv, …) for a choice, as in analyze; repeatable
     #[cfg_attr(feature = "command", arg(long, value_name = "CHOICE"))]
     pub choose: Vec<String>,
+    /// Write bounds.csv: bounds of reactions for joints of any stiffness
+    #[cfg_attr(feature = "command", arg(long))]
+    pub bounds: bool,
+    /// Joints and drives that do not give way in --bounds; `drives` names all drives
+    #[cfg_attr(
+        feature = "command",
+        arg(long, value_name = "NAMES", value_delimiter = ',')
+    )]
+    pub rigid: Vec<String>,
+    /// Limit the compliances in --bounds, as in analyze
+    #[cfg_attr(
+        feature = "command",
+        arg(long, value_name = "K", allow_hyphen_values = true)
+    )]
+    pub within: Option<f64>,
+    /// Nominal compliances for --within, as in analyze
+    #[cfg_attr(feature = "command", arg(long, value_name = "LIST"))]
+    pub compliance: Option<String>,
 }
 
 impl Question for Simulate {
@@ -66,12 +85,22 @@ impl Question for Simulate {
         let mechanism = &study.prepared.mechanism;
         let scope = (mechanism.space(), mechanism.layout().rows());
         let reaction = |name: &str| study.reaction(name).map_err(|e| of.refusal(e));
-        study.choices = choices(&self.choose, (scope.0, scope.1, &reaction))?;
+        let choices = choices(&self.choose, (scope.0, scope.1, &reaction))?;
         let has_misfit = |choice: &Choice| matches!(choice, Choice::Compliance(supports) if !supports.misfits.is_empty());
-        if study.choices.iter().any(has_misfit) {
+        if choices.iter().any(has_misfit) {
             let message = "a misfit is stated in ground axes at one instant: use `analyze --at-time T --choose …`";
             return Err(Refusal::input(message.to_owned()));
         }
+        let own = BoundsOptions {
+            bounds: self.bounds,
+            rigid: &self.rigid,
+            within: self.within,
+            compliance: self.compliance.as_deref(),
+        };
+        let of_scene = study.scene.output.bounds.as_ref().map(Into::into);
+        let options = of_scene.filter(|_| own == BoundsOptions::default());
+        let bounds = options.unwrap_or(own).read(mechanism.layout(), &reaction)?;
+        (study.choices, study.bounds) = (choices, bounds);
         let memory = study.memory(of.text.len()).map_err(|e| of.refusal(e))?;
         of.budget.allow(memory, "this run")?;
         let Some(options) = &study.options else {

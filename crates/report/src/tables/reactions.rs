@@ -82,6 +82,15 @@ impl Quantity {
         }
     }
 
+    /// The verdicts on the quantity, if it is not determined on at least one interval.
+    #[must_use]
+    pub fn open<'s>(&self, stretches: &'s Stretches) -> Option<&'s VerdictTrack> {
+        let track = self.verdicts(stretches)?;
+        let mut own = track.stretches().iter();
+        own.any(|stretch| !stretch.verdict.is_unique())
+            .then_some(track)
+    }
+
     /// A value of this quantity at a time, with the verdict whether it is determined on the
     /// interval that contains the time.
     #[must_use]

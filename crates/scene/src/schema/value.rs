@@ -37,6 +37,7 @@ pub(super) fn described(key: &Key) -> Value {
         Takes::Vector(n, range) => tuple(vec![number(range); n]),
         Takes::Orientation => orientation(),
         Takes::Table(keys) => table(keys),
+        Takes::FlagOr(keys) => json!({ "oneOf": [{ "type": "boolean" }, table(keys)] }),
         Takes::Tensor => {
             let row = || tuple(vec![number(Interval::Any); 3]);
             json!({ "anyOf": [row(), tuple(vec![row(); 3])] })

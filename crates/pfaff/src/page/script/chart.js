@@ -265,7 +265,7 @@ class Chart {
     make(this.tip, "b", { textContent: `t = ${spoken(times[k], 5)} s` });
     if (this.band) {
       const ends = `${value(this.band.low[k])} … ${value(this.band.high[k])}`;
-      make(this.tip, "div", { textContent: `compared choices: ${ends}` });
+      make(this.tip, "div", { textContent: `${this.band.label}: ${ends}` });
     }
     for (const s of this.series) {
       const line = make(this.tip, "div");

@@ -83,6 +83,7 @@ const FORCES = data.components.filter(([, unit]) => unit === "N").length;
 /** Joints and drives with decoded reactions, and what choices say of them. */
 const joints = data.joints.map((joint, index) => {
   const own = { ...joint, index, site: data.drawing.sites[index], choices: [], freedom: null };
+  defineLazily(own, "bands", () => Object.fromEntries(Object.entries(joint.bounds ?? {}).map(([name, ends]) => [name, ends.map(decode)])));
   defineLazily(own, "wrench", () => joint.reaction?.wrench.map(decode) ?? null);
   return own;
 });

@@ -263,11 +263,17 @@ function setUpAllReactions(picture) {
 /** One legend for all components. */
 function showChoices(joint, legend = byId("reaction-legend")) {
   legend.replaceChildren();
-  if (!joint.choices.length) return;
+  if (!joint.choices.length && !Object.keys(joint.bands).length) return;
   const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
   draw(key, "rect", { x: 0, y: 1, width: 28, height: 10, class: "band" });
-  make(legend, "span", { className: "entry" }, key, "range of the compared choices");
+  make(legend, "span", { className: "entry" }, key, bandLabel(joint));
   joint.choices.forEach((choice, place) => legendEntry(legend, choiceSeries(choice, place, null)));
+}
+
+/** What the bands of a reaction contain; along the axes of a body no bounds are drawn. */
+function bandLabel(joint, name = null) {
+  const hasBounds = name ? joint.bands[name] : Object.keys(joint.bands).length > 0 && byId("frame").value !== "body";
+  return hasBounds ? "bounds for joints of any stiffness" : "range of the compared choices";
 }
 
 function choiceSeries(choice, place, values) {
@@ -279,7 +285,9 @@ function reactionInWords(joint) {
   if (joint.verdict === "unique") return `${on} The reaction is unique: the model determines these values.`;
   if (joint.verdict === "undecided") return `${on} The verdict on this reaction is undecided.`;
   const why = joint.explanation ? ` At the start, ${joint.explanation}.` : "";
-  const compared = joint.choices.length
+  const compared = Object.keys(joint.bands).length
+    ? " Each band contains the values for joints of any stiffness that fit exactly; the file summary.json states the assumptions. Along the axes of the body, it extends from the smallest to the largest value of the compared choices."
+    : joint.choices.length
     ? " Each band extends from the smallest to the largest value of the compared choices. Other choices can give values outside the band."
     : " No choices were compared for this reaction. Components that are not unique therefore have no curve.";
   return `${on}${why}${determinedInWords(joint)}${compared}`;
@@ -321,7 +329,8 @@ function showComponent(chart, joint, name, k, { large, frame }) {
   const source = inBody && joint.verdict !== "unique" ? chosenWrench(joint) : joint.wrench;
   const own = wrenchOf(source);
   const partly = !inBody && !determined && own.some(Number.isFinite);
-  const present = known && (determined || partly || joint.choices.length > 0);
+  const bounds = inBody ? null : joint.bands[name];
+  const present = known && (determined || partly || bounds || joint.choices.length > 0);
   chart.figure.hidden = !present;
   if (!present) return;
   // The curves of the page are rounded: turned, what is zero shows that rounding, which no axis should fill.
@@ -336,7 +345,9 @@ function showComponent(chart, joint, name, k, { large, frame }) {
     const values = curves.map((c) => c[f]).filter(Number.isFinite);
     return values.length ? of(...values) : NaN;
   });
-  const band = { low: at(Math.min), high: at(Math.max), label: "range of the compared choices" };
+  const band = bounds
+    ? { low: bounds[0], high: bounds[1], label: bandLabel(joint, name) }
+    : { low: at(Math.min), high: at(Math.max), label: "range of the compared choices" };
   const series = joint.choices.map((choice, place) => choiceSeries(choice, place, curves[place]));
   if (partly) series.unshift({ label: `${name} (determined values only)`, values: own, colour: 0 });
   chart.show(series, { ...options, band });

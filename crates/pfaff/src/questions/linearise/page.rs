@@ -90,6 +90,7 @@ fn page(
         stretches: None,
         recording: &recording,
         comparisons: &[],
+        bands: &[],
         drives: &[],
         origin,
         scene: written_scene(&study.scene),

@@ -8,6 +8,8 @@ use report::ByName;
 use serde::Serialize;
 use solvability::{ComplianceRange, ElasticBounds, ElasticLoad};
 
+use crate::elasticity::assumption;
+
 /// The assumptions of the bounds, and the extent of the search.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -81,32 +83,8 @@ impl BoundsDocument {
         has_tolerance: bool,
         within: Option<&ComplianceRange>,
     ) -> Self {
-        let slips = open.iter().any(|g| !g.rows.nonholonomic.is_empty());
-        let holds = open.iter().any(|g| !g.rows.holonomic.is_empty());
-        let mut assumption = "for joints that fit exactly (no preload, no misfit) and give way only in the direction of the \
-             force or moment that they carry, about their reference points, by any law and however stiff; bodies \
-             are rigid and do not vibrate"
-            .to_owned();
-        if let Some(ComplianceRange { factor, nominal }) = within {
-            assumption = assumption.replace("by any law and however stiff", "by a linear law");
-            let nominal = match nominal {
-                None => "of each other",
-                Some(_) => "of the nominal ones",
-            };
-            assumption += &format!("; compliances are within a factor of {factor} {nominal}");
-        }
-        if slips {
-            assumption += "; contacts slip in proportion to their force";
-        }
-        if slips && holds {
-            assumption += ", and loads change slowly compared with this slip";
-        }
-        if has_tolerance {
-            assumption +=
-                "; misfits within the tolerance cause preload, which the bounds do not contain";
-        }
         Self {
-            assumption,
+            assumption: assumption(open, has_tolerance, within),
             rigid: Vec::new(),
             within: within.map(|range| range.factor),
             centres: ByName(Vec::new()),

@@ -1,0 +1,390 @@
+//! Bounds of the reactions during a run: `bounds.csv`, and the largest values over the run.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use dynamics::{Plan, Sample};
+use model::reaction::ConstraintGroup;
+use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System};
+use rayon::prelude::*;
+use report::{
+    BoundsTable, Frame, OutputDirectory, OutputFile, Quantity, ReactionColumn, TableError,
+    write_open_bounds,
+};
+use solvability::{
+    BoundsError, ChosenValues, Elasticity, Group, Questions, ReactionBounds, Solution, Stretches,
+    Term, analyse_with_progress,
+};
+
+use crate::documents::{
+    Ending, ExtremeDocument, Gap, MagnitudeOfRunDocument, RangeOfRunDocument, RunBoundsDocument,
+    RunDocument,
+};
+use crate::elasticity::assumption;
+use crate::error::StudyError;
+use crate::page::Band;
+use crate::rows::{RowFault, RowSink};
+use crate::tables_of_run::{TableRows, finished};
+
+/// File name of the table.
+pub(crate) const BOUNDS: &str = "bounds.csv";
+
+/// File name of the bounds of all columns, which is removed at the end.
+const ALL: &str = "bounds_0.csv";
+
+/// Number of rows that are computed together.
+const BATCH: usize = 64;
+
+/// Largest number of values that are stored for the page.
+const STORED: usize = 4_000_000;
+
+/// Writer of `bounds.csv`. The bounds of several rows are computed in parallel.
+pub(crate) struct BoundsOfRun<'m> {
+    directory: &'m OutputDirectory,
+    mechanism: &'m Mechanism,
+    elasticity: &'m Elasticity,
+    groups: Vec<Group>,
+    columns: Vec<ReactionColumn>,
+    /// The joints and drives of the columns.
+    reactions: Vec<ConstraintId>,
+    rtol: f64,
+    table: Option<BoundsTable<OutputFile>>,
+    rows: TableRows,
+    /// Whether rows between those of the table are computed for the page.
+    is_pictured: bool,
+    waiting: Vec<Instant>,
+    found: FoundBounds,
+}
+
+/// The results over the run.
+#[derive(Default)]
+pub(crate) struct FoundBounds {
+    /// The smallest and the largest value of each column with their times; `None` without bounds.
+    pub(crate) columns: Vec<Option<RangeOfRunDocument>>,
+    /// The largest magnitudes of force and moment of each joint and drive.
+    pub(crate) magnitudes: Vec<(ConstraintId, [Option<ExtremeDocument>; 2])>,
+    /// Rows without bounds of some reactions.
+    pub(crate) gap: Option<Gap>,
+    /// The bounds of all columns at the rows of the run, as far as they are stored for the page.
+    pub(crate) rows: Vec<(f64, Vec<[f64; 2]>)>,
+    /// Whether the table exists.
+    pub(crate) has_table: bool,
+}
+
+/// A row of the run whose bounds have not been computed yet.
+struct Instant {
+    t: f64,
+    q: Vec<f64>,
+    multipliers: ChosenValues<f64>,
+    is_row: bool,
+}
+
+/// The bounds at a row; NaN without bounds.
+struct RowBounds {
+    columns: Vec<[f64; 2]>,
+    magnitudes: Vec<[f64; 2]>,
+    reason: Option<String>,
+}
+
+impl<'m> BoundsOfRun<'m> {
+    pub(crate) fn begin(
+        directory: &'m OutputDirectory,
+        mechanism: &'m Mechanism,
+        elasticity: &'m Elasticity,
+        columns: Vec<ReactionColumn>,
+        plan: &Plan<'_>,
+        (rows, is_pictured): (TableRows, bool),
+    ) -> Result<Self, StudyError> {
+        let table = BoundsTable::new(directory.scratch(ALL)?, &columns)?;
+        let of_columns = columns.iter().filter_map(|column| match column.quantity {
+            Quantity::Component(id, _) => Some(id),
+            Quantity::Group(..) => None,
+        });
+        let mut reactions: Vec<ConstraintId> = of_columns.collect();
+        reactions.dedup();
+        Ok(Self {
+            directory,
+            mechanism,
+            elasticity,
+            groups: plan.groups.clone(),
+            reactions,
+            rtol: plan.options().rtol,
+            table: Some(table),
+            rows,
+            is_pictured,
+            waiting: Vec::new(),
+            found: FoundBounds {
+                columns: vec![None; columns.len()],
+                ..FoundBounds::default()
+            },
+            columns,
+        })
+    }
+
+    /// Returns the columns and the results, after the end.
+    pub(crate) fn found(&self) -> (&[ReactionColumn], &FoundBounds) {
+        (&self.columns, &self.found)
+    }
+
+    /// Computes the bounds of the waiting rows and writes them.
+    fn compute(&mut self) -> Result<(), TableError> {
+        let waiting = std::mem::take(&mut self.waiting);
+        let each = waiting.par_iter().map(|instant| self.at(instant));
+        let each: Vec<RowBounds> = each.collect();
+        for (instant, bounds) in waiting.iter().zip(each) {
+            let t = instant.t;
+            if let Some(reason) = &bounds.reason {
+                let first = || Gap::at(t, reason.clone());
+                self.found.gap.get_or_insert_with(first).rows += 1;
+            }
+            self.found.note(t, &bounds, &self.reactions);
+            if instant.is_row
+                && let Some(table) = &mut self.table
+            {
+                table.row(t, &bounds.columns)?;
+            }
+            let stored = self.found.rows.len() * self.columns.len();
+            if self.is_pictured && stored < STORED {
+                self.found.rows.push((t, bounds.columns));
+            }
+        }
+        Ok(())
+    }
+
+    /// Computes the bounds at a row.
+    fn at(&self, instant: &Instant) -> RowBounds {
+        let mut row = RowBounds {
+            columns: vec![[f64::NAN; 2]; self.columns.len()],
+            magnitudes: vec![[f64::NAN; 2]; self.reactions.len()],
+            reason: None,
+        };
+        let lambda = &instant.multipliers;
+        if lambda.as_chosen().iter().any(|l| l.is_nan()) {
+            row.reason = Some("the reactions have no values at this instant".to_owned());
+            return row;
+        }
+        let known = match instant.t {
+            0.0 => ConfigurationAccuracy::AsStored,
+            _ => ConfigurationAccuracy::To(self.rtol),
+        };
+        let (t, q) = (instant.t, &instant.q);
+        let analysis = match analyse_with_progress(self.mechanism, t, q, known, |_| ()) {
+            Ok(analysis) => analysis,
+            Err(e) => {
+                row.reason = Some(e.to_string());
+                return row;
+            }
+        };
+        if !analysis.decision.is_decided() {
+            row.reason = Some(BoundsError::Rank.to_string());
+            return row;
+        }
+        if analysis.decision.redundancy != lambda.dropped().len() {
+            row.reason =
+                Some("the rank at this instant differs from that of the motion".to_owned());
+            return row;
+        }
+        let questions = Questions::new(self.mechanism, q, Arc::new(analysis));
+        let solution = Solution {
+            acceleration: Vec::new(),
+            multipliers: lambda.clone(),
+            no_finite: Vec::new(),
+        };
+        let found = questions.bounds(&solution, self.elasticity);
+        let mut of_group = None;
+        for (column, ends) in self.columns.iter().zip(&mut row.columns) {
+            match self.ends(&found, column, &mut of_group) {
+                Ok(bounds) => *ends = bounds,
+                Err(e) => {
+                    let owner = &column.column.owner;
+                    row.reason.get_or_insert_with(|| format!("`{owner}`: {e}"));
+                }
+            }
+        }
+        for (&id, magnitudes) in self.reactions.iter().zip(&mut row.magnitudes) {
+            if let Ok(largest) = found.largest_magnitudes(id) {
+                *magnitudes = largest.map(|size| size.unwrap_or(f64::NAN));
+            }
+        }
+        row
+    }
+
+    /// Returns the bounds of a column. The numbers of the last group are stored.
+    fn ends(
+        &self,
+        found: &ReactionBounds<'_, '_>,
+        column: &ReactionColumn,
+        of_group: &mut Option<(usize, Vec<(&'static str, [f64; 2])>)>,
+    ) -> Result<[f64; 2], BoundsError> {
+        let numbers = |group: &Group| {
+            let numbers = found.group(group)?.into_iter();
+            let numbers = numbers.map(|(name, bounds)| (name, [bounds.lowest, bounds.highest]));
+            Ok::<Vec<_>, BoundsError>(numbers.collect())
+        };
+        match column.quantity {
+            Quantity::Component(reaction, name) => {
+                let term = Term {
+                    reaction,
+                    component: name.to_owned(),
+                    coefficient: 1.0,
+                };
+                let own = numbers(&Group::Combination(vec![term]))?;
+                Ok(own.first().map_or([f64::NAN; 2], |(_, ends)| *ends))
+            }
+            Quantity::Group(k, name) => {
+                if of_group.as_ref().is_none_or(|(known, _)| *known != k) {
+                    *of_group = Some((k, numbers(&self.groups[k])?));
+                }
+                let own = of_group.iter().flat_map(|(_, numbers)| numbers);
+                let mut own = own.filter(|(known, _)| *known == name);
+                Ok(own.next().map_or([f64::NAN; 2], |(_, ends)| *ends))
+            }
+        }
+    }
+}
+
+impl FoundBounds {
+    /// Returns the bounds of the components of joints and drives at the frames of the page.
+    pub(crate) fn bands(
+        &self,
+        columns: &[ReactionColumn],
+        stretches: &Stretches,
+        frames: &[Frame],
+    ) -> Vec<Band> {
+        let band = |(k, column): (usize, &ReactionColumn)| {
+            let Quantity::Component(id, component) = column.quantity else {
+                return None;
+            };
+            column.quantity.open(stretches)?;
+            let ends = frames.iter().map(|frame| {
+                let at = self.rows.binary_search_by(|(t, _)| t.total_cmp(&frame.t));
+                at.map_or([f64::NAN; 2], |row| self.rows[row].1[k])
+            });
+            Some(Band {
+                id,
+                component,
+                ends: ends.collect(),
+            })
+        };
+        columns.iter().enumerate().filter_map(band).collect()
+    }
+
+    fn note(&mut self, time: f64, bounds: &RowBounds, reactions: &[ConstraintId]) {
+        for (own, ends) in self.columns.iter_mut().zip(&bounds.columns) {
+            if !ends[0].is_nan() {
+                let at = RangeOfRunDocument::at(time, *ends);
+                own.get_or_insert(at).include(at);
+            }
+        }
+        if self.magnitudes.is_empty() {
+            self.magnitudes = reactions.iter().map(|id| (*id, [None; 2])).collect();
+        }
+        for ((_, own), sizes) in self.magnitudes.iter_mut().zip(&bounds.magnitudes) {
+            for (own, &value) in own.iter_mut().zip(sizes) {
+                if !value.is_nan() && own.is_none_or(|own| value > own.value) {
+                    *own = Some(ExtremeDocument::new(value, time));
+                }
+            }
+        }
+    }
+}
+
+/// Adds the bounds of a run to its document.
+pub(crate) fn add_to(
+    document: &mut RunDocument,
+    mechanism: &Mechanism,
+    elasticity: &Elasticity,
+    found: Option<(&[ReactionColumn], &FoundBounds)>,
+) {
+    let layout = mechanism.layout();
+    let reactions = document.reactions.0.iter().zip(&layout.groups);
+    let open = reactions.filter(|((_, r), _)| r.verdict() != "unique");
+    let open: Vec<&ConstraintGroup> = open.map(|(_, group)| group).collect();
+    let within = elasticity.within.as_ref();
+    let name = |id: &ConstraintId| layout.groups[id.0].name.clone();
+    document.bounds = Some(RunBoundsDocument {
+        assumption: assumption(&open, document.data.tolerance.is_some(), within),
+        rigid: elasticity.rigid.iter().map(name).collect(),
+        within: within.map(|range| range.factor),
+        gap: found.and_then(|(_, found)| found.gap.clone()),
+    });
+    let Some((columns, found)) = found else {
+        return;
+    };
+    for (column, range) in columns.iter().zip(&found.columns) {
+        match column.quantity {
+            Quantity::Component(id, name) => {
+                let own = document.reactions.0.get_mut(id.0);
+                let mut own = own.into_iter().flat_map(|(_, r)| &mut r.components.0);
+                let number = own.find(|(known, _)| known == name);
+                if let Some((_, number)) = number.filter(|(_, n)| n.of_run.verdict != "unique") {
+                    number.bounds = *range;
+                }
+            }
+            Quantity::Group(k, name) => {
+                let Some((_, group)) = document.groups.0.get_mut(k) else {
+                    continue;
+                };
+                let number = group
+                    .components
+                    .0
+                    .iter_mut()
+                    .find(|(known, _)| known == name);
+                let (of_run, bounds) = match number {
+                    Some((_, number)) => (&number.of_run, &mut number.bounds),
+                    None => (&group.of_run, &mut group.bounds),
+                };
+                if of_run.verdict != "unique" {
+                    *bounds = *range;
+                }
+            }
+        }
+    }
+    for (id, [force, moment]) in &found.magnitudes {
+        if let Some((_, reaction)) = document.reactions.0.get_mut(id.0)
+            && reaction.verdict() != "unique"
+        {
+            let magnitude = MagnitudeOfRunDocument::new(*force, *moment);
+            reaction.magnitude_at_most = Some(magnitude);
+        }
+    }
+}
+
+impl RowSink for BoundsOfRun<'_> {
+    fn row(&mut self, sample: &mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault> {
+        let is_row = self.rows.take(sample.t);
+        if is_row || self.is_pictured {
+            let instant = Instant {
+                t: sample.t,
+                q: sample.q.to_vec(),
+                multipliers: sample.multipliers()?,
+                is_row,
+            };
+            self.waiting.push(instant);
+        }
+        if self.waiting.len() == BATCH {
+            self.compute()?;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn end(&mut self, verdicts: Option<&Stretches>, ending: &Ending<'_>) -> Result<(), StudyError> {
+        self.compute()?;
+        let (Some(table), Some(stretches)) = (self.table.take(), verdicts) else {
+            return Ok(());
+        };
+        let mut all = table.finish()?;
+        let mut open = self.columns.iter();
+        if !open.any(|column| column.quantity.open(stretches).is_some()) {
+            return Ok(());
+        }
+        let mut out = self.directory.file(BOUNDS)?;
+        let all: BufReader<File> = BufReader::new(all.written()?);
+        write_open_bounds(all, &mut out, &self.columns, stretches)?;
+        finished(out, ending)?;
+        self.found.has_table = true;
+        Ok(())
+    }
+}
