@@ -48,6 +48,8 @@ class Questions:
         about: str | None = None,
         bounds: bool = False,
         rigid: Iterable[str] = (),
+        within: float | None = None,
+        compliance: str | None = None,
         matrices: bool = False,
         along: float | str | None = None,
         choose: Iterable[str] = (),
@@ -74,12 +76,17 @@ class Questions:
         - ``bounds``: Also bound reactions for joints of any stiffness
         - ``rigid``: Joints and drives that do not give way in ``bounds``; ``drives`` names all
           drives
+        - ``within``: Limit the compliances in ``bounds`` to a range from the nominal ones to K
+          times these
+        - ``compliance``: Nominal compliances for ``within``, as W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds
+          rad/(N·m)); others do not give way. Default: all equal
         - ``matrices``: Print Φq, Ψ and Γ with names of rows and columns; ``out`` writes them as CSV
         - ``along``: Analyse along the motion to T_END (s): the generic verdict and the intervals
           where it differs
         - ``choose``: Compute reactions for a choice: minimum-norm, minimum-norm:length=L (L: arm
           that converts torques to forces), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds
-          rad/(N·m)), drop:6,21
+          rad/(N·m)), the same with ;misfit:W3=DX,DY (m, then rad: the second body, or the ground,
+          is displaced), drop:6,21
         """
         options: dict[str, Any] = {
             "at_time": arguments.finite("at_time", at_time),
@@ -92,6 +99,8 @@ class Questions:
             "about": arguments.maybe(arguments.text, "about", about),
             "bounds": arguments.flag("bounds", bounds),
             "rigid": arguments.texts("rigid", rigid),
+            "within": arguments.maybe(arguments.finite, "within", within),
+            "compliance": arguments.maybe(arguments.text, "compliance", compliance),
             "matrices": arguments.flag("matrices", matrices),
             "along": arguments.maybe(arguments.finite_or_word, "along", along),
             "choose": arguments.texts("choose", choose),

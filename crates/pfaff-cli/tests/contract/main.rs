@@ -6,6 +6,7 @@ mod agreement;
 mod analyze;
 mod bad_input;
 mod book;
+mod bounds_of_run;
 mod causes;
 mod chosen;
 mod cold_start;

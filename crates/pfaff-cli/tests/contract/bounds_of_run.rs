@@ -1,0 +1,228 @@
+//! Tests `simulate --bounds`: bounds of reactions over a run.
+
+use serde_json::Value;
+
+use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
+
+/// A cart of 10 kg has three wheels on one axle. It turns at 0.5 rad/s, and its speed is 1 m/s at
+/// the start and grows by 0.5 m/s². The wheels push it sideways with 10·v·0.5 in total; each wheel
+/// alone may carry all of it.
+const CART: &str = r#"
+    scene = { name = "cart", space = "plane" }
+    body = [{ name = "cart", mass = 10.0, inertia = 1.0, velocity = [1.0, 0.0], angular_velocity = 0.5 }]
+    joint = [
+        { name = "left", type = "knife-edge", body = "cart", point = [0.0, 0.5], normal = [0.0, 1.0] },
+        { name = "middle", type = "knife-edge", body = "cart", point = [0.0, 0.0], normal = [0.0, 1.0] },
+        { name = "right", type = "knife-edge", body = "cart", point = [0.0, -0.5], normal = [0.0, 1.0] },
+    ]
+    force = [{ name = "push", type = "point-force", body = "cart", point = [0.0, 0.0], force = [5.0, 0.0], frame = "body" }]
+    group = [
+        { name = "axle", combine = "left.N + middle.N + right.N" },
+        { name = "two", combine = "left.N + middle.N" },
+    ]
+    simulate = { t_end = 2.0, output_step = 0.25 }
+"#;
+
+type Table = (Vec<String>, Vec<Vec<f64>>);
+
+fn table(folder: &Folder) -> Table {
+    let text = folder.read("bounds.csv");
+    let mut lines = text.lines();
+    let header = lines
+        .next()
+        .expect("a header")
+        .split(',')
+        .map(str::to_owned);
+    let numbers = |line: &str| -> Vec<f64> {
+        let cells = line.split(',').map(|cell| cell.parse().unwrap_or(f64::NAN));
+        cells.collect()
+    };
+    (header.collect(), lines.map(numbers).collect())
+}
+
+fn column(table: &Table, name: &str) -> Vec<f64> {
+    let k = table.0.iter().position(|c| c == name).expect("a column");
+    table.1.iter().map(|row| row[k]).collect()
+}
+
+fn summary(folder: &Folder) -> Value {
+    serde_json::from_str(&folder.read("summary.json")).expect("JSON")
+}
+
+#[test]
+fn a_wheel_carries_at_most_the_whole_force() {
+    let folder = Folder::new("bounds-cart");
+    let output = with_scene(&["simulate", "-", "--bounds", "--out", folder.text()], CART);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let found = table(&folder);
+    // The sum is unique, so it has no bounds.
+    assert!(found.0.iter().all(|name| !name.starts_with("axle")));
+    for (k, t) in column(&found, "t").into_iter().enumerate() {
+        let total = 5.0 * (1.0 + 0.5 * t);
+        for name in ["left.N", "middle.N", "right.N", "two"] {
+            let ends = ["lowest", "highest"].map(|end| column(&found, &format!("{name}.{end}"))[k]);
+            for (found, expected) in ends.into_iter().zip([0.0, total]) {
+                assert!((found - expected).abs() < 1e-7, "{name} at {t} s: {ends:?}");
+            }
+        }
+    }
+    assert_eq!(found.1.len(), 9);
+    let d = summary(&folder);
+    let at = |path: &str| d.pointer(path).and_then(Value::as_f64).expect("a number");
+    for name in ["left", "middle", "right"] {
+        let most = format!("/reactions/{name}/magnitude_at_most");
+        assert!((at(&format!("{most}/force/value")) - 10.0).abs() < 1e-7);
+        assert_eq!(at(&format!("{most}/force/time")), 2.0);
+        let range = format!("/reactions/{name}/components/N/bounds");
+        assert!((at(&format!("{range}/highest/value")) - 10.0).abs() < 1e-7);
+        assert!(at(&format!("{range}/lowest/value")).abs() < 1e-7);
+    }
+    assert!((at("/groups/two/bounds/highest/value") - 10.0).abs() < 1e-7);
+    assert!(d["groups"]["axle"].get("bounds").is_none());
+    assert!(d["bounds"].get("gap").is_none());
+    let files = d["files"].as_array().expect("a list");
+    assert!(files.contains(&"bounds.csv".into()), "{files:?}");
+    let text = stdout(&output);
+    assert!(text.contains("left      10                 2"), "{text}");
+    assert!(text.contains("valid for joints that fit exactly"), "{text}");
+    assert!(folder.read("report.html").contains("\"bounds\":{\"Fx\":["));
+    // A run without the option removes the table and changes nothing else.
+    let before = ["reactions.csv", "choice.csv", "trajectory.csv"].map(|name| folder.read(name));
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], CART);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(!folder.0.join("bounds.csv").exists());
+    let after = ["reactions.csv", "choice.csv", "trajectory.csv"].map(|name| folder.read(name));
+    assert!(before == after);
+}
+
+#[test]
+fn a_row_has_the_bounds_of_an_analysis() {
+    let folder = Folder::new("bounds-robot");
+    let output = pfaff(&[
+        "simulate",
+        ROBOT,
+        "--t-end",
+        "3",
+        "--bounds",
+        "--rigid",
+        "B",
+        "--out",
+        folder.text(),
+    ]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let found = table(&folder);
+    let time = column(&found, "t");
+    for t in [0.0, 1.5, 3.0] {
+        let at = t.to_string();
+        let output = pfaff(&[
+            "analyze",
+            ROBOT,
+            "--bounds",
+            "--rigid",
+            "B",
+            "--at-time",
+            &at,
+            "--json",
+        ]);
+        let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+        let row = time.iter().position(|x| *x == t).expect("a row");
+        let mut compared = 0;
+        for reaction in d["reactions"].as_array().expect("a list") {
+            let name = reaction["name"].as_str().expect("a name");
+            for component in reaction["components"].as_array().expect("a list") {
+                if component["verdict"] != "not_unique" {
+                    continue;
+                }
+                for end in ["lowest", "highest"] {
+                    let known = component["bounds"][end].as_f64().expect("a number");
+                    let of = format!(
+                        "{name}.{}.{end}",
+                        component["name"].as_str().expect("a name")
+                    );
+                    let own = column(&found, &of)[row];
+                    assert!(
+                        (own - known).abs() < 1e-4 * (1.0 + known.abs()),
+                        "{of} at {t} s: {own} {known}"
+                    );
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared >= 12, "{compared}");
+    }
+}
+
+#[test]
+fn a_scene_requests_bounds() {
+    let folder = Folder::new("bounds-scene");
+    let run = |scene: &str, options: &[&str]| {
+        let mut arguments = vec!["simulate", "-", "--out", folder.text()];
+        arguments.extend(options);
+        with_scene(&arguments, scene)
+    };
+    let with = |bounds: &str| format!("{CART}\noutput = {{ bounds = {bounds} }}");
+    // A rigid wheel carries the whole force of a softer one.
+    let output = run(CART, &["--bounds", "--rigid", "left"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let found = table(&folder);
+    let ends = ["lowest", "highest"].map(|end| column(&found, &format!("left.N.{end}"))[0]);
+    assert!(ends.iter().all(|end| (end - 5.0).abs() < 1e-9), "{ends:?}");
+    let output = run(CART, &["--bounds", "--within", "3"]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let by_option = folder.read("bounds.csv");
+    // The share of a wheel that is three times as soft as the others, or of one that is three times
+    // as stiff: 1/7 and 3/5.
+    let found = table(&folder);
+    let ends = ["lowest", "highest"].map(|end| column(&found, &format!("middle.N.{end}"))[0]);
+    for (end, expected) in ends.into_iter().zip([5.0 / 7.0, 3.0]) {
+        assert!((end - expected).abs() < 1e-9, "{ends:?}");
+    }
+    let output = run(&with("{ rigid = [], within = 3 }"), &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_eq!(folder.read("bounds.csv"), by_option);
+    let output = run(&with("true"), &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert_ne!(folder.read("bounds.csv"), by_option);
+    let output = run(&with("false"), &[]);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    assert!(!folder.0.join("bounds.csv").exists());
+    for (bounds, words) in [
+        (r#"{ rigid = ["lefd"] }"#, "did you mean `left`?"),
+        ("{ within = 0.5 }", "need a ratio ≥ 1"),
+        ("{ withim = 2 }", "within"),
+        ("{ compliance = \"left=1e-6\" }", "add `within`"),
+        ("3", "true, false, or a table"),
+    ] {
+        let output = run(&with(bounds), &[]);
+        assert_eq!(output.status.code(), Some(2), "{bounds}");
+        assert!(
+            stderr(&output).contains(words),
+            "{bounds}: {}",
+            stderr(&output)
+        );
+    }
+    for (options, words) in [
+        (&["--rigid", "left"][..], "add --bounds"),
+        (&["--within", "2"], "add --bounds"),
+        (&["--compliance", "left=1e-6"], "add --bounds --within K"),
+        (
+            &["--bounds", "--within", "2", "--compliance", "left"],
+            "NAME=COMPLIANCE",
+        ),
+        (
+            &["--choose", "compliance:left=1e-6;misfit:left=0,0"],
+            "analyze --at-time",
+        ),
+    ] {
+        let output = run(CART, options);
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(
+            stderr(&output).contains(words),
+            "{options:?}: {}",
+            stderr(&output)
+        );
+    }
+    let without = with("true").replace("bounds = true", "bounds = true, reactions = false");
+    let output = run(&without, &[]);
+    assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
+}
