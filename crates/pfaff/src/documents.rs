@@ -46,9 +46,9 @@ pub use run::{
 };
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{
-    DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
-    MovedDocument, QuantityRangeDocument, RankCountDocument, ReactionRangeDocument,
-    RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
+    BoundsOfSamples, DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument,
+    MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RankCountDocument,
+    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
 };
 pub use verdicts::{
     PeakDocument, RunGroupDocument, RunNumberDocument, RunReactionDocument, RunVerdicts,

@@ -33,6 +33,7 @@ use std::num::NonZeroUsize;
 use crate::documents::ToleranceDocument;
 use model::System;
 use rayon::prelude::*;
+use solvability::Elasticity;
 
 use crate::assembled::AssembledScene;
 use crate::workers::Workers;
@@ -138,6 +139,14 @@ impl<'r> ToleranceStudy<'r> {
             return Err(ToleranceError::NoData);
         }
         Ok(Self { nominal, vary })
+    }
+
+    /// Returns the same study with bounds of the reactions that are not unique with the described
+    /// redundancy, for elastic joints.
+    #[must_use]
+    pub fn with_bounds(mut self, elasticity: Option<Elasticity>) -> Self {
+        self.nominal.elasticity = elasticity;
+        self
     }
 
     /// Computes one sample, counted from 1.

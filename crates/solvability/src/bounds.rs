@@ -185,6 +185,8 @@ pub enum BoundsError {
 /// The solutions of a part for joints that give way by any law.
 pub struct ElasticSolutions<'c, 'm> {
     configuration: &'c Configuration<'m>,
+    /// Whether verdicts state which numbers are unique; otherwise all numbers have a range.
+    is_judged: bool,
     free: FreeMultipliers<'c>,
     lambda_0: Vec<f64>,
     loads: Vec<ElasticLoad>,
@@ -204,6 +206,50 @@ impl<'m> Configuration<'m> {
         if !self.solvability().decision().is_decided() {
             return Err(BoundsError::Rank);
         }
+        let open = self.open_loads()?;
+        self.elastic_solutions_of(lambda_0, elasticity, (&open, true))
+    }
+
+    /// Returns the solutions of a mechanism with displaced data, in which the loads `open` give way:
+    /// those that are not unique in the described mechanism. Displaced data couple all loads, but
+    /// the couplings are within the tolerance. No verdicts are used.
+    ///
+    /// # Errors
+    /// [`BoundsError`]
+    pub fn elastic_solutions_displaced<'c>(
+        &'c self,
+        lambda_0: &[f64],
+        elasticity: &Elasticity,
+        open: &[ElasticLoad],
+    ) -> Result<ElasticSolutions<'c, 'm>, BoundsError> {
+        self.elastic_solutions_of(lambda_0, elasticity, (open, false))
+    }
+
+    /// Returns the forces and moments that are not unique.
+    ///
+    /// # Errors
+    /// [`RequestError`]
+    pub fn open_loads(&self) -> Result<Vec<ElasticLoad>, RequestError> {
+        let mut open = Vec::new();
+        for reaction in self.layout().constraint_ids() {
+            for (is_moment, _, forms) in self.load_forms(reaction)? {
+                if !self.is_unique(&forms)? {
+                    open.push(ElasticLoad {
+                        reaction,
+                        is_moment,
+                    });
+                }
+            }
+        }
+        Ok(open)
+    }
+
+    fn elastic_solutions_of<'c>(
+        &'c self,
+        lambda_0: &[f64],
+        elasticity: &Elasticity,
+        (open, is_judged): (&[ElasticLoad], bool),
+    ) -> Result<ElasticSolutions<'c, 'm>, BoundsError> {
         let free = FreeMultipliers::of(self.solvability());
         let p = free.z.ncols();
         let (mut loads, mut elements) = (Vec::new(), Vec::new());
@@ -218,7 +264,11 @@ impl<'m> Configuration<'m> {
                 let Some(compliance) = compliance else {
                     continue;
                 };
-                if self.is_unique(&forms)? {
+                let load = ElasticLoad {
+                    reaction: id,
+                    is_moment,
+                };
+                if open.binary_search(&load).is_err() {
                     continue;
                 }
                 nominal.push(compliance);
@@ -229,10 +279,7 @@ impl<'m> Configuration<'m> {
                     row: along(form, &free),
                     value: form.value(lambda_0),
                 }));
-                loads.push(ElasticLoad {
-                    reaction: id,
-                    is_moment,
-                });
+                loads.push(load);
             }
         }
         let mut hull = Hull::new(elements, p, free.tolerance).map_err(|e| match e {
@@ -267,6 +314,7 @@ impl<'m> Configuration<'m> {
         }
         Ok(ElasticSolutions {
             configuration: self,
+            is_judged,
             free,
             lambda_0: lambda_0.to_vec(),
             loads,
@@ -333,9 +381,8 @@ impl ElasticSolutions<'_, '_> {
     /// # Errors
     /// [`BoundsError::Request`], [`BoundsError::Verdict`]
     pub fn bounds(&self, form: &LinearForm) -> Result<ElasticBounds, BoundsError> {
-        let verdict = self.configuration.judge(form)?.verdict;
         let value = self.configuration.value(form, &self.lambda_0);
-        match verdict {
+        match self.verdict(form)? {
             Verdict::Unique => Ok(ElasticBounds::of(value)),
             Verdict::NotUnique => {
                 let [lowest, highest] = self.hull.ends(&along(form, &self.free));
@@ -360,7 +407,7 @@ impl ElasticSolutions<'_, '_> {
         let mut terms = Vec::with_capacity(forms.len());
         for form in forms {
             let value = self.configuration.value(form, &self.lambda_0);
-            let along = match self.configuration.judge(form)?.verdict {
+            let along = match self.verdict(form)? {
                 Verdict::Unique => vec![0.0; self.free.z.ncols()],
                 Verdict::NotUnique => along(form, &self.free),
                 _ => return Err(BoundsError::Verdict),
@@ -368,6 +415,14 @@ impl ElasticSolutions<'_, '_> {
             terms.push((value, along));
         }
         Ok(self.hull.largest_norm(&terms))
+    }
+
+    fn verdict(&self, form: &LinearForm) -> Result<Verdict, RequestError> {
+        if self.is_judged {
+            Ok(self.configuration.judge(form)?.verdict)
+        } else {
+            Ok(Verdict::NotUnique)
+        }
     }
 
     /// Returns the number of examined sets of components, summed over independent blocks.

@@ -235,6 +235,10 @@ class Questions:
         vary: Mapping[str, str] | Iterable[str] = (),
         seed: int = 1,
         at_time: float = 0.0,
+        bounds: bool = False,
+        rigid: Iterable[str] = (),
+        within: float | None = None,
+        compliance: str | None = None,
         tolerance: float | None = None,
         angle_tolerance: float | None = None,
         threads: int | None = None,
@@ -249,12 +253,21 @@ class Questions:
         - ``vary``: Also vary a parameter or number: KEY=±VALUE or KEY=±P%
         - ``seed``: Random seed
         - ``at_time``: Analyse the samples at this time (s)
+        - ``bounds``: Also bound reactions that are not unique, for joints of any stiffness
+        - ``rigid``: Joints and drives that do not give way in ``bounds``; ``drives`` names all
+          drives
+        - ``within``: Limit the compliances in ``bounds``, as in analyze
+        - ``compliance``: Nominal compliances for ``within``, as in analyze
         """
         options: dict[str, Any] = {
             "runs": arguments.count("runs", runs),
             "vary": arguments.settings("vary", vary),
             "seed": arguments.count("seed", seed),
             "at_time": arguments.finite("at_time", at_time),
+            "bounds": arguments.flag("bounds", bounds),
+            "rigid": arguments.texts("rigid", rigid),
+            "within": arguments.maybe(arguments.finite, "within", within),
+            "compliance": arguments.maybe(arguments.text, "compliance", compliance),
         }
         common = Common(tolerance, angle_tolerance, threads, max_memory, out)
         answer = self._asked("tolerance", options, common, files=True)

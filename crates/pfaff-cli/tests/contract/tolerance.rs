@@ -453,3 +453,69 @@ fn what_a_tolerance_has_freed_is_moved_shared_out_and_not_advised_again() {
         folder.text(),
     ]);
 }
+
+/// A beam on three supports carries 10 N at 0.3 of its length; the points are known to 1 mm. On two
+/// supports a < b the push on a is 10·(b − 0.3)/(b − a).
+#[test]
+fn samples_have_the_bounds_of_the_mechanism_that_is_described() {
+    let scene = r#"
+        scene = { name = "beam", space = "plane", gravity = [0.0, -10.0], tolerance = 1e-3 }
+        body = [{ name = "beam", mass = 1.0, inertia = 1.0, position = [0.3, 0.0] }]
+        joint = [
+            { name = "wall", type = "point-on-line", body = "beam", at = [0.0, 0.0], line = [[0.0, -1.0], [0.0, 1.0]] },
+            { name = "a", type = "point-on-line", body = "beam", at = [0.0, 0.0], line = [[-1.0, 0.0], [1.0, 0.0]] },
+            { name = "b", type = "point-on-line", body = "beam", at = [0.5, 0.0], line = [[-1.0, 0.0], [1.0, 0.0]] },
+            { name = "c", type = "point-on-line", body = "beam", at = [1.0, 0.0], line = [[-1.0, 0.0], [1.0, 0.0]] },
+        ]
+    "#;
+    let arguments = ["tolerance", "-", "--bounds", "--runs", "300", "--json"];
+    let output = with_scene(&arguments, scene);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    let assumption = d["bounds"].as_str().expect("a sentence");
+    assert!(
+        assumption.contains("misfits within the tolerance cause preload"),
+        "{assumption}"
+    );
+    let reaction = |name: &str| {
+        let all = d["reactions"].as_array().expect("a list");
+        all.iter().find(|r| r["name"] == name).expect("a reaction")
+    };
+    let value = |name: &str, what: &str| {
+        let values = reaction(name)["values"].as_array().expect("a list");
+        values
+            .iter()
+            .find(|v| v["name"] == what)
+            .expect("a value")
+            .clone()
+    };
+    for (name, lowest, highest) in [("a", 0.0, 7.0), ("b", 0.0, 14.0), ("c", -4.0, 3.0)] {
+        let value = value(name, "Fy");
+        let ends =
+            ["lowest", "highest"].map(|end| value["bounds"][end].as_f64().expect("a number"));
+        // A point moves by 1 mm, so a lever of 0.5 m changes by 0.4 % at most.
+        for (end, expected, outward) in [(ends[0], lowest, -1.0), (ends[1], highest, 1.0)] {
+            let beyond = outward * (end - expected);
+            assert!((-1e-9..0.3).contains(&beyond), "{name}: {ends:?}");
+        }
+        assert!(ends[0] < lowest || ends[1] > highest, "{name}: {ends:?}");
+    }
+    // Displaced data couple the wall with the supports by about 0.1 %, and no more.
+    let wall = value("wall", "Fx");
+    let ends = ["lowest", "highest"].map(|end| wall["bounds"][end].as_f64().expect("a number"));
+    assert!(ends.iter().all(|end| end.abs() < 0.1), "{ends:?}");
+    let output = with_scene(&["tolerance", "-", "--rigid", "a"], scene);
+    assert!(
+        stderr(&output).contains("add --bounds"),
+        "{}",
+        stderr(&output)
+    );
+    let output = with_scene(&["tolerance", "-", "--bounds", "--rigid", "d"], scene);
+    assert!(stderr(&output).contains('d'), "{}", stderr(&output));
+    let output = with_scene(&["tolerance", "-", "--bounds", "--runs", "50"], scene);
+    let text = stdout(&output);
+    assert!(
+        text.contains("Bounds in all samples:\nreaction  what  lowest (N)  highest (N)"),
+        "{text}"
+    );
+}

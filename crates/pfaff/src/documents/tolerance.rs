@@ -43,6 +43,9 @@ pub struct ToleranceDocument {
     pub markers: ByName<MarkerRangeDocument>,
     /// Ranges of joint coordinates (measures).
     pub measures: ByName<MeasureRangeDocument>,
+    /// The assumptions of the bounds, if bounds were requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<String>,
 }
 
 /// Description of the random data of samples.
@@ -203,6 +206,20 @@ pub struct QuantityRangeDocument {
     pub reason: Option<&'static str>,
     /// Range of its values; `null` unless all samples determine the number.
     pub range: Option<RangeDocument>,
+    /// Bounds of a number without range for elastic joints, if bounds were requested and every
+    /// sample has bounds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<BoundsOfSamples>,
+}
+
+/// The smallest and the largest bound of a number over all samples.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct BoundsOfSamples {
+    /// The smallest value (N, N·m).
+    pub lowest: f64,
+    /// The largest value (N, N·m).
+    pub highest: f64,
 }
 
 /// Displacement of a body from its described position.

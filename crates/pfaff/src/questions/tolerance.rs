@@ -6,9 +6,12 @@ mod words;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::documents::ToleranceDocument;
+use model::System;
 use report::{Family, Table};
 use serde::{Deserialize, Serialize};
 
+use crate::configuration::requests;
+use crate::elasticity::BoundsOptions;
 use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question, Writing};
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
@@ -46,6 +49,24 @@ pub struct Tolerance {
         )
     )]
     pub at_time: f64,
+    /// Also bound reactions that are not unique, for joints of any stiffness
+    #[cfg_attr(feature = "command", arg(long))]
+    pub bounds: bool,
+    /// Joints and drives that do not give way in --bounds; `drives` names all drives
+    #[cfg_attr(
+        feature = "command",
+        arg(long, value_name = "NAMES", value_delimiter = ',')
+    )]
+    pub rigid: Vec<String>,
+    /// Limit the compliances in --bounds, as in analyze
+    #[cfg_attr(
+        feature = "command",
+        arg(long, value_name = "K", allow_hyphen_values = true)
+    )]
+    pub within: Option<f64>,
+    /// Nominal compliances for --within, as in analyze
+    #[cfg_attr(feature = "command", arg(long, value_name = "LIST"))]
+    pub compliance: Option<String>,
 }
 
 impl Default for Tolerance {
@@ -55,6 +76,10 @@ impl Default for Tolerance {
             vary: Vec::new(),
             seed: 1,
             at_time: 0.0,
+            bounds: false,
+            rigid: Vec::new(),
+            within: None,
+            compliance: None,
         }
     }
 }
@@ -82,12 +107,25 @@ impl Question for Tolerance {
         };
         let assembled = of.assembled(control)?;
         let units = SceneUnits::of(&assembled.scene);
+        let options = BoundsOptions {
+            bounds: self.bounds,
+            rigid: &self.rigid,
+            within: self.within,
+            compliance: self.compliance.as_deref(),
+        };
+        let (scene, mechanism) = (&assembled.scene, &assembled.mechanism);
+        let reaction = |name: &str| {
+            let found = requests::reaction(scene, mechanism, name);
+            found.map_err(|e| of.refusal(e))
+        };
+        let elasticity = options.read(mechanism.layout(), &reaction)?;
         let vary = (!self.vary.is_empty()).then(|| {
             let text = (of.name.as_str(), of.text.as_str());
             VariedText::new(text, of.registry, of.tolerance, self.vary.clone())
         });
         let vary = vary.transpose().map_err(refused)?;
         let study = ToleranceStudy::varying(assembled, self.at_time, vary).map_err(refused)?;
+        let study = study.with_bounds(elasticity);
         let memory = study.memory(self.runs);
         of.budget.allow(memory, "keeping these samples")?;
         let options = ToleranceOptions {

@@ -4,7 +4,7 @@
 use model::start::KeepLevel;
 use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
 use rank::Doubt;
-use solvability::{Configuration, RowDecision, rows_of_rank};
+use solvability::{Configuration, ElasticLoad, Elasticity, RowDecision, rows_of_rank};
 
 use super::error::ToleranceError;
 use super::quantity::Quantity;
@@ -70,6 +70,10 @@ pub(super) struct Nominal {
     pub(super) quantities: Vec<Quantity>,
     /// The verdict on each quantity for the rank of the described mechanism.
     pub(super) verdicts: Vec<&'static str>,
+    /// The loads that are not unique as described, ascending.
+    pub(super) open: Vec<ElasticLoad>,
+    /// Elastic joints for which bounds are computed; `None` without bounds.
+    pub(super) elasticity: Option<Elasticity>,
 }
 
 impl Nominal {
@@ -97,6 +101,7 @@ impl Nominal {
             Some(doubt) => lower_rank(mechanism, &s, &state.q, doubt, prepared)?,
         };
         let quantities = Quantity::all(mechanism);
+        let mut open = Vec::new();
         let mut verdicts = vec!["undecided"; quantities.len()];
         let mut reactions: Vec<NominalReaction> = layout
             .groups
@@ -119,6 +124,7 @@ impl Nominal {
             if let Some(decision) = found.analysis.whole() {
                 let configuration = Configuration::new(mechanism, t, &state.q, &decision)
                     .map_err(StudyError::from)?;
+                open = configuration.open_loads().map_err(StudyError::from)?;
                 for (verdict, quantity) in verdicts.iter_mut().zip(&quantities) {
                     *verdict = quantity.verdict(mechanism, &configuration, 0.0);
                 }
@@ -150,6 +156,8 @@ impl Nominal {
             reactions,
             quantities,
             verdicts,
+            open,
+            elasticity: None,
             base: Base {
                 q: state.q,
                 v: state.v,
@@ -261,7 +269,8 @@ impl Nominal {
         let observed = self.mechanism.frames().observed();
         let places = 2 * self.mechanism.bodies().len() + 3 * observed.markers.len();
         // A verdict consists of a pointer and a length.
-        let of_reactions = 4 * self.quantities.len() + 2 * self.reactions.len();
+        let bounds = 2 * usize::from(self.elasticity.is_some());
+        let of_reactions = (4 + bounds) * self.quantities.len() + 2 * self.reactions.len();
         // The last number accounts for the lists themselves.
         of_reactions + places + self.missing.len() + observed.measures.len() + 32
     }

@@ -2,8 +2,8 @@
 //! force and torque.
 
 use linalg::kernels::norm;
-use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
-use solvability::Configuration;
+use model::{ConstraintId, Layout, Mechanism, Reaction, SpaceKind, System};
+use solvability::{Configuration, ElasticSolutions, LinearForm};
 
 /// A kind of scalar quantity of a reaction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +108,7 @@ impl Quantity {
         at: &Configuration<'_>,
         within: f64,
     ) -> &'static str {
-        let judged = self.depends_on(mechanism).into_iter().map(|name| {
+        let judged = self.depends_on(mechanism.layout()).into_iter().map(|name| {
             let Ok(form) = at.reactions().component(self.id, name) else {
                 return "undecided";
             };
@@ -125,9 +125,35 @@ impl Quantity {
         judged.fold("unique", worse)
     }
 
+    /// Returns the smallest and the largest value for elastic joints, NaN without bounds. A
+    /// magnitude is at least zero.
+    pub(super) fn bounds(
+        &self,
+        at: &Configuration<'_>,
+        found: &ElasticSolutions<'_, '_>,
+    ) -> [f64; 2] {
+        let names = self.depends_on(at.layout());
+        let forms = names
+            .into_iter()
+            .map(|name| at.reactions().component(self.id, name));
+        let Ok(forms) = forms.collect::<Result<Vec<LinearForm>, _>>() else {
+            return [f64::NAN; 2];
+        };
+        match (self.kind, forms.as_slice()) {
+            (Kind::ByName | Kind::Component(_), [form]) => match found.bounds(form) {
+                Ok(bounds) => [bounds.lowest, bounds.highest],
+                Err(_) => [f64::NAN; 2],
+            },
+            (_, forms) => match found.largest_magnitude(forms) {
+                Ok(most) => [0.0, most],
+                Err(_) => [f64::NAN; 2],
+            },
+        }
+    }
+
     /// Returns the components on which the quantity depends, by name.
-    fn depends_on(&self, mechanism: &Mechanism) -> Vec<&'static str> {
-        let group = &mechanism.layout().groups[self.id.0];
+    fn depends_on(&self, layout: &Layout) -> Vec<&'static str> {
+        let group = &layout.groups[self.id.0];
         let space = group.space;
         let among = |range: std::ops::Range<usize>| {
             let own = group.components().into_iter();

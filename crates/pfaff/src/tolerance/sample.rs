@@ -70,6 +70,9 @@ pub struct AssembledSample {
     pub of_kept: Vec<&'static str>,
     /// The values of reactions on the independent rows, NaN if they are not unique.
     pub kept: Vec<f64>,
+    /// Bounds of the values that are not unique there, NaN without bounds; empty if no bounds were
+    /// requested.
+    pub bounds: Vec<[f64; 2]>,
     /// The values with exact numbers, NaN if they are not unique or unknown.
     pub exact: Vec<f64>,
     /// Violation of each redundant holonomic row (m or rad).
@@ -128,6 +131,8 @@ impl Nominal {
         let (verdicts, exact) =
             self.with_exact_numbers(mechanism, (&s, &q, &v), &decision, &lambda);
         let of_kept = self.on_kept_rows(mechanism, &s, &q);
+        let bounds = self.bounds_of(of_kept.as_ref(), &lambda);
+        let of_kept = self.verdicts_of(mechanism, of_kept.as_ref());
         let numbers = self.numbers_of(mechanism, &s, &lambda).into_iter();
         let kept = numbers.zip(&of_kept).map(|(x, verdict)| match *verdict {
             "unique" => x,
@@ -141,6 +146,7 @@ impl Nominal {
             verdicts,
             of_kept,
             kept,
+            bounds,
             exact,
             misfits,
             moved: self.moved(mechanism, &q),
@@ -291,26 +297,54 @@ impl Nominal {
         Ok(Instant { v, lambda })
     }
 
-    /// Returns the verdicts on the numbers with the described redundancy. Violations of redundant
-    /// rows do not make these rows independent, and the loads that they share are not determined.
-    /// In a misaligned mechanism each component is analysed separately, also a component that is
-    /// zero as described.
-    fn on_kept_rows(&self, mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Vec<&'static str> {
+    /// Analyses the configuration with the described redundancy; `None` if it cannot be analysed.
+    /// Violations of redundant rows do not make these rows independent, and the loads that they
+    /// share are not determined.
+    fn on_kept_rows<'m>(
+        &self,
+        mechanism: &'m Mechanism,
+        s: &Scratch,
+        q: &[f64],
+    ) -> Option<Configuration<'m>> {
         let rows = mechanism.layout().rows();
         if self.kept.len() == rows {
-            return vec!["unique"; self.quantities.len()];
+            return None;
         }
         let dropped: Vec<usize> = (0..rows)
             .filter(|i| self.kept.binary_search(i).is_err())
             .collect();
         let of_rank = (rows, self.kept.len());
-        let decision = solvability::decide_of_rank(mechanism, s, q, of_rank, Some(&dropped)).ok();
-        let at = decision.and_then(|d| Configuration::new(mechanism, self.t, q, &d).ok());
-        let verdict = |quantity: &Quantity| match &at {
+        let decision = solvability::decide_of_rank(mechanism, s, q, of_rank, Some(&dropped));
+        Configuration::new(mechanism, self.t, q, &decision.ok()?).ok()
+    }
+
+    /// Returns the verdicts on the numbers with the described redundancy. In a misaligned mechanism
+    /// each component is analysed separately, also a component that is zero as described.
+    fn verdicts_of(
+        &self,
+        mechanism: &Mechanism,
+        at: Option<&Configuration<'_>>,
+    ) -> Vec<&'static str> {
+        let is_whole = self.kept.len() == mechanism.layout().rows();
+        let verdict = |quantity: &Quantity| match at {
             Some(at) => quantity.verdict(mechanism, at, SHARED),
+            None if is_whole => "unique",
             None => "undecided",
         };
         self.quantities.iter().map(verdict).collect()
+    }
+
+    /// Returns bounds of the numbers with the described redundancy, if they are requested.
+    fn bounds_of(&self, at: Option<&Configuration<'_>>, lambda: &[f64]) -> Vec<[f64; 2]> {
+        let Some(elasticity) = &self.elasticity else {
+            return Vec::new();
+        };
+        let found = at.map(|at| at.elastic_solutions_displaced(lambda, elasticity, &self.open));
+        let of = |quantity: &Quantity| match (&found, at) {
+            (Some(Ok(found)), Some(at)) => quantity.bounds(at, found),
+            _ => [f64::NAN; 2],
+        };
+        self.quantities.iter().map(of).collect()
     }
 
     /// Returns the verdicts with exact numbers at this configuration, and the numbers that are

@@ -3,19 +3,21 @@
 use std::cmp::Reverse;
 
 use crate::documents::{
-    DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument, MeasureRangeDocument,
-    MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument, ReactionRangeDocument,
-    RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
+    BoundsOfSamples, DescribedDocument, DrawnDocument, FailureDocument, MarkerRangeDocument,
+    MeasureRangeDocument, MovedDocument, QuantityRangeDocument, RangeDocument, RankCountDocument,
+    ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
 };
 use model::words::{estimate, quantity, range as range_in, short};
 use model::{DataUnit, System};
 use report::ByName;
+use solvability::Elasticity;
 
 use super::ToleranceOptions;
 use super::nominal::{Nominal, Reading};
 use super::quantity::{Quantity, worse};
 use super::sample::{AssembledSample, Sample};
 use super::vary::Variation;
+use crate::elasticity::assumption;
 
 /// A number below this fraction of the largest number of its kind is too small for a relative
 /// range.
@@ -74,7 +76,20 @@ impl Nominal {
             bodies: self.bodies(&good),
             markers: self.markers(&good, described.as_ref()),
             measures: self.measures(&good, described.as_ref()),
+            bounds: self
+                .elasticity
+                .as_ref()
+                .map(|elasticity| self.assumption(elasticity)),
         }
+    }
+
+    /// States the assumptions of the bounds.
+    fn assumption(&self, elasticity: &Elasticity) -> String {
+        let groups = self.mechanism.layout().groups.iter();
+        let open = groups.zip(&self.reactions);
+        let open = open.filter(|(_, r)| r.verdict != "unique");
+        let open: Vec<_> = open.map(|(group, _)| group).collect();
+        assumption(&open, true, elasticity.within.as_ref())
     }
 
     /// Returns the tolerances as text.
@@ -250,6 +265,7 @@ impl Nominal {
         // A range of only some samples would depend on their selection.
         let is_whole = determined == values.len();
         let range = is_whole.then(|| RangeDocument::of(values, told)).flatten();
+        let bounds = bounds(good, k, clean);
         let of_samples = good.iter().map(|(_, s)| s.of_kept[k]);
         let reason = match &range {
             Some(_) => None,
@@ -264,6 +280,7 @@ impl Nominal {
             }
             None => Some(CANNOT_MOVE),
         };
+        let bounds = bounds.filter(|_| range.is_none());
         QuantityRangeDocument {
             name: quantity.name,
             unit: quantity.unit,
@@ -279,6 +296,7 @@ impl Nominal {
                 (Some(_), false) => "exact",
             },
             range,
+            bounds,
         }
     }
 
@@ -431,6 +449,23 @@ impl Nominal {
         };
         markers.enumerate().map(cloud).collect()
     }
+}
+
+/// Returns the smallest and the largest bound of a number over the samples; `None` if a sample has
+/// no bounds.
+fn bounds(
+    good: &[(u64, &AssembledSample)],
+    k: usize,
+    clean: impl Fn(f64) -> f64,
+) -> Option<BoundsOfSamples> {
+    let each = good.iter().map(|(_, s)| s.bounds.get(k).copied());
+    let each: Option<Vec<[f64; 2]>> = each.collect();
+    let each = each.filter(|each| each.iter().flatten().all(|x| x.is_finite()))?;
+    let over = |end: usize, of: fn(f64, f64) -> f64| each.iter().map(|x| x[end]).reduce(of);
+    Some(BoundsOfSamples {
+        lowest: clean(over(0, f64::min)?),
+        highest: clean(over(1, f64::max)?),
+    })
 }
 
 /// Counts the reasons of samples that could not be assembled, the most frequent one first.

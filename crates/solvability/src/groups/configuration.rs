@@ -120,7 +120,9 @@ impl<'a> Configuration<'a> {
     }
 
     /// Returns the rows and columns of the mechanism.
-    pub(crate) fn layout(&self) -> &Layout {
+    /// Returns the layout of the rows of the mechanism.
+    #[must_use]
+    pub fn layout(&self) -> &Layout {
         self.reactions.mechanism.layout()
     }
 

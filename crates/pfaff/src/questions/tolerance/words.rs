@@ -1,6 +1,6 @@
 //! Text on the ranges of verdicts, reactions and positions.
 
-use crate::documents::{ReactionRangeDocument, ToleranceDocument};
+use crate::documents::{BoundsOfSamples, ReactionRangeDocument, ToleranceDocument};
 use model::words::{estimate, quantity};
 
 use crate::words::{Block, Cell};
@@ -31,6 +31,7 @@ pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
         blocks.push(Block::table(columns, lines));
         blocks.extend(more(ranged.len()));
     }
+    blocks.extend(bounds(d));
     let item = |text: String| Block::after("- ", text);
     let first = ranged.iter().take(IN_WORDS).map(|r| r.sentence.clone());
     blocks.extend(first.chain(d.without_range()).map(item));
@@ -40,6 +41,42 @@ pub(super) fn of(d: &ToleranceDocument) -> Vec<Block> {
         blocks.extend(places);
     }
     blocks
+}
+
+/// Lists the bounds of the first number of each reaction without a range, the largest first.
+fn bounds(d: &ToleranceDocument) -> Vec<Block> {
+    let Some(assumption) = &d.bounds else {
+        return Vec::new();
+    };
+    let known = d.reactions.iter().filter_map(|r| {
+        let value = r.values.first()?;
+        Some((r, value, value.bounds?))
+    });
+    let mut known: Vec<_> = known.collect();
+    let size = |b: &BoundsOfSamples| b.lowest.abs().max(b.highest.abs());
+    known.sort_by(|a, b| size(&b.2).total_cmp(&size(&a.2)));
+    if known.is_empty() {
+        return vec![Block::sentence(
+            "no reaction without range has bounds in all samples",
+        )];
+    }
+    let lines = known.iter().take(LISTED).map(|(r, value, bounds)| {
+        [
+            r.name.as_str().into(),
+            value.name.into(),
+            Cell::quantity(bounds.lowest, value.unit),
+            Cell::quantity(bounds.highest, value.unit),
+        ]
+    });
+    let lines: Vec<[Cell; 4]> = lines.collect();
+    let mut out = vec![
+        Block::Heading("Bounds in all samples:".to_owned()),
+        Block::table(["reaction", "what", "lowest", "highest"], lines),
+    ];
+    out.extend(more(known.len()));
+    out.push(Block::after("valid ", assumption));
+    out.push(Block::Gap);
+    out
 }
 
 fn more(listed: usize) -> Option<Block> {
