@@ -3,13 +3,17 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use pfaff::ConfigurationAnalysis;
-use pfaff::RunOptions;
 use pfaff::dynamics::OutputRequest;
 use pfaff::dynamics::plan::{Reactions, Rows};
+use pfaff::elasticity::elasticity;
 use pfaff::memory::{Budget, Bytes};
+use pfaff::model::System;
 use pfaff::model::Tolerance;
+use pfaff::refusal::Refusal;
+use pfaff::scene::WantedBounds;
 use pfaff::scene::nearest;
+use pfaff::solvability::Elasticity;
+use pfaff::{ConfigurationAnalysis, RunOptions, Study};
 use pyo3::prelude::*;
 
 use crate::fault::{Fault, wrong};
@@ -24,6 +28,17 @@ pub(crate) struct RunKeywords {
     pub(crate) output_step: Option<f64>,
     /// Names of joints and drives; `None` for all.
     reactions: Option<Vec<String>>,
+    /// Requested bounds.
+    bounds: Option<BoundsKeywords>,
+}
+
+/// Which joints give way in bounds.
+#[derive(FromPyObject, Clone)]
+#[pyo3(from_item_all)]
+struct BoundsKeywords {
+    rigid: Vec<String>,
+    within: Option<f64>,
+    compliance: Option<String>,
 }
 
 impl RunKeywords {
@@ -47,6 +62,23 @@ impl RunKeywords {
             reactions,
             ..OutputRequest::default()
         }
+    }
+
+    /// Returns the requested bounds of a run, otherwise those of the scene.
+    pub(crate) fn elasticity(&self, study: &Study) -> Result<Option<Elasticity>, Fault> {
+        let own = self.bounds.clone().map(|own| WantedBounds {
+            rigid: own.rigid,
+            within: own.within,
+            compliance: own.compliance,
+        });
+        let wanted = own.as_ref().or(study.scene.output.bounds.as_ref());
+        let reaction = |name: &str| {
+            let found = study.reaction(name);
+            found.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))
+        };
+        let layout = study.prepared.mechanism.layout();
+        let found = wanted.map(|wanted| elasticity(wanted, layout, &reaction));
+        Ok(found.transpose()?)
     }
 
     /// Rejects names of requested reactions that do not exist.

@@ -22,6 +22,8 @@ pub(crate) struct Recorded {
     pub(crate) reactions: Vec<f64>,
     /// The same values for each choice, with its name.
     pub(crate) chosen: Vec<(String, Vec<f64>)>,
+    /// The lowest and the highest values of the columns of reactions; empty without bounds.
+    pub(crate) bounds: [Vec<f64>; 2],
     pub(crate) columns: Vec<Column>,
     pub(crate) reaction_columns: Vec<Column>,
     /// Names of the columns in `reactions.csv`.
@@ -70,6 +72,8 @@ pub(crate) struct Run {
     reactions: Py<PyArray2<f64>>,
     /// Names and values of choices.
     chosen: Vec<(String, Py<PyArray2<f64>>)>,
+    /// The lowest and the highest values.
+    bounds: [Py<PyArray2<f64>>; 2],
     #[pyo3(get)]
     columns: Vec<Column>,
     #[pyo3(get)]
@@ -94,6 +98,7 @@ impl Run {
                 .into_iter()
                 .map(|(name, numbers)| (name, by_rows(py, numbers, n)))
                 .collect(),
+            bounds: recorded.bounds.map(|numbers| by_rows(py, numbers, n)),
             t: recorded.t.into_pyarray(py).unbind(),
             columns: recorded.columns,
             reaction_columns: recorded.reaction_columns,
@@ -111,6 +116,12 @@ impl Run {
         let each = self.chosen.iter();
         each.map(|(name, numbers)| (name.clone(), numbers.clone_ref(py)))
             .collect()
+    }
+
+    /// The lowest and the highest values of `reactions` for elastic joints; without columns if no
+    /// bounds were requested.
+    fn bounds(&self, py: Python<'_>) -> [Py<PyArray2<f64>>; 2] {
+        self.bounds.each_ref().map(|numbers| numbers.clone_ref(py))
     }
 
     /// The exception with the reason why the run stopped before its end, if an error stopped it.

@@ -123,10 +123,22 @@ impl Source {
 
     /// Reads choices in the syntax of the command.
     fn choices(&self, texts: &[String], study: &Study) -> Result<Vec<Choice>, Fault> {
-        let rows = study.prepared.mechanism.layout().rows();
-        let (name, text) = (self.name.clone(), self.text.clone());
-        let of = Start::new(name, text, &REGISTRY, budget(None)?);
-        Ok(choices(texts, &of, (rows, &|name| study.reaction(name)))?)
+        let layout = study.prepared.mechanism.layout();
+        let source = (self.name.as_str(), self.text.as_str());
+        let reaction = |name: &str| {
+            let found = study.reaction(name);
+            found.map_err(|e| Refusal::of(source, e))
+        };
+        let found = choices(texts, (layout.space, layout.rows(), &reaction))?;
+        let has_misfit = |choice: &Choice| match choice {
+            Choice::Compliance(supports) => !supports.misfits.is_empty(),
+            _ => false,
+        };
+        if found.iter().any(has_misfit) {
+            let message = "a misfit is stated in ground axes at one instant: use `Scene.analyze(at_time=…).reactions`";
+            return Err(wrong(message.to_owned()));
+        }
+        Ok(found)
     }
 
     fn recorded(&self, asked: RunAsked, hearing: &Arc<Hearing>) -> Result<Recorded, Fault> {
@@ -157,6 +169,7 @@ impl Source {
             let named = start.named(&choice).map_err(|e| self.fault(e))?;
             wanted.choices.push(named);
         }
+        let elasticity = options.elasticity(study)?;
         let motion = study.options_with(&overrides);
         let mut motion = motion.ok_or_else(|| self.fault(StudyError::NoEnd))?;
         motion.output_step = options.output_step.unwrap_or(motion.output_step);
@@ -176,38 +189,44 @@ impl Source {
             refused: None,
         };
         let stop = || hearing.ends();
-        let ended = study.show(&motion, &wanted, &stop, |sample, numbers| {
-            rows.t.push(sample.t);
-            rows.q.extend(sample.q);
-            rows.v.extend(sample.v);
-            trajectory.extend(&mut rows.trajectory, sample.t, sample.q, sample.v);
-            let all = std::iter::once(&mut rows.reactions);
-            let all = all.chain(rows.chosen.iter_mut().map(|(_, own)| own));
-            let of_each = std::iter::once(numbers).chain(&numbers.choices);
-            for (own, numbers) in all.zip(of_each) {
-                for reaction in numbers.reactions.as_chosen() {
-                    own.extend(reaction.components(space));
-                    own.extend(reaction.component);
+        let ended = study.show_bounded(
+            &motion,
+            &wanted,
+            elasticity.as_ref(),
+            &stop,
+            |sample, numbers| {
+                rows.t.push(sample.t);
+                rows.q.extend(sample.q);
+                rows.v.extend(sample.v);
+                trajectory.extend(&mut rows.trajectory, sample.t, sample.q, sample.v);
+                let all = std::iter::once(&mut rows.reactions);
+                let all = all.chain(rows.chosen.iter_mut().map(|(_, own)| own));
+                let of_each = std::iter::once(numbers).chain(&numbers.choices);
+                for (own, numbers) in all.zip(of_each) {
+                    for reaction in numbers.reactions.as_chosen() {
+                        own.extend(reaction.components(space));
+                        own.extend(reaction.component);
+                    }
+                    own.extend(numbers.groups.as_chosen());
                 }
-                own.extend(numbers.groups.as_chosen());
-            }
-            for event in sample.events {
-                if let Some(on_event) = &on_event {
-                    let document = EventDocument::new(event, mechanism.layout());
-                    let document = part_as_json(&document).unwrap_or_default();
-                    hearing.call(|py| on_event.call1(py, (document,)));
+                for event in sample.events {
+                    if let Some(on_event) = &on_event {
+                        let document = EventDocument::new(event, mechanism.layout());
+                        let document = part_as_json(&document).unwrap_or_default();
+                        hearing.call(|py| on_event.call1(py, (document,)));
+                    }
                 }
-            }
-            if let Some(on_row) = &on_row {
-                hearing.call(|py| on_row.call1(py, (sample.t,)));
-            }
-            room.make(&mut rows);
-            if room.refused.is_some() || hearing.ends() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        });
+                if let Some(on_row) = &on_row {
+                    hearing.call(|py| on_row.call1(py, (sample.t,)));
+                }
+                room.make(&mut rows);
+                if room.refused.is_some() || hearing.ends() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            },
+        );
         if let Some(refusal) = room.refused {
             return Err(refusal.into());
         }
@@ -216,6 +235,7 @@ impl Source {
             stopped,
             stretches,
             columns,
+            bounds,
             ..
         } = match ended {
             // The Python exception contains more information.
@@ -226,6 +246,10 @@ impl Source {
         rows.reaction_names = columns.iter().map(ReactionColumn::name).collect();
         if let Some(stretches) = stretches {
             rows.tell_determined(&columns, &stretches, numbers_of_choice);
+        }
+        for (k, own) in rows.bounds.iter_mut().enumerate() {
+            let ends = bounds.iter().flat_map(|(_, row)| row);
+            *own = ends.map(|ends| ends[k]).collect();
         }
         rows.stopped = stopped.map(|error| Refusal::of((&self.name, &self.text), error.into()));
         rows.document = json(&document)?;
@@ -565,6 +589,7 @@ impl Scene {
             let of_run = study.memory(own.text.len()).map_err(|e| own.fault(e))?;
             options.common.budget()?.allow(of_run, "this run")?;
             study.choices = own.choices(&choices, &study)?;
+            study.bounds = options.elasticity(&study)?;
             if hearing.ends() {
                 return Err(own.fault(StudyError::Interrupted));
             }

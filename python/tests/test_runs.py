@@ -543,3 +543,50 @@ def test_plots() -> None:
     axes = pfaff.Scene.from_string(PENDULUM).work_precision(quick=True).plot("dop853", "radau5")
     assert [line.get_label() for line in axes.lines] == ["dop853", "radau5"]
     pyplot.close("all")
+
+
+def test_bounds_contain_every_sharing() -> None:
+    """Each of two wheels carries up to the whole force; within a factor of 3, a quarter of it."""
+    cart = pfaff.Scene.from_string(
+        """
+        scene = { name = "cart", space = "plane" }
+        body = [{ name = "cart", mass = 10.0, inertia = 1.0, velocity = [1.0, 0.0], angular_velocity = 0.5 }]
+        joint = [
+            { name = "left", type = "knife-edge", body = "cart", at = [0.0, 0.5], normal = [0.0, 1.0] },
+            { name = "right", type = "knife-edge", body = "cart", at = [0.0, -0.5], normal = [0.0, 1.0] },
+        ]
+        simulate = { t_end = 1.0 }
+        """
+    )
+    assert cart.simulate().lowest is None
+    for bounds, ends in (
+        (True, (0.0, 5.0)),
+        ({"within": 3}, (1.25, 3.75)),
+        ({"within": 3, "compliance": {"left": 1e-6, "right": 3e-6}}, (0.5 * 5.0, 0.9 * 5.0)),
+        ({"rigid": ["left"]}, (5.0, 5.0)),
+    ):
+        run = cart.simulate(bounds=bounds)
+        assert run.lowest is not None and run.highest is not None
+        for of, end in zip((run.lowest, run.highest), ends, strict=True):
+            np.testing.assert_allclose(of.reaction("left")["N"], end, atol=1e-7)
+        most = run.document["reactions"]["left"].get("magnitude_at_most")
+        assert most is None or math.isclose(most["force"]["value"], ends[1], abs_tol=1e-7)
+    wrong: Any
+    for wrong, words in (
+        (3, "a dictionary"),
+        ({"rigit": []}, "did you mean `rigid`?"),
+        ({"within": 0.5}, "need a ratio"),
+        ({"rigid": ["lefd"]}, "`lefd`"),
+    ):
+        with pytest.raises((pfaff.InputError, TypeError), match=words):
+            cart.simulate(bounds=wrong)
+
+
+def test_a_misfit_is_a_preload() -> None:
+    """A leg that is too long by h: legs of equal compliance c have the self-stress h/(4·c)."""
+    table = pfaff.Scene.from_file(ROOT / "examples" / "table.toml")
+    soft = dict.fromkeys("ABCD", 1e-6)
+    fits = table.analyze().reactions(soft)
+    long = table.analyze().reactions(soft, misfits={"C": [0.0, 0.0, -1e-5]})
+    for name, sign in zip("ABCD", (-1.0, 1.0, -1.0, 1.0), strict=True):
+        assert math.isclose(long[name]["Fz"] - fits[name]["Fz"], sign * 2.5, abs_tol=1e-9)

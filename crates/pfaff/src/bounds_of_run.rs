@@ -42,7 +42,8 @@ const STORED: usize = 4_000_000;
 
 /// Writer of `bounds.csv`. The bounds of several rows are computed in parallel.
 pub(crate) struct BoundsOfRun<'m> {
-    directory: &'m OutputDirectory,
+    /// The directory of the table, if the table is written.
+    directory: Option<&'m OutputDirectory>,
     mechanism: &'m Mechanism,
     elasticity: &'m Elasticity,
     groups: Vec<Group>,
@@ -89,29 +90,46 @@ struct RowBounds {
 }
 
 impl<'m> BoundsOfRun<'m> {
+    /// Creates a sink that writes the table.
     pub(crate) fn begin(
         directory: &'m OutputDirectory,
         mechanism: &'m Mechanism,
         elasticity: &'m Elasticity,
         columns: Vec<ReactionColumn>,
         plan: &Plan<'_>,
-        (rows, is_pictured): (TableRows, bool),
+        rows: (TableRows, bool),
     ) -> Result<Self, StudyError> {
         let table = BoundsTable::new(directory.scratch(ALL)?, &columns)?;
+        Ok(Self {
+            directory: Some(directory),
+            table: Some(table),
+            ..Self::new(mechanism, elasticity, columns, plan, rows)
+        })
+    }
+
+    /// Creates a sink without a table. The second part of `rows` states whether the bounds of all
+    /// rows are stored.
+    pub(crate) fn new(
+        mechanism: &'m Mechanism,
+        elasticity: &'m Elasticity,
+        columns: Vec<ReactionColumn>,
+        plan: &Plan<'_>,
+        (rows, is_pictured): (TableRows, bool),
+    ) -> Self {
         let of_columns = columns.iter().filter_map(|column| match column.quantity {
             Quantity::Component(id, _) => Some(id),
             Quantity::Group(..) => None,
         });
         let mut reactions: Vec<ConstraintId> = of_columns.collect();
         reactions.dedup();
-        Ok(Self {
-            directory,
+        Self {
+            directory: None,
             mechanism,
             elasticity,
             groups: plan.groups.clone(),
             reactions,
             rtol: plan.options().rtol,
-            table: Some(table),
+            table: None,
             rows,
             is_pictured,
             waiting: Vec::new(),
@@ -120,7 +138,12 @@ impl<'m> BoundsOfRun<'m> {
                 ..FoundBounds::default()
             },
             columns,
-        })
+        }
+    }
+
+    /// Returns the bounds of all rows, with their times.
+    pub(crate) fn into_rows(self) -> Vec<(f64, Vec<[f64; 2]>)> {
+        self.found.rows
     }
 
     /// Returns the columns and the results, after the end.
@@ -146,7 +169,8 @@ impl<'m> BoundsOfRun<'m> {
                 table.row(t, &bounds.columns)?;
             }
             let stored = self.found.rows.len() * self.columns.len();
-            if self.is_pictured && stored < STORED {
+            // Without a table all rows are stored.
+            if self.is_pictured && (stored < STORED || self.directory.is_none()) {
                 self.found.rows.push((t, bounds.columns));
             }
         }
@@ -372,7 +396,9 @@ impl RowSink for BoundsOfRun<'_> {
 
     fn end(&mut self, verdicts: Option<&Stretches>, ending: &Ending<'_>) -> Result<(), StudyError> {
         self.compute()?;
-        let (Some(table), Some(stretches)) = (self.table.take(), verdicts) else {
+        let (Some(directory), Some(table), Some(stretches)) =
+            (self.directory, self.table.take(), verdicts)
+        else {
             return Ok(());
         };
         let mut all = table.finish()?;
@@ -380,7 +406,7 @@ impl RowSink for BoundsOfRun<'_> {
         if !open.any(|column| column.quantity.open(stretches).is_some()) {
             return Ok(());
         }
-        let mut out = self.directory.file(BOUNDS)?;
+        let mut out = directory.file(BOUNDS)?;
         let all: BufReader<File> = BufReader::new(all.written()?);
         write_open_bounds(all, &mut out, &self.columns, stretches)?;
         finished(out, ending)?;

@@ -1,4 +1,4 @@
-//! Options of bounds: the joints and drives that give way.
+//! Requests of bounds: the joints and drives that give way, and the assumptions.
 
 use model::Layout;
 use model::reaction::ConstraintGroup;
@@ -11,89 +11,80 @@ use crate::refusal::Refusal;
 /// Name of all drives in the list of rigid joints.
 const DRIVES: &str = "drives";
 
-/// The options of bounds.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct BoundsOptions<'o> {
-    /// Whether bounds are requested.
-    pub(crate) bounds: bool,
-    /// Names of joints and drives that do not give way.
-    pub(crate) rigid: &'o [String],
-    /// Largest ratio of compliances to their nominal values.
-    pub(crate) within: Option<f64>,
-    /// Nominal compliances.
-    pub(crate) compliance: Option<&'o str>,
-}
-
-impl<'o> From<&'o WantedBounds> for BoundsOptions<'o> {
-    fn from(wanted: &'o WantedBounds) -> Self {
-        Self {
-            bounds: true,
-            rigid: &wanted.rigid,
-            within: wanted.within,
-            compliance: wanted.compliance.as_deref(),
+/// Combines the options of bounds; `None` if no bounds are requested.
+///
+/// # Errors
+/// Names the option that needs another one.
+pub(crate) fn requested(
+    bounds: bool,
+    rigid: &[String],
+    within: Option<f64>,
+    compliance: Option<&str>,
+) -> Result<Option<WantedBounds>, Refusal> {
+    let needed = match (rigid, within, compliance) {
+        _ if bounds => None,
+        ([_, ..], ..) => Some("--rigid selects joints for --bounds: add --bounds"),
+        (_, Some(_), _) => Some("--within limits compliances for --bounds: add --bounds"),
+        (_, _, Some(_)) => {
+            Some("--compliance states nominal compliances for --bounds: add --bounds --within K")
         }
+        _ => None,
+    };
+    match needed {
+        Some(words) => Err(Refusal::input(words.to_owned())),
+        None => Ok(bounds.then(|| WantedBounds {
+            rigid: rigid.to_vec(),
+            within,
+            compliance: compliance.map(str::to_owned),
+        })),
     }
 }
 
-impl BoundsOptions<'_> {
-    /// Reads the options; `None` if no bounds are requested.
-    ///
-    /// # Errors
-    /// Names the option that needs another one, the joint that does not exist, or the expected
-    /// text.
-    pub(crate) fn read(
-        &self,
-        layout: &Layout,
-        reaction: FindReaction<'_>,
-    ) -> Result<Option<Elasticity>, Refusal> {
-        let refuse = |message: &str| Err(Refusal::input(message.to_owned()));
-        if !self.bounds {
-            return match (self.rigid, self.within, self.compliance) {
-                ([], None, None) => Ok(None),
-                ([_, ..], ..) => refuse("--rigid selects joints for --bounds: add --bounds"),
-                (_, Some(_), _) => refuse("--within limits compliances for --bounds: add --bounds"),
-                _ => refuse(
-                    "--compliance states nominal compliances for --bounds: add --bounds --within K",
-                ),
-            };
+/// Finds the joints and drives of a request.
+///
+/// # Errors
+/// Names the joint that does not exist, or the expected text.
+pub fn elasticity(
+    wanted: &WantedBounds,
+    layout: &Layout,
+    reaction: FindReaction<'_>,
+) -> Result<Elasticity, Refusal> {
+    let mut rigid = Vec::new();
+    for name in &wanted.rigid {
+        if name == DRIVES {
+            let is_drive = |id: &model::ConstraintId| layout.groups[id.0].is_drive();
+            rigid.extend(layout.constraint_ids().filter(is_drive));
+        } else {
+            rigid.push(reaction(name)?);
         }
-        let mut rigid = Vec::new();
-        for name in self.rigid {
-            if name == DRIVES {
-                let is_drive = |id: &model::ConstraintId| layout.groups[id.0].is_drive();
-                rigid.extend(layout.constraint_ids().filter(is_drive));
-            } else {
-                rigid.push(reaction(name)?);
-            }
+    }
+    let within = match (wanted.within, &wanted.compliance) {
+        (None, None) => None,
+        (None, Some(_)) => {
+            let message = "nominal compliances are the smallest ones: add `within`, the largest ratio to them";
+            return Err(Refusal::input(message.to_owned()));
         }
-        let within = match (self.within, self.compliance) {
-            (None, None) => None,
-            (None, Some(_)) => {
-                return refuse(
-                    "nominal compliances are the smallest ones: add `within`, the largest ratio to them",
-                );
-            }
-            (Some(factor), _) if !(factor.is_finite() && factor >= 1.0) => {
-                let message = format!(
-                    "`within` is {factor}, need a ratio ≥ 1 of the largest to the smallest compliance"
-                );
-                return Err(Refusal::input(message));
-            }
-            (Some(factor), text) => {
-                let nominal = text.map(|text| compliances("--compliance", text, reaction));
-                let nominal = nominal.transpose()?.map(|all| {
-                    let each = all.iter().map(|c| NominalCompliance {
-                        reaction: c.reaction,
-                        force: c.along[0],
-                        moment: c.rotation,
-                    });
-                    each.collect()
+        (Some(factor), _) if !(factor.is_finite() && factor >= 1.0) => {
+            let message = format!(
+                "`within` is {factor}, need a ratio ≥ 1 of the largest to the smallest compliance"
+            );
+            return Err(Refusal::input(message));
+        }
+        (Some(factor), text) => {
+            let nominal = text.as_deref();
+            let nominal = nominal.map(|text| compliances("compliance", text, reaction));
+            let nominal = nominal.transpose()?.map(|all| {
+                let each = all.iter().map(|c| NominalCompliance {
+                    reaction: c.reaction,
+                    force: c.along[0],
+                    moment: c.rotation,
                 });
-                Some(ComplianceRange { factor, nominal })
-            }
-        };
-        Ok(Some(Elasticity { rigid, within }))
-    }
+                each.collect()
+            });
+            Some(ComplianceRange { factor, nominal })
+        }
+    };
+    Ok(Elasticity { rigid, within })
 }
 
 /// States the assumptions of bounds for these joints and drives, whose reactions are not unique.

@@ -39,7 +39,7 @@ pub mod command;
 mod comparison;
 pub mod configuration;
 pub mod documents;
-mod elasticity;
+pub mod elasticity;
 pub mod error;
 pub mod explain;
 pub mod forked;

@@ -91,6 +91,9 @@ pub struct EndedRun {
     /// The columns of reactions of all joints and drives, then the columns of the groups of the
     /// scene.
     pub columns: Vec<ReactionColumn>,
+    /// The smallest and the largest value of each column at the rows, with their times (s), NaN
+    /// without bounds; empty if no bounds were requested or no rows are redundant.
+    pub bounds: Vec<(f64, Vec<[f64; 2]>)>,
 }
 
 /// The values of the reactions of a row for one choice.
@@ -637,6 +640,21 @@ impl Study {
         options: &MotionOptions,
         wanted: &OutputRequest,
         stop: &Stop<'_>,
+        row: impl FnMut(&Sample<'_, '_>, &ChosenNumbers) -> ControlFlow<()>,
+    ) -> Result<EndedRun, StudyError> {
+        self.show_bounded(options, wanted, self.bounds.as_ref(), stop, row)
+    }
+
+    /// Like [`Study::show`], with bounds for these elastic joints in place of [`Study::bounds`].
+    ///
+    /// # Errors
+    /// Returns the errors of [`Study::show`].
+    pub fn show_bounded(
+        &self,
+        options: &MotionOptions,
+        wanted: &OutputRequest,
+        elasticity: Option<&Elasticity>,
+        stop: &Stop<'_>,
         mut row: impl FnMut(&Sample<'_, '_>, &ChosenNumbers) -> ControlFlow<()>,
     ) -> Result<EndedRun, StudyError> {
         let begun = self.begun()?;
@@ -665,8 +683,17 @@ impl Study {
             Ok(row(sample, &numbers))
         });
         let goes_on = |_| ControlFlow::Continue(());
-        let sinks: &mut [&mut dyn RowSink] = &mut [&mut path, &mut caller];
-        let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), sinks)?;
+        let elastic = elasticity.filter(|_| self.prepared.decision.redundancy > 0);
+        let mut bounds = elastic.map(|elastic| {
+            let all = TableRows::new(1, plan.options().t_end);
+            BoundsOfRun::new(mechanism, elastic, columns.clone(), &plan, (all, true))
+        });
+        let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut caller];
+        sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
+        let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), &mut sinks)?;
+        if let Some(bounds) = &mut bounds {
+            bounds.end(ended.summary.verdicts.as_ref(), &ended.ending())?;
+        }
         let found = ended.summary.verdicts.as_ref();
         let peaks = found.map_or_else(Vec::new, |found| peaks.finish(&columns, found));
         let written = WrittenRun {
@@ -677,8 +704,14 @@ impl Study {
             gaps: &gaps,
             ..WrittenRun::default()
         };
+        let mut document = begun.document(&plan, &ended, written);
+        if let Some(elasticity) = elasticity {
+            let found = bounds.as_ref().map(BoundsOfRun::found);
+            bounds_of_run::add_to(&mut document, mechanism, elasticity, found);
+        }
         Ok(EndedRun {
-            document: begun.document(&plan, &ended, written),
+            bounds: bounds.map_or_else(Vec::new, BoundsOfRun::into_rows),
+            document,
             verdicts: begun.start.analysis.reactions.clone(),
             columns,
             stretches: ended.summary.verdicts,

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arguments as arguments
-from ._choices import as_words
+from ._choices import as_misfits, as_words
 from ._errors import wrong
 
 if TYPE_CHECKING:
@@ -369,12 +369,15 @@ class Analysis:
         choose: str | Sequence[int] | Mapping[str, float] | None = None,
         *,
         length: float | None = None,
+        misfits: Mapping[str, Sequence[float]] | None = None,
     ) -> dict[str, dict[str, float]]:
         """Returns the values of the reactions by name and component.
 
         Components that are not unique are NaN, unless a choice is given. A choice is
         ``"minimum-norm"``, with the arm ``length`` (m) that converts torques to forces; rows to
-        delete (1-based); or compliances (m/N) of joints by name.
+        delete (1-based); or compliances (m/N) of joints by name. With compliances, ``misfits`` are
+        displacements of the second body of a joint, or of the ground, along the axes of the scene
+        (m), and rotations (rad).
         """
         length = arguments.maybe(arguments.number, "length", length)
         arm = "" if length is None else f":length={length!r}"
@@ -386,6 +389,7 @@ class Analysis:
             )
         else:
             words = as_words(choose)
+        words += as_misfits(misfits)
         hidden = choose is None
         return {
             r["name"]: {

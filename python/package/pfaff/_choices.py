@@ -8,7 +8,7 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from . import _arguments as arguments
-from ._errors import wrong_type
+from ._errors import unknown, wrong_type
 
 Choice = Sequence[int] | str | Mapping[str, float | tuple[float, float]]
 """A choice of reactions.
@@ -43,6 +43,51 @@ def _compliance(name: str, given: Any) -> str:
         raise wrong_type(name, given, needed)
     along, turn = (arguments.number(name, x, needed) for x in both)
     return f"{along!r}/{turn!r}"
+
+
+def as_misfits(misfits: Mapping[str, Sequence[float]] | None) -> str:
+    """Returns misfits by name in the syntax of the command."""
+    if misfits is None:
+        return ""
+    found = arguments.named("misfits", misfits, _misfit, "displacements by name")
+    return "".join(f";misfit:{name}={words}" for name, words in found.items())
+
+
+def _misfit(name: str, given: Any) -> str:
+    needed = "displacements (m), and rotations (rad) if there are any"
+    return ",".join(repr(x) for x in arguments.listed(name, given, arguments.number, needed))
+
+
+Bounds = Mapping[str, Any]
+"""Which joints give way in bounds: the keys ``rigid``, ``within`` and ``compliance``.
+
+``rigid`` lists joints and drives that do not give way, ``within`` is the largest ratio of
+compliances to the nominal ones, and ``compliance`` contains nominal compliances by name.
+"""
+
+
+def as_bounds(name: str, bounds: bool | Bounds) -> dict[str, Any] | None:
+    """Returns the request for bounds of a run; ``None`` if the scene decides."""
+    if isinstance(bounds, (bool, np.bool_)):
+        return {"rigid": [], "within": None, "compliance": None} if bounds else None
+    if not isinstance(bounds, Mapping):
+        raise wrong_type(name, bounds, "True, False or a dictionary")
+    keys = ("rigid", "within", "compliance")
+    for key in bounds:
+        if key not in keys:
+            raise unknown("key of `bounds`", str(key), keys)
+    soft = arguments.maybe(_soft, "compliance", bounds.get("compliance"))
+    return {
+        "rigid": arguments.texts("rigid", bounds.get("rigid", ())),
+        "within": arguments.maybe(arguments.number, "within", bounds.get("within")),
+        "compliance": None if soft is None else as_words(soft).removeprefix("compliance:"),
+    }
+
+
+def _soft(name: str, given: Any) -> Mapping[str, Any]:
+    if not isinstance(given, Mapping):
+        raise wrong_type(name, given, "compliances by name")
+    return given
 
 
 def of_run(choose: Choice | Sequence[Choice] | None) -> tuple[bool, list[str]]:

@@ -20,6 +20,11 @@ class Run:
     """
     A run. Arrays have a row for each time.
     """
+    def bounds(self, /) -> list[Incomplete]:
+        """
+        The lowest and the highest values of `reactions` for elastic joints; without columns if no
+        bounds were requested.
+        """
     def chosen(self, /) -> list[tuple[str, Incomplete]]:
         """
         The columns of `reactions` for each choice, with its name.

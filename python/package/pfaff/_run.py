@@ -190,6 +190,17 @@ class Run:
 
         Empty cells are NaN. With a single choice the values are those of the choice.
         """
+        lowest, highest = of.bounds()
+        has_bounds = lowest.shape[1] > 0
+        columns = of.reaction_columns
+        self.lowest: ChosenReactions | None = (
+            ChosenReactions("lowest", lowest, columns) if has_bounds else None
+        )
+        """The lowest values for joints of any stiffness; ``None`` without bounds."""
+        self.highest: ChosenReactions | None = (
+            ChosenReactions("highest", highest, columns) if has_bounds else None
+        )
+        """The highest values for joints of any stiffness; ``None`` without bounds."""
         self._seal()
         self.document: dict[str, Any] = json.loads(of.document)
         """The summary, as in ``summary.json``."""

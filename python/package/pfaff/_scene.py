@@ -15,7 +15,7 @@ from . import _arguments as arguments
 from . import _pfaff
 from . import _toml as toml
 from ._answer import Answer, Common
-from ._choices import Choice, dropped, of_run
+from ._choices import Bounds, Choice, as_bounds, dropped, of_run
 from ._errors import wrong, wrong_type
 from ._functions import BodyForce, DriveLaw, of_bodies, of_drives
 from ._questions import Questions
@@ -261,6 +261,7 @@ class Scene(Questions):
         max_memory: int | str | None = None,
         reactions: bool | Iterable[str] = True,
         choose: Choice | Sequence[Choice] | None = None,
+        bounds: bool | Bounds = False,
         drives: Mapping[str, DriveLaw] | None = None,
         forces: Mapping[str, BodyForce] | None = None,
         on_event: Callable[[Event], object] | None = None,
@@ -275,6 +276,10 @@ class Scene(Questions):
         (m), or compliances by name, such as ``{"left": 1e-6, "right": (2e-6, 1e-3)}`` (m/N, and
         rad/(N·m)). With a list of these choices ``run.choices`` contains the values for each
         choice, and NaN remains in ``run.reactions``.
+
+        With ``bounds`` the attributes ``run.lowest`` and ``run.highest`` contain the bounds of all
+        reactions for joints of any stiffness. A dictionary with the keys ``rigid``, ``within`` and
+        ``compliance`` states which joints give way.
 
         ``on_event`` receives each :class:`Event` at the first row after it, and ``on_row`` receives
         the time of each row. The run ends if one of them returns ``True``. Ctrl-C works only on the
@@ -301,6 +306,7 @@ class Scene(Questions):
             max_memory=max_memory,
             drop=dropped(choose),
             reactions=_wanted(reactions),
+            bounds=bounds,
         )
         kept, choices = of_run(choose)
         if on_row is not None:
@@ -461,6 +467,7 @@ _CHECKS: dict[str, Callable[[str, Any], Any]] = {
     "angle_tolerance": arguments.number,
     "reactions": arguments.texts,
     "max_memory": arguments.size,
+    "bounds": as_bounds,
 }
 """Options of a run with their checks."""
 
@@ -479,7 +486,7 @@ def _native(options: Mapping[str, Any]) -> dict[str, Any]:
     """Converts the options of a run to the format of the library."""
     run = json.dumps({name: options[name] for name in _OF_RUN})
     common = Common(*(options.get(name) for name in Common._fields))._asdict()
-    rest = {name: options[name] for name in ("output_step", "reactions")}
+    rest = {name: options[name] for name in ("output_step", "reactions", "bounds")}
     return {"run": run, "common": common, **rest}
 
 

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use solvability::Choice;
 
 use crate::choice::choices;
-use crate::elasticity::BoundsOptions;
+use crate::elasticity::{elasticity, requested};
 use crate::error::StudyError;
 use crate::question::{
     Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Progress, Question, Writing,
@@ -91,15 +91,11 @@ impl Question for Simulate {
             let message = "a misfit is stated in ground axes at one instant: use `analyze --at-time T --choose …`";
             return Err(Refusal::input(message.to_owned()));
         }
-        let own = BoundsOptions {
-            bounds: self.bounds,
-            rigid: &self.rigid,
-            within: self.within,
-            compliance: self.compliance.as_deref(),
-        };
-        let of_scene = study.scene.output.bounds.as_ref().map(Into::into);
-        let options = of_scene.filter(|_| own == BoundsOptions::default());
-        let bounds = options.unwrap_or(own).read(mechanism.layout(), &reaction)?;
+        let (within, compliance) = (self.within, self.compliance.as_deref());
+        let wanted = requested(self.bounds, &self.rigid, within, compliance)?;
+        let wanted = wanted.as_ref().or(study.scene.output.bounds.as_ref());
+        let bounds = wanted.map(|wanted| elasticity(wanted, mechanism.layout(), &reaction));
+        let bounds = bounds.transpose()?;
         (study.choices, study.bounds) = (choices, bounds);
         let memory = study.memory(of.text.len()).map_err(|e| of.refusal(e))?;
         of.budget.allow(memory, "this run")?;

@@ -11,7 +11,7 @@ use report::{Family, Table};
 use serde::{Deserialize, Serialize};
 
 use crate::configuration::requests;
-use crate::elasticity::BoundsOptions;
+use crate::elasticity::{elasticity, requested};
 use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question, Writing};
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
@@ -107,25 +107,22 @@ impl Question for Tolerance {
         };
         let assembled = of.assembled(control)?;
         let units = SceneUnits::of(&assembled.scene);
-        let options = BoundsOptions {
-            bounds: self.bounds,
-            rigid: &self.rigid,
-            within: self.within,
-            compliance: self.compliance.as_deref(),
-        };
+        let (within, compliance) = (self.within, self.compliance.as_deref());
+        let wanted = requested(self.bounds, &self.rigid, within, compliance)?;
         let (scene, mechanism) = (&assembled.scene, &assembled.mechanism);
         let reaction = |name: &str| {
             let found = requests::reaction(scene, mechanism, name);
             found.map_err(|e| of.refusal(e))
         };
-        let elasticity = options.read(mechanism.layout(), &reaction)?;
+        let bounds = wanted.map(|wanted| elasticity(&wanted, mechanism.layout(), &reaction));
+        let bounds = bounds.transpose()?;
         let vary = (!self.vary.is_empty()).then(|| {
             let text = (of.name.as_str(), of.text.as_str());
             VariedText::new(text, of.registry, of.tolerance, self.vary.clone())
         });
         let vary = vary.transpose().map_err(refused)?;
         let study = ToleranceStudy::varying(assembled, self.at_time, vary).map_err(refused)?;
-        let study = study.with_bounds(elasticity);
+        let study = study.with_bounds(bounds);
         let memory = study.memory(self.runs);
         of.budget.allow(memory, "keeping these samples")?;
         let options = ToleranceOptions {

@@ -16,7 +16,7 @@ use super::phrases::LINES;
 use crate::configuration::ConfigurationAnalysis;
 use crate::documents::AnalysisDocument;
 use crate::documents::analysis::components;
-use crate::elasticity::BoundsOptions;
+use crate::elasticity::requested;
 use crate::error::StudyError;
 use crate::refusal::Refusal;
 use crate::words::{Block, Cell, load_unit};
@@ -215,17 +215,15 @@ fn elasticity(
     asked: &Analyze,
     of: &ConfigurationAnalysis<'_>,
 ) -> Result<Option<Elasticity>, Refusal> {
-    let options = BoundsOptions {
-        bounds: asked.bounds,
-        rigid: &asked.rigid,
-        within: asked.within,
-        compliance: asked.compliance.as_deref(),
+    let (within, compliance) = (asked.within, asked.compliance.as_deref());
+    let Some(wanted) = requested(asked.bounds, &asked.rigid, within, compliance)? else {
+        return Ok(None);
     };
     let named = |name: &str| {
         let found = of.reaction(name);
         found.map_err(|e| Refusal::input(e.to_string()).coded(e.code()))
     };
-    options.read(of.mechanism.layout(), &named)
+    crate::elasticity::elasticity(&wanted, of.mechanism.layout(), &named).map(Some)
 }
 
 /// Adds the bounds of all reactions that are not unique.
