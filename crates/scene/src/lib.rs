@@ -90,6 +90,6 @@ pub use read::{read, read_and_build};
 pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
-pub use template::{KeyError, Shift, Template, at_rest};
+pub use template::{KeyError, RetypedJoint, Shift, Template, at_rest, retyped};
 pub use text::SourceText;
 pub use units::{WithUnit, in_si};

@@ -75,6 +75,7 @@ pub mod stretches;
 pub mod structure;
 pub mod value;
 pub mod verdict;
+mod weaker;
 mod words;
 
 pub use along::{
@@ -139,3 +140,4 @@ pub use stretches::{
 pub use structure::structure;
 pub use value::{Datum, Label, NoFiniteReaction, Sensitivity, Value};
 pub use verdict::{Judgement, Verdict};
+pub use weaker::{ReplacedJoints, WeakerJoint};

@@ -848,3 +848,23 @@ pub(crate) const SEPARATED: f64 = 1e-9;
 /// Maximum number of steps of the test of vertices. Unit: steps. Too small: vertices are not found.
 /// Too large: the test takes long. Test: `vertices_are_separated_and_midpoints_are_not`.
 pub(crate) const SEPARATION_STEPS: usize = 1000;
+
+/// Part of a row outside of the rows of another joint that counts as zero, relative to the row.
+/// Unit: dimensionless. Too small: rounding hides weaker joints. Too large: a joint that restricts
+/// another motion counts as weaker. Test: `a_weaker_joint_restricts_no_other_motion`.
+pub(crate) const SAME_SPAN: f64 = 1e-9;
+
+/// Part of a released load component that is independent of the other released components,
+/// relative to the component. Unit: dimensionless. Too small: replacements leave a mechanism that is
+/// nearly redundant. Too large: replacements are not found. Test:
+/// `dependent_releases_are_no_replacement`.
+pub(crate) const CLEARLY_RELEASED: f64 = 1e-5;
+
+/// Maximum number of steps of the search for replacements of joints. Unit: steps. Too small: the
+/// first sets are not the cheapest ones, or no set is found. Too large: the search takes long. Test:
+/// `the_search_ends`.
+pub(crate) const REPLACEMENT_STEPS: usize = 20_000;
+
+/// Number of sets of replacements that are kept. Unit: sets. Too small: no set is left if the first
+/// ones cannot be used. Too large: the search takes longer. Test: none, work only.
+pub(crate) const REPLACEMENT_WAYS: usize = 3;

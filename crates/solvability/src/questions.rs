@@ -93,6 +93,16 @@ impl<'a> Questions<'a> {
         self.mechanism
     }
 
+    /// Returns the coordinates of the configuration.
+    pub(crate) fn q(&self) -> &[f64] {
+        &self.q
+    }
+
+    /// Returns the time of the configuration (s).
+    pub(crate) fn time(&self) -> f64 {
+        self.analysis.time
+    }
+
     pub(crate) fn parts(&self) -> &[PartAnalysis] {
         &self.analysis.parts
     }

@@ -15,6 +15,7 @@ mod numbers;
 mod options;
 mod phrases;
 mod rank;
+pub mod remedies;
 mod words;
 
 use model::System;

@@ -12,6 +12,7 @@ use super::additions::ADDITIONS;
 use super::bounds;
 use super::deletions::HINTS;
 use super::options::Analyze;
+use super::remedies;
 use crate::choice;
 use crate::configuration::ConfigurationAnalysis;
 use crate::error::StudyError;
@@ -59,6 +60,7 @@ pub(super) fn of(
         let added = addition.add(asked, configuration, &mut document);
         added.map_err(failure)?;
     }
+    remedies::add(asked, of, configuration, &mut document).map_err(failure)?;
     for choice in &choices {
         let distribution = configuration.distribution(choice).map_err(failure)?;
         let mut made = DistributionDocument::new(&distribution);
@@ -92,18 +94,23 @@ pub(super) fn hints(
         return Ok(Hints::default());
     }
     Ok(Hints {
-        ways: ways(configuration)?,
+        ways: ways(configuration, document)?,
         bounds: bounds::in_one_line(configuration, document),
     })
 }
 
-fn ways(configuration: &ConfigurationAnalysis<'_>) -> Result<Vec<MakeUniqueDocument>, Refusal> {
+fn ways(
+    configuration: &ConfigurationAnalysis<'_>,
+    document: &AnalysisDocument,
+) -> Result<Vec<MakeUniqueDocument>, Refusal> {
     let limits = Limits {
         trials: HINT_TRIALS,
         ..Limits::default()
     };
     let reactions = configuration.analysis.reactions.iter();
-    let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
+    // A joint is not deleted if another type suffices.
+    let open = reactions
+        .filter(|r| r.wrench.verdict == Verdict::NotUnique && !remedies::covers(document, &r.name));
     // One more than the listed number shows whether there are more.
     open.take(HINTS + 1)
         .map(
