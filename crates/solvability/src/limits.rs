@@ -863,7 +863,7 @@ pub(crate) const CLEARLY_RELEASED: f64 = 1e-5;
 /// Maximum number of steps of the search for replacements of joints. Unit: steps. Too small: the
 /// first sets are not the cheapest ones, or no set is found. Too large: the search takes long. Test:
 /// `the_search_ends`.
-pub(crate) const REPLACEMENT_STEPS: usize = 20_000;
+pub(crate) const REPLACEMENT_STEPS: usize = 100_000;
 
 /// Number of sets of replacements that are kept. Unit: sets. Too small: no set is left if the first
 /// ones cannot be used. Too large: the search takes longer. Test: none, work only.

@@ -75,7 +75,7 @@ impl Questions<'_> {
             let of_rows = |c: &Matrix, layout: &model::Layout| -> Vec<Vec<f64>> {
                 let group = layout.groups.get(joint.0);
                 let rows = group.iter().flat_map(|group| group.rows.iter());
-                rows.map(|row| c.row(row).to_vec()).collect()
+                rows.map(|row| unit(c.row(row))).collect()
             };
             let (rows, fewer) = (of_rows(&rows, own), of_rows(&fewer, other));
             let mut basis = Vec::new();
@@ -114,16 +114,18 @@ impl Questions<'_> {
             let z: Vec<Vec<f64>> = rows.map(|row| free.z.row(row).to_vec()).collect();
             let mut basis = Vec::new();
             extend(&mut basis, &z, CLEARLY_RELEASED);
-            // The load component along `direction` as a function of the free multipliers.
+            // The load component along `direction` as a function of the free multipliers, relative
+            // to the size of its terms.
             let form = |id: ConstraintId, direction: &Vec<f64>| {
-                let mut form = vec![0.0; basis.len()];
-                for row in groups[id.0].rows.iter() {
-                    let share = dot(c.row(row), direction) * free.row_factor[row];
-                    for (entry, column) in form.iter_mut().zip(&basis) {
-                        *entry += share * dot(free.z.row(row), column);
-                    }
+                let own = groups[id.0].rows.iter();
+                let own: Vec<usize> = own.collect();
+                let share = |&row: &usize| dot(c.row(row), direction) * free.row_factor[row];
+                let shares = unit(&own.iter().map(share).collect::<Vec<f64>>());
+                let mut form = vec![0.0; free.z.ncols()];
+                for (row, share) in own.iter().zip(&shares) {
+                    axpy(*share, free.z.row(*row), &mut form);
                 }
-                form
+                basis.iter().map(|column| dot(&form, column)).collect()
             };
             let candidates = |id: &ConstraintId| {
                 let own = weaker.iter().enumerate();
@@ -179,13 +181,18 @@ fn coupled(
         .collect()
 }
 
+/// Returns the vector with the length 1; the zero vector is not changed.
+fn unit(vector: &[f64]) -> Vec<f64> {
+    let length = norm(vector);
+    let scale = if length > 0.0 { length } else { 1.0 };
+    vector.iter().map(|x| x / scale).collect()
+}
+
 /// Adds the directions of these vectors that an orthonormal basis does not contain. A vector whose
-/// remainder is at most `zero` times its length is in the span. Returns the lengths of the added
-/// remainders, relative to those of their vectors.
+/// remainder is not longer than `zero` is in the span. Returns the lengths of the added remainders.
 fn extend(basis: &mut Vec<Vec<f64>>, vectors: &[Vec<f64>], zero: f64) -> Vec<f64> {
     let mut added = Vec::new();
     for vector in vectors {
-        let length = norm(vector);
         let mut rest = vector.clone();
         // The second round removes the rounding of the first one.
         for _ in 0..2 {
@@ -195,10 +202,9 @@ fn extend(basis: &mut Vec<Vec<f64>>, vectors: &[Vec<f64>], zero: f64) -> Vec<f64
             }
         }
         let left = norm(&rest);
-        if left > zero * length {
-            rest.iter_mut().for_each(|x| *x /= left);
-            basis.push(rest);
-            added.push(left / length);
+        if left > zero {
+            basis.push(unit(&rest));
+            added.push(left);
         }
     }
     added

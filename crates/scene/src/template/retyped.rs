@@ -38,7 +38,7 @@ pub struct RetypedJoint {
 ///     to: spec("spherical"),
 ///     directions: Vec::new(),
 /// };
-/// let changed = pfaff_scene::retyped(text, &[ball])?;
+/// let changed = pfaff_scene::retyped(text, &[&ball])?;
 /// assert_eq!(changed, "[[joint]]\nat = [0, 0, 0]\nname = \"hinge\"\ntype = \"spherical\"\n");
 /// # Ok::<(), pfaff_scene::KeyError>(())
 /// ```
@@ -46,7 +46,7 @@ pub struct RetypedJoint {
 /// # Errors
 /// - [`KeyError::NotToml`]: the text cannot be parsed.
 /// - [`KeyError::Unknown`]: there is no joint with this name.
-pub fn retyped(text: &str, joints: &[RetypedJoint]) -> Result<String, KeyError> {
+pub fn retyped(text: &str, joints: &[&RetypedJoint]) -> Result<String, KeyError> {
     if limits::excess(text).is_some() {
         return Err(KeyError::NotToml);
     }

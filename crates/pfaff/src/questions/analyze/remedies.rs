@@ -4,11 +4,12 @@
 mod answer;
 mod types;
 
-use model::words::listed;
+use model::words::estimate;
 use model::{ConstraintId, System};
 use scene::{RetypedJoint, retyped};
-use solvability::{ReplacedJoints, Verdict, WeakerJoint};
+use solvability::{ReplacedJoints, WeakerJoint};
 
+use answer::and;
 pub use answer::{DirectionDocument, RemedyDocument, ReplacedJointDocument};
 
 use super::options::Analyze;
@@ -24,49 +25,79 @@ use types::{OtherType, other_types};
 const ROWS: usize = 150;
 
 /// Cost of a joint of another type.
-const CHANGED: u32 = 2;
-/// Cost of a force component that a joint no longer transmits. Moments are released without a cost.
-const FORCE: u32 = 3;
+const CHANGED: u32 = 1;
+/// Cost of a force component that a joint no longer transmits; two components of one joint cost
+/// four times as much, because a joint should keep its direction of load. Moments are released
+/// without a cost.
+const FORCE: u32 = 4;
 /// Cost of a direction that the scene does not state.
-const DIRECTION: u32 = 2;
+const DIRECTION: u32 = 6;
+
+/// Largest number of remedies in the text.
+const LISTED: usize = 5;
 
 /// Adds the remedies to the document, if the mechanism is small and the analysis is that of its
-/// start.
+/// start. If only the rounding of the data locks a motion, the remedies are those of the mechanism
+/// that can move.
 pub(super) fn add(
     asked: &Analyze,
     start: &Start<'_>,
     of: &ConfigurationAnalysis<'_>,
     document: &mut AnalysisDocument,
 ) -> Result<(), StudyError> {
-    let (layout, analysis) = (of.mechanism.layout(), &of.analysis);
-    let is_asked = asked.at_time == 0.0 && asked.drop.is_none();
-    let is_regular = analysis.decision.is_decided()
-        && analysis.nearly_redundant.is_none()
-        && document.evidence.permanent != Some(false);
-    if !is_asked || !is_regular || layout.rows() > ROWS || analysis.decision.redundancy == 0 {
+    let is_small = of.mechanism.layout().rows() <= ROWS;
+    let is_start = asked.at_time == 0.0 && asked.drop.is_none();
+    if !is_small || !is_start || document.ranks.redundancy == 0 {
         return Ok(());
     }
+    if let Some(tolerance) = document.data.freeing_tolerance() {
+        let stated = read(start, &[]).and_then(|scene| scene.stating(tolerance).ok());
+        if let Some(mut freed) = stated
+            && let Ok(freed) = freed.analyse(None)
+        {
+            let mobility = freed.analysis.mobility();
+            let accuracy = estimate(tolerance.length.unwrap_or_default(), "m");
+            let motion = format!("the mobility is {mobility}, as for data accurate to {accuracy}");
+            document.answers.remedies = remedies(start, &freed, &motion)?;
+        }
+    } else if document.evidence.permanent != Some(false) {
+        document.answers.remedies = remedies(start, of, "the motion is the same")?;
+    }
+    Ok(())
+}
+
+/// Returns one remedy for each set of coupled joints, if there is one. `motion` describes the
+/// motion of the analysed mechanism.
+fn remedies(
+    start: &Start<'_>,
+    of: &ConfigurationAnalysis<'_>,
+    motion: &str,
+) -> Result<Vec<RemedyDocument>, StudyError> {
+    let (layout, analysis) = (of.mechanism.layout(), &of.analysis);
+    if !analysis.decision.is_decided() || analysis.nearly_redundant.is_some() {
+        return Ok(Vec::new());
+    }
     let groups = layout.constraint_ids().zip(&layout.groups);
-    let open = groups.filter(|(id, _)| {
-        analysis.reactions[id.0].wrench.verdict == Verdict::NotUnique
-    });
+    let is_open = |id: ConstraintId| !analysis.reactions[id.0].wrench.verdict.is_unique();
+    let open = groups.filter(|(id, _)| is_open(*id));
     let types = open.map(|joint| other_types(of, start.registry, joint));
     let types: Vec<Vec<OtherType>> = types.collect::<Result<_, _>>()?;
     let weaker = weaker(start, of, &types)?;
+    if weaker.is_empty() {
+        return Ok(Vec::new());
+    }
     let rated: Vec<(WeakerJoint, u32)> = weaker.iter().map(|x| (x.joint.clone(), x.cost)).collect();
-    if rated.is_empty() {
-        return Ok(());
-    }
-    for found in of.replacements(&rated)? {
-        let ways = found.ways.iter().map(|way| {
-            let joints = way.iter().map(|&k| &weaker[k]);
-            joints.collect::<Vec<_>>()
+    let found = of.replacements(&rated)?;
+    let remedy = |found: &ReplacedJoints| {
+        let mut ways = found.ways.iter().map(|way| {
+            let mut way: Vec<&Weaker<'_>> = way.iter().map(|&k| &weaker[k]).collect();
+            way.sort_by_key(|weaker| weaker.other.id);
+            way
         });
-        let verified = ways.into_iter().find(|way| is_verified(start, of, &found, way));
-        let remedy = verified.map(|way| remedy(of, &found, &way));
-        document.answers.remedies.extend(remedy);
-    }
-    Ok(())
+        let verified = ways.find(|way| is_verified(start, of, found, way))?;
+        Some(remedy(of, found, &verified, motion))
+    };
+    Ok(found.iter().filter_map(remedy).collect())
 }
 
 /// A weaker joint of another type.
@@ -102,7 +133,8 @@ fn compare<'t>(
     others: &[&'t OtherType],
     out: &mut Vec<Weaker<'t>>,
 ) -> Result<(), StudyError> {
-    let Some(changed) = read(start, others.iter().map(|other| &other.retyped)) else {
+    let joints: Vec<&RetypedJoint> = others.iter().map(|other| &other.retyped).collect();
+    let Some(changed) = read(start, &joints) else {
         if others.len() > 1 {
             let (first, second) = others.split_at(others.len() / 2);
             compare(start, of, first, out)?;
@@ -119,13 +151,14 @@ fn compare<'t>(
             let group = &layout.groups[other.id.0];
             (0..group.spec.rows.len()).filter(|row| group.pushes(*row)).count()
         };
-        let (before, after) = (forces(old), forces(new));
+        let after = forces(new);
+        let released = (forces(old) - after) as u32;
         let directions = other.retyped.directions.len() as u32;
         if after > 0 {
             out.push(Weaker {
                 joint,
                 other,
-                cost: CHANGED + FORCE * (before - after) as u32 + DIRECTION * directions,
+                cost: CHANGED + FORCE * released * released + DIRECTION * directions,
                 loads: [after, other.spec.rows.len() - after],
             });
         }
@@ -134,12 +167,8 @@ fn compare<'t>(
 }
 
 /// Reads the scene with other types of joints; `None` if it is invalid.
-fn read<'r>(
-    start: &Start<'_>,
-    joints: impl Iterator<Item = &'r RetypedJoint>,
-) -> Option<AssembledScene> {
-    let joints: Vec<RetypedJoint> = joints.cloned().collect();
-    let text = retyped(&start.text, &joints).ok()?;
+fn read(start: &Start<'_>, joints: &[&RetypedJoint]) -> Option<AssembledScene> {
+    let text = retyped(&start.text, joints).ok()?;
     let read = AssembledScene::read(&start.name, &text, start.registry);
     read.and_then(|read| read.stating(start.tolerance)).ok()
 }
@@ -152,7 +181,8 @@ fn is_verified(
     found: &ReplacedJoints,
     way: &[&Weaker<'_>],
 ) -> bool {
-    let Some(mut changed) = read(start, way.iter().map(|joint| &joint.other.retyped)) else {
+    let joints: Vec<&RetypedJoint> = way.iter().map(|joint| &joint.other.retyped).collect();
+    let Some(mut changed) = read(start, &joints) else {
         return false;
     };
     let Ok(changed) = changed.analyse(None) else {
@@ -171,11 +201,10 @@ fn remedy(
     of: &ConfigurationAnalysis<'_>,
     found: &ReplacedJoints,
     way: &[&Weaker<'_>],
+    motion: &str,
 ) -> RemedyDocument {
     let layout = of.mechanism.layout();
     let name = |id: &ConstraintId| layout.groups[id.0].name.clone();
-    let mut way = way.to_vec();
-    way.sort_by_key(|weaker| weaker.other.id);
     let replace = way.iter().map(|weaker| {
         let RetypedJoint {
             joint,
@@ -196,14 +225,13 @@ fn remedy(
     });
     let replace: Vec<ReplacedJointDocument> = replace.collect();
     let reactions: Vec<String> = found.coupled.iter().map(name).collect();
-    let joints: Vec<String> = replace.iter().map(|x| x.text(layout.space)).collect();
-    let marked: Vec<String> = reactions.iter().map(|name| format!("`{name}`")).collect();
     let all = match of.analysis.decision.redundancy - found.redundancy {
         0 => "all reactions are unique".to_owned(),
-        _ => format!("{} are unique", listed(&marked)),
+        _ => format!("the reactions of {} are unique", and(&reactions)),
     };
+    let joints = ReplacedJointDocument::text(&replace, layout.space);
     RemedyDocument {
-        text: format!("make {}: {all}, and the motion is the same", joints.join("; ")),
+        text: format!("{joints}: {all}, and {motion}"),
         reactions,
         replace,
         verified: true,
@@ -218,8 +246,10 @@ pub(super) fn covers(d: &AnalysisDocument, reaction: &str) -> bool {
 
 /// Returns the remedies as text.
 pub(super) fn words(d: &AnalysisDocument) -> Vec<Block> {
-    let lead = "other joint types (design decision, verified): ";
-    let remedies = d.answers.remedies.iter();
-    let lines = remedies.map(|remedy| [Block::Gap, Block::after(lead, &remedy.text)]);
+    let remedies = d.answers.remedies.iter().take(LISTED);
+    let lines = remedies.map(|remedy| {
+        let lead = "Other joint types (design decision, analysed with these joints)";
+        [Block::Gap, Block::sentence(format!("{lead}: {}", remedy.text))]
+    });
     lines.flatten().collect()
 }

@@ -115,7 +115,13 @@ fn axes(
         // Rounding is not part of a direction.
         if (x - x.round()).abs() < ROUNDING { x.round() + 0.0 } else { x }
     };
-    let in_body = |axis| body.iter().map(|along| component(axis, along)).collect();
+    let in_body = |axis| {
+        let vector: Vec<f64> = body.iter().map(|along| component(axis, along)).collect();
+        // Both signs describe the same line or plane.
+        let is_negative = vector.iter().find(|x| **x != 0.0).is_some_and(|x| *x < 0.0);
+        let sign = if is_negative { -1.0 } else { 1.0 };
+        vector.iter().map(|x| sign * x + 0.0).collect()
+    };
     Ok(joint.iter().map(in_body).collect())
 }
 
