@@ -16,9 +16,10 @@ use solvability::{
     Analysis, Choice, ChoiceError, Continuation, Contradiction, DeletableRows, Distribution,
     EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict, Group,
     GroupVerdict, MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals, Questions,
-    ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, ReplacedJoints, Rows, Sensitivities,
-    Sensitivity, Solution, State, WeakerJoint, analyse_decided, analyse_dropping, analyse_with_progress,
-    generic, generic_with_verdicts, is_locked, no_finite_reactions, second_order, solution,
+    ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Replacements, Rows,
+    Sensitivities, Sensitivity, Solution, State, analyse_decided, analyse_dropping,
+    analyse_with_progress, generic, generic_with_verdicts, is_locked, no_finite_reactions,
+    second_order, solution,
 };
 
 use crate::error::StudyError;
@@ -488,28 +489,10 @@ impl<'a> ConfigurationAnalysis<'a> {
         self.questions.bounds(solution, rigid)
     }
 
-    /// Compares joints with those of a changed mechanism; see [`Questions::weaker_joints`].
-    ///
-    /// # Errors
-    /// [`StudyError::Request`]
-    pub(crate) fn weaker_joints(
-        &self,
-        changed: &Mechanism,
-        joints: &[ConstraintId],
-    ) -> Result<Vec<Option<WeakerJoint>>, StudyError> {
-        Ok(self.questions.weaker_joints(changed, joints)?)
-    }
-
-    /// Finds replacements of joints with weaker joints, each with its cost; see
-    /// [`Questions::replacements`].
-    ///
-    /// # Errors
-    /// [`StudyError::Request`]
-    pub(crate) fn replacements(
-        &self,
-        weaker: &[(WeakerJoint, u32)],
-    ) -> Result<Vec<ReplacedJoints>, StudyError> {
-        Ok(self.questions.replacements(weaker)?)
+    /// Returns the search for replacements of joints; `None` if the mechanism was not analysed as
+    /// one part.
+    pub(crate) fn replacements(&self) -> Result<Option<Replacements<'_, 'a>>, StudyError> {
+        Ok(self.questions.replacements()?)
     }
 
     /// Returns the groups of the scene and these combinations, with their names.

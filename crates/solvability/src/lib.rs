@@ -140,4 +140,4 @@ pub use stretches::{
 pub use structure::structure;
 pub use value::{Datum, Label, NoFiniteReaction, Sensitivity, Value};
 pub use verdict::{Judgement, Verdict};
-pub use weaker::{ReplacedJoints, WeakerJoint};
+pub use weaker::{ReplacedJoints, Replacements, WeakerJoint};

@@ -20,13 +20,12 @@ mod tests;
 
 use linalg::kernels::{axpy, dot, norm};
 use linalg::{DisjointSets, Matrix};
-use model::{ConstraintId, Mechanism, System};
+use model::{ConstraintId, Layout, Mechanism, System};
 
 use crate::choices::FreeMultipliers;
-use crate::groups::{Configuration, RequestError};
+use crate::groups::Configuration;
 use crate::limits::{CLEARLY_RELEASED, SAME_SPAN};
 use crate::pose::{dimensionless, evaluated};
-use crate::questions::Questions;
 use search::{Candidate, cheapest};
 
 /// A weaker joint that may replace a joint of the mechanism.
@@ -50,134 +49,122 @@ pub struct ReplacedJoints {
     pub ways: Vec<Vec<usize>>,
 }
 
-impl Questions<'_> {
+/// Finds replacements of joints at one configuration of a mechanism.
+pub struct Replacements<'q, 'm> {
+    configuration: &'q Configuration<'m>,
+    q: &'q [f64],
+    /// Dimensionless C.
+    c: Matrix,
+}
+
+impl<'q, 'm> Replacements<'q, 'm> {
+    /// Uses the rank that was decided at the configuration with the coordinates q.
+    pub(crate) fn new(configuration: &'q Configuration<'m>, q: &'q [f64]) -> Self {
+        let (mechanism, s) = (&configuration.reactions.mechanism, configuration.scratch());
+        let c = dimensionless(mechanism, s, configuration.size());
+        Self {
+            configuration,
+            q,
+            c,
+        }
+    }
+
     /// Compares joints with those of a changed mechanism with the same bodies, joints and drives,
-    /// in the same order. A result is `None` if the changed joint has not fewer rows, or if its
-    /// rows are dependent or restrict other motions than the original rows.
-    ///
-    /// # Errors
-    /// [`RequestError::Large`]: the mechanism has too many rows.
-    pub fn weaker_joints(
-        &self,
-        changed: &Mechanism,
-        joints: &[ConstraintId],
-    ) -> Result<Vec<Option<WeakerJoint>>, RequestError> {
-        let (own, other) = (self.mechanism().layout(), changed.layout());
-        let sizes = [own, other].map(|l| (l.n_q, l.n_v, l.groups.len()));
-        let Some(configuration) = self.whole()?.filter(|_| sizes[0] == sizes[1]) else {
-            return Ok(vec![None; joints.len()]);
-        };
-        let size = configuration.size();
-        let s = evaluated(changed, self.time(), self.q());
-        let rows = dimensionless(self.mechanism(), configuration.scratch(), size);
-        let fewer = dimensionless(changed, &s, size);
-        let of = |&joint: &ConstraintId| {
-            let of_rows = |c: &Matrix, layout: &model::Layout| -> Vec<Vec<f64>> {
-                let group = layout.groups.get(joint.0);
-                let rows = group.iter().flat_map(|group| group.rows.iter());
-                rows.map(|row| unit(c.row(row))).collect()
-            };
-            let (rows, fewer) = (of_rows(&rows, own), of_rows(&fewer, other));
+    /// in the same order. The result does not contain a joint if the changed joint has not fewer
+    /// rows, or if its rows are dependent or restrict other motions than the original rows.
+    #[must_use]
+    pub fn weaker_joints(&self, changed: &Mechanism, joints: &[ConstraintId]) -> Vec<WeakerJoint> {
+        let (own, other) = (self.configuration.layout(), changed.layout());
+        if (own.n_q, own.n_v, own.groups.len()) != (other.n_q, other.n_v, other.groups.len()) {
+            return Vec::new();
+        }
+        let s = evaluated(changed, self.configuration.scratch().t, self.q);
+        let fewer = dimensionless(changed, &s, self.configuration.size());
+        let released = |joint: &ConstraintId| {
+            let [rows, fewer] = [(&self.c, own), (&fewer, other)].map(|(c, layout)| {
+                rows(c, layout, *joint)
+                    .map(|row| unit(&row))
+                    .collect::<Vec<_>>()
+            });
             let mut basis = Vec::new();
             extend(&mut basis, &fewer, SAME_SPAN);
-            let are_independent = basis.len() == fewer.len() && fewer.len() < rows.len();
+            let independent = basis.len();
             extend(&mut basis, &rows, SAME_SPAN);
-            let released = basis.split_off(fewer.len().min(basis.len()));
-            (are_independent && fewer.len() + released.len() == rows.len())
-                .then_some(WeakerJoint { joint, released })
+            let is_weaker = independent == fewer.len() && basis.len() == rows.len();
+            (is_weaker && independent < rows.len()).then(|| WeakerJoint {
+                joint: *joint,
+                released: basis.split_off(independent),
+            })
         };
-        Ok(joints.iter().map(of).collect())
+        joints.iter().filter_map(released).collect()
     }
 
     /// Finds replacements of joints that make all of their reactions unique and do not change the
     /// motion. At most one of the weaker joints of each joint is used. The cost of a set is the sum
     /// of the costs of its weaker joints.
-    ///
-    /// # Errors
-    /// [`RequestError::Large`]: the mechanism has too many rows.
-    pub fn replacements(
-        &self,
-        weaker: &[(WeakerJoint, u32)],
-    ) -> Result<Vec<ReplacedJoints>, RequestError> {
-        let Some(configuration) = self.whole()? else {
-            return Ok(Vec::new());
-        };
-        let free = FreeMultipliers::of(configuration.solvability());
-        let c = dimensionless(
-            self.mechanism(),
-            configuration.scratch(),
-            configuration.size(),
-        );
-        let groups = &self.mechanism().layout().groups;
-        let coupled = coupled(configuration, &free).into_iter().map(|joints| {
-            let rows = joints.iter().flat_map(|id| groups[id.0].rows.iter());
-            let z: Vec<Vec<f64>> = rows.map(|row| free.z.row(row).to_vec()).collect();
+    #[must_use]
+    pub fn cheapest(&self, weaker: &[(WeakerJoint, usize)]) -> Vec<ReplacedJoints> {
+        let free = FreeMultipliers::of(self.configuration.solvability());
+        let layout = self.configuration.layout();
+        let of_coupled = |coupled: Vec<ConstraintId>| {
+            let z = coupled.iter().flat_map(|id| rows(&free.z, layout, *id));
             let mut basis = Vec::new();
-            extend(&mut basis, &z, CLEARLY_RELEASED);
-            // The load component along `direction` as a function of the free multipliers, relative
-            // to the size of its terms.
+            extend(&mut basis, &z.collect::<Vec<_>>(), CLEARLY_RELEASED);
+            // A load component as a function of the free multipliers, relative to the size of its
+            // terms.
             let form = |id: ConstraintId, direction: &Vec<f64>| {
-                let own = groups[id.0].rows.iter();
-                let own: Vec<usize> = own.collect();
-                let share = |&row: &usize| dot(c.row(row), direction) * free.row_factor[row];
-                let shares = unit(&own.iter().map(share).collect::<Vec<f64>>());
+                let own = || layout.groups[id.0].rows.iter();
+                let share = |row: usize| dot(self.c.row(row), direction) * free.row_factor[row];
+                let shares = unit(&own().map(share).collect::<Vec<f64>>());
                 let mut form = vec![0.0; free.z.ncols()];
-                for (row, share) in own.iter().zip(&shares) {
-                    axpy(*share, free.z.row(*row), &mut form);
+                for (row, share) in own().zip(&shares) {
+                    axpy(*share, free.z.row(row), &mut form);
                 }
                 basis.iter().map(|column| dot(&form, column)).collect()
             };
             let candidates = |id: &ConstraintId| {
                 let own = weaker.iter().enumerate();
-                let own = own.filter(|(_, (joint, _))| joint.joint == *id);
-                own.map(|(index, (joint, cost))| Candidate {
-                    index,
-                    forms: joint.released.iter().map(|d| form(*id, d)).collect(),
-                    cost: *cost,
-                })
-                .collect()
+                let own = own.filter(|(_, (weaker, _))| weaker.joint == *id);
+                let candidate =
+                    |(index, (weaker, cost)): (usize, &(WeakerJoint, usize))| Candidate {
+                        index,
+                        forms: weaker.released.iter().map(|d| form(*id, d)).collect(),
+                        cost: *cost,
+                    };
+                own.map(candidate).collect()
             };
-            let candidates: Vec<Vec<Candidate>> = joints.iter().map(candidates).collect();
             ReplacedJoints {
                 redundancy: basis.len(),
-                ways: cheapest(candidates, basis.len()),
-                coupled: joints,
+                ways: cheapest(coupled.iter().map(candidates).collect(), basis.len()),
+                coupled,
             }
-        });
-        Ok(coupled.collect())
-    }
-
-    /// Returns the configuration of the whole mechanism, if it is one part.
-    fn whole(&self) -> Result<Option<&Configuration<'_>>, RequestError> {
-        match self.parts() {
-            [one] if one.extent.is_whole() => self.configuration(0).map(Some),
-            _ => Ok(None),
-        }
+        };
+        let coupled = coupled(layout, &free).into_iter();
+        coupled.map(of_coupled).collect()
     }
 }
 
+/// Returns the rows of a matrix that belong to a joint.
+fn rows(c: &Matrix, layout: &Layout, id: ConstraintId) -> impl Iterator<Item = Vec<f64>> {
+    let rows = layout.groups[id.0].rows.iter();
+    rows.map(|row| c.row(row).to_vec())
+}
+
 /// Returns the sets of joints and drives with coupled multipliers.
-fn coupled(
-    configuration: &Configuration<'_>,
-    free: &FreeMultipliers<'_>,
-) -> Vec<Vec<ConstraintId>> {
-    let groups = &configuration.layout().groups;
-    let tolerance = free.tolerance.max(SAME_SPAN);
+fn coupled(layout: &Layout, free: &FreeMultipliers<'_>) -> Vec<Vec<ConstraintId>> {
+    let rows = |k: usize| layout.groups[k].rows.iter();
     // Entries of Z·Zᵀ do not depend on the choice of Z.
-    let are_coupled = |a: usize, b: usize| {
-        let mut rows = groups[a].rows.iter();
-        rows.any(|i| {
-            let mut others = groups[b].rows.iter();
-            others.any(|k| dot(free.z.row(i), free.z.row(k)).abs() > tolerance)
-        })
-    };
-    let mut sets = DisjointSets::new(groups.len());
-    for a in 0..groups.len() {
-        (0..a).filter(|&b| are_coupled(a, b)).for_each(|b| sets.join(a, b));
+    let tolerance = free.tolerance.max(SAME_SPAN);
+    let is_entry = |i: usize, k: usize| dot(free.z.row(i), free.z.row(k)).abs() > tolerance;
+    let are_coupled = |a: usize, b: usize| rows(a).any(|i| rows(b).any(|k| is_entry(i, k)));
+    let mut sets = DisjointSets::new(layout.groups.len());
+    for a in 0..layout.groups.len() {
+        let others = (0..a).filter(|&b| are_coupled(a, b));
+        others.for_each(|b| sets.join(a, b));
     }
-    let sets = sets.sets().into_iter();
-    let sets = sets.filter(|set| set.iter().any(|&a| are_coupled(a, a)));
-    sets.map(|set| set.into_iter().map(ConstraintId).collect())
+    let open = sets.sets().into_iter();
+    let open = open.filter(|set| set.iter().any(|&a| are_coupled(a, a)));
+    open.map(|set| set.into_iter().map(ConstraintId).collect())
         .collect()
 }
 
@@ -197,8 +184,7 @@ fn extend(basis: &mut Vec<Vec<f64>>, vectors: &[Vec<f64>], zero: f64) -> Vec<f64
         // The second round removes the rounding of the first one.
         for _ in 0..2 {
             for known in basis.iter() {
-                let along = dot(known, &rest);
-                axpy(-along, known, &mut rest);
+                axpy(-dot(known, &rest), known, &mut rest);
             }
         }
         let left = norm(&rest);

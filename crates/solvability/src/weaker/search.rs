@@ -11,12 +11,12 @@ pub(super) struct Candidate {
     /// The released load components as functions of the free multipliers.
     pub(super) forms: Vec<Vec<f64>>,
     /// Cost of the replacement.
-    pub(super) cost: u32,
+    pub(super) cost: usize,
 }
 
 /// A set of replacements.
 struct Way {
-    cost: u32,
+    cost: usize,
     /// Logarithm of the product of the remainders; the larger, the better determined.
     clearness: f64,
     chosen: Vec<usize>,
@@ -67,7 +67,7 @@ pub(super) fn cheapest(mut joints: Vec<Vec<Candidate>>, free: usize) -> Vec<Vec<
 
 /// Returns the cost for each released component.
 fn each(candidate: &Candidate) -> f64 {
-    f64::from(candidate.cost) / candidate.forms.len() as f64
+    candidate.cost as f64 / candidate.forms.len() as f64
 }
 
 /// Returns the largest number of components that one of the candidates releases.
@@ -83,7 +83,7 @@ impl Search {
         &mut self,
         at: usize,
         released: &[Vec<f64>],
-        (cost, clearness): (u32, f64),
+        (cost, clearness): (usize, f64),
         chosen: &mut Vec<usize>,
     ) {
         let missing = self.free - released.len();
@@ -97,8 +97,8 @@ impl Search {
         }
         self.steps += 1;
         let (possible, least) = self.later[at];
-        let at_least = f64::from(cost) + least * missing as f64;
-        let is_worse = |way: &Way| at_least > f64::from(way.cost) + 0.5;
+        let at_least = cost as f64 + least * missing as f64;
+        let is_worse = |way: &Way| at_least > way.cost as f64 + 0.5;
         let is_known = self.ways.len() == REPLACEMENT_WAYS;
         if missing > possible
             || self.steps > REPLACEMENT_STEPS

@@ -7,9 +7,8 @@ mod types;
 use model::words::estimate;
 use model::{ConstraintId, System};
 use scene::{RetypedJoint, retyped};
-use solvability::{ReplacedJoints, WeakerJoint};
+use solvability::ReplacedJoints;
 
-use answer::and;
 pub use answer::{DirectionDocument, RemedyDocument, ReplacedJointDocument};
 
 use super::options::Analyze;
@@ -18,20 +17,11 @@ use crate::configuration::ConfigurationAnalysis;
 use crate::documents::AnalysisDocument;
 use crate::error::StudyError;
 use crate::start::Start;
-use crate::words::Block;
+use crate::words::{Block, grouped, marked};
 use types::{OtherType, other_types};
 
 /// Largest number of rows of a mechanism for which remedies are computed without a request.
 const ROWS: usize = 150;
-
-/// Cost of a joint of another type.
-const CHANGED: u32 = 1;
-/// Cost of a force component that a joint no longer transmits; two components of one joint cost
-/// four times as much, because a joint should keep its direction of load. Moments are released
-/// without a cost.
-const FORCE: u32 = 4;
-/// Cost of a direction that the scene does not state.
-const DIRECTION: u32 = 6;
 
 /// Largest number of remedies in the text.
 const LISTED: usize = 5;
@@ -45,11 +35,11 @@ pub(super) fn add(
     of: &ConfigurationAnalysis<'_>,
     document: &mut AnalysisDocument,
 ) -> Result<(), StudyError> {
-    let is_small = of.mechanism.layout().rows() <= ROWS;
-    let is_start = asked.at_time == 0.0 && asked.drop.is_none();
-    if !is_small || !is_start || document.ranks.redundancy == 0 {
+    let is_small = of.mechanism.layout().rows() <= ROWS && document.ranks.redundancy > 0;
+    if !is_small || asked.at_time != 0.0 || asked.drop.is_some() {
         return Ok(());
     }
+    let remedies = &mut document.answers.remedies;
     if let Some(tolerance) = document.data.freeing_tolerance() {
         let stated = read(start, &[]).and_then(|scene| scene.stating(tolerance).ok());
         if let Some(mut freed) = stated
@@ -58,183 +48,154 @@ pub(super) fn add(
             let mobility = freed.analysis.mobility();
             let accuracy = estimate(tolerance.length.unwrap_or_default(), "m");
             let motion = format!("the mobility is {mobility}, as for data accurate to {accuracy}");
-            document.answers.remedies = remedies(start, &freed, &motion)?;
+            *remedies = Search { start, of: &freed }.remedies(&motion)?;
         }
-    } else if document.evidence.permanent != Some(false) {
-        document.answers.remedies = remedies(start, of, "the motion is the same")?;
-    }
-    Ok(())
-}
-
-/// Returns one remedy for each set of coupled joints, if there is one. `motion` describes the
-/// motion of the analysed mechanism.
-fn remedies(
-    start: &Start<'_>,
-    of: &ConfigurationAnalysis<'_>,
-    motion: &str,
-) -> Result<Vec<RemedyDocument>, StudyError> {
-    let (layout, analysis) = (of.mechanism.layout(), &of.analysis);
-    if !analysis.decision.is_decided() || analysis.nearly_redundant.is_some() {
-        return Ok(Vec::new());
-    }
-    let groups = layout.constraint_ids().zip(&layout.groups);
-    let is_open = |id: ConstraintId| !analysis.reactions[id.0].wrench.verdict.is_unique();
-    let open = groups.filter(|(id, _)| is_open(*id));
-    let types = open.map(|joint| other_types(of, start.registry, joint));
-    let types: Vec<Vec<OtherType>> = types.collect::<Result<_, _>>()?;
-    let weaker = weaker(start, of, &types)?;
-    if weaker.is_empty() {
-        return Ok(Vec::new());
-    }
-    let rated: Vec<(WeakerJoint, u32)> = weaker.iter().map(|x| (x.joint.clone(), x.cost)).collect();
-    let found = of.replacements(&rated)?;
-    let remedy = |found: &ReplacedJoints| {
-        let mut ways = found.ways.iter().map(|way| {
-            let mut way: Vec<&Weaker<'_>> = way.iter().map(|&k| &weaker[k]).collect();
-            way.sort_by_key(|weaker| weaker.other.id);
-            way
-        });
-        let verified = ways.find(|way| is_verified(start, of, found, way))?;
-        Some(remedy(of, found, &verified, motion))
-    };
-    Ok(found.iter().filter_map(remedy).collect())
-}
-
-/// A weaker joint of another type.
-struct Weaker<'t> {
-    joint: WeakerJoint,
-    other: &'t OtherType,
-    cost: u32,
-    /// Number of force components and of moment components.
-    loads: [usize; 2],
-}
-
-/// Returns the other types that restrict no new motions.
-fn weaker<'t>(
-    start: &Start<'_>,
-    of: &ConfigurationAnalysis<'_>,
-    types: &'t [Vec<OtherType>],
-) -> Result<Vec<Weaker<'t>>, StudyError> {
-    let most = types.iter().map(Vec::len).max().unwrap_or(0);
-    let mut out = Vec::new();
-    for k in 0..most {
-        // One reading of the text serves one type of each joint.
-        let others: Vec<&OtherType> = types.iter().filter_map(|own| own.get(k)).collect();
-        compare(start, of, &others, &mut out)?;
-    }
-    Ok(out)
-}
-
-/// Adds those of the other types that are weaker. If the scene with all of them is invalid, for
-/// example because a drive needs a joint coordinate, they are tried in smaller sets.
-fn compare<'t>(
-    start: &Start<'_>,
-    of: &ConfigurationAnalysis<'_>,
-    others: &[&'t OtherType],
-    out: &mut Vec<Weaker<'t>>,
-) -> Result<(), StudyError> {
-    let joints: Vec<&RetypedJoint> = others.iter().map(|other| &other.retyped).collect();
-    let Some(changed) = read(start, &joints) else {
-        if others.len() > 1 {
-            let (first, second) = others.split_at(others.len() / 2);
-            compare(start, of, first, out)?;
-            compare(start, of, second, out)?;
-        }
-        return Ok(());
-    };
-    let ids: Vec<ConstraintId> = others.iter().map(|other| other.id).collect();
-    let found = of.weaker_joints(&changed.mechanism, &ids)?;
-    let (old, new) = (of.mechanism.layout(), changed.mechanism.layout());
-    for (other, joint) in others.iter().zip(found) {
-        let Some(joint) = joint else { continue };
-        let forces = |layout: &model::Layout| {
-            let group = &layout.groups[other.id.0];
-            (0..group.spec.rows.len()).filter(|row| group.pushes(*row)).count()
-        };
-        let after = forces(new);
-        let released = (forces(old) - after) as u32;
-        let directions = other.retyped.directions.len() as u32;
-        if after > 0 {
-            out.push(Weaker {
-                joint,
-                other,
-                cost: CHANGED + FORCE * released * released + DIRECTION * directions,
-                loads: [after, other.spec.rows.len() - after],
-            });
-        }
+    } else if document.evidence.permanent != Some(false)
+        && (of.cannot_move()? != Some(true) || document.ranks.mobility == 0)
+    {
+        *remedies = Search { start, of }.remedies("the motion is the same")?;
     }
     Ok(())
 }
 
 /// Reads the scene with other types of joints; `None` if it is invalid.
-fn read(start: &Start<'_>, joints: &[&RetypedJoint]) -> Option<AssembledScene> {
-    let text = retyped(&start.text, joints).ok()?;
+fn read(start: &Start<'_>, joints: &[&OtherType]) -> Option<AssembledScene> {
+    let joints: Vec<&RetypedJoint> = joints.iter().map(|joint| &joint.retyped).collect();
+    let text = retyped(&start.text, &joints).ok()?;
     let read = AssembledScene::read(&start.name, &text, start.registry);
     read.and_then(|read| read.stating(start.tolerance)).ok()
 }
 
-/// Whether the coupled reactions are unique in the scene with these joints, and the mobility is the
-/// same.
-fn is_verified(
-    start: &Start<'_>,
-    of: &ConfigurationAnalysis<'_>,
-    found: &ReplacedJoints,
-    way: &[&Weaker<'_>],
-) -> bool {
-    let joints: Vec<&RetypedJoint> = way.iter().map(|joint| &joint.other.retyped).collect();
-    let Some(mut changed) = read(start, &joints) else {
-        return false;
-    };
-    let Ok(changed) = changed.analyse(None) else {
-        return false;
-    };
-    let (old, new) = (&of.analysis, &changed.analysis);
-    let is_unique = |id: &ConstraintId| new.reactions[id.0].wrench.verdict.is_unique();
-    new.decision.is_decided()
-        && new.nearly_redundant.is_none()
-        && new.mobility() == old.mobility()
-        && new.decision.redundancy + found.redundancy == old.decision.redundancy
-        && found.coupled.iter().all(is_unique)
+/// A search for remedies of the scene at its start, or of the scene with a tolerance.
+struct Search<'s, 'r, 'm> {
+    start: &'s Start<'r>,
+    of: &'s ConfigurationAnalysis<'m>,
 }
 
-fn remedy(
-    of: &ConfigurationAnalysis<'_>,
-    found: &ReplacedJoints,
-    way: &[&Weaker<'_>],
-    motion: &str,
-) -> RemedyDocument {
-    let layout = of.mechanism.layout();
-    let name = |id: &ConstraintId| layout.groups[id.0].name.clone();
-    let replace = way.iter().map(|weaker| {
-        let RetypedJoint {
-            joint,
-            from,
-            to,
-            directions,
-        } = weaker.other.retyped.clone();
-        ReplacedJointDocument {
-            joint,
-            from: from.scene_type,
-            to: to.scene_type,
-            directions: directions
-                .into_iter()
-                .map(|(key, vector)| DirectionDocument { key, vector })
-                .collect(),
-            loads: weaker.loads,
+impl Search<'_, '_, '_> {
+    /// Returns one remedy for each set of coupled joints, if there is one. `motion` describes the
+    /// motion of the analysed mechanism.
+    fn remedies(&self, motion: &str) -> Result<Vec<RemedyDocument>, StudyError> {
+        let (layout, analysis) = (self.of.mechanism.layout(), &self.of.analysis);
+        let is_regular = analysis.decision.is_decided() && analysis.nearly_redundant.is_none();
+        let Some(search) = self.of.replacements()?.filter(|_| is_regular) else {
+            return Ok(Vec::new());
+        };
+        let reactions = analysis.reactions.iter();
+        let open = reactions.filter(|r| !r.wrench.verdict.is_unique());
+        let types =
+            open.map(|r| other_types(self.of, self.start.registry, (r.id, &layout.groups[r.id.0])));
+        let types: Vec<Vec<OtherType>> = types.collect::<Result<_, _>>()?;
+        let (mut others, mut weaker) = (Vec::new(), Vec::new());
+        for k in 0..types.iter().map(Vec::len).max().unwrap_or(0) {
+            // One reading of the text serves one type of each joint.
+            let tried: Vec<&OtherType> = types.iter().filter_map(|own| own.get(k)).collect();
+            self.compare(&tried, &mut |scene, tried| {
+                let ids: Vec<ConstraintId> = tried.iter().map(|other| other.id).collect();
+                for joint in search.weaker_joints(&scene.mechanism, &ids) {
+                    let other = tried.iter().find(|other| other.id == joint.joint);
+                    if let Some(&other) = other {
+                        weaker.push((joint, other.cost));
+                        others.push(other);
+                    }
+                }
+            });
         }
-    });
-    let replace: Vec<ReplacedJointDocument> = replace.collect();
-    let reactions: Vec<String> = found.coupled.iter().map(name).collect();
-    let all = match of.analysis.decision.redundancy - found.redundancy {
-        0 => "all reactions are unique".to_owned(),
-        _ => format!("the reactions of {} are unique", and(&reactions)),
-    };
-    let joints = ReplacedJointDocument::text(&replace, layout.space);
-    RemedyDocument {
-        text: format!("{joints}: {all}, and {motion}"),
-        reactions,
-        replace,
-        verified: true,
+        let remedy = |found: &ReplacedJoints| {
+            let mut ways = found.ways.iter().map(|way| {
+                let mut way: Vec<&OtherType> = way.iter().map(|&k| others[k]).collect();
+                way.sort_by_key(|other| other.id);
+                way
+            });
+            let verified = ways.find(|way| self.is_verified(found, way))?;
+            Some(self.remedy(found, &verified, motion))
+        };
+        let found = search.cheapest(&weaker);
+        Ok(found.iter().filter_map(remedy).collect())
+    }
+
+    /// Calls a function with the scene that has these types. If it is invalid, for example because
+    /// a drive needs a joint coordinate, smaller sets of types are tried.
+    fn compare<'t>(
+        &self,
+        tried: &[&'t OtherType],
+        add: &mut impl FnMut(&AssembledScene, &[&'t OtherType]),
+    ) {
+        match read(self.start, tried) {
+            Some(scene) => add(&scene, tried),
+            None if tried.len() > 1 => {
+                let (first, second) = tried.split_at(tried.len() / 2);
+                self.compare(first, add);
+                self.compare(second, add);
+            }
+            None => {}
+        }
+    }
+
+    /// Whether the coupled reactions are unique in the scene with these joints, and the mobility is
+    /// the same.
+    fn is_verified(&self, found: &ReplacedJoints, way: &[&OtherType]) -> bool {
+        let Some(mut changed) = read(self.start, way) else {
+            return false;
+        };
+        let Ok(changed) = changed.analyse(None) else {
+            return false;
+        };
+        let (old, new) = (&self.of.analysis, &changed.analysis);
+        let is_unique = |id: &ConstraintId| new.reactions[id.0].wrench.verdict.is_unique();
+        new.decision.is_decided()
+            && new.nearly_redundant.is_none()
+            && new.mobility() == old.mobility()
+            && new.decision.redundancy + found.redundancy == old.decision.redundancy
+            && found.coupled.iter().all(is_unique)
+    }
+
+    fn remedy(&self, found: &ReplacedJoints, way: &[&OtherType], motion: &str) -> RemedyDocument {
+        let layout = self.of.mechanism.layout();
+        let name = |id: &ConstraintId| layout.groups[id.0].name.clone();
+        let replace = way.iter().map(|other| {
+            let directions = other.retyped.directions.iter().cloned();
+            ReplacedJointDocument {
+                joint: other.retyped.joint.clone(),
+                from: other.retyped.from.scene_type,
+                to: other.retyped.to.scene_type,
+                directions: directions
+                    .map(|(key, vector)| DirectionDocument { key, vector })
+                    .collect(),
+            }
+        });
+        let joints = way
+            .iter()
+            .map(|other| (other.words(layout.space), &other.retyped.joint));
+        // Equal types are described together.
+        let joints = grouped(joints)
+            .into_iter()
+            .map(|(kind, names)| match names.len() {
+                1 => format!("{} {kind}", and(&names)),
+                _ => format!("each of {} {kind}", and(&names)),
+            });
+        let joints: Vec<String> = joints.collect();
+        let reactions: Vec<String> = found.coupled.iter().map(name).collect();
+        let unique = match self.of.analysis.decision.redundancy - found.redundancy {
+            0 => "all reactions are unique".to_owned(),
+            _ => format!("the reactions of {} are unique", and(&reactions)),
+        };
+        RemedyDocument {
+            text: format!("make {}: {unique}, and {motion}", joints.join("; ")),
+            replace: replace.collect(),
+            reactions,
+            verified: true,
+        }
+    }
+}
+
+/// Lists names in grave accents, such as `` `A`, `B` and `C` ``.
+fn and(names: &[impl AsRef<str>]) -> String {
+    match names {
+        [first @ .., last] if !first.is_empty() => {
+            format!("{} and `{}`", marked(first), last.as_ref())
+        }
+        names => marked(names),
     }
 }
 
@@ -249,7 +210,10 @@ pub(super) fn words(d: &AnalysisDocument) -> Vec<Block> {
     let remedies = d.answers.remedies.iter().take(LISTED);
     let lines = remedies.map(|remedy| {
         let lead = "Other joint types (design decision, analysed with these joints)";
-        [Block::Gap, Block::sentence(format!("{lead}: {}", remedy.text))]
+        [
+            Block::Gap,
+            Block::sentence(format!("{lead}: {}", remedy.text)),
+        ]
     });
     lines.flatten().collect()
 }
