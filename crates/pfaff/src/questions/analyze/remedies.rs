@@ -6,10 +6,11 @@ mod types;
 
 use model::words::estimate;
 use model::{ConstraintId, System};
+use report::ByName;
 use scene::{RetypedJoint, retyped};
 use solvability::ReplacedJoints;
 
-pub use answer::{DirectionDocument, RemedyDocument, ReplacedJointDocument};
+pub use answer::{RemedyDocument, ReplacedJointDocument};
 
 use super::options::Analyze;
 use crate::assembled::AssembledScene;
@@ -154,14 +155,19 @@ impl Search<'_, '_, '_> {
         let layout = self.of.mechanism.layout();
         let name = |id: &ConstraintId| layout.groups[id.0].name.clone();
         let replace = way.iter().map(|other| {
-            let directions = other.retyped.directions.iter().cloned();
+            let RetypedJoint {
+                joint,
+                from,
+                to,
+                directions,
+            } = &other.retyped;
+            let directions = directions.iter().map(|(k, v)| ((*k).to_owned(), v.clone()));
+            let directions: Vec<(String, Vec<f64>)> = directions.collect();
             ReplacedJointDocument {
-                joint: other.retyped.joint.clone(),
-                from: other.retyped.from.scene_type,
-                to: other.retyped.to.scene_type,
-                directions: directions
-                    .map(|(key, vector)| DirectionDocument { key, vector })
-                    .collect(),
+                joint: joint.clone(),
+                from: from.scene_type,
+                to: to.scene_type,
+                directions: (!directions.is_empty()).then_some(ByName(directions)),
             }
         });
         let joints = way

@@ -1,5 +1,6 @@
 //! Joints of other types in place of joints whose reactions are not unique.
 
+use report::ByName;
 use serde::Serialize;
 
 /// Joints of other types that make all reactions of some joints unique. The motion does not change.
@@ -30,17 +31,6 @@ pub struct ReplacedJointDocument {
     pub to: &'static str,
     /// Keys of directions with their vectors, in the frame of the first body; absent if the keys of
     /// the scene are kept.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub directions: Vec<DirectionDocument>,
-}
-
-/// A direction of a joint.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[non_exhaustive]
-pub struct DirectionDocument {
-    /// The key in the scene.
-    pub key: &'static str,
-    /// The vector.
-    pub vector: Vec<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub directions: Option<ByName<Vec<f64>>>,
 }
