@@ -868,3 +868,8 @@ pub(crate) const REPLACEMENT_STEPS: usize = 100_000;
 /// Number of sets of replacements that are kept. Unit: sets. Too small: no set is left if the first
 /// ones cannot be used. Too large: the search takes longer. Test: none, work only.
 pub(crate) const REPLACEMENT_WAYS: usize = 3;
+
+/// Difference of two measures of independence that count as equal. Unit: natural logarithm. Too
+/// small: rounding decides which of two equal sets of replacements comes first. Too large: the first
+/// set is less clearly independent than another one. Test: `equal_sets_keep_their_order`.
+pub(crate) const TIED_CLEARNESS: f64 = 1e-6;

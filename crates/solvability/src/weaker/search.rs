@@ -1,7 +1,7 @@
 //! The cheapest replacements of coupled joints.
 
 use super::extend;
-use crate::limits::{CLEARLY_RELEASED, REPLACEMENT_STEPS, REPLACEMENT_WAYS};
+use crate::limits::{CLEARLY_RELEASED, REPLACEMENT_STEPS, REPLACEMENT_WAYS, TIED_CLEARNESS};
 
 /// A weaker joint in place of a joint.
 #[derive(Clone, Debug)]
@@ -127,7 +127,8 @@ impl Search {
     /// Adds a set to the cheapest sets.
     fn add(&mut self, way: Way) {
         let is_better = |known: &Way| {
-            known.cost < way.cost || known.cost == way.cost && known.clearness >= way.clearness
+            known.cost < way.cost
+                || known.cost == way.cost && way.clearness - known.clearness < TIED_CLEARNESS
         };
         let at = self.ways.partition_point(is_better);
         self.ways.insert(at, way);

@@ -63,6 +63,19 @@ fn dependent_releases_are_no_replacement() {
     assert!(cheapest(vec![zero], 1).is_empty());
 }
 
+#[test]
+fn equal_sets_keep_their_order() {
+    let with = |first: f64| {
+        let forms = [[first, 0.0], [0.5, 0.0]];
+        let forms = forms.iter().enumerate();
+        let joint = forms.map(|(k, form)| candidate(k, 1, &[form]));
+        let other = vec![candidate(2, 1, &[&[0.0, 1.0]])];
+        cheapest(vec![joint.collect(), other], 2)
+    };
+    assert_eq!(with(0.5 - 1e-9), [[0, 2], [1, 2]]);
+    assert_eq!(with(0.5 - 1e-4), [[1, 2], [0, 2]]);
+}
+
 /// A fixed sequence of numbers between −1 and 1.
 fn numbers() -> impl FnMut() -> f64 {
     let mut x = 0.37_f64;

@@ -215,7 +215,7 @@ pub(super) fn covers(d: &AnalysisDocument, reaction: &str) -> bool {
 pub(super) fn words(d: &AnalysisDocument) -> Vec<Block> {
     let remedies = d.answers.remedies.iter().take(LISTED);
     let lines = remedies.map(|remedy| {
-        let lead = "Other joint types (design decision, analysed with these joints)";
+        let lead = "Other joint types (design decision, analysed with these joints; `--make-unique NAME` lists deletions)";
         [
             Block::Gap,
             Block::sentence(format!("{lead}: {}", remedy.text)),
