@@ -28,6 +28,7 @@
 //! | `sparse`, `large` | analysis of a large set of joints with sparse matrices |
 //! | [`mod@explain`] | explanations: coupled reactions, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
+//! | `weaker` | weaker joints with which all reactions are unique and the motion is the same |
 //! | [`sensitivity`] | how much unique reaction components depend on the data |
 //! | [`mod@second_order`] | whether the motion is unique where the rank drops |
 //! | [`mod@stretches`] | verdicts of a simulation, by time interval and component |

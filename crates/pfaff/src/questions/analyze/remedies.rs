@@ -213,13 +213,18 @@ pub(super) fn covers(d: &AnalysisDocument, reaction: &str) -> bool {
 
 /// Returns the remedies as text.
 pub(super) fn words(d: &AnalysisDocument) -> Vec<Block> {
-    let remedies = d.answers.remedies.iter().take(LISTED);
-    let lines = remedies.map(|remedy| {
-        let lead = "Other joint types (design decision, analysed with these joints; `--make-unique NAME` lists deletions)";
-        [
+    let all = &d.answers.remedies;
+    let lead = "Other joint types (design decision, analysed with these joints; `--make-unique NAME` lists deletions):";
+    if let [remedy] = all.as_slice() {
+        return vec![
             Block::Gap,
-            Block::sentence(format!("{lead}: {}", remedy.text)),
-        ]
-    });
-    lines.flatten().collect()
+            Block::sentence(format!("{lead} {}", remedy.text)),
+        ];
+    }
+    let items = all.iter().take(LISTED).map(|remedy| remedy.text.clone());
+    let more = all.len().saturating_sub(LISTED);
+    let more = (more > 0).then(|| format!("and {more} more (`--json` prints all)"));
+    let items = items.chain(more).map(|text| Block::after("- ", text));
+    let lead = (!all.is_empty()).then(|| Block::Heading(lead.to_owned()));
+    lead.into_iter().chain(items).collect()
 }
