@@ -855,14 +855,14 @@ pub(crate) const SEPARATION_STEPS: usize = 1000;
 pub(crate) const SAME_SPAN: f64 = 1e-9;
 
 /// Part of a released load component that is independent of the other released components,
-/// relative to the component. Unit: dimensionless. Too small: replacements leave a mechanism that is
-/// nearly redundant. Too large: replacements are not found. Test:
+/// relative to the component. Unit: dimensionless. Too small: replacements leave a mechanism that
+/// is nearly redundant. Too large: replacements are not found. Test:
 /// `dependent_releases_are_no_replacement`.
 pub(crate) const CLEARLY_RELEASED: f64 = 1e-5;
 
 /// Maximum number of steps of the search for replacements of joints. Unit: steps. Too small: the
-/// first sets are not the cheapest ones, or no set is found. Too large: the search takes long. Test:
-/// `the_search_ends`.
+/// first sets are not the cheapest ones, or no set is found. Too large: the search takes long.
+/// Test: `the_search_ends`.
 pub(crate) const REPLACEMENT_STEPS: usize = 100_000;
 
 /// Number of sets of replacements that are kept. Unit: sets. Too small: no set is left if the first
@@ -870,6 +870,6 @@ pub(crate) const REPLACEMENT_STEPS: usize = 100_000;
 pub(crate) const REPLACEMENT_WAYS: usize = 3;
 
 /// Difference of two measures of independence that count as equal. Unit: natural logarithm. Too
-/// small: rounding decides which of two equal sets of replacements comes first. Too large: the first
-/// set is less clearly independent than another one. Test: `equal_sets_keep_their_order`.
+/// small: rounding decides which of two equal sets of replacements comes first. Too large: the
+/// first set is less clearly independent than another one. Test: `equal_sets_keep_their_order`.
 pub(crate) const TIED_CLEARNESS: f64 = 1e-6;

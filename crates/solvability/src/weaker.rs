@@ -1,5 +1,5 @@
-//! Weaker joints in place of the joints of a mechanism, so that all of their reactions become unique
-//! and the motion does not change.
+//! Weaker joints in place of the joints of a mechanism, so that all of their reactions become
+//! unique and the motion does not change.
 //!
 //! The reaction of a joint X is a wrench in the row space of C_X. The rows of a weaker joint span a
 //! part of that space, so the weaker joint releases the components along an orthonormal basis E_X

@@ -173,8 +173,8 @@ fn a_joint_without_a_weaker_type_keeps_its_deletion() {
     assert_eq!(analysed(blocked).get("remedies"), None);
 }
 
-/// A ball joint has no coordinate that the motor could drive, so the driven hinge may only slide. On
-/// three hinges, six rows would remain, and no types suffice.
+/// A ball joint has no coordinate that the motor could drive, so the driven hinge may only slide.
+/// On three hinges, six rows would remain, and no types suffice.
 #[test]
 fn a_drive_keeps_its_coordinate() {
     let motor = "\ndrive = [\n    { name = \"motor\", joint = \"lower\", type = \"angle\", motion = { type = \"constant-rate\", rate = 0.1 } },\n]\nforce = [";
