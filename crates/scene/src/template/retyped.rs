@@ -3,7 +3,6 @@
 use joints::spec::{Shape, Spec};
 use toml::{Table, Value};
 
-use super::KeyError;
 use crate::direction;
 use crate::key::TYPE;
 use crate::limits;
@@ -23,8 +22,8 @@ pub struct RetypedJoint {
     pub directions: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// Returns the text of a scene in which joints have other types. Bodies and points do not change.
-/// Comments are removed.
+/// Returns the text of a scene in which joints have other types, or `None` if it is not TOML or does
+/// not contain a joint. Bodies and points do not change. Comments are removed.
 ///
 /// ```
 /// use model::Registry;
@@ -38,41 +37,28 @@ pub struct RetypedJoint {
 ///     to: spec("spherical"),
 ///     directions: Vec::new(),
 /// };
-/// let changed = pfaff_scene::retyped(text, &[&ball])?;
+/// let changed = pfaff_scene::retyped(text, &[&ball]).unwrap();
 /// assert_eq!(changed, "[[joint]]\nat = [0, 0, 0]\nname = \"hinge\"\ntype = \"spherical\"\n");
-/// # Ok::<(), pfaff_scene::KeyError>(())
+/// assert_eq!(pfaff_scene::retyped("[[joint]]\nname = \"slide\"\n", &[&ball]), None);
 /// ```
-///
-/// # Errors
-/// - [`KeyError::NotToml`]: the text cannot be parsed.
-/// - [`KeyError::Unknown`]: there is no joint with this name.
-pub fn retyped(text: &str, joints: &[&RetypedJoint]) -> Result<String, KeyError> {
-    if limits::excess(text).is_some() {
-        return Err(KeyError::NotToml);
-    }
-    let mut root: Table = text.parse().map_err(|_| KeyError::NotToml)?;
+#[must_use]
+pub fn retyped(text: &str, joints: &[&RetypedJoint]) -> Option<String> {
+    let is_small = limits::excess(text).is_none();
+    let mut root: Table = is_small.then(|| text.parse().ok())??;
     for change in joints {
-        let table = joint(&mut root, &change.joint).ok_or_else(|| KeyError::Unknown {
-            key: format!("{}.{}", section::JOINT.name, change.joint),
-            part: change.joint.clone(),
-            within: section::JOINT.name.to_owned(),
-            nearest: None,
-            known: Vec::new(),
-        })?;
-        let has_new = !change.directions.is_empty();
+        let table = joint(&mut root, &change.joint)?;
         let known = keys(change.to);
         for key in keys(change.from) {
-            if has_new || !known.contains(&key) {
+            if !change.directions.is_empty() || !known.contains(&key) {
                 table.remove(key);
             }
         }
         table.insert(TYPE.to_owned(), change.to.scene_type.into());
         for (key, vector) in &change.directions {
-            let vector = vector.iter().copied().map(Value::from).collect();
-            table.insert((*key).to_owned(), Value::Array(vector));
+            table.insert((*key).to_owned(), vector.clone().into());
         }
     }
-    Ok(root.to_string())
+    Some(root.to_string())
 }
 
 /// Returns the table of a joint.

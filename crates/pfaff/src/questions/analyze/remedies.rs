@@ -62,7 +62,7 @@ pub(super) fn add(
 /// Reads the scene with other types of joints; `None` if it is invalid.
 fn read(start: &Start<'_>, joints: &[&OtherType]) -> Option<AssembledScene> {
     let joints: Vec<&RetypedJoint> = joints.iter().map(|joint| &joint.retyped).collect();
-    let text = retyped(&start.text, &joints).ok()?;
+    let text = retyped(&start.text, &joints)?;
     let read = AssembledScene::read(&start.name, &text, start.registry);
     read.and_then(|read| read.stating(start.tolerance)).ok()
 }
