@@ -22,8 +22,8 @@ pub struct RetypedJoint {
     pub directions: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// Returns the text of a scene in which joints have other types, or `None` if it is not TOML or does
-/// not contain a joint. Bodies and points do not change. Comments are removed.
+/// Returns the text of a scene in which joints have other types, or `None` if it is not TOML or
+/// does not contain a joint. Bodies and points do not change. Comments are removed.
 ///
 /// ```
 /// use model::Registry;
