@@ -65,7 +65,7 @@ const CLAMPED: &str = r#"scene = { name = "bar", space = "plane", gravity = [0.0
             { name = "roller", type = "point-on-line", body = "bar", at = [1.0, 0.0], line = [[0.0, 0.0], [1.0, 0.0]] },
         ]"#;
 
-/// A table on four legs with its mass centre beside the middle.
+/// A table on four legs whose mass centre is not at the middle.
 const TABLE: &str = r#"scene = { name = "table", space = "spatial", gravity = [0.0, 0.0, -9.81] }
         body = [{ name = "top", mass = 12.0, inertia = [1.0, 1.0, 2.0], position = [0.2, 0.1, 0.0] }]
         joint = [

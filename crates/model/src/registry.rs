@@ -6,6 +6,7 @@ use joints::{Argument, ArgumentError, Constraint, Force, Plane, Space3, Visitor,
 
 use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
 use crate::law::{Law, LawError};
+use crate::space::SpaceKind;
 
 /// Builds a constraint from the values of its parameters.
 pub type BuildConstraint<S = Plane> =
@@ -142,6 +143,15 @@ impl Registry {
     #[must_use]
     pub fn space(&self) -> &Definitions<Space3> {
         &self.space
+    }
+
+    /// Returns the descriptions of all constraints of a space.
+    #[must_use]
+    pub fn constraints_in(&self, space: SpaceKind) -> Vec<&'static ConstraintSpec> {
+        match space {
+            SpaceKind::Space3 => self.space.constraints.iter().map(|d| d.spec).collect(),
+            _ => self.plane.constraints.iter().map(|d| d.spec).collect(),
+        }
     }
 
     /// Adds a constraint definition of the plane, with the drives of the joint coordinates.

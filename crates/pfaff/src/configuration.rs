@@ -16,7 +16,7 @@ use solvability::{
     Analysis, Choice, ChoiceError, Continuation, Contradiction, DeletableRows, Distribution,
     Elasticity, EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict,
     Group, GroupVerdict, MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals,
-    Questions, ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Rows,
+    Questions, ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Replacements, Rows,
     Sensitivities, Sensitivity, Solution, State, analyse_decided, analyse_dropping,
     analyse_with_progress, generic, generic_with_verdicts, is_locked, no_finite_reactions,
     second_order, solution,
@@ -486,6 +486,12 @@ impl<'a> ConfigurationAnalysis<'a> {
         elasticity: &Elasticity,
     ) -> ReactionBounds<'s, 'a> {
         self.questions.bounds(solution, elasticity)
+    }
+
+    /// Returns the search for replacements of joints; `None` if the mechanism was not analysed as
+    /// one part.
+    pub(crate) fn replacements(&self) -> Result<Option<Replacements<'_, 'a>>, StudyError> {
+        Ok(self.questions.replacements()?)
     }
 
     /// Returns the groups of the scene and these combinations, with their names.

@@ -22,7 +22,7 @@
 //! | `start`, `simulate`, `reactions`, `combination` | requested computations |
 //! | `scene`, `source_map`, `locate` | the resulting scene, positions in the text, and positions of later errors |
 //! | `plausible`, `silence` | warnings about numbers that are probably wrong; warnings that the author suppresses |
-//! | `template` | the text of a scene with other numbers |
+//! | `template` | the text of a scene with other numbers or other types of joints |
 //! | `schema` | the format as a JSON schema, from the same keys |
 //! | `diagnostic`, `mistake`, `text`, `findings`, `nearest` | problems, their kinds and codes, lines and columns, suggested names |
 
@@ -90,6 +90,6 @@ pub use read::{read, read_and_build};
 pub use scene::{Inactive, Scene};
 pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
-pub use template::{KeyError, Shift, Template, at_rest};
+pub use template::{KeyError, RetypedJoint, Shift, Template, at_rest, retyped};
 pub use text::SourceText;
 pub use units::{WithUnit, in_si};

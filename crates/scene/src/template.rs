@@ -6,6 +6,7 @@
 
 mod key;
 mod rest;
+mod retyped;
 #[cfg(test)]
 mod tests;
 
@@ -17,6 +18,7 @@ use key::SlotKind;
 
 pub use key::KeyError;
 pub use rest::at_rest;
+pub use retyped::{RetypedJoint, retyped};
 
 use crate::limits;
 

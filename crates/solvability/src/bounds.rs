@@ -210,9 +210,9 @@ impl<'m> Configuration<'m> {
         self.elastic_solutions_of(lambda_0, elasticity, (&open, true))
     }
 
-    /// Returns the solutions of a mechanism with displaced data, in which the loads `open` give way:
-    /// those that are not unique in the described mechanism. Displaced data couple all loads, but
-    /// the couplings are within the tolerance. No verdicts are used.
+    /// Returns the solutions of a mechanism with displaced data, in which the loads `open` give
+    /// way: those that are not unique in the described mechanism. Displaced data couple all loads,
+    /// but the couplings are within the tolerance. No verdicts are used.
     ///
     /// # Errors
     /// [`BoundsError`]

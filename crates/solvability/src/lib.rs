@@ -28,6 +28,7 @@
 //! | `sparse`, `large` | analysis of a large set of joints with sparse matrices |
 //! | [`mod@explain`] | explanations: coupled reactions, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
+//! | `weaker` | weaker joints with which all reactions are unique and the motion is the same |
 //! | [`sensitivity`] | how much unique reaction components depend on the data |
 //! | [`mod@second_order`] | whether the motion is unique where the rank drops |
 //! | [`mod@stretches`] | verdicts of a simulation, by time interval and component |
@@ -75,6 +76,7 @@ pub mod stretches;
 pub mod structure;
 pub mod value;
 pub mod verdict;
+mod weaker;
 mod words;
 
 pub use along::{
@@ -143,3 +145,4 @@ pub use stretches::{
 pub use structure::structure;
 pub use value::{Datum, Label, NoFiniteReaction, Sensitivity, Value};
 pub use verdict::{Judgement, Verdict};
+pub use weaker::{ReplacedJoints, Replacements, WeakerJoint};

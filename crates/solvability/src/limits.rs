@@ -836,7 +836,8 @@ pub(crate) const MERGED_POINTS: usize = 20_000;
 
 /// Maximum number of products of corners and solutions for which the corners of a range of
 /// compliances are examined. Unit: products. Too small: the bounds within a factor are wider than
-/// necessary. Too large: the request takes long. Test: `bounds_within_a_factor_are_those_of_corners`.
+/// necessary. Too large: the request takes long. Test:
+/// `bounds_within_a_factor_are_those_of_corners`.
 pub(crate) const CORNER_POINTS: usize = 1_000_000;
 
 /// Difference of values at the end of a range that count as equal, relative to the largest value.
@@ -853,3 +854,28 @@ pub(crate) const SEPARATED: f64 = 1e-9;
 /// Maximum number of steps of the test of vertices. Unit: steps. Too small: vertices are not found.
 /// Too large: the test takes long. Test: `vertices_are_separated_and_midpoints_are_not`.
 pub(crate) const SEPARATION_STEPS: usize = 1000;
+
+/// Part of a row outside of the rows of another joint that counts as zero, relative to the row.
+/// Unit: dimensionless. Too small: rounding hides weaker joints. Too large: a joint that restricts
+/// another motion counts as weaker. Test: `a_weaker_joint_restricts_no_other_motion`.
+pub(crate) const SAME_SPAN: f64 = 1e-9;
+
+/// Part of a released load component that is independent of the other released components,
+/// relative to the component. Unit: dimensionless. Too small: replacements leave a mechanism that
+/// is nearly redundant. Too large: replacements are not found. Test:
+/// `dependent_releases_are_no_replacement`.
+pub(crate) const CLEARLY_RELEASED: f64 = 1e-5;
+
+/// Maximum number of steps of the search for replacements of joints. Unit: steps. Too small: the
+/// first sets are not the cheapest ones, or no set is found. Too large: the search takes long.
+/// Test: `the_search_ends`.
+pub(crate) const REPLACEMENT_STEPS: usize = 100_000;
+
+/// Number of sets of replacements that are kept. Unit: sets. Too small: no set is left if the first
+/// ones cannot be used. Too large: the search takes longer. Test: none, work only.
+pub(crate) const REPLACEMENT_WAYS: usize = 3;
+
+/// Difference of two measures of independence that count as equal. Unit: natural logarithm. Too
+/// small: rounding decides which of two equal sets of replacements comes first. Too large: the
+/// first set is less clearly independent than another one. Test: `equal_sets_keep_their_order`.
+pub(crate) const TIED_CLEARNESS: f64 = 1e-6;

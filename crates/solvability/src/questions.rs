@@ -28,6 +28,7 @@ use crate::moments::MomentVerdict;
 use crate::parts::{ListedRows, PartAnalysis};
 use crate::value::Value;
 use crate::verdict::{Judgement, Verdict, worst};
+use crate::weaker::Replacements;
 
 pub use eliminations::EliminationError;
 
@@ -113,6 +114,17 @@ impl<'a> Questions<'a> {
         let mechanism = part.extent.mechanism(self.mechanism);
         let made = Configuration::of(mechanism, self.analysis.time, &q, decision)?;
         Ok(cell.get_or_init(|| made))
+    }
+
+    /// Returns the search for replacements of joints; `None` if the mechanism was not analysed as
+    /// one part.
+    ///
+    /// # Errors
+    /// [`RequestError::Large`]
+    pub fn replacements(&self) -> Result<Option<Replacements<'_, 'a>>, RequestError> {
+        let whole = matches!(self.parts(), [one] if one.extent.is_whole());
+        let configuration = whole.then(|| self.configuration(0)).transpose()?;
+        Ok(configuration.map(|own| Replacements::new(own, &self.q)))
     }
 
     /// Returns the part of a joint or drive, and its number in that part.

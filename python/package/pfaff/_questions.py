@@ -46,6 +46,7 @@ class Questions:
         eliminations: int | None = None,
         frames: bool = False,
         about: str | None = None,
+        remedies: bool = False,
         bounds: bool = False,
         rigid: Iterable[str] = (),
         within: float | None = None,
@@ -73,6 +74,8 @@ class Questions:
           motion
         - ``frames``: Also analyse components in the frames of body, edge and joint
         - ``about``: Also analyse moments about a point X,Y or X,Y,Z (m) or a marker
+        - ``remedies``: Propose other types of joints that make reactions unique, also in JSON and
+          Python; the text always does so for small mechanisms
         - ``bounds``: Also bound reactions for joints of any stiffness
         - ``rigid``: Joints and drives that do not give way in ``bounds``; ``drives`` names all
           drives
@@ -97,6 +100,7 @@ class Questions:
             "eliminations": arguments.maybe(arguments.count, "eliminations", eliminations),
             "frames": arguments.flag("frames", frames),
             "about": arguments.maybe(arguments.text, "about", about),
+            "remedies": arguments.flag("remedies", remedies),
             "bounds": arguments.flag("bounds", bounds),
             "rigid": arguments.texts("rigid", rigid),
             "within": arguments.maybe(arguments.finite, "within", within),

@@ -193,11 +193,16 @@ fn a_singular_configuration_says_what_it_was_compared_with() {
 }
 
 /// Two guides belong to one carriage: deletions of single rows have no effect, only the deletion of
-/// a whole guide has.
+/// a whole guide has. As pins in slots, both guides are needed.
 #[test]
 fn what_only_whole_joints_make_unique_is_said() {
     let text = words("carriage", &[]);
-    contains(&text, &["rear: delete `front`; front: delete `rear`"]);
+    contains(
+        &text,
+        &[
+            "make each of `rear` and `front` a pin on a line (`pin-in-slot`): all reactions are unique",
+        ],
+    );
     let whole = words("carriage", &["--make-unique", "rear", "--allow", "whole"]);
     contains(&whole, &["delete `front`"]);
 }

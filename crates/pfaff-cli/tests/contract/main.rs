@@ -36,6 +36,7 @@ mod picture;
 mod places;
 mod plan;
 mod refusals;
+mod remedies;
 mod report;
 mod resources;
 mod schema;

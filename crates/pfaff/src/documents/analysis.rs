@@ -34,7 +34,7 @@ pub(crate) use reaction::components;
 pub use reaction::{FreeDirectionDocument, GroupDocument, ReactionDocument, RowDocument};
 
 use super::{FreedomsDocument, from_one};
-use crate::questions::analyze::{bounds, matrices};
+use crate::questions::analyze::{bounds, matrices, remedies};
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -149,6 +149,10 @@ pub struct AnswersDocument {
     /// Deletions that make reactions unique.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub make_unique: Vec<MakeUniqueDocument>,
+    /// Joint types that make reactions unique without a change of motion; absent if there are none.
+    /// They are also computed without a request.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub remedies: Vec<remedies::RemedyDocument>,
     /// Reactions for different choices.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<DistributionDocument>,

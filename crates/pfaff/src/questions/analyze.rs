@@ -15,6 +15,7 @@ mod numbers;
 mod options;
 mod phrases;
 mod rank;
+pub mod remedies;
 mod words;
 
 use model::System;
@@ -79,7 +80,7 @@ impl Question for Analyze {
                 let start = of
                     .configuration(judged, 0.0, control, |_| ())
                     .map_err(|e| of.refusal(e))?;
-                let mut document = document::of(self, of, &start)?;
+                let mut document = document::of(self, of, &start, control)?;
                 document.warnings.insert(0, stands.warning.clone());
                 let hints = document::hints(&start, &document, control)?;
                 Ok(AnalyzeAnswer { document, hints })
@@ -106,7 +107,7 @@ impl Analyze {
                 drop => study.analyse_until(self.at_time, drop, &control.stop, progress),
             };
             let configuration = found.map_err(|e| refused(of, e))?;
-            let document = document::of(self, of, &configuration)?;
+            let document = document::of(self, of, &configuration, control)?;
             Ok::<_, Refusal>((configuration, document))
         };
         // A motion is computed step by step, so the verdicts at the start can run in another

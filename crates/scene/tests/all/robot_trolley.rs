@@ -119,6 +119,7 @@ combine = "W3.N + 2*W4.N - steering.drive"
             trajectory: false,
             reactions: pfaff_scene::WantedReactions::Of(vec!["steering".into(), "W3".into()]),
             report: false,
+            bounds: None,
         }
     );
     assert_eq!(

@@ -68,6 +68,18 @@ impl DataDocument {
         ))
     }
 
+    /// Returns the tolerance for which the motion is free that only the rounding of the data may
+    /// lock; `None` if a tolerance is stated or no motion is locked in this way.
+    #[must_use]
+    pub fn freeing_tolerance(&self) -> Option<Tolerance> {
+        let from = self.free_from?;
+        let is_stated = self.tolerance.is_some() || self.angle_tolerance.is_some();
+        (!is_stated).then(|| Tolerance {
+            length: Some(clearly_above(from)),
+            angle: None,
+        })
+    }
+
     /// Describes the tolerance at which one row becomes redundant, with an option that decides the
     /// rank.
     #[must_use]

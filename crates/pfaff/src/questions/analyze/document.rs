@@ -12,6 +12,7 @@ use super::additions::ADDITIONS;
 use super::bounds;
 use super::deletions::HINTS;
 use super::options::Analyze;
+use super::remedies;
 use crate::choice;
 use crate::configuration::ConfigurationAnalysis;
 use crate::error::StudyError;
@@ -27,6 +28,7 @@ pub(super) fn of(
     asked: &Analyze,
     of: &Start<'_>,
     configuration: &ConfigurationAnalysis<'_>,
+    control: &Control<'_>,
 ) -> Result<AnalysisDocument, Refusal> {
     let failure = |e: StudyError| of.refusal(e);
     let layout = configuration.mechanism.layout();
@@ -58,6 +60,9 @@ pub(super) fn of(
     for addition in ADDITIONS {
         let added = addition.add(asked, configuration, &mut document);
         added.map_err(failure)?;
+    }
+    if asked.remedies || control.wants_words {
+        remedies::add(asked, of, configuration, &mut document).map_err(failure)?;
     }
     for choice in &choices {
         let distribution = configuration.distribution(choice).map_err(failure)?;
@@ -92,18 +97,23 @@ pub(super) fn hints(
         return Ok(Hints::default());
     }
     Ok(Hints {
-        ways: ways(configuration)?,
+        ways: ways(configuration, document)?,
         bounds: bounds::in_one_line(configuration, document),
     })
 }
 
-fn ways(configuration: &ConfigurationAnalysis<'_>) -> Result<Vec<MakeUniqueDocument>, Refusal> {
+fn ways(
+    configuration: &ConfigurationAnalysis<'_>,
+    document: &AnalysisDocument,
+) -> Result<Vec<MakeUniqueDocument>, Refusal> {
     let limits = Limits {
         trials: HINT_TRIALS,
         ..Limits::default()
     };
     let reactions = configuration.analysis.reactions.iter();
-    let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
+    // A joint is not deleted if another type suffices.
+    let open = reactions
+        .filter(|r| r.wrench.verdict == Verdict::NotUnique && !remedies::covers(document, &r.name));
     // One more than the listed number shows whether there are more.
     open.take(HINTS + 1)
         .map(

@@ -56,6 +56,10 @@ pub struct Analyze {
         arg(long, value_name = "POINT", allow_hyphen_values = true)
     )]
     pub about: Option<String>,
+    /// Propose other types of joints that make reactions unique, also in JSON and Python; the text
+    /// always does so for small mechanisms
+    #[cfg_attr(feature = "command", arg(long))]
+    pub remedies: bool,
     /// Also bound reactions for joints of any stiffness
     #[cfg_attr(feature = "command", arg(long))]
     pub bounds: bool,

@@ -12,7 +12,7 @@ use crate::documents::{
 use super::additions::ADDITIONS;
 use super::document::Hints;
 use super::phrases::{LINES, coordinates, each, hanging, spoken};
-use super::{along, counts, data, deletions, numbers, rank};
+use super::{along, counts, data, deletions, numbers, rank, remedies};
 use crate::words::{Block, Cell, count, grouped, load_unit, marked};
 
 /// Number of reasons that are listed.
@@ -53,6 +53,7 @@ pub(super) fn of(d: &AnalysisDocument, hints: &Hints) -> Vec<Block> {
         let text = format!("{bounds} (`--bounds` prints all)");
         out.extend([Block::Gap, Block::after("for any stiffness: ", text)]);
     }
+    out.extend(remedies::words(d));
     out.extend(deletions::of(d, &hints.ways));
     out.extend(numbers::of(d));
     out.extend(d.answers.along.iter().flat_map(along::of));

@@ -1,0 +1,231 @@
+//! Joints of other types that make reactions unique without a change of motion. Each proposal is
+//! written to the text of the scene, read and analysed.
+
+mod answer;
+mod types;
+
+use model::words::estimate;
+use model::{ConstraintId, System};
+use report::ByName;
+use scene::{RetypedJoint, retyped};
+use solvability::ReplacedJoints;
+
+pub use answer::{RemedyDocument, ReplacedJointDocument};
+
+use super::options::Analyze;
+use crate::assembled::AssembledScene;
+use crate::configuration::ConfigurationAnalysis;
+use crate::documents::AnalysisDocument;
+use crate::error::StudyError;
+use crate::start::Start;
+use crate::words::{Block, grouped, marked};
+use types::{OtherType, other_types};
+
+/// Largest number of rows of a mechanism for which remedies are computed without a request.
+const ROWS: usize = 150;
+
+/// Largest number of remedies in the text.
+const LISTED: usize = 5;
+
+/// Adds the remedies to the document, if the mechanism is small and the analysis is that of its
+/// start. If only the rounding of the data locks a motion, the remedies are those of the mechanism
+/// that can move.
+pub(super) fn add(
+    asked: &Analyze,
+    start: &Start<'_>,
+    of: &ConfigurationAnalysis<'_>,
+    document: &mut AnalysisDocument,
+) -> Result<(), StudyError> {
+    let is_wanted = asked.remedies || of.mechanism.layout().rows() <= ROWS;
+    let is_open = document.ranks.redundancy > 0;
+    if !(is_wanted && is_open) || asked.at_time != 0.0 || asked.drop.is_some() {
+        return Ok(());
+    }
+    let remedies = &mut document.answers.remedies;
+    if let Some(tolerance) = document.data.freeing_tolerance() {
+        let stated = read(start, &[]).and_then(|scene| scene.stating(tolerance).ok());
+        if let Some(mut freed) = stated
+            && let Ok(freed) = freed.analyse(None)
+        {
+            let mobility = freed.analysis.mobility();
+            let accuracy = estimate(tolerance.length.unwrap_or_default(), "m");
+            let motion = format!("the mobility is {mobility}, as for data accurate to {accuracy}");
+            *remedies = Search { start, of: &freed }.remedies(&motion)?;
+        }
+    } else if document.evidence.permanent != Some(false)
+        && (of.cannot_move()? != Some(true) || document.ranks.mobility == 0)
+    {
+        *remedies = Search { start, of }.remedies("the motion is the same")?;
+    }
+    Ok(())
+}
+
+/// Reads the scene with other types of joints; `None` if it is invalid.
+fn read(start: &Start<'_>, joints: &[&OtherType]) -> Option<AssembledScene> {
+    let joints: Vec<&RetypedJoint> = joints.iter().map(|joint| &joint.retyped).collect();
+    let text = retyped(&start.text, &joints)?;
+    let read = AssembledScene::read(&start.name, &text, start.registry);
+    read.and_then(|read| read.stating(start.tolerance)).ok()
+}
+
+/// A search for remedies of the scene at its start, or of the scene with a tolerance.
+struct Search<'s, 'r, 'm> {
+    start: &'s Start<'r>,
+    of: &'s ConfigurationAnalysis<'m>,
+}
+
+impl Search<'_, '_, '_> {
+    /// Returns one remedy for each set of coupled joints, if there is one. `motion` describes the
+    /// motion of the analysed mechanism.
+    fn remedies(&self, motion: &str) -> Result<Vec<RemedyDocument>, StudyError> {
+        let (layout, analysis) = (self.of.mechanism.layout(), &self.of.analysis);
+        let is_regular = analysis.decision.is_decided() && analysis.nearly_redundant.is_none();
+        let Some(search) = self.of.replacements()?.filter(|_| is_regular) else {
+            return Ok(Vec::new());
+        };
+        let reactions = analysis.reactions.iter();
+        let open = reactions.filter(|r| !r.wrench.verdict.is_unique());
+        let types =
+            open.map(|r| other_types(self.of, self.start.registry, (r.id, &layout.groups[r.id.0])));
+        let types: Vec<Vec<OtherType>> = types.collect::<Result<_, _>>()?;
+        let (mut others, mut weaker) = (Vec::new(), Vec::new());
+        for k in 0..types.iter().map(Vec::len).max().unwrap_or(0) {
+            // One reading of the text serves one type of each joint.
+            let tried: Vec<&OtherType> = types.iter().filter_map(|own| own.get(k)).collect();
+            self.compare(&tried, &mut |scene, tried| {
+                let ids: Vec<ConstraintId> = tried.iter().map(|other| other.id).collect();
+                for joint in search.weaker_joints(&scene.mechanism, &ids) {
+                    let other = tried.iter().find(|other| other.id == joint.joint);
+                    if let Some(&other) = other {
+                        weaker.push((joint, other.cost));
+                        others.push(other);
+                    }
+                }
+            });
+        }
+        let remedy = |found: &ReplacedJoints| {
+            let mut ways = found.ways.iter().map(|way| {
+                let mut way: Vec<&OtherType> = way.iter().map(|&k| others[k]).collect();
+                way.sort_by_key(|other| other.id);
+                way
+            });
+            let verified = ways.find(|way| self.is_verified(found, way))?;
+            Some(self.remedy(found, &verified, motion))
+        };
+        let found = search.cheapest(&weaker);
+        Ok(found.iter().filter_map(remedy).collect())
+    }
+
+    /// Calls a function with the scene that has these types. If it is invalid, for example because
+    /// a drive needs a joint coordinate, smaller sets of types are tried.
+    fn compare<'t>(
+        &self,
+        tried: &[&'t OtherType],
+        add: &mut impl FnMut(&AssembledScene, &[&'t OtherType]),
+    ) {
+        match read(self.start, tried) {
+            Some(scene) => add(&scene, tried),
+            None if tried.len() > 1 => {
+                let (first, second) = tried.split_at(tried.len() / 2);
+                self.compare(first, add);
+                self.compare(second, add);
+            }
+            None => {}
+        }
+    }
+
+    /// Whether the coupled reactions are unique in the scene with these joints, and the mobility is
+    /// the same.
+    fn is_verified(&self, found: &ReplacedJoints, way: &[&OtherType]) -> bool {
+        let Some(mut changed) = read(self.start, way) else {
+            return false;
+        };
+        let Ok(changed) = changed.analyse(None) else {
+            return false;
+        };
+        let (old, new) = (&self.of.analysis, &changed.analysis);
+        let is_unique = |id: &ConstraintId| new.reactions[id.0].wrench.verdict.is_unique();
+        new.decision.is_decided()
+            && new.nearly_redundant.is_none()
+            && new.mobility() == old.mobility()
+            && new.decision.redundancy + found.redundancy == old.decision.redundancy
+            && found.coupled.iter().all(is_unique)
+    }
+
+    fn remedy(&self, found: &ReplacedJoints, way: &[&OtherType], motion: &str) -> RemedyDocument {
+        let layout = self.of.mechanism.layout();
+        let name = |id: &ConstraintId| layout.groups[id.0].name.clone();
+        let replace = way.iter().map(|other| {
+            let RetypedJoint {
+                joint,
+                from,
+                to,
+                directions,
+            } = &other.retyped;
+            let directions = directions.iter().map(|(k, v)| ((*k).to_owned(), v.clone()));
+            let directions: Vec<(String, Vec<f64>)> = directions.collect();
+            ReplacedJointDocument {
+                joint: joint.clone(),
+                from: from.scene_type,
+                to: to.scene_type,
+                directions: (!directions.is_empty()).then_some(ByName(directions)),
+            }
+        });
+        let joints = way
+            .iter()
+            .map(|other| (other.words(layout.space), &other.retyped.joint));
+        // Equal types are described together.
+        let joints = grouped(joints)
+            .into_iter()
+            .map(|(kind, names)| match names.len() {
+                1 => format!("{} {kind}", and(&names)),
+                _ => format!("each of {} {kind}", and(&names)),
+            });
+        let joints: Vec<String> = joints.collect();
+        let reactions: Vec<String> = found.coupled.iter().map(name).collect();
+        let unique = match self.of.analysis.decision.redundancy - found.redundancy {
+            0 => "all reactions are unique".to_owned(),
+            _ => format!("the reactions of {} are unique", and(&reactions)),
+        };
+        RemedyDocument {
+            text: format!("make {}: {unique}, and {motion}", joints.join("; ")),
+            replace: replace.collect(),
+            reactions,
+            verified: true,
+        }
+    }
+}
+
+/// Lists names in grave accents, such as `` `A`, `B` and `C` ``.
+fn and(names: &[impl AsRef<str>]) -> String {
+    match names {
+        [first @ .., last] if !first.is_empty() => {
+            format!("{} and `{}`", marked(first), last.as_ref())
+        }
+        names => marked(names),
+    }
+}
+
+/// Whether a remedy makes this reaction unique.
+pub(super) fn covers(d: &AnalysisDocument, reaction: &str) -> bool {
+    let mut all = d.answers.remedies.iter();
+    all.any(|remedy| remedy.reactions.iter().any(|name| name == reaction))
+}
+
+/// Returns the remedies as text.
+pub(super) fn words(d: &AnalysisDocument) -> Vec<Block> {
+    let all = &d.answers.remedies;
+    let lead = "Other joint types (design decision, analysed with these joints; `--make-unique NAME` lists deletions):";
+    if let [remedy] = all.as_slice() {
+        return vec![
+            Block::Gap,
+            Block::sentence(format!("{lead} {}", remedy.text)),
+        ];
+    }
+    let items = all.iter().take(LISTED).map(|remedy| remedy.text.clone());
+    let more = all.len().saturating_sub(LISTED);
+    let more = (more > 0).then(|| format!("and {more} more (`--json` prints all)"));
+    let items = items.chain(more).map(|text| Block::after("- ", text));
+    let lead = (!all.is_empty()).then(|| Block::Heading(lead.to_owned()));
+    lead.into_iter().chain(items).collect()
+}
