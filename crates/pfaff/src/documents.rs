@@ -6,6 +6,7 @@ pub(crate) mod analysis;
 mod answers;
 mod bounds;
 mod freedoms;
+mod gap;
 mod impulses;
 mod misfits;
 mod motion;
@@ -35,6 +36,7 @@ pub use answers::{
 };
 pub use bounds::{ExtremeDocument, MagnitudeOfRunDocument, RangeOfRunDocument, RunBoundsDocument};
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
+pub use gap::Gap;
 pub use impulses::ImpulseDocument;
 pub use misfits::{MisfitDocument, SpreadDocument};
 pub use motion::{MomentDocument, MotionDocument};
@@ -42,7 +44,7 @@ pub use plan::decision_key;
 pub use report::ByName;
 pub use report::figures::RangeDocument;
 pub use run::{
-    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Gap, Run, RunDocument, choice_file,
+    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument, choice_file,
 };
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{

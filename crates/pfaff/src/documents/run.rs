@@ -11,8 +11,9 @@ use solvability::{Freedoms, ReactionVerdict, Sensitivities};
 
 use super::plan::{short, short_of};
 use super::{
-    ByName, DataDocument, FreedomsDocument, ImpulseDocument, MisfitDocument, RunBoundsDocument,
-    RunGroupDocument, RunReactionDocument, RunVerdicts, SpecialDocument, SpreadDocument, from_one,
+    ByName, DataDocument, FreedomsDocument, Gap, ImpulseDocument, MisfitDocument,
+    RunBoundsDocument, RunGroupDocument, RunReactionDocument, RunVerdicts, SpecialDocument,
+    SpreadDocument, from_one,
 };
 
 /// A run and its results.
@@ -208,30 +209,6 @@ pub struct ChoiceDocument {
     /// Rows of the table at which the choice selects no solution; their cells are empty.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gap: Option<Gap>,
-}
-
-/// Rows of a table at which a choice selects no solution.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-pub struct Gap {
-    /// Number of these rows.
-    pub rows: usize,
-    /// Time of the first of these rows (s).
-    pub first: f64,
-    /// Reason why there is no solution at these rows.
-    pub reason: String,
-}
-
-impl Gap {
-    /// Creates a gap without rows; its first row will be at this time.
-    #[must_use]
-    pub fn at(first: f64, reason: String) -> Self {
-        Self {
-            rows: 0,
-            first,
-            reason,
-        }
-    }
 }
 
 /// Returns the file name of the table of a choice, counted from 0.
