@@ -244,8 +244,11 @@ impl<'m> BoundsOfRun<'m> {
     ) -> Result<[f64; 2], BoundsError> {
         let numbers = |group: &Group| {
             let numbers = found.group(group)?.into_iter();
-            let numbers = numbers.map(|(name, bounds)| (name, [bounds.lowest, bounds.highest]));
-            Ok::<Vec<_>, BoundsError>(numbers.collect())
+            let numbers = numbers.map(|(name, bounds)| match bounds.complete {
+                true => Ok((name, [bounds.lowest, bounds.highest])),
+                false => Err(BoundsError::Many),
+            });
+            numbers.collect::<Result<Vec<_>, _>>()
         };
         match column.quantity {
             Quantity::Component(reaction, name) => {

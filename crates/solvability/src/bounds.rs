@@ -127,6 +127,9 @@ pub struct ElasticBounds {
     /// Whether the smallest and the largest value are reached in the limit of some compliances.
     /// Otherwise the true range may end earlier.
     pub reached: [bool; 2],
+    /// Whether no compliances give a value outside of the range. Otherwise there are too many sets
+    /// of components to examine all, and some compliances give the smallest and the largest value.
+    pub complete: bool,
 }
 
 /// Reason why there are no bounds.
@@ -306,6 +309,9 @@ impl<'m> Configuration<'m> {
             if !(range.factor >= 1.0 && range.factor.is_finite()) {
                 return Err(BoundsError::Range(range.factor));
             }
+            if hull.is_sampled() {
+                return Err(BoundsError::Many);
+            }
             let factor = range.factor;
             hull.restrict(&hull::Range {
                 factor,
@@ -387,12 +393,17 @@ impl ElasticSolutions<'_, '_> {
             Verdict::NotUnique => {
                 let [lowest, highest] = self.hull.ends(&along(form, &self.free));
                 let loads = |groups: &[usize]| groups.iter().map(|&k| self.loads[k]).collect();
+                let complete = lowest.is_bound && highest.is_bound;
+                if !complete && !(lowest.is_reached && highest.is_reached) {
+                    return Err(BoundsError::Many);
+                }
                 Ok(ElasticBounds {
                     lowest: value + lowest.value,
                     highest: value + highest.value,
                     at_lowest: loads(&lowest.groups),
                     at_highest: loads(&highest.groups),
                     reached: [lowest.is_reached, highest.is_reached],
+                    complete,
                 })
             }
             _ => Err(BoundsError::Verdict),
@@ -414,7 +425,7 @@ impl ElasticSolutions<'_, '_> {
             };
             terms.push((value, along));
         }
-        Ok(self.hull.largest_norm(&terms))
+        self.hull.largest_norm(&terms).ok_or(BoundsError::Many)
     }
 
     fn verdict(&self, form: &LinearForm) -> Result<Verdict, RequestError> {
@@ -442,6 +453,7 @@ impl ElasticBounds {
             at_lowest: Vec::new(),
             at_highest: Vec::new(),
             reached: [true; 2],
+            complete: true,
         }
     }
 
@@ -455,6 +467,7 @@ impl ElasticBounds {
         for (own, other) in self.reached.iter_mut().zip(other.reached) {
             *own &= other;
         }
+        self.complete &= other.complete;
         self
     }
 }

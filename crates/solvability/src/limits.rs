@@ -819,6 +819,20 @@ pub(crate) const CLEAR_OF_ZERO: f64 = 10.0;
 /// `too_many_sets_are_refused`.
 pub(crate) const ELASTIC_SETS: u64 = 100_000;
 
+/// Number of random sets of compliances if there are too many sets of components. Unit: sets. Too
+/// small: the range that is reached is narrow. Too large: the request takes long. Test:
+/// `a_range_that_is_reached_is_not_called_bounds`.
+pub(crate) const RANDOM_SAMPLES: usize = 200;
+
+/// Square root of the ratio of compliances in these sets. Unit: dimensionless. Too small: the range
+/// that is reached is narrow. Too large: solutions lose digits. Test:
+/// `a_range_that_is_reached_is_not_called_bounds`.
+pub(crate) const SAMPLED_RATIO: f64 = 1e3;
+
+/// Maximum number of multiplications for these sets. Unit: multiplications. Too small: large parts
+/// have no range. Too large: the request takes long. Test: none, work only.
+pub(crate) const SAMPLE_WORK: usize = 2_000_000_000;
+
 /// Difference of leverages that count as equal. Unit: dimensionless. Too small: axes depend on
 /// rounding. Too large: axes of different leverages are mixed. Test:
 /// `bounds_do_not_depend_on_the_axes_of_the_scene`.

@@ -226,3 +226,40 @@ fn a_scene_requests_bounds() {
     let output = run(&without, &[]);
     assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
 }
+
+/// A scissor lift in space has 17 redundant rows and more than 100 000 sets of components. Some
+/// compliances reach a range, which is not called bounds.
+#[test]
+fn ranges_of_many_sets_are_no_bounds() {
+    let lift = include_str!("../remedies/lift.toml");
+    let output = with_scene(&["analyze", "-", "--bounds", "--json"], lift);
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    assert_eq!(d["bounds"]["complete"], false);
+    let mut reached = 0;
+    for reaction in d["reactions"].as_array().expect("a list") {
+        for component in reaction["components"].as_array().expect("a list") {
+            if let Some(range) = component.get("reached_at_least") {
+                let ends = [&range[0], &range[1]].map(|end| end.as_f64().expect("a number"));
+                assert!(ends[0] <= ends[1] && component.get("bounds").is_none());
+                reached += 1;
+            }
+        }
+        assert!(reaction.get("magnitude_at_most").is_none());
+    }
+    assert!(reached > 20, "{reached}");
+    let text = stdout(&with_scene(&["analyze", "-", "--bounds"], lift));
+    assert!(
+        text.contains("no bounds: there are more than 100 000 sets"),
+        "{text}"
+    );
+    let output = with_scene(
+        &["analyze", "-", "--bounds", "--within", "2", "--json"],
+        lift,
+    );
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    assert!(
+        d["bounds"]["without"]
+            .as_object()
+            .is_some_and(|without| !without.is_empty())
+    );
+}

@@ -141,8 +141,8 @@ impl Quantity {
         };
         match (self.kind, forms.as_slice()) {
             (Kind::ByName | Kind::Component(_), [form]) => match found.bounds(form) {
-                Ok(bounds) => [bounds.lowest, bounds.highest],
-                Err(_) => [f64::NAN; 2],
+                Ok(bounds) if bounds.complete => [bounds.lowest, bounds.highest],
+                _ => [f64::NAN; 2],
             },
             (_, forms) => match found.largest_magnitude(forms) {
                 Ok(most) => [0.0, most],

@@ -9,7 +9,7 @@ use linalg::{DisjointSets, Matrix, PivotedQr, RowBasis, symmetric_eigen};
 use super::separation::is_separated;
 use crate::limits::{
     CLEAR_MINOR, CLEAR_OF_ZERO, CORNER_POINTS, ELASTIC_SETS, EQUAL_LEVERAGE, MAGNITUDE_POINTS,
-    MERGED_POINTS, TIED_ENDS, ZERO_MINOR,
+    MERGED_POINTS, RANDOM_SAMPLES, SAMPLE_WORK, SAMPLED_RATIO, TIED_ENDS, ZERO_MINOR,
 };
 
 /// A component of a load: `value + row·y` for the solution `λ₀ + Z·y`.
@@ -97,6 +97,8 @@ enum Weights {
     Monomials,
     /// Any weights; every point is reached.
     Corners,
+    /// The points are reached, and other points may lie outside of their hull.
+    Samples,
     /// Between the weight of each point and this multiple of it. More averages are possible than
     /// with any compliances.
     UpTo(f64),
@@ -269,7 +271,7 @@ impl Block {
     fn is_reached(&self, tied: &[usize]) -> bool {
         match self.weights {
             Weights::Monomials => tied.iter().any(|&k| self.is_vertex(k)),
-            Weights::Corners => true,
+            Weights::Corners | Weights::Samples => true,
             Weights::UpTo(_) => false,
         }
     }
@@ -314,11 +316,23 @@ pub(super) struct RangeEnd {
     /// The loads whose joints give way.
     pub(super) groups: Vec<usize>,
     pub(super) is_reached: bool,
+    /// Whether no compliances give a value beyond this one.
+    pub(super) is_bound: bool,
 }
 
 impl Hull {
     /// Finds the hull for p coordinates; coefficients up to the tolerance may be rounding.
     pub(super) fn new(elements: Vec<Element>, p: usize, tolerance: f64) -> Result<Self, HullError> {
+        Self::of_sets(elements, p, tolerance, ELASTIC_SETS)
+    }
+
+    /// Works like [`Self::new`]; blocks are sampled from this number of sets on.
+    pub(super) fn of_sets(
+        elements: Vec<Element>,
+        p: usize,
+        tolerance: f64,
+        most: u64,
+    ) -> Result<Self, HullError> {
         let zero = Zero::new(tolerance);
         let (elements, sizes) = principal(elements, p, zero)?;
         let matrix = Matrix::from_fn(elements.len(), p, |i, j| elements[i].row[j]);
@@ -363,15 +377,18 @@ impl Hull {
                 }),
                 zero,
             };
-            if minors.count() > ELASTIC_SETS.saturating_sub(hull.sets) {
-                return Err(HullError::Many);
-            }
-            let (points, sets) = minors.points()?;
-            hull.sets += sets;
+            let is_small = minors.count() <= most.saturating_sub(hull.sets);
+            let (points, weights) = if is_small {
+                let (points, sets) = minors.points()?;
+                hull.sets += sets;
+                (points, Weights::Monomials)
+            } else {
+                (minors.samples()?, Weights::Samples)
+            };
             hull.blocks.push(Block {
                 coordinates: inside,
                 points,
-                weights: Weights::Monomials,
+                weights,
             });
         }
         hull.merge();
@@ -385,6 +402,8 @@ impl Hull {
             let mut k = 0;
             while k < merged.len() {
                 let is_small = merged[k].points.len() * block.points.len() <= MERGED_POINTS;
+                let all = [&merged[k], &block].map(|block| block.weights);
+                let is_small = is_small && all == [Weights::Monomials; 2];
                 if is_small && merged[k].shares_a_load(&block) {
                     block = merged.swap_remove(k).times(&block);
                     k = 0;
@@ -400,6 +419,12 @@ impl Hull {
     /// Returns the loads of each independent block.
     pub(super) fn loads(&self) -> impl Iterator<Item = BTreeSet<usize>> + '_ {
         self.blocks.iter().map(Block::loads)
+    }
+
+    /// Returns whether some blocks have only solutions for some compliances.
+    pub(super) fn is_sampled(&self) -> bool {
+        let mut blocks = self.blocks.iter();
+        blocks.any(|block| block.weights == Weights::Samples)
     }
 
     /// Restricts the compliances of all loads.
@@ -434,7 +459,7 @@ impl Hull {
                 .iter()
                 .filter_map(|(block, points)| match block.weights {
                     Weights::Monomials | Weights::Corners => Some(&block.points[*points.first()?]),
-                    Weights::UpTo(_) => None,
+                    Weights::UpTo(_) | Weights::Samples => None,
                 });
             let monomials = soft.flat_map(|point| &point.monomial);
             let mut groups: Vec<usize> = monomials.map(|(group, _)| *group).collect();
@@ -449,16 +474,18 @@ impl Hull {
                 && chosen
                     .iter()
                     .all(|(block, points)| block.is_reached(points));
+            let is_sampled = |(block, _): &(&Block, Vec<usize>)| block.weights == Weights::Samples;
             RangeEnd {
                 value,
                 groups,
                 is_reached,
+                is_bound: !chosen.iter().any(is_sampled),
             }
         })
     }
 
-    /// Returns the largest norm of vectors whose components are linear in y.
-    pub(super) fn largest_norm(&self, terms: &[(f64, Vec<f64>)]) -> f64 {
+    /// Returns the largest norm of vectors whose components are linear in y; `None` without bounds.
+    pub(super) fn largest_norm(&self, terms: &[(f64, Vec<f64>)]) -> Option<f64> {
         let rows: Vec<Vec<f64>> = terms
             .iter()
             .map(|(_, along)| self.in_blocks(along))
@@ -476,9 +503,12 @@ impl Hull {
             if changes.iter().flatten().all(|x| *x == 0.0) {
                 continue;
             }
+            if block.weights == Weights::Samples {
+                return None;
+            }
             let is_restricted = matches!(block.weights, Weights::UpTo(_));
             if is_restricted || sums.len() * changes.len() > MAGNITUDE_POINTS {
-                return self.norm_of_ends(terms);
+                return Some(self.norm_of_ends(terms));
             }
             let add = |sum: &Vec<f64>, change: &Vec<f64>| -> Vec<f64> {
                 sum.iter().zip(change).map(|(a, b)| a + b).collect()
@@ -488,7 +518,7 @@ impl Hull {
                 .flat_map(|sum| changes.iter().map(move |c| (sum, c)));
             sums = pairs.map(|(sum, change)| add(sum, change)).collect();
         }
-        sums.iter().map(|x| norm(x)).fold(0.0, f64::max)
+        Some(sums.iter().map(|x| norm(x)).fold(0.0, f64::max))
     }
 
     /// Returns the norm of the largest absolute values of the components.
@@ -559,6 +589,52 @@ impl Minors<'_> {
             }
         }
         Ok((sums.points(), sets))
+    }
+
+    /// Returns solutions for some compliances: each load soft or stiff alone, and random ones.
+    fn samples(&self) -> Result<Vec<HullPoint>, HullError> {
+        let p = self.inside.len();
+        let elements: Vec<&Element> = self.inside.iter().chain(&self.outside).copied().collect();
+        let mut loads: Vec<usize> = elements.iter().map(|e| e.group).collect();
+        loads.dedup();
+        loads.sort_unstable();
+        loads.dedup();
+        let count = 2 * loads.len() + RANDOM_SAMPLES;
+        let work = (elements.len() * p).saturating_mul(p).saturating_mul(count);
+        if work > SAMPLE_WORK {
+            return Err(HullError::Many);
+        }
+        // The coordinates are the changes of the elements of the basis.
+        let coefficient = |i: usize, j: usize| match i.checked_sub(p) {
+            None => f64::from(u8::from(i == j)),
+            Some(i) => self.rows[(i, j)],
+        };
+        // A fixed sequence between −1 and 1.
+        let mut state = 0.5_f64;
+        let mut random = || {
+            state = (state * 997.0 + 0.381_966).fract();
+            2.0 * state - 1.0
+        };
+        let sample = |k: usize| {
+            let root = |place: usize| match k.checked_sub(2 * loads.len()) {
+                Some(_) => SAMPLED_RATIO.powf(random()),
+                None if k / 2 != place => 1.0,
+                None if k % 2 == 0 => SAMPLED_RATIO,
+                None => SAMPLED_RATIO.recip(),
+            };
+            let roots: Vec<f64> = (0..loads.len()).map(root).collect();
+            let root = |e: &Element| loads.binary_search(&e.group).map_or(0.0, |k| roots[k]);
+            let weighted = Matrix::from_fn(elements.len(), p, |i, j| {
+                root(elements[i]) * coefficient(i, j)
+            });
+            let left = elements.iter().map(|e| -root(e) * e.value).collect();
+            HullPoint {
+                monomial: loads.iter().map(|load| (*load, 1)).collect(),
+                weight: 1.0,
+                y: solved(&PivotedQr::of_columns(&weighted), left),
+            }
+        };
+        Ok((0..count).map(sample).collect())
     }
 
     /// Returns the determinant of a minor, and the change of the coordinates that makes the

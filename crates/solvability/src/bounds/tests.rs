@@ -91,6 +91,7 @@ fn the_magnitude_is_that_of_a_vertex() {
         let norm = |y: f64| (a[0] + z[0] * y).hypot(a[1] + z[1] * y);
         let expected = loads.iter().map(at).map(norm).fold(0.0, f64::max);
         let found = hull.largest_norm(&[(a[0], vec![z[0]]), (a[1], vec![z[1]])]);
+        let found = found.expect("bounds");
         assert!(
             (found - expected).abs() < 1e-12 * (1.0 + expected),
             "{found} {expected}"
@@ -100,16 +101,42 @@ fn the_magnitude_is_that_of_a_vertex() {
 
 /// With 30 loads and 14 free components there are 145 million sets.
 #[test]
+fn a_range_that_is_reached_is_not_called_bounds() {
+    let mut next = numbers();
+    for _ in 0..20 {
+        let elements = (0..10).map(|k| {
+            let row: Vec<f64> = (0..3).map(|_| next()).collect();
+            element(k / 2, &row, next())
+        });
+        let elements: Vec<Element> = elements.collect();
+        let all = hull(elements.clone(), 3);
+        let sampled = Hull::of_sets(elements, 3, 0.0, 0).expect("few elements");
+        assert!(sampled.is_sampled() && !all.is_sampled() && sampled.sets == 0);
+        let along: Vec<f64> = (0..3).map(|_| next()).collect();
+        let (all, some) = (all.ends(&along), sampled.ends(&along));
+        assert!(all.iter().all(|end| end.is_bound) && some.iter().all(|end| !end.is_bound));
+        let width = all[1].value - all[0].value;
+        // Each point is a solution, so the range is not wider.
+        assert!(some[0].value >= all[0].value - 1e-9 * width);
+        assert!(some[1].value <= all[1].value + 1e-9 * width);
+        assert!(some[1].value - some[0].value > 0.3 * width);
+        assert_eq!(sampled.largest_norm(&[(1.0, along)]), None);
+    }
+}
+
+/// Many sets of many loads are not examined; a part that is too large for samples is refused.
+#[test]
 fn too_many_sets_are_refused() {
     let mut next = numbers();
-    let elements = (0..30).map(|k| {
-        let row: Vec<f64> = (0..14).map(|_| next()).collect();
-        element(k, &row, next())
-    });
-    assert_eq!(
-        Hull::new(elements.collect(), 14, 0.0).err(),
-        Some(HullError::Many)
-    );
+    let mut of = |n: usize, p: usize| {
+        let elements = (0..n).map(|k| {
+            let row: Vec<f64> = (0..p).map(|_| next()).collect();
+            element(k, &row, next())
+        });
+        Hull::new(elements.collect(), p, 0.0)
+    };
+    assert!(of(30, 14).expect("sampled").is_sampled());
+    assert_eq!(of(400, 150).err(), Some(HullError::Many));
 }
 
 /// Two loads along x and y: (1 + x, 1 + y) and (x, y). For any compliances, x = y, because both
@@ -129,5 +156,6 @@ fn a_common_load_couples_its_components() {
     assert!((lowest.value + 1.0).abs() < 1e-12 && highest.value.abs() < 1e-12);
     assert!(lowest.is_reached && highest.is_reached);
     let longest = hull.largest_norm(&[(1.0, vec![1.0, 0.0]), (1.0, vec![0.0, 1.0])]);
+    let longest = longest.expect("bounds");
     assert!((longest - 2.0_f64.sqrt()).abs() < 1e-12);
 }

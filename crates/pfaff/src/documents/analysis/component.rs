@@ -24,6 +24,9 @@ pub struct ComponentDocument {
     /// Bounds of the component for joints of any stiffness, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds: Option<BoundsOfNumber>,
+    /// A range whose values some compliances give, if there are too many sets to examine all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reached_at_least: Option<[f64; 2]>,
     /// Sensitivity of the component to the data, if it is unique.
     #[serde(flatten)]
     pub data: SensitivityDocument,
@@ -51,6 +54,7 @@ impl From<&ComponentVerdict> for ComponentDocument {
             verdict: (&component.judgement).into(),
             generic_verdict: None,
             bounds: None,
+            reached_at_least: None,
             data: SensitivityDocument::default(),
         }
     }

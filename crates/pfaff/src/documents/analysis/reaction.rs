@@ -144,6 +144,9 @@ pub struct GroupDocument {
     /// Bounds of the sum of components for joints of any stiffness, if requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds: Option<bounds::BoundsOfNumber>,
+    /// A range whose values some compliances give, if there are too many sets to examine all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reached_at_least: Option<[f64; 2]>,
     /// Unit of the sum of components; absent if its terms have different units.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<&'static str>,
@@ -354,6 +357,7 @@ impl GroupDocument {
             components: verdict.components.iter().map(Into::into).collect(),
             about: verdict.about.map(|point| components(verdict.space, point)),
             bounds: None,
+            reached_at_least: None,
             unit: None,
             values: Vec::new(),
         }

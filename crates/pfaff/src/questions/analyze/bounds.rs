@@ -4,7 +4,7 @@ mod answer;
 
 use model::reaction::ConstraintGroup;
 use model::words::{listed, range};
-use model::{ConstraintId, System};
+use model::{ConstraintId, Layout, System};
 use report::ByName;
 use solvability::{BoundsError, ElasticBounds, Elasticity, Group, PartAnalysis, ReactionBounds};
 
@@ -14,8 +14,8 @@ use super::addition::Addition;
 use super::options::Analyze;
 use super::phrases::LINES;
 use crate::configuration::ConfigurationAnalysis;
-use crate::documents::AnalysisDocument;
 use crate::documents::analysis::components;
+use crate::documents::{AnalysisDocument, ComponentDocument};
 use crate::elasticity::requested;
 use crate::error::StudyError;
 use crate::refusal::Refusal;
@@ -60,10 +60,12 @@ impl Addition for BoundsOfReactions {
                     Vec::new()
                 });
                 for (number, bounds) in numbers {
-                    let bounds = Some(BoundsOfNumber::new(&bounds, of.mechanism.layout()));
-                    match group.components.iter_mut().find(|c| c.name == number) {
-                        Some(component) => component.bounds = bounds,
-                        None => group.bounds = bounds,
+                    let (bounds, reached) = split(&bounds, of.mechanism.layout());
+                    answer.complete &= reached.is_none();
+                    let own = group.components.iter_mut().find(|c| c.name == number);
+                    match own {
+                        Some(own) => (own.bounds, own.reached_at_least) = (bounds, reached),
+                        None => (group.bounds, group.reached_at_least) = (bounds, reached),
                     }
                 }
             }
@@ -119,7 +121,8 @@ impl Addition for BoundsOfReactions {
                 ]
             })
             .collect();
-        if lines.is_empty() && answer.without.0.is_empty() {
+        let reached = reached(d);
+        if lines.is_empty() && reached.is_none() && answer.without.0.is_empty() {
             out.push(Block::sentence("all components are unique"));
             return out;
         }
@@ -135,6 +138,8 @@ impl Addition for BoundsOfReactions {
         if has_bounds {
             out.push(Block::table(columns, lines));
         }
+        let has_bounds = has_bounds || reached.is_some();
+        out.extend(reached.into_iter().flatten());
         if !answer.rigid.is_empty() {
             out.push(Block::after("rigid: ", answer.rigid.join(", ")));
         }
@@ -162,6 +167,51 @@ impl Addition for BoundsOfReactions {
         }
         out
     }
+}
+
+/// Number of lines of the table of ranges that are reached.
+const REACHED: usize = 24;
+
+/// Lists the ranges that are reached if not all sets were examined, the widest first; `None` if
+/// there are none.
+fn reached(d: &AnalysisDocument) -> Option<[Block; 3]> {
+    let owners = d.reactions.iter().map(|r| (&r.name, &r.components));
+    let owners = owners.chain(d.groups.iter().map(|g| (&g.name, &g.components)));
+    let each = owners.flat_map(|(name, components)| components.iter().map(move |c| (name, c)));
+    let each = each.filter_map(|(name, c)| Some((name, c.name, c.reached_at_least?)));
+    let sums = d.groups.iter();
+    let sums = sums.filter_map(|g| Some((&g.name, "sum", g.reached_at_least?)));
+    let mut all: Vec<(&String, &str, [f64; 2])> = each.chain(sums).collect();
+    let width = |(.., [from, to]): &(&String, &str, [f64; 2])| to - from;
+    all.sort_by(|a, b| width(b).total_cmp(&width(a)));
+    let more = all.len().saturating_sub(REACHED);
+    let lines = all
+        .iter()
+        .take(REACHED)
+        .map(|(name, component, [from, to])| {
+            let unit = load_unit(component);
+            [
+                name.as_str().into(),
+                (*component).into(),
+                Cell::quantity(*from, unit),
+                Cell::quantity(*to, unit),
+            ]
+        });
+    let lines: Vec<[Cell; 4]> = lines.collect();
+    let more = match more {
+        0 => String::new(),
+        n => format!("; `--json` prints {n} more"),
+    };
+    (!all.is_empty()).then(|| {
+        let words = format!(
+            "Ranges that some compliances reach (no bounds: there are more than 100 000 sets{more}):"
+        );
+        [
+            Block::Heading(words),
+            Block::table(["reaction", "component", "reaches", "to"], lines),
+            Block::Gap,
+        ]
+    })
 }
 
 /// Reason at a singular configuration.
@@ -226,6 +276,18 @@ fn elasticity(
     crate::elasticity::elasticity(&wanted, of.mechanism.layout(), &named).map(Some)
 }
 
+/// Returns the bounds of a number, or the range that is reached if not all sets were examined.
+fn split(bounds: &ElasticBounds, layout: &Layout) -> (Option<BoundsOfNumber>, Option<[f64; 2]>) {
+    match bounds.complete {
+        true => (Some(BoundsOfNumber::new(bounds, layout)), None),
+        false => (None, Some([bounds.lowest, bounds.highest])),
+    }
+}
+
+fn is_reached(component: &ComponentDocument) -> bool {
+    component.reached_at_least.is_some()
+}
+
 /// Adds the bounds of all reactions that are not unique.
 fn of_reactions(
     of: &ConfigurationAnalysis<'_>,
@@ -256,7 +318,10 @@ fn of_reactions(
                 Ok(bounds) => {
                     let is_torque = space.load_unit(component.name) == Some("N·m");
                     has_moment |= is_torque && component.verdict.verdict != "unique";
-                    component.bounds = bounds.map(|b| BoundsOfNumber::new(&b, layout));
+                    if let Some((own, reached)) = bounds.map(|b| split(&b, layout)) {
+                        answer.complete &= reached.is_none();
+                        (component.bounds, component.reached_at_least) = (own, reached);
+                    }
                 }
                 Err(e) => reason = Some(format!("{}: {e}", component.name)),
             }
@@ -265,6 +330,8 @@ fn of_reactions(
             Ok([force, moment]) => {
                 reaction.magnitude_at_most = Some(MagnitudeDocument { force, moment });
             }
+            // Without all sets there is a range, but no bound.
+            Err(BoundsError::Many) if reaction.components.iter().any(is_reached) => {}
             Err(e) if reason.is_none() => reason = Some(e.to_string()),
             Err(_) => {}
         }

@@ -28,6 +28,9 @@ pub struct BoundsDocument {
     pub centres: ByName<Vec<f64>>,
     /// Number of sets of load components that can be zero together.
     pub eliminations: u64,
+    /// Whether all sets were examined. Otherwise some numbers have a range that is reached in place
+    /// of bounds.
+    pub complete: bool,
     /// Joints and drives without bounds, with the reason.
     pub without: ByName<String>,
     /// Reason why there are no bounds at this configuration.
@@ -89,6 +92,7 @@ impl BoundsDocument {
             within: within.map(|range| range.factor),
             centres: ByName(Vec::new()),
             eliminations: 0,
+            complete: true,
             without: ByName(Vec::new()),
             reason: None,
         }
