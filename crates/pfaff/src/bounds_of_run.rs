@@ -13,6 +13,7 @@ use report::{
     BoundsTable, Frame, OutputDirectory, OutputFile, Quantity, ReactionColumn, TableError,
     write_open_bounds,
 };
+use scene::Scene;
 use solvability::{
     BoundsError, ChosenValues, Elasticity, Group, Questions, ReactionBounds, Solution, Stretches,
     Term, analyse_with_progress,
@@ -22,7 +23,7 @@ use crate::documents::{
     Ending, ExtremeDocument, Gap, MagnitudeOfRunDocument, RangeOfRunDocument, RunBoundsDocument,
     RunDocument,
 };
-use crate::elasticity::assumption;
+use crate::elasticity::{assumption, centres};
 use crate::error::StudyError;
 use crate::page::Band;
 use crate::rows::{RowFault, RowSink};
@@ -46,6 +47,7 @@ pub(crate) struct BoundsOfRun<'m> {
     directory: Option<&'m OutputDirectory>,
     mechanism: &'m Mechanism,
     elasticity: &'m Elasticity,
+    scene: &'m Scene,
     groups: Vec<Group>,
     columns: Vec<ReactionColumn>,
     /// The joints and drives of the columns.
@@ -93,7 +95,7 @@ impl<'m> BoundsOfRun<'m> {
     /// Creates a sink that writes the table.
     pub(crate) fn begin(
         directory: &'m OutputDirectory,
-        mechanism: &'m Mechanism,
+        (scene, mechanism): (&'m Scene, &'m Mechanism),
         elasticity: &'m Elasticity,
         columns: Vec<ReactionColumn>,
         plan: &Plan<'_>,
@@ -103,14 +105,14 @@ impl<'m> BoundsOfRun<'m> {
         Ok(Self {
             directory: Some(directory),
             table: Some(table),
-            ..Self::new(mechanism, elasticity, columns, plan, rows)
+            ..Self::new((scene, mechanism), elasticity, columns, plan, rows)
         })
     }
 
     /// Creates a sink without a table. The second part of `rows` states whether the bounds of all
     /// rows are stored.
     pub(crate) fn new(
-        mechanism: &'m Mechanism,
+        (scene, mechanism): (&'m Scene, &'m Mechanism),
         elasticity: &'m Elasticity,
         columns: Vec<ReactionColumn>,
         plan: &Plan<'_>,
@@ -126,6 +128,7 @@ impl<'m> BoundsOfRun<'m> {
             directory: None,
             mechanism,
             elasticity,
+            scene,
             groups: plan.groups.clone(),
             reactions,
             rtol: plan.options().rtol,
@@ -216,7 +219,11 @@ impl<'m> BoundsOfRun<'m> {
             multipliers: lambda.clone(),
             no_finite: Vec::new(),
         };
-        let found = questions.bounds(&solution, self.elasticity);
+        let elasticity = Elasticity {
+            centres: centres(self.scene, self.mechanism, q),
+            ..self.elasticity.clone()
+        };
+        let found = questions.bounds(&solution, &elasticity);
         let mut of_group = None;
         for (column, ends) in self.columns.iter().zip(&mut row.columns) {
             match self.ends(&found, column, &mut of_group) {

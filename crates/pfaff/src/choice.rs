@@ -3,7 +3,9 @@
 use std::collections::HashSet;
 
 use model::{ConstraintId, SpaceKind};
-use solvability::{Choice, Compliance, DeletableRows, ElasticSupports, Misfit, NormWeights};
+use solvability::{
+    Centres, Choice, Compliance, DeletableRows, ElasticSupports, Misfit, NormWeights,
+};
 
 use crate::refusal::Refusal;
 use crate::run_options::NO_ROW;
@@ -70,6 +72,7 @@ fn choice(text: &str, (space, rows, reaction): ChoiceScope<'_>) -> Result<Choice
                 misfits: misfits
                     .map(|term| misfit(term.trim(), space, reaction))
                     .collect::<Result<_, _>>()?,
+                centres: Centres::default(),
             }))
         }
         ("drop", Some(rest)) => Ok(Choice::Elimination(row_list("--choose drop", rest, rows)?)),

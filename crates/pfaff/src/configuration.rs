@@ -5,6 +5,7 @@ mod document;
 mod numbers;
 pub(crate) mod requests;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use linalg::Matrix;
@@ -13,15 +14,16 @@ use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System, is_at_rest};
 use rank::Limits;
 use scene::Scene;
 use solvability::{
-    Analysis, Choice, ChoiceError, Continuation, Contradiction, DeletableRows, Distribution,
-    Elasticity, EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GenericVerdict,
-    Group, GroupVerdict, MomentVerdict, NamedChoice, NoFiniteReaction, Numbers, Proposals,
-    Questions, ReactionBounds, ReactionNumber, ReactionValues, ReactionVerdict, Replacements, Rows,
-    Sensitivities, Sensitivity, Solution, State, analyse_decided, analyse_dropping,
-    analyse_with_progress, generic, generic_with_verdicts, is_locked, no_finite_reactions,
-    second_order, solution,
+    Analysis, Centres, Choice, ChoiceError, Continuation, Contradiction, DeletableRows,
+    Distribution, ElasticSupports, Elasticity, EliminationError, Explanation, FrameVerdict,
+    Freedoms, Generic, GenericVerdict, Group, GroupVerdict, MomentVerdict, NamedChoice,
+    NoFiniteReaction, Numbers, Proposals, Questions, ReactionBounds, ReactionNumber,
+    ReactionValues, ReactionVerdict, Replacements, Rows, Sensitivities, Sensitivity, Solution,
+    State, analyse_decided, analyse_dropping, analyse_with_progress, generic,
+    generic_with_verdicts, is_locked, no_finite_reactions, second_order, solution,
 };
 
+use crate::elasticity;
 use crate::error::StudyError;
 
 /// A configuration whose rank has been decided, with its verdicts.
@@ -463,7 +465,14 @@ impl<'a> ConfigurationAnalysis<'a> {
         if let Choice::Elimination(rows) = choice {
             self.check_rows(rows)?;
         }
-        let mut found = self.questions.distribute(&self.solution()?, choice)?;
+        let choice = match choice {
+            Choice::Compliance(supports) => Cow::Owned(Choice::Compliance(ElasticSupports {
+                centres: self.centres(),
+                ..supports.clone()
+            })),
+            choice => Cow::Borrowed(choice),
+        };
+        let mut found = self.questions.distribute(&self.solution()?, &choice)?;
         self.sensitivities()?.add_to(&mut found.reactions);
         Ok(found)
     }
@@ -479,13 +488,27 @@ impl<'a> ConfigurationAnalysis<'a> {
         Ok(found)
     }
 
-    /// Returns bounds of the reactions for elastic joints, from one solution.
+    /// Returns the points about which moments of joints give way, if the scene states any.
+    pub(crate) fn centres(&self) -> Centres {
+        elasticity::centres(self.scene, self.mechanism, &self.state.q)
+    }
+
+    /// Returns bounds of the reactions for elastic joints, from one solution. Moments give way about
+    /// the points that the scene states.
+    ///
+    /// # Errors
+    /// Each number has its own error.
     pub fn bounds<'s>(
         &'s self,
         solution: &'s Solution,
         elasticity: &Elasticity,
     ) -> ReactionBounds<'s, 'a> {
-        self.questions.bounds(solution, elasticity)
+        let centres = self.centres();
+        let elasticity = Elasticity {
+            centres,
+            ..elasticity.clone()
+        };
+        self.questions.bounds(solution, &elasticity)
     }
 
     /// Returns the search for replacements of joints; `None` if the mechanism was not analysed as

@@ -1,9 +1,9 @@
 //! Requests of bounds: the joints and drives that give way, and the assumptions.
 
-use model::Layout;
 use model::reaction::ConstraintGroup;
-use scene::WantedBounds;
-use solvability::{ComplianceRange, Elasticity, NominalCompliance};
+use model::{BodyRef, ConstraintId, Layout, Mechanism, System};
+use scene::{CentreOfStiffness, Scene, WantedBounds};
+use solvability::{Centres, ComplianceRange, Elasticity, NominalCompliance};
 
 use crate::choice::{FindReaction, compliances};
 use crate::refusal::Refusal;
@@ -38,6 +38,24 @@ pub(crate) fn requested(
             compliance: compliance.map(str::to_owned),
         })),
     }
+}
+
+/// Returns the points about which moments of joints give way, at the coordinates q.
+pub(crate) fn centres(scene: &Scene, mechanism: &Mechanism, q: &[f64]) -> Centres {
+    if scene.centres.is_empty() {
+        return Centres::default();
+    }
+    let v = vec![0.0; mechanism.layout().n_v];
+    let place = |centre: &CentreOfStiffness| match centre.body {
+        BodyRef::Ground => centre.point,
+        BodyRef::Body(body) => mechanism.frames().point(body, centre.point, q, &v).place,
+    };
+    let groups = &mechanism.layout().groups;
+    let each = scene.centres.iter().filter_map(|centre| {
+        let id = groups.iter().position(|g| g.name == centre.joint)?;
+        Some((ConstraintId(id), place(centre)))
+    });
+    Centres(each.collect())
 }
 
 /// Finds the joints and drives of a request.
@@ -84,7 +102,11 @@ pub fn elasticity(
             Some(ComplianceRange { factor, nominal })
         }
     };
-    Ok(Elasticity { rigid, within })
+    Ok(Elasticity {
+        rigid,
+        within,
+        ..Elasticity::default()
+    })
 }
 
 /// States the assumptions of bounds for these joints and drives, whose reactions are not unique.

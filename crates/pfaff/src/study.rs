@@ -686,7 +686,13 @@ impl Study {
         let elastic = elasticity.filter(|_| self.prepared.decision.redundancy > 0);
         let mut bounds = elastic.map(|elastic| {
             let all = TableRows::new(1, plan.options().t_end);
-            BoundsOfRun::new(mechanism, elastic, columns.clone(), &plan, (all, true))
+            BoundsOfRun::new(
+                (&self.scene, mechanism),
+                elastic,
+                columns.clone(),
+                &plan,
+                (all, true),
+            )
         });
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut caller];
         sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
@@ -872,7 +878,7 @@ impl Study {
         let mut bounds = match (elasticity, selection(&output.reactions)) {
             (Some(elasticity), Some(selection)) if !is_plain => Some(BoundsOfRun::begin(
                 directory,
-                mechanism,
+                (&self.scene, mechanism),
                 elasticity,
                 begun.columns(&selection)?,
                 &plan,

@@ -13,6 +13,7 @@ use crate::joint_name::{JointNames, References};
 use crate::joint_read::{CompleteJoint, JointKind, JointRead};
 use crate::key::TYPE;
 use crate::space::SceneSpace;
+use crate::stiffness;
 use crate::table::Table;
 use crate::tolerance;
 
@@ -90,6 +91,7 @@ fn one<'r, S: SceneSpace>(
         let definitions: Vec<_> = types.registry.constraints(scene_type).collect();
         let Some(found) = element::read(&mut table, &definitions, &references, domains) else {
             tolerance::read(&mut table, &tolerance::OF_JOINT);
+            stiffness::read(&mut table, name, None, bodies);
             element::end(table, name, read.is_active);
             return read;
         };
@@ -98,6 +100,13 @@ fn one<'r, S: SceneSpace>(
         (functions, arguments) = (found.arguments.functions, found.arguments.values);
     }
     let tolerance = tolerance::read(&mut table, &tolerance::OF_JOINT);
+    let centre = match read.kind {
+        JointKind::Defined(_) => {
+            let joined = element.as_ref().map(|(bodies, _)| bodies.as_slice());
+            stiffness::read(&mut table, name, joined, bodies)
+        }
+        _ => None,
+    };
     let entry = element::end(table, name, read.is_active);
     read.complete = element.map(|(bodies, element)| CompleteJoint {
         joint: Joint {
@@ -109,6 +118,7 @@ fn one<'r, S: SceneSpace>(
         },
         entry,
         arguments,
+        centre,
     });
     read
 }

@@ -8,6 +8,7 @@ use model::registry::ConstraintDefinition;
 
 use crate::source_map::Entry;
 use crate::space::SceneSpace;
+use crate::stiffness::CentreOfStiffness;
 use crate::table::Table;
 
 /// A joint of the text; parts that could not be read are missing.
@@ -37,6 +38,8 @@ pub(crate) struct CompleteJoint<S: SceneSpace> {
     pub(crate) entry: Entry,
     /// Values of the parameters of the definition.
     pub(crate) arguments: Vec<Argument>,
+    /// The point about which its moment gives way, if it is given.
+    pub(crate) centre: Option<CentreOfStiffness>,
 }
 
 impl<'r, S: SceneSpace> JointRead<'r, S> {

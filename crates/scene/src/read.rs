@@ -169,7 +169,12 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
     }
     let (measures, measure_entries) = parts.measures.into_iter().unzip();
     let joints = parts.joints.into_iter();
-    let joints = joints.filter_map(|read| read.complete.map(|own| (own.joint, own.entry)));
+    let mut centres = Vec::new();
+    let joints = joints.filter_map(|read| read.complete);
+    let joints = joints.map(|own| {
+        centres.extend(own.centre);
+        (own.joint, own.entry)
+    });
     let (joints, joint_entries) = joints.unzip();
     let drives = parts.drives.into_iter();
     let (drives, drive_entries) = drives.filter_map(DriveRead::into_motion).unzip();
@@ -207,6 +212,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
         },
         simulate: simulate.map(|simulate| simulate.options),
         output: output.unwrap_or_default(),
+        centres,
         groups,
         source: Some(source),
         units: Units::SI,

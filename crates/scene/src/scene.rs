@@ -14,6 +14,7 @@ use crate::locate;
 use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
 use crate::source_map::{Entry, SourceMap};
+use crate::stiffness::CentreOfStiffness;
 
 /// A mechanism and the requested computations. If they were read from a file, their positions in
 /// the file are also available.
@@ -40,6 +41,8 @@ pub struct Scene {
     pub simulate: Option<MotionOptions>,
     /// Requested output.
     pub output: Output,
+    /// The points about which moments of joints give way, for joints with such a point.
+    pub centres: Vec<CentreOfStiffness>,
     /// Combinations of reactions for which uniqueness verdicts are requested.
     pub groups: Vec<GroupRequest>,
     /// Positions in the text; `None` if there is no text.

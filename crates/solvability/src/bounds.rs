@@ -28,7 +28,7 @@ use model::{ConstraintId, Frame};
 
 pub use of_parts::ReactionBounds;
 
-use crate::choices::FreeMultipliers;
+use crate::choices::{Centres, FreeMultipliers};
 use crate::groups::{Configuration, LinearForm, RequestError};
 use crate::value::NoFiniteReaction;
 use crate::verdict::Verdict;
@@ -51,6 +51,8 @@ pub struct Elasticity {
     pub rigid: Vec<ConstraintId>,
     /// A range of the compliances; without it, they are arbitrary.
     pub within: Option<ComplianceRange>,
+    /// The points about which moments give way; otherwise the reference points.
+    pub centres: Centres,
 }
 
 /// Compliances between nominal values and a multiple of them.
@@ -79,7 +81,8 @@ impl Elasticity {
     fn of_reactions(&self, own: impl Fn(ConstraintId) -> Option<ConstraintId>) -> Self {
         Self {
             rigid: self.rigid.iter().filter_map(|id| own(*id)).collect(),
-            within: self.within.as_ref().map(|range| range.of_reactions(own)),
+            within: self.within.as_ref().map(|range| range.of_reactions(&own)),
+            centres: self.centres.of_reactions(&own),
         }
     }
 }
@@ -209,7 +212,7 @@ impl<'m> Configuration<'m> {
         if !self.solvability().decision().is_decided() {
             return Err(BoundsError::Rank);
         }
-        let open = self.open_loads()?;
+        let open = self.open_loads(&elasticity.centres)?;
         self.elastic_solutions_of(lambda_0, elasticity, (&open, true))
     }
 
@@ -232,10 +235,10 @@ impl<'m> Configuration<'m> {
     ///
     /// # Errors
     /// [`RequestError`]
-    pub fn open_loads(&self) -> Result<Vec<ElasticLoad>, RequestError> {
+    pub fn open_loads(&self, centres: &Centres) -> Result<Vec<ElasticLoad>, RequestError> {
         let mut open = Vec::new();
         for reaction in self.layout().constraint_ids() {
-            for (is_moment, _, forms) in self.load_forms(reaction)? {
+            for (is_moment, _, forms) in self.load_forms(reaction, centres)? {
                 if !self.is_unique(&forms)? {
                     open.push(ElasticLoad {
                         reaction,
@@ -259,7 +262,7 @@ impl<'m> Configuration<'m> {
         let (mut nominal, mut units) = (Vec::new(), Vec::new());
         let gives_way = |id: &ConstraintId| !elasticity.rigid.contains(id);
         for id in self.layout().constraint_ids().filter(gives_way) {
-            for (is_moment, unit, forms) in self.load_forms(id)? {
+            for (is_moment, unit, forms) in self.load_forms(id, &elasticity.centres)? {
                 let compliance = match &elasticity.within {
                     Some(range) => range.of(id, unit == "N·m"),
                     None => Some(1.0),
@@ -330,7 +333,11 @@ impl<'m> Configuration<'m> {
 
     /// Returns the components of the force and of the moment of a joint along orthonormal axes,
     /// those of the joint if it has any, each with whether they are a moment, and the unit.
-    fn load_forms(&self, id: ConstraintId) -> Result<Vec<LoadForms>, RequestError> {
+    fn load_forms(
+        &self,
+        id: ConstraintId,
+        centres: &Centres,
+    ) -> Result<Vec<LoadForms>, RequestError> {
         let layout = self.layout();
         let group = &layout.groups[id.0];
         if let Some(name) = group.own_load() {
@@ -351,14 +358,30 @@ impl<'m> Configuration<'m> {
             }
             forms[range].iter().map(|(_, form)| form.clone()).collect()
         };
-        let both = [
-            (false, "N", of(space.forces())),
-            (true, "N·m", of(space.torques())),
-        ];
+        let moments = match centres.of(id) {
+            Some(about) if !of(space.torques()).is_empty() => self.moments_about(id, about)?,
+            _ => of(space.torques()),
+        };
+        let both = [(false, "N", of(space.forces())), (true, "N·m", moments)];
         Ok(both
             .into_iter()
             .filter(|(.., forms)| !forms.is_empty())
             .collect())
+    }
+
+    /// Returns the components of the moment of a joint about a point, along the global axes.
+    fn moments_about(
+        &self,
+        id: ConstraintId,
+        about: [f64; 3],
+    ) -> Result<Vec<LinearForm>, RequestError> {
+        let space = self.layout().space;
+        let axes = space.torques().map(|k| {
+            let mut axis = [0.0; 3];
+            axis[space.axis_of(k)] = 1.0;
+            self.reactions().torque(id, axis, about)
+        });
+        axes.collect()
     }
 
     /// Returns whether all of these components are unique.

@@ -125,13 +125,35 @@ pub struct ElasticSupports {
     pub compliances: Vec<Compliance>,
     /// Misfits; other joints and drives fit exactly.
     pub misfits: Vec<Misfit>,
+    /// The points about which moments give way; otherwise the reference points.
+    pub centres: Centres,
+}
+
+/// Points about which the moments of joints give way, in global coordinates at one configuration
+/// (m).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Centres(pub Vec<(ConstraintId, [f64; 3])>);
+
+impl Centres {
+    /// Returns the point of a joint; `None` for the reference point.
+    #[must_use]
+    pub fn of(&self, id: ConstraintId) -> Option<[f64; 3]> {
+        let own = self.0.iter().find(|(known, _)| *known == id);
+        own.map(|(_, point)| *point)
+    }
+
+    /// Returns the points of the joints of a part, with their numbers there.
+    pub(crate) fn of_reactions(&self, own: &impl Fn(ConstraintId) -> Option<ConstraintId>) -> Self {
+        let of = |(id, point): &(ConstraintId, [f64; 3])| Some((own(*id)?, *point));
+        Self(self.0.iter().filter_map(of).collect())
+    }
 }
 
 impl From<Vec<Compliance>> for ElasticSupports {
     fn from(compliances: Vec<Compliance>) -> Self {
         Self {
             compliances,
-            misfits: Vec::new(),
+            ..Self::default()
         }
     }
 }
@@ -156,6 +178,7 @@ impl ElasticSupports {
         Self {
             compliances: self.compliances.iter().filter_map(compliance).collect(),
             misfits: self.misfits.iter().filter_map(misfit).collect(),
+            centres: self.centres.of_reactions(&own),
         }
     }
 }

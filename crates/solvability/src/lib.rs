@@ -93,9 +93,9 @@ pub use bounds::{
 };
 pub use certificate::{certify, inseparable};
 pub use choices::{
-    CarriedChoices, CarriedSolution, Choice, ChoiceError, ChosenValues, Compliance, Distribution,
-    ElasticSupports, Equations, Misfit, NamedChoice, NormWeights, ReactionValues, RowTerms,
-    Solution, minimise, solution,
+    CarriedChoices, CarriedSolution, Centres, Choice, ChoiceError, ChosenValues, Compliance,
+    Distribution, ElasticSupports, Equations, Misfit, NamedChoice, NormWeights, ReactionValues,
+    RowTerms, Solution, minimise, solution,
 };
 pub use error::AnalysisError;
 pub use existence::{

@@ -91,6 +91,15 @@ impl Question for Simulate {
             let message = "a misfit is stated in ground axes at one instant: use `analyze --at-time T --choose …`";
             return Err(Refusal::input(message.to_owned()));
         }
+        let of_scene = study.scene.centres.first();
+        let has_compliance = |choice: &Choice| matches!(choice, Choice::Compliance(_));
+        if let Some(centre) = of_scene.filter(|_| choices.iter().any(has_compliance)) {
+            let message = format!(
+                "the centre of stiffness of `{}` moves, which --choose compliance does not follow: use `analyze --at-time T --choose …`, or --bounds",
+                centre.joint
+            );
+            return Err(Refusal::input(message));
+        }
         let (within, compliance) = (self.within, self.compliance.as_deref());
         let wanted = requested(self.bounds, &self.rigid, within, compliance)?;
         let wanted = wanted.as_ref().or(study.scene.output.bounds.as_ref());

@@ -4,6 +4,7 @@
 use model::start::KeepLevel;
 use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
 use rank::Doubt;
+use scene::Scene;
 use solvability::{Configuration, ElasticLoad, Elasticity, RowDecision, rows_of_rank};
 
 use super::error::ToleranceError;
@@ -72,6 +73,8 @@ pub(super) struct Nominal {
     pub(super) verdicts: Vec<&'static str>,
     /// The loads that are not unique as described, ascending.
     pub(super) open: Vec<ElasticLoad>,
+    /// The scene, for the points about which moments give way.
+    pub(super) described: Scene,
     /// Elastic joints for which bounds are computed; `None` without bounds.
     pub(super) elasticity: Option<Elasticity>,
 }
@@ -124,7 +127,9 @@ impl Nominal {
             if let Some(decision) = found.analysis.whole() {
                 let configuration = Configuration::new(mechanism, t, &state.q, &decision)
                     .map_err(StudyError::from)?;
-                open = configuration.open_loads().map_err(StudyError::from)?;
+                open = configuration
+                    .open_loads(&found.centres())
+                    .map_err(StudyError::from)?;
                 for (verdict, quantity) in verdicts.iter_mut().zip(&quantities) {
                     *verdict = quantity.verdict(mechanism, &configuration, 0.0);
                 }
@@ -157,6 +162,7 @@ impl Nominal {
             quantities,
             verdicts,
             open,
+            described: study.scene.clone(),
             elasticity: None,
             base: Base {
                 q: state.q,

@@ -15,7 +15,9 @@ use model::start::requirement;
 use model::words::{rough, short};
 use model::{Level, Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
-use solvability::{Configuration, Equations, RowTerms};
+use solvability::{Configuration, Elasticity, Equations, RowTerms};
+
+use crate::elasticity::centres;
 
 use super::draw::Stream;
 use super::failed::SampleFailure;
@@ -131,7 +133,7 @@ impl Nominal {
         let (verdicts, exact) =
             self.with_exact_numbers(mechanism, (&s, &q, &v), &decision, &lambda);
         let of_kept = self.on_kept_rows(mechanism, &s, &q);
-        let bounds = self.bounds_of(of_kept.as_ref(), &lambda);
+        let bounds = self.bounds_of((mechanism, &q), of_kept.as_ref(), &lambda);
         let of_kept = self.verdicts_of(mechanism, of_kept.as_ref());
         let numbers = self.numbers_of(mechanism, &s, &lambda).into_iter();
         let kept = numbers.zip(&of_kept).map(|(x, verdict)| match *verdict {
@@ -335,11 +337,20 @@ impl Nominal {
     }
 
     /// Returns bounds of the numbers with the described redundancy, if they are requested.
-    fn bounds_of(&self, at: Option<&Configuration<'_>>, lambda: &[f64]) -> Vec<[f64; 2]> {
+    fn bounds_of(
+        &self,
+        (mechanism, q): (&Mechanism, &[f64]),
+        at: Option<&Configuration<'_>>,
+        lambda: &[f64],
+    ) -> Vec<[f64; 2]> {
         let Some(elasticity) = &self.elasticity else {
             return Vec::new();
         };
-        let found = at.map(|at| at.elastic_solutions_displaced(lambda, elasticity, &self.open));
+        let elasticity = Elasticity {
+            centres: centres(&self.described, mechanism, q),
+            ..elasticity.clone()
+        };
+        let found = at.map(|at| at.elastic_solutions_displaced(lambda, &elasticity, &self.open));
         let of = |quantity: &Quantity| match (&found, at) {
             (Some(Ok(found)), Some(at)) => quantity.bounds(at, found),
             _ => [f64::NAN; 2],

@@ -16,6 +16,7 @@ use crate::key::{Interval, TYPE};
 use crate::place::{AT, POINT, local_key, slots_of_points};
 use crate::section::NAME;
 use crate::space::SceneSpace;
+use crate::stiffness;
 use crate::tolerance;
 
 /// Kind of element in a section.
@@ -47,8 +48,11 @@ fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
     properties.insert(NAME.name.to_owned(), described(&NAME));
     let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
     properties.insert(TYPE.to_owned(), kind);
-    let tolerance = matches!(of, ElementKind::Joint).then_some(&tolerance::OF_JOINT);
-    for key in tolerance.into_iter().chain([&ACTIVE]) {
+    let of_joint = match of {
+        ElementKind::Joint => vec![tolerance::OF_JOINT, stiffness::key(S::KIND)],
+        ElementKind::Force => Vec::new(),
+    };
+    for key in of_joint.iter().chain([&ACTIVE]) {
         properties.insert(key.name.to_owned(), described(key));
     }
 

@@ -5,7 +5,7 @@ use model::{ConstraintId, RowRanges, System};
 
 use super::minimise::{Term, independent_columns, minimise_in, strain};
 use super::multipliers::FreeMultipliers;
-use super::{ChoiceError, ElasticSupports, Misfit, NormWeights};
+use super::{Centres, ChoiceError, ElasticSupports, Misfit, NormWeights};
 use crate::groups::{ReactionForms, RequestError};
 
 /// Returns `C_Xᵀ·Z_X` of equilibrated rows X.
@@ -76,7 +76,7 @@ impl Choosing<'_> {
                 }
             }
         }
-        let terms = self.terms(|id, component| {
+        let terms = self.terms(&supports.centres, |id, component| {
             let (along, rotation) = of_joint[id.0];
             let (axis, [d, phi]) = (space.axis_of(component), misfits[id.0]);
             if space.forces().contains(&component) {
@@ -116,21 +116,38 @@ impl Choosing<'_> {
         lambda_0: &[f64],
         weights: impl Fn(ConstraintId, usize) -> f64,
     ) -> Result<Vec<f64>, ChoiceError> {
-        let terms = self.terms(|id, component| (weights(id, component), 0.0))?;
+        let centres = Centres::default();
+        let terms = self.terms(&centres, |id, component| (weights(id, component), 0.0))?;
         minimise_in(&self.free, lambda_0, &terms)
     }
 
     /// Returns the components of all wrenches with their weights and misfits.
     fn terms(
         &self,
+        centres: &Centres,
         of: impl Fn(ConstraintId, usize) -> (f64, f64),
     ) -> Result<Vec<Term>, ChoiceError> {
         let groups = &self.reactions.mechanism.layout().groups;
         let mut terms = Vec::new();
         for (k, group) in groups.iter().enumerate() {
             let id = ConstraintId(k);
-            for c in group.components() {
-                let form = self.reactions.component(id, group.space.components()[c])?;
+            let space = group.space;
+            let mut components = group.components();
+            let centre = centres.of(id);
+            if centre.is_some() && components.iter().any(|c| space.torques().contains(c)) {
+                // About another point, the force has moments about all axes.
+                components.retain(|c| space.forces().contains(c));
+                components.extend(space.torques());
+            }
+            for c in components {
+                let form = match centre.filter(|_| space.torques().contains(&c)) {
+                    Some(about) => {
+                        let mut axis = [0.0; 3];
+                        axis[space.axis_of(c)] = 1.0;
+                        self.reactions.torque(id, axis, about)?
+                    }
+                    None => self.reactions.component(id, space.components()[c])?,
+                };
                 let (weight, misfit) = of(id, c);
                 terms.push(Term {
                     form,

@@ -335,7 +335,11 @@ fn of_reactions(
             Err(e) if reason.is_none() => reason = Some(e.to_string()),
             Err(_) => {}
         }
-        if has_moment && let Ok(place) = of.reference_point(id) {
+        let place = match of.centres().of(id) {
+            Some(centre) => Ok(centre),
+            None => of.reference_point(id),
+        };
+        if has_moment && let Ok(place) = place {
             centres.push((reaction.name.clone(), components(space, place)));
         }
         if let Some(reason) = reason {
