@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use dynamics::{Plan, Sample};
 use model::reaction::ConstraintGroup;
+use model::words::rounded;
 use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System};
 use rayon::prelude::*;
 use report::{
@@ -28,6 +29,7 @@ use crate::error::StudyError;
 use crate::page::Band;
 use crate::rows::{RowFault, RowSink};
 use crate::tables_of_run::{TableRows, finished};
+use crate::words::{Block, Cell, count};
 
 /// File name of the table.
 pub(crate) const BOUNDS: &str = "bounds.csv";
@@ -384,6 +386,54 @@ pub(crate) fn add_to(
             reaction.magnitude_at_most = Some(magnitude);
         }
     }
+}
+
+/// Number of lines of the table of the largest loads.
+const LARGEST: usize = 12;
+
+/// Lists the upper bounds of the largest loads over the run, the largest forces first.
+pub(crate) fn largest_loads(
+    bounds: &RunBoundsDocument,
+    mut known: Vec<(String, MagnitudeOfRunDocument)>,
+) -> Vec<Block> {
+    let size = |x: Option<ExtremeDocument>| x.map_or(0.0, |x| x.value);
+    known.sort_by(|(_, a), (_, b)| {
+        let by_moment = size(b.moment).total_cmp(&size(a.moment));
+        size(b.force).total_cmp(&size(a.force)).then(by_moment)
+    });
+    if known.is_empty() {
+        return Vec::new();
+    }
+    let cells = |x: Option<ExtremeDocument>, unit| {
+        let x = x.filter(|x| x.value != 0.0);
+        [
+            Cell::quantity(x.map(|x| x.value), unit),
+            Cell::quantity(x.map(|x| x.time), "s"),
+        ]
+    };
+    let lines = known.iter().take(LARGEST).map(|(name, most)| {
+        let [force, force_at] = cells(most.force, "N");
+        let [moment, moment_at] = cells(most.moment, "N·m");
+        [name.as_str().into(), force, force_at, moment, moment_at]
+    });
+    let columns = ["reaction", "force at most", "at", "moment at most", "at"];
+    let mut out = vec![Block::table(columns, lines)];
+    let mut say = |lead: &str, text: &str| out.push(Block::after(lead, text));
+    if known.len() > LARGEST {
+        say("", "the JSON document contains the others");
+    }
+    if let Some(gap) = &bounds.gap {
+        let (first, reason) = (rounded(gap.first), &gap.reason);
+        let rows = count(gap.rows, "row", "rows");
+        say(
+            "warning: ",
+            &format!(
+                "some reactions have no bounds in {rows}, the first at t = {first} s: {reason}"
+            ),
+        );
+    }
+    say("valid ", &bounds.assumption);
+    out
 }
 
 impl RowSink for BoundsOfRun<'_> {

@@ -263,3 +263,25 @@ fn ranges_of_many_sets_are_no_bounds() {
             .is_some_and(|without| !without.is_empty())
     );
 }
+
+#[test]
+fn an_analysis_along_the_motion_bounds_it() {
+    let arguments = ["analyze", "-", "--along", "2", "--bounds"];
+    let output = with_scene(&[&arguments[..], &["--json"]].concat(), CART);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    let along = |path: &str| {
+        let found = d.pointer(&format!("/along/{path}")).and_then(Value::as_f64);
+        found.unwrap_or_else(|| panic!("{path}: {}", d["along"]))
+    };
+    let most = along("reactions/left/magnitude_at_most/force/value");
+    assert!((most - 10.0).abs() < 1e-7, "{most}");
+    assert_eq!(along("reactions/left/magnitude_at_most/force/time"), 2.0);
+    assert!((along("reactions/left/bounds/N/highest/value") - 10.0).abs() < 1e-7);
+    assert!(d["along"]["bounds"]["assumption"].is_string());
+    let text = stdout(&with_scene(&arguments, CART));
+    assert!(text.contains("force at most (N)  at (s)"), "{text}");
+    let output = with_scene(&["analyze", "-", "--along", "2", "--json"], CART);
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    assert!(d["along"].get("bounds").is_none());
+}

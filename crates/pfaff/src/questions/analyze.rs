@@ -18,8 +18,12 @@ mod rank;
 pub mod remedies;
 mod words;
 
+use std::ops::ControlFlow;
+
+use dynamics::{MotionOptions, OutputRequest};
 use model::System;
 use serde::Serialize;
+use solvability::Elasticity;
 
 pub use options::{Along, Analyze, Permission};
 
@@ -33,7 +37,7 @@ use crate::question::{
 use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::start::{JudgedStart, Start};
-use crate::study::Study;
+use crate::study::{EndedRun, Study};
 use crate::words::Block;
 use report::Family;
 
@@ -123,6 +127,13 @@ impl Analyze {
         }
         if let Some(found) = along.transpose()? {
             found.add_to(&mut document, configuration.mechanism.layout());
+            if let (Some(elasticity), Some(along)) = (
+                bounds::elasticity(self, &configuration)?,
+                &mut document.answers.along,
+            ) {
+                let run = bounded(of, study, (along.to, &elasticity), control)?;
+                along::add_bounds(along, &run.document);
+            }
         }
         let hints = document::hints(&configuration, &document, control)?;
         Ok(AnalyzeAnswer { document, hints })
@@ -156,6 +167,34 @@ fn judge(
         (control.progress)(Progress::Motion(what, t, end));
     });
     found.map_err(|e| refused(of, e))
+}
+
+/// Runs the motion with bounds of the reactions.
+fn bounded(
+    of: &Start<'_>,
+    study: &Study,
+    (t_end, elasticity): (f64, &Elasticity),
+    control: &Control<'_>,
+) -> Result<EndedRun, Refusal> {
+    let options = MotionOptions {
+        t_end,
+        ..study
+            .options
+            .clone()
+            .unwrap_or_else(|| MotionOptions::to(t_end))
+    };
+    let wanted = OutputRequest::default();
+    let run = study.show_bounded(
+        &options,
+        &wanted,
+        Some(elasticity),
+        &control.stop,
+        |s, _| {
+            (control.progress)(Progress::Motion("bounding", s.t, t_end));
+            ControlFlow::Continue(())
+        },
+    );
+    run.map_err(|e| refused(of, e))
 }
 
 /// Returns the reason why there is no analysis; no output is written before the analysis is

@@ -6,7 +6,10 @@ use solvability::{
     Continuation, Difference, MotionAnalysis, Passage, PassageKind, ReactionStretches, Stretch,
 };
 
-use crate::documents::{ByName, SpecialDocument, TrackDocument};
+use crate::documents::{
+    ByName, MagnitudeOfRunDocument, RangeOfRunDocument, RunBoundsDocument, SpecialDocument,
+    TrackDocument,
+};
 
 /// The verdicts of a motion by stretches of time, and its singular configurations.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -36,6 +39,9 @@ pub struct AlongDocument {
     pub stretches: Vec<StretchDocument>,
     /// Singular configurations.
     pub passages: Vec<PassageDocument>,
+    /// The assumptions of the bounds, if bounds were requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<RunBoundsDocument>,
 }
 
 /// The rank at almost all times of the motion.
@@ -62,6 +68,12 @@ pub struct AlongReactionDocument {
     /// The verdicts of its components by name, in ground axes, for components that are not
     /// identically zero, and the verdict of the named component of its definition.
     pub components: ByName<TrackDocument>,
+    /// The range of the bounds of its components over the motion, if bounds were requested.
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub bounds: ByName<RangeOfRunDocument>,
+    /// Upper bounds of the magnitudes over the motion, if bounds were requested.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub magnitude_at_most: Option<MagnitudeOfRunDocument>,
 }
 
 /// A stretch of time with another rank.
@@ -153,6 +165,8 @@ impl AlongDocument {
             let document = AlongReactionDocument {
                 of_run: (&found.whole).into(),
                 components: ByName(components.collect()),
+                bounds: ByName(Vec::new()),
+                magnitude_at_most: None,
             };
             (layout.groups[found.id.0].name.clone(), document)
         };
@@ -160,6 +174,7 @@ impl AlongDocument {
             to,
             samples,
             reach,
+            bounds: None,
             stopped: None,
             continued_to: None,
             generic: GenericRankDocument {

@@ -261,7 +261,7 @@ fn name(of: &ConfigurationAnalysis<'_>, id: ConstraintId) -> String {
 }
 
 /// Reads the options; `None` if no bounds are requested.
-fn elasticity(
+pub(super) fn elasticity(
     asked: &Analyze,
     of: &ConfigurationAnalysis<'_>,
 ) -> Result<Option<Elasticity>, Refusal> {

@@ -1,14 +1,14 @@
 //! Text on a run.
 
 use crate::documents::{
-    ChoiceDocument, ExtremeDocument, MagnitudeOfRunDocument, MisfitDocument, RunDocument,
-    RunReactionDocument, choice_file,
+    ChoiceDocument, MisfitDocument, RunDocument, RunReactionDocument, choice_file,
 };
 use dynamics::INDEPENDENT_ROWS;
 use model::words::{listed, rough, rounded};
 
 use super::SimulateAnswer;
-use crate::words::{Block, Cell, count};
+use crate::bounds_of_run::largest_loads;
+use crate::words::{Block, count};
 
 /// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
 /// energy. With the default tolerances the error is below a thousandth of this limit; larger errors
@@ -84,7 +84,13 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
         ));
     }
     out.extend(open(d).into_iter().map(Block::sentence));
-    out.extend(bounds(d));
+    if let Some(bounds) = &d.bounds {
+        let most = |(name, r): &'_ (String, RunReactionDocument)| {
+            Some((name.clone(), r.magnitude_at_most?))
+        };
+        let loads = d.reactions.0.iter().filter_map(most);
+        out.extend(largest_loads(bounds, loads.collect()));
+    }
     if answer.has_report {
         let words = "open report.html in a browser";
         out.push(Block::sentence(words));
@@ -132,57 +138,6 @@ fn open(d: &RunDocument) -> Vec<String> {
         let some = some.join("; ");
         out.push(format!("determined during parts of the run: {some}."));
     }
-    out
-}
-
-/// Number of lines of the table of the largest loads.
-const LARGEST: usize = 12;
-
-/// Lists the upper bounds of the largest loads over the run, the largest forces first.
-fn bounds(d: &RunDocument) -> Vec<Block> {
-    let Some(bounds) = &d.bounds else {
-        return Vec::new();
-    };
-    let known = d.reactions.0.iter();
-    let known = known.filter_map(|(name, r)| Some((name, r.magnitude_at_most?)));
-    let mut known: Vec<(&String, MagnitudeOfRunDocument)> = known.collect();
-    let size = |x: Option<ExtremeDocument>| x.map_or(0.0, |x| x.value);
-    known.sort_by(|(_, a), (_, b)| {
-        let by_moment = size(b.moment).total_cmp(&size(a.moment));
-        size(b.force).total_cmp(&size(a.force)).then(by_moment)
-    });
-    if known.is_empty() {
-        return Vec::new();
-    }
-    let cells = |x: Option<ExtremeDocument>, unit| {
-        let x = x.filter(|x| x.value != 0.0);
-        [
-            Cell::quantity(x.map(|x| x.value), unit),
-            Cell::quantity(x.map(|x| x.time), "s"),
-        ]
-    };
-    let lines = known.iter().take(LARGEST).map(|(name, most)| {
-        let [force, force_at] = cells(most.force, "N");
-        let [moment, moment_at] = cells(most.moment, "N·m");
-        [name.as_str().into(), force, force_at, moment, moment_at]
-    });
-    let columns = ["reaction", "force at most", "at", "moment at most", "at"];
-    let mut out = vec![Block::table(columns, lines)];
-    let mut say = |lead: &str, text: &str| out.push(Block::after(lead, text));
-    if known.len() > LARGEST {
-        say("", "summary.json contains the others");
-    }
-    if let Some(gap) = &bounds.gap {
-        let (first, reason) = (rounded(gap.first), &gap.reason);
-        let rows = count(gap.rows, "row", "rows");
-        say(
-            "warning: ",
-            &format!(
-                "some reactions have no bounds in {rows}, the first at t = {first} s: {reason}"
-            ),
-        );
-    }
-    say("valid ", &bounds.assumption);
     out
 }
 
