@@ -405,7 +405,6 @@ pub(crate) fn largest_loads(
         return Vec::new();
     }
     let cells = |x: Option<ExtremeDocument>, unit| {
-        let x = x.filter(|x| x.value != 0.0);
         [
             Cell::quantity(x.map(|x| x.value), unit),
             Cell::quantity(x.map(|x| x.time), "s"),

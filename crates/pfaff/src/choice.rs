@@ -157,11 +157,16 @@ fn misfit(term: &str, space: SpaceKind, reaction: FindReaction<'_>) -> Result<Mi
         _ => "NAME=DX,DY,DZ in m, or NAME=DX,DY,DZ,RX,RY,RZ with rad",
     };
     let wrong = || {
-        let message = format!("--choose: a misfit is `{term}`, need {expected}");
+        let message = format!(
+            "--choose: a misfit is `{term}`, need {expected}; `;misfit:` before each further joint"
+        );
         Refusal::input(message)
     };
     let (name, numbers) = term.rsplit_once('=').ok_or_else(wrong)?;
-    let reaction = reaction(name.trim())?;
+    let reaction = reaction(name.trim()).map_err(|e| match name.contains('=') {
+        true => wrong(),
+        false => e,
+    })?;
     let numbers = numbers.split(',').map(|word| {
         let x = word.trim().parse::<f64>().ok();
         x.filter(|x| x.is_finite()).ok_or_else(wrong)

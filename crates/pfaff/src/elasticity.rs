@@ -11,6 +11,32 @@ use crate::refusal::Refusal;
 /// Name of all drives in the list of rigid joints.
 const DRIVES: &str = "drives";
 
+/// Combines the options of bounds with the request of the scene; `None` if no bounds are requested.
+///
+/// # Errors
+/// Names the option that needs another one.
+pub(crate) fn combined(
+    of_scene: Option<&WantedBounds>,
+    bounds: bool,
+    rigid: &[String],
+    within: Option<f64>,
+    compliance: Option<&str>,
+) -> Result<Option<WantedBounds>, Refusal> {
+    let Some(of_scene) = of_scene else {
+        return requested(bounds, rigid, within, compliance);
+    };
+    Ok(Some(WantedBounds {
+        rigid: match rigid {
+            [] => of_scene.rigid.clone(),
+            own => own.to_vec(),
+        },
+        within: within.or(of_scene.within),
+        compliance: compliance
+            .map(str::to_owned)
+            .or_else(|| of_scene.compliance.clone()),
+    }))
+}
+
 /// Combines the options of bounds; `None` if no bounds are requested.
 ///
 /// # Errors

@@ -36,9 +36,9 @@ pub enum StudyError {
     /// Neither the scene nor the caller states the end of the run.
     #[error("the scene has no `[simulate]` with `t_end`, and no end time was given")]
     NoEnd,
-    /// Choices are requested for a run that writes no reactions.
+    /// Choices or bounds are requested for a run that writes no reactions.
     #[error(
-        "the choices have no table: `[output] reactions` of the scene is false; leave out the choices, or write reactions"
+        "choices and bounds need reactions, but `[output] reactions` of the scene is false: write reactions, or leave out --choose and --bounds"
     )]
     NoReactions,
     /// A combination cannot be parsed.

@@ -781,10 +781,14 @@ impl Study {
     pub fn plan(&self) -> Result<Plan<'_>, StudyError> {
         let options = self.options.as_ref().ok_or(StudyError::NoEnd)?;
         let groups = self.groups()?.into_iter().map(|(_, group)| group);
-        let wanted = OutputRequest {
+        let mut wanted = OutputRequest {
             groups: groups.collect(),
             ..wanted(&self.scene.output)
         };
+        if self.bounds.is_some() && matches!(wanted.reactions, Reactions::Of(_)) {
+            // The bounds of one reaction depend on the loads of all.
+            wanted.reactions = Reactions::All;
+        }
         let options = MotionOptions {
             output_step: options.output_step / self.rows_between(&wanted) as f64,
             ..options.clone()

@@ -145,7 +145,9 @@ impl<'r> ToleranceStudy<'r> {
     /// redundancy, for elastic joints.
     #[must_use]
     pub fn with_bounds(mut self, elasticity: Option<Elasticity>) -> Self {
-        self.nominal.elasticity = elasticity;
+        if let Some(elasticity) = elasticity {
+            self.nominal.bound(elasticity);
+        }
         self
     }
 

@@ -188,6 +188,15 @@ pub enum BoundsError {
     Request(#[from] RequestError),
 }
 
+impl From<HullError> for BoundsError {
+    fn from(error: HullError) -> Self {
+        match error {
+            HullError::Free { free } => Self::Rigid { free },
+            HullError::Unclear { .. } | HullError::Many => Self::Many,
+        }
+    }
+}
+
 /// The solutions of a part for joints that give way by any law.
 pub struct ElasticSolutions<'c, 'm> {
     configuration: &'c Configuration<'m>,
@@ -212,49 +221,30 @@ impl<'m> Configuration<'m> {
         if !self.solvability().decision().is_decided() {
             return Err(BoundsError::Rank);
         }
-        let open = self.open_loads(&elasticity.centres)?;
-        self.elastic_solutions_of(lambda_0, elasticity, (&open, true))
+        self.elastic_solutions_of(lambda_0, elasticity, None)
     }
 
-    /// Returns the solutions of a mechanism with displaced data, in which the loads `open` give
-    /// way: those that are not unique in the described mechanism. Displaced data couple all loads,
-    /// but the couplings are within the tolerance. No verdicts are used.
+    /// Returns the solutions of the same mechanism with displaced data, from a solution λ₀ there.
+    /// The self-stresses are those of this configuration, in which the data are as described.
+    /// Displaced data couple all loads a little, and these couplings have no effect. No verdicts are
+    /// used.
     ///
     /// # Errors
     /// [`BoundsError`]
     pub fn elastic_solutions_displaced<'c>(
         &'c self,
+        displaced: (&'c Configuration<'m>, &Centres),
         lambda_0: &[f64],
         elasticity: &Elasticity,
-        open: &[ElasticLoad],
     ) -> Result<ElasticSolutions<'c, 'm>, BoundsError> {
-        self.elastic_solutions_of(lambda_0, elasticity, (open, false))
-    }
-
-    /// Returns the forces and moments that are not unique.
-    ///
-    /// # Errors
-    /// [`RequestError`]
-    pub fn open_loads(&self, centres: &Centres) -> Result<Vec<ElasticLoad>, RequestError> {
-        let mut open = Vec::new();
-        for reaction in self.layout().constraint_ids() {
-            for (is_moment, _, forms) in self.load_forms(reaction, centres)? {
-                if !self.is_unique(&forms)? {
-                    open.push(ElasticLoad {
-                        reaction,
-                        is_moment,
-                    });
-                }
-            }
-        }
-        Ok(open)
+        self.elastic_solutions_of(lambda_0, elasticity, Some(displaced))
     }
 
     fn elastic_solutions_of<'c>(
         &'c self,
         lambda_0: &[f64],
         elasticity: &Elasticity,
-        (open, is_judged): (&[ElasticLoad], bool),
+        displaced: Option<(&'c Configuration<'m>, &Centres)>,
     ) -> Result<ElasticSolutions<'c, 'm>, BoundsError> {
         let free = FreeMultipliers::of(self.solvability());
         let p = free.z.ncols();
@@ -262,7 +252,11 @@ impl<'m> Configuration<'m> {
         let (mut nominal, mut units) = (Vec::new(), Vec::new());
         let gives_way = |id: &ConstraintId| !elasticity.rigid.contains(id);
         for id in self.layout().constraint_ids().filter(gives_way) {
-            for (is_moment, unit, forms) in self.load_forms(id, &elasticity.centres)? {
+            let own = self.load_forms(id, &elasticity.centres)?;
+            let other = displaced.map(|(at, centres)| at.load_forms(id, centres));
+            let other = other.transpose()?;
+            for (k, (is_moment, unit, forms)) in own.iter().enumerate() {
+                let (is_moment, unit) = (*is_moment, *unit);
                 let compliance = match &elasticity.within {
                     Some(range) => range.of(id, unit == "N·m"),
                     None => Some(1.0),
@@ -274,17 +268,19 @@ impl<'m> Configuration<'m> {
                     reaction: id,
                     is_moment,
                 };
-                if open.binary_search(&load).is_err() {
+                if self.is_unique(forms)? {
                     continue;
                 }
                 nominal.push(compliance);
                 units.push(unit);
                 let group = loads.len();
-                elements.extend(forms.iter().map(|form| Element {
+                let valued = other.as_ref().map_or(forms, |other| &other[k].2);
+                let element = |(form, valued): (&LinearForm, &LinearForm)| Element {
                     group,
                     row: along(form, &free),
-                    value: form.value(lambda_0),
-                }));
+                    value: valued.value(lambda_0),
+                };
+                elements.extend(forms.iter().zip(valued).map(element));
                 loads.push(load);
             }
         }
@@ -292,8 +288,7 @@ impl<'m> Configuration<'m> {
             HullError::Unclear { group } => BoundsError::Undecided {
                 reaction: self.layout().groups[loads[group].reaction.0].name.clone(),
             },
-            HullError::Free { free } => BoundsError::Rigid { free },
-            HullError::Many => BoundsError::Many,
+            other => other.into(),
         })?;
         if let Some(range) = &elasticity.within {
             if range.nominal.is_none() {
@@ -322,8 +317,8 @@ impl<'m> Configuration<'m> {
             });
         }
         Ok(ElasticSolutions {
-            configuration: self,
-            is_judged,
+            configuration: displaced.map_or(self, |(at, _)| at),
+            is_judged: displaced.is_none(),
             free,
             lambda_0: lambda_0.to_vec(),
             loads,
@@ -414,7 +409,7 @@ impl ElasticSolutions<'_, '_> {
         match self.verdict(form)? {
             Verdict::Unique => Ok(ElasticBounds::of(value)),
             Verdict::NotUnique => {
-                let [lowest, highest] = self.hull.ends(&along(form, &self.free));
+                let [lowest, highest] = self.hull.ends(&along(form, &self.free))?;
                 let loads = |groups: &[usize]| groups.iter().map(|&k| self.loads[k]).collect();
                 let complete = lowest.is_bound && highest.is_bound;
                 if !complete && !(lowest.is_reached && highest.is_reached) {
@@ -448,7 +443,7 @@ impl ElasticSolutions<'_, '_> {
             };
             terms.push((value, along));
         }
-        self.hull.largest_norm(&terms).ok_or(BoundsError::Many)
+        Ok(self.hull.largest_norm(&terms)?)
     }
 
     fn verdict(&self, form: &LinearForm) -> Result<Verdict, RequestError> {

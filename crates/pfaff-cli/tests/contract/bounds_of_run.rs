@@ -285,3 +285,154 @@ fn an_analysis_along_the_motion_bounds_it() {
     let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
     assert!(d["along"].get("bounds").is_none());
 }
+
+/// Two bars on two hinges each, in one scene.
+const TWO_BARS: &str = r#"
+    scene = { name = "two bars", space = "plane", gravity = [0.0, -9.81] }
+    body = [
+        { name = "b1", mass = 1.0, inertia = 0.1, position = [0.5, 0.0] },
+        { name = "b2", mass = 1.0, inertia = 0.1, position = [5.5, 0.0] },
+    ]
+    joint = [
+        { name = "A", type = "revolute", bodies = ["ground", "b1"], at = [0.0, 0.0] },
+        { name = "B", type = "revolute", bodies = ["ground", "b1"], at = [1.0, 0.0] },
+        { name = "C", type = "revolute", bodies = ["ground", "b2"], at = [5.0, 0.0] },
+        { name = "D", type = "revolute", bodies = ["ground", "b2"], at = [6.0, 0.0] },
+    ]
+    simulate = { t_end = 0.1 }
+"#;
+
+/// Rigid joints leave loads of their own mechanism undetermined, and no others.
+#[test]
+fn rigid_joints_affect_only_what_depends_on_them() {
+    let output = with_scene(
+        &["analyze", "-", "--bounds", "--rigid", "C,D", "--json"],
+        TWO_BARS,
+    );
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    let number = |k: usize, what: &str| {
+        d.pointer(&format!("/reactions/{k}/{what}"))
+            .and_then(Value::as_f64)
+    };
+    for k in [0, 1] {
+        let most = number(k, "magnitude_at_most/force").expect("a bound");
+        assert!((most - 4.905).abs() < 1e-9, "{most}");
+    }
+    for k in [2, 3] {
+        assert_eq!(number(k, "magnitude_at_most/force"), None);
+    }
+    let without = d["bounds"]["without"].as_object().expect("names");
+    assert_eq!(without.keys().collect::<Vec<_>>(), ["C", "D"]);
+    // The component that is not unique is named.
+    let reason = without["C"].as_str().expect("a reason");
+    assert!(reason.starts_with("Fx: "), "{reason}");
+}
+
+/// A list of written reactions does not change the bounds of these reactions.
+#[test]
+fn bounds_do_not_depend_on_the_written_reactions() {
+    let folder = Folder::new("bounds-written");
+    let run = |output: &str| {
+        let scene = format!("{TWO_BARS}\noutput = {{ {output} }}");
+        let output = with_scene(
+            &["simulate", "-", "--bounds", "--out", folder.text()],
+            &scene,
+        );
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        assert!(!stdout(&output).contains("warning"), "{}", stdout(&output));
+        table(&folder)
+    };
+    let all = run("report = false");
+    let one = run(r#"report = false, reactions = ["B"]"#);
+    assert_eq!(one.0, ["t", "B.Fx.lowest", "B.Fx.highest"]);
+    assert_eq!(column(&one, "B.Fx.highest"), column(&all, "B.Fx.highest"));
+}
+
+/// Options of the command replace the keys of the scene one by one.
+#[test]
+fn options_replace_keys_of_the_scene() {
+    let folder = Folder::new("bounds-keys");
+    let scene = format!(
+        "{CART}\noutput = {{ report = false, bounds = {{ within = 3, compliance = \"left=1e-6,middle=1e-6,right=2e-6\" }} }}"
+    );
+    let ends = |options: &[&str]| {
+        let arguments = [&["simulate", "-", "--out", folder.text()], options].concat();
+        let output = with_scene(&arguments, &scene);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let found = table(&folder);
+        ["lowest", "highest"].map(|end| column(&found, &format!("right.N.{end}"))[0])
+    };
+    // The share of `right` is (1/c) over the sum: c = 2 … 6, and 1 … 3 of the others.
+    let expect = |found: [f64; 2], expected: [f64; 2]| {
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+        }
+    };
+    let share = |right: f64, others: f64| 5.0 / right / (1.0 / right + 2.0 / others);
+    expect(ends(&[]), [share(6.0, 1.0), share(2.0, 3.0)]);
+    expect(ends(&["--bounds"]), [share(6.0, 1.0), share(2.0, 3.0)]);
+    expect(ends(&["--within", "2"]), [share(4.0, 1.0), share(2.0, 2.0)]);
+}
+
+/// Small compliances and large factors stay in the range of numbers.
+#[test]
+fn compliances_of_any_size_have_bounds() {
+    let legs: Vec<String> = (0..40)
+        .map(|k| {
+            format!(
+                "{{ name = \"s{k}\", type = \"point-on-line\", body = \"beam\", at = [0.0, 0.0], line = [[-1.0, 0.0], [1.0, 0.0]] }},"
+            )
+        })
+        .collect();
+    let scene = format!(
+        "scene = {{ name = \"stack\", space = \"plane\", gravity = [0.0, -10.0] }}\n\
+         body = [{{ name = \"beam\", mass = 4.0, inertia = 1.0 }}]\njoint = [\n{}\n]",
+        legs.join("\n")
+    );
+    let list: Vec<String> = (0..40).map(|k| format!("s{k}=1e-12")).collect();
+    let list = list.join(",");
+    let output = with_scene(
+        &[
+            "analyze",
+            "-",
+            "--bounds",
+            "--within",
+            "2",
+            "--compliance",
+            &list,
+            "--json",
+        ],
+        &scene,
+    );
+    let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+    let at = |end: &str| {
+        let path = format!("/reactions/0/components/1/bounds/{end}");
+        d.pointer(&path).and_then(Value::as_f64)
+    };
+    let [lowest, highest] = ["lowest", "highest"].map(|end| at(end).expect("a number"));
+    // All legs alike carry 1 N; 40 springs in parallel within a factor of 2 carry 40/79 … 80/41.
+    assert!(lowest <= 40.0 / 79.0 + 1e-9 && highest >= 80.0 / 41.0 - 1e-9);
+    assert!(
+        lowest >= -1e-9 && highest <= 40.0 + 1e-9,
+        "{lowest} {highest}"
+    );
+}
+
+/// Requests that cannot be satisfied are found before a run.
+#[test]
+fn a_wrong_request_is_found_by_check() {
+    for (bounds, words) in [
+        ("{ within = 0 }", "need a ratio"),
+        (r#"{ within = 2, compliance = "zz=1" }"#, "zz"),
+        (r#"{ within = 2, compliance = "left=banana" }"#, "banana"),
+    ] {
+        let scene = format!("{CART}\noutput = {{ bounds = {bounds} }}");
+        let output = with_scene(&["check", "-"], &scene);
+        assert_eq!(output.status.code(), Some(2), "{bounds}");
+        assert!(
+            stderr(&output).contains(words),
+            "{bounds}: {}",
+            stderr(&output)
+        );
+    }
+}

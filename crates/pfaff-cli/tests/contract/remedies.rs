@@ -283,3 +283,52 @@ fn remedies_of_random_mechanisms_are_sufficient() {
     }
     assert!(count >= RANDOM[1], "{count}");
 }
+
+/// A bar whose rotation is blocked at second order has no remedy, also with a wheel that turns:
+/// a weaker joint would free it.
+#[test]
+fn a_blocked_motion_is_not_freed() {
+    let scene = r#"
+        scene = { name = "blocked", space = "plane" }
+        body = [
+            { name = "bar", mass = 1.0, inertia = 0.5, position = [0.0, 2.0] },
+            { name = "wheel", mass = 1.0, inertia = 0.5, position = [5.0, 0.0] },
+        ]
+        joint = [
+            { name = "pin", type = "revolute", bodies = ["bar", "ground"], at = [2.0, 2.0] },
+            { name = "roller", type = "point-on-line", body = "bar", at = [2.0, 1.0], line = [[2.0, 1.0], [3.0, 1.0]] },
+            { name = "hub", type = "revolute", bodies = ["ground", "wheel"], at = [5.0, 0.0] },
+        ]
+    "#;
+    let text = stdout(&with_scene(&["analyze", "-"], scene));
+    assert!(text.contains("blocked at second order"), "{text}");
+    assert!(!text.contains("the motion is the same"), "{text}");
+}
+
+/// Directions of a remedy belong to the first body; a joint whose directions are global has none.
+#[test]
+fn global_directions_stay_global() {
+    let scene = |frame: &str| {
+        format!(
+            r#"
+            scene = {{ name = "leaf", space = "spatial", gravity = [0.0, 0.0, -9.81] }}
+            body = [{{ name = "leaf", mass = 20.0, inertia = [1.0, 1.0, 1.0], position = [0.5, 0.0, 1.0], orientation = {{ axis = [1, 0, 0], angle = 0.9 }} }}]
+            joint = [
+                {{ name = "lower", type = "revolute", bodies = ["leaf", "ground"], at = [0, 0, 0], axis = [0, 0, 1]{frame} }},
+                {{ name = "middle", type = "revolute", bodies = ["leaf", "ground"], at = [0, 0, 1], axis = [0, 0, 1]{frame} }},
+                {{ name = "upper", type = "revolute", bodies = ["leaf", "ground"], at = [0, 0, 2], axis = [0, 0, 1]{frame} }},
+            ]
+            "#
+        )
+    };
+    let remedies = |scene: &str| {
+        let output = with_scene(&["analyze", "-", "--json", "--remedies"], scene);
+        let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+        d["remedies"].as_array().cloned().unwrap_or_default()
+    };
+    for remedy in remedies(&scene(", frame = \"global\"")) {
+        for replaced in remedy["replace"].as_array().expect("a list") {
+            assert!(replaced.get("directions").is_none(), "{replaced}");
+        }
+    }
+}

@@ -519,3 +519,65 @@ fn samples_have_the_bounds_of_the_mechanism_that_is_described() {
         "{text}"
     );
 }
+
+/// The rank of displaced data is higher than that of the described mechanism: a beam that can slide
+/// on three supports. The bounds are those of the described mechanism, for any size of the tolerance.
+#[test]
+fn bounds_of_samples_are_continuous_in_the_tolerance() {
+    let scene = r#"
+        scene = { name = "beam", space = "plane", gravity = [0.0, -9.81] }
+        body = [{ name = "bar", mass = 1.0, inertia = 0.1, position = [0.5, 0.0] }]
+        joint = [
+            { name = "A", type = "point-on-line", body = "bar", at = [0.0, 0.0], line = [[0.0, 0.0], [1.0, 0.0]] },
+            { name = "B", type = "point-on-line", body = "bar", at = [0.4, 0.0], line = [[0.0, 0.0], [1.0, 0.0]] },
+            { name = "C", type = "point-on-line", body = "bar", at = [1.1, 0.0], line = [[0.0, 0.0], [1.0, 0.0]] },
+        ]
+    "#;
+    for tolerance in [1e-10, 1e-8, 1e-6, 1e-4, 1e-3] {
+        let text = format!("{tolerance:e}");
+        let arguments = [
+            "tolerance",
+            "-",
+            "--bounds",
+            "--runs",
+            "40",
+            "--tolerance",
+            &text,
+            "--json",
+        ];
+        let output = with_scene(&arguments, scene);
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let d: Value = serde_json::from_str(&stdout(&output)).expect("JSON");
+        // 9.81 N at 0.5 m on two of the supports at 0, 0.4 and 1.1 m.
+        for (name, ends) in [
+            ("A", [9.81 * (0.4 - 0.5) / 0.4, 9.81 * (1.1 - 0.5) / 1.1]),
+            ("B", [0.0, 9.81 * 0.5 / 0.4]),
+            ("C", [0.0, 9.81 * 0.5 / 1.1]),
+        ] {
+            let reactions = d["reactions"].as_array().expect("a list");
+            let own = reactions
+                .iter()
+                .find(|r| r["name"] == name)
+                .expect("a reaction");
+            for value in own["values"].as_array().expect("a list") {
+                let Some(bounds) = value.get("bounds") else {
+                    continue;
+                };
+                let found =
+                    ["lowest", "highest"].map(|end| bounds[end].as_f64().expect("a number"));
+                let expected = match value["name"].as_str() {
+                    Some("Fy") => ends,
+                    Some("Fx") => [0.0; 2],
+                    _ => continue,
+                };
+                for (found, expected) in found.into_iter().zip(expected) {
+                    let near = 1e-9 + 60.0 * tolerance;
+                    assert!(
+                        (found - expected).abs() < near,
+                        "{name} {tolerance}: {found} {expected}"
+                    );
+                }
+            }
+        }
+    }
+}

@@ -8,7 +8,8 @@ use serde::Deserialize;
 
 pub use answer::CheckAnswer;
 
-use crate::configuration::ConfigurationAnalysis;
+use crate::configuration::{ConfigurationAnalysis, requests};
+use crate::elasticity::elasticity;
 use crate::error::StudyError;
 use crate::question::{Control, Question};
 use crate::refusal::Refusal;
@@ -33,6 +34,12 @@ impl Question for Check {
 
     fn answer(&self, of: &Start<'_>, control: &Control<'_>) -> Result<CheckAnswer, Refusal> {
         let judged = of.judged(control)?;
+        let (scene, mechanism) = judged.parts();
+        if let Some(wanted) = &scene.output.bounds {
+            let reaction =
+                |name: &str| requests::reaction(scene, mechanism, name).map_err(|e| of.refusal(e));
+            elasticity(wanted, mechanism.layout(), &reaction)?;
+        }
         let answered = match judged.as_ref() {
             JudgedStart::Moves(study) => study.check_drives().and_then(|()| {
                 let start = of.configuration(&judged, 0.0, control, |_| ())?;

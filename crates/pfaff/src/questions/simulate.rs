@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use solvability::Choice;
 
 use crate::choice::choices;
-use crate::elasticity::{elasticity, requested};
+use crate::elasticity::{combined, elasticity};
 use crate::error::StudyError;
 use crate::question::{
     Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Progress, Question, Writing,
@@ -101,9 +101,9 @@ impl Question for Simulate {
             return Err(Refusal::input(message));
         }
         let (within, compliance) = (self.within, self.compliance.as_deref());
-        let wanted = requested(self.bounds, &self.rigid, within, compliance)?;
-        let wanted = wanted.as_ref().or(study.scene.output.bounds.as_ref());
-        let bounds = wanted.map(|wanted| elasticity(wanted, mechanism.layout(), &reaction));
+        let of_scene = study.scene.output.bounds.as_ref();
+        let wanted = combined(of_scene, self.bounds, &self.rigid, within, compliance)?;
+        let bounds = wanted.map(|wanted| elasticity(&wanted, mechanism.layout(), &reaction));
         let bounds = bounds.transpose()?;
         (study.choices, study.bounds) = (choices, bounds);
         let memory = study.memory(of.text.len()).map_err(|e| of.refusal(e))?;

@@ -5,7 +5,7 @@ use model::start::KeepLevel;
 use model::{ConstraintId, DataBlock, DataUnit, Mechanism, System};
 use rank::Doubt;
 use scene::Scene;
-use solvability::{Configuration, ElasticLoad, Elasticity, RowDecision, rows_of_rank};
+use solvability::{Configuration, Elasticity, RowDecision, rows_of_rank};
 
 use super::error::ToleranceError;
 use super::quantity::Quantity;
@@ -71,8 +71,8 @@ pub(super) struct Nominal {
     pub(super) quantities: Vec<Quantity>,
     /// The verdict on each quantity for the rank of the described mechanism.
     pub(super) verdicts: Vec<&'static str>,
-    /// The loads that are not unique as described, ascending.
-    pub(super) open: Vec<ElasticLoad>,
+    /// The described configuration, for bounds.
+    pub(super) configuration: Option<Configuration<'static>>,
     /// The scene, for the points about which moments give way.
     pub(super) described: Scene,
     /// Elastic joints for which bounds are computed; `None` without bounds.
@@ -104,7 +104,6 @@ impl Nominal {
             Some(doubt) => lower_rank(mechanism, &s, &state.q, doubt, prepared)?,
         };
         let quantities = Quantity::all(mechanism);
-        let mut open = Vec::new();
         let mut verdicts = vec!["undecided"; quantities.len()];
         let mut reactions: Vec<NominalReaction> = layout
             .groups
@@ -126,9 +125,6 @@ impl Nominal {
             }
             if let Some(decision) = found.analysis.whole() {
                 let configuration = Configuration::new(mechanism, t, &state.q, &decision)
-                    .map_err(StudyError::from)?;
-                open = configuration
-                    .open_loads(&found.centres())
                     .map_err(StudyError::from)?;
                 for (verdict, quantity) in verdicts.iter_mut().zip(&quantities) {
                     *verdict = quantity.verdict(mechanism, &configuration, 0.0);
@@ -161,7 +157,7 @@ impl Nominal {
             reactions,
             quantities,
             verdicts,
-            open,
+            configuration: None,
             described: study.scene.clone(),
             elasticity: None,
             base: Base {

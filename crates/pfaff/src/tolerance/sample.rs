@@ -308,6 +308,17 @@ impl Nominal {
         s: &Scratch,
         q: &[f64],
     ) -> Option<Configuration<'m>> {
+        let decision = self.described_decision(mechanism, s, q)?;
+        Configuration::new(mechanism, self.t, q, &decision).ok()
+    }
+
+    /// Returns the decision with the described redundancy; `None` without redundant rows.
+    fn described_decision(
+        &self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        q: &[f64],
+    ) -> Option<RankDecision> {
         let rows = mechanism.layout().rows();
         if self.kept.len() == rows {
             return None;
@@ -316,8 +327,7 @@ impl Nominal {
             .filter(|i| self.kept.binary_search(i).is_err())
             .collect();
         let of_rank = (rows, self.kept.len());
-        let decision = solvability::decide_of_rank(mechanism, s, q, of_rank, Some(&dropped));
-        Configuration::new(mechanism, self.t, q, &decision.ok()?).ok()
+        solvability::decide_of_rank(mechanism, s, q, of_rank, Some(&dropped)).ok()
     }
 
     /// Returns the verdicts on the numbers with the described redundancy. In a misaligned mechanism
@@ -336,6 +346,22 @@ impl Nominal {
         self.quantities.iter().map(verdict).collect()
     }
 
+    /// Requests bounds for elastic joints. The self-stresses are those of the described
+    /// configuration.
+    pub(super) fn bound(&mut self, elasticity: Elasticity) {
+        let (mechanism, q) = (&self.mechanism, &self.base.q);
+        let mut s = mechanism.scratch();
+        mechanism.pose(self.t, q, &mut s);
+        mechanism.c(&mut s);
+        let decision = self.described_decision(mechanism, &s, q);
+        self.configuration = decision
+            .and_then(|decision| Configuration::owned(mechanism, self.t, q, &decision).ok());
+        self.elasticity = Some(Elasticity {
+            centres: centres(&self.described, mechanism, q),
+            ..elasticity
+        });
+    }
+
     /// Returns bounds of the numbers with the described redundancy, if they are requested.
     fn bounds_of(
         &self,
@@ -346,11 +372,10 @@ impl Nominal {
         let Some(elasticity) = &self.elasticity else {
             return Vec::new();
         };
-        let elasticity = Elasticity {
-            centres: centres(&self.described, mechanism, q),
-            ..elasticity.clone()
-        };
-        let found = at.map(|at| at.elastic_solutions_displaced(lambda, &elasticity, &self.open));
+        let centres = centres(&self.described, mechanism, q);
+        let found = self.configuration.as_ref().zip(at).map(|(described, at)| {
+            described.elastic_solutions_displaced((at, &centres), lambda, elasticity)
+        });
         let of = |quantity: &Quantity| match (&found, at) {
             (Some(Ok(found)), Some(at)) => quantity.bounds(at, found),
             _ => [f64::NAN; 2],

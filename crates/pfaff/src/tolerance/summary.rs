@@ -280,7 +280,8 @@ impl Nominal {
             }
             None => Some(CANNOT_MOVE),
         };
-        let bounds = bounds.filter(|_| range.is_none());
+        // Exact data may decide a number that is not unique as described.
+        let bounds = bounds.filter(|_| range.is_none() || !unique);
         QuantityRangeDocument {
             name: quantity.name,
             unit: quantity.unit,

@@ -47,6 +47,10 @@ pub fn retyped(text: &str, joints: &[&RetypedJoint]) -> Option<String> {
     let mut root: Table = is_small.then(|| text.parse().ok())??;
     for change in joints {
         let table = joint(&mut root, &change.joint)?;
+        // With `frame`, the directions would be in other axes.
+        if !change.directions.is_empty() && table.contains_key(direction::FRAME) {
+            return None;
+        }
         let known = keys(change.to);
         for key in keys(change.from) {
             if !change.directions.is_empty() || !known.contains(&key) {

@@ -8,8 +8,9 @@ use linalg::{DisjointSets, Matrix, PivotedQr, RowBasis, symmetric_eigen};
 
 use super::separation::is_separated;
 use crate::limits::{
-    CLEAR_MINOR, CLEAR_OF_ZERO, CORNER_POINTS, ELASTIC_SETS, EQUAL_LEVERAGE, MAGNITUDE_POINTS,
-    MERGED_POINTS, RANDOM_SAMPLES, SAMPLE_WORK, SAMPLED_RATIO, TIED_ENDS, ZERO_MINOR,
+    CLEAR_MINOR, CLEAR_OF_ZERO, CORNER_POINTS, ELASTIC_SETS, EQUAL_LEVERAGE, LARGEST_EXPONENT,
+    MAGNITUDE_POINTS, MERGED_POINTS, RANDOM_SAMPLES, SAMPLE_WORK, SAMPLED_RATIO, TIED_ENDS,
+    ZERO_MINOR,
 };
 
 /// A component of a load: `value + row·y` for the solution `λ₀ + Z·y`.
@@ -75,6 +76,8 @@ pub(super) struct Hull {
     /// Factors of the transposed rows of the basis: `y′ = A_B·y` are the coordinates of the blocks.
     basis: PivotedQr,
     blocks: Vec<Block>,
+    /// Orthonormal directions of y that change the elements, if there are other directions.
+    span: Option<Vec<Vec<f64>>>,
     /// Sizes by which the components of each load were divided.
     sizes: Vec<f64>,
     /// Number of sets in all blocks.
@@ -168,11 +171,12 @@ impl Block {
     /// corners of the range. Otherwise the weight of a monomial of degree p varies by the factor to
     /// the power p.
     fn restrict(&mut self, range: &Range<'_>, sizes: &[f64]) {
+        // Logarithms: products of many compliances leave the range of numbers.
+        let nominal = |(load, n): &(usize, u32)| {
+            f64::from(*n) * (range.nominal[*load].ln() + 2.0 * sizes[*load].ln())
+        };
         for point in &mut self.points {
-            for &(load, n) in &point.monomial {
-                let nominal = range.nominal[load] * sizes[load] * sizes[load];
-                point.weight *= nominal.powi(n.cast_signed());
-            }
+            point.weight = point.weight.ln() + point.monomial.iter().map(nominal).sum::<f64>();
         }
         let degree = self.coordinates.len();
         let loads: Vec<usize> = self.loads().into_iter().collect();
@@ -183,6 +187,7 @@ impl Block {
         let corners = corners.filter(|n| n.saturating_mul(self.points.len()) <= CORNER_POINTS);
         match corners {
             _ if degree == 1 => {
+                self.exponentiate();
                 self.weights = Weights::UpTo(range.factor);
                 self.points = [1.0, -1.0].map(|sign| self.end(sign)).into();
                 self.weights = Weights::Corners;
@@ -199,9 +204,22 @@ impl Block {
                 self.weights = Weights::Corners;
             }
             _ => {
-                let factor = range.factor.powi(degree.min(i32::MAX as usize) as i32);
-                self.weights = Weights::UpTo(factor);
+                self.exponentiate();
+                let exponent = range.factor.ln() * degree as f64;
+                // A larger factor does not restrict the averages noticeably.
+                if exponent < LARGEST_EXPONENT {
+                    self.weights = Weights::UpTo(exponent.exp());
+                }
             }
+        }
+    }
+
+    /// Replaces the logarithms of the weights by weights relative to the largest one.
+    fn exponentiate(&mut self) {
+        let weights = self.points.iter().map(|point| point.weight);
+        let most = weights.fold(f64::NEG_INFINITY, f64::max);
+        for point in &mut self.points {
+            point.weight = (point.weight - most).exp();
         }
     }
 
@@ -220,9 +238,17 @@ impl Block {
     /// Returns the solution whose soft loads are softer by a factor.
     fn average(&self, is_soft: impl Fn(&usize) -> bool, factor: f64) -> HullPoint {
         let (mut total, mut y) = (0.0, vec![0.0; self.coordinates.len()]);
-        for point in &self.points {
+        let weight = |point: &HullPoint| {
             let soft = point.monomial.iter().filter(|(load, _)| is_soft(load));
-            let weight = soft.fold(point.weight, |w, _| w * factor);
+            point.weight + soft.count() as f64 * factor.ln()
+        };
+        let most = self
+            .points
+            .iter()
+            .map(weight)
+            .fold(f64::NEG_INFINITY, f64::max);
+        for point in &self.points {
+            let weight = (weight(point) - most).exp();
             total += weight;
             y.iter_mut()
                 .zip(&point.y)
@@ -334,7 +360,18 @@ impl Hull {
         most: u64,
     ) -> Result<Self, HullError> {
         let zero = Zero::new(tolerance);
-        let (elements, sizes) = principal(elements, p, zero)?;
+        let (mut elements, mut p, mut span) = (elements, p, None);
+        let mut principal_axes = principal(&elements, p, zero);
+        if let Err(HullError::Free { .. }) = principal_axes {
+            let directions = span_of(&elements, p, zero);
+            for element in &mut elements {
+                element.row = directions.iter().map(|d| dot(d, &element.row)).collect();
+            }
+            p = directions.len();
+            span = Some(directions);
+            principal_axes = principal(&elements, p, zero);
+        }
+        let (elements, sizes) = principal_axes?;
         let matrix = Matrix::from_fn(elements.len(), p, |i, j| elements[i].row[j]);
         let basis = RowBasis::most_independent(matrix.clone(), p);
         let outside: Vec<Vec<f64>> = (0..basis.dropped().len())
@@ -355,6 +392,7 @@ impl Hull {
         let mut hull = Self {
             basis: PivotedQr::of_columns(&matrix.select_rows(basis.kept()).transpose()),
             blocks: Vec::new(),
+            span,
             sizes,
             sets: 0,
         };
@@ -434,15 +472,31 @@ impl Hull {
         }
     }
 
-    /// Returns the coefficients of a linear form of y in the coordinates of the blocks.
-    fn in_blocks(&self, along: &[f64]) -> Vec<f64> {
-        solved(&self.basis, along.to_vec())
+    /// Returns the coefficients of a linear form of y in the coordinates of the blocks, or an error
+    /// if it depends on directions of y that change no element.
+    fn in_blocks(&self, along: &[f64]) -> Result<Vec<f64>, HullError> {
+        let Some(span) = &self.span else {
+            return Ok(solved(&self.basis, along.to_vec()));
+        };
+        let own: Vec<f64> = span.iter().map(|d| dot(d, along)).collect();
+        let mut rest = along.to_vec();
+        for (d, x) in span.iter().zip(&own) {
+            rest.iter_mut().zip(d).for_each(|(r, d)| *r -= x * d);
+        }
+        if norm(&rest) > CLEAR_MINOR * norm(along) {
+            let free = along.len() - span.len();
+            return Err(HullError::Free { free });
+        }
+        Ok(solved(&self.basis, own))
     }
 
     /// Returns the smallest and the largest value of a linear form of y.
-    pub(super) fn ends(&self, along: &[f64]) -> [RangeEnd; 2] {
-        let along = self.in_blocks(along);
-        [1.0, -1.0].map(|sign| {
+    ///
+    /// # Errors
+    /// [`HullError::Free`]
+    pub(super) fn ends(&self, along: &[f64]) -> Result<[RangeEnd; 2], HullError> {
+        let along = self.in_blocks(along)?;
+        Ok([1.0, -1.0].map(|sign| {
             let (mut value, mut chosen) = (0.0, Vec::new());
             for block in &self.blocks {
                 let own: Vec<f64> = block.coordinates.iter().map(|&k| along[k]).collect();
@@ -481,15 +535,16 @@ impl Hull {
                 is_reached,
                 is_bound: !chosen.iter().any(is_sampled),
             }
-        })
+        }))
     }
 
-    /// Returns the largest norm of vectors whose components are linear in y; `None` without bounds.
-    pub(super) fn largest_norm(&self, terms: &[(f64, Vec<f64>)]) -> Option<f64> {
-        let rows: Vec<Vec<f64>> = terms
-            .iter()
-            .map(|(_, along)| self.in_blocks(along))
-            .collect();
+    /// Returns the largest norm of vectors whose components are linear in y.
+    ///
+    /// # Errors
+    /// [`HullError::Free`]; [`HullError::Many`]: there is a range, but no bound.
+    pub(super) fn largest_norm(&self, terms: &[(f64, Vec<f64>)]) -> Result<f64, HullError> {
+        let rows = terms.iter().map(|(_, along)| self.in_blocks(along));
+        let rows: Vec<Vec<f64>> = rows.collect::<Result<_, _>>()?;
         let mut sums = vec![terms.iter().map(|(value, _)| *value).collect::<Vec<f64>>()];
         for block in &self.blocks {
             let change = |point: &HullPoint| -> Vec<f64> {
@@ -504,11 +559,11 @@ impl Hull {
                 continue;
             }
             if block.weights == Weights::Samples {
-                return None;
+                return Err(HullError::Many);
             }
             let is_restricted = matches!(block.weights, Weights::UpTo(_));
             if is_restricted || sums.len() * changes.len() > MAGNITUDE_POINTS {
-                return Some(self.norm_of_ends(terms));
+                return self.norm_of_ends(terms);
             }
             let add = |sum: &Vec<f64>, change: &Vec<f64>| -> Vec<f64> {
                 sum.iter().zip(change).map(|(a, b)| a + b).collect()
@@ -518,18 +573,16 @@ impl Hull {
                 .flat_map(|sum| changes.iter().map(move |c| (sum, c)));
             sums = pairs.map(|(sum, change)| add(sum, change)).collect();
         }
-        Some(sums.iter().map(|x| norm(x)).fold(0.0, f64::max))
+        Ok(sums.iter().map(|x| norm(x)).fold(0.0, f64::max))
     }
 
     /// Returns the norm of the largest absolute values of the components.
-    fn norm_of_ends(&self, terms: &[(f64, Vec<f64>)]) -> f64 {
+    fn norm_of_ends(&self, terms: &[(f64, Vec<f64>)]) -> Result<f64, HullError> {
         let largest = terms.iter().map(|(value, along)| {
-            let [lowest, highest] = self.ends(along);
-            (value + lowest.value)
-                .abs()
-                .max((value + highest.value).abs())
+            let ends = self.ends(along)?.map(|end| (value + end.value).abs());
+            Ok(ends[0].max(ends[1]))
         });
-        norm(&largest.collect::<Vec<_>>())
+        Ok(norm(&largest.collect::<Result<Vec<f64>, _>>()?))
     }
 }
 
@@ -663,11 +716,28 @@ impl Minors<'_> {
     }
 }
 
+/// Returns orthonormal directions that span the rows of the elements.
+fn span_of(elements: &[Element], p: usize, zero: Zero) -> Vec<Vec<f64>> {
+    let size = |e: &Element| norm(&e.row).max(f64::MIN_POSITIVE);
+    let rows = Matrix::from_fn(p, elements.len(), |i, j| {
+        elements[j].row[i] / size(&elements[j])
+    });
+    let qr = PivotedQr::of_columns(&rows);
+    let rank = qr.r_diagonal().filter(|r| r.abs() > zero.zero).count();
+    let direction = |k: usize| {
+        let mut unit = vec![0.0; p];
+        unit[k] = 1.0;
+        qr.q_mul(&mut unit);
+        unit
+    };
+    (0..rank).map(direction).collect()
+}
+
 /// Rotates the components of each load to the principal axes of its leverage
 /// `A_X·(Σ AᵀA)⁻¹·A_Xᵀ`, which do not depend on the axes of the scene, and scales each load to
 /// size one. Components that do not depend on y are left out. The sizes are returned, too.
 fn principal(
-    elements: Vec<Element>,
+    elements: &[Element],
     p: usize,
     zero: Zero,
 ) -> Result<(Vec<Element>, Vec<f64>), HullError> {

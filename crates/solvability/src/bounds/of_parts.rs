@@ -110,7 +110,15 @@ impl<'q, 'm> ReactionBounds<'q, 'm> {
                     configuration.value(form, &extent.of_rows(lambda)),
                 ))
             }
-            Some(Err(e)) => Err(e.clone()),
+            Some(Err(e)) => {
+                // A unique number has a value without bounds of other numbers.
+                let configuration = self.questions.configuration(k)?;
+                if !configuration.judge(form)?.verdict.is_unique() {
+                    return Err(e.clone());
+                }
+                let lambda = extent.of_rows(self.solution.multipliers.as_chosen());
+                Ok(ElasticBounds::of(configuration.value(form, &lambda)))
+            }
             Some(Ok(solutions)) => {
                 let whole = |load: ElasticLoad| ElasticLoad {
                     reaction: ConstraintId(extent.group(load.reaction.0)),

@@ -1,6 +1,6 @@
 //! The hull of small systems, compared with values by hand.
 
-use super::hull::{Element, Hull, HullError};
+use super::hull::{Element, Hull, HullError, Range};
 
 fn element(group: usize, row: &[f64], value: f64) -> Element {
     Element {
@@ -40,10 +40,12 @@ fn a_weak_component_is_undecided() {
     // With data of this accuracy the component may be zero.
     assert_eq!(with(1e-3, 1e-2), Ok(1 + 1));
     assert_eq!(with(1e-3, 5e-4), Err(HullError::Unclear { group: 0 }));
-    assert_eq!(
-        Hull::new(vec![element(0, &[1.0, 0.0], 1.0)], 2, 0.0).err(),
-        Some(HullError::Free { free: 1 })
-    );
+    // The second coordinate changes no element.
+    let one = hull(vec![element(0, &[1.0, 0.0], 1.0)], 2);
+    let free = one.ends(&[1.0, 0.5]).err();
+    assert_eq!(free, Some(HullError::Free { free: 1 }));
+    let ends = one.ends(&[2.0, 0.0]).expect("determined");
+    assert!(ends.iter().all(|end| (end.value + 2.0).abs() < 1e-12));
 }
 
 /// Two loads with two components each: their monomials are the two squares and the product, which
@@ -55,7 +57,7 @@ fn the_middle_of_two_joints_is_not_reached() {
     for _ in 0..100 {
         let elements = (0..4).map(|k| element(k / 2, &[next(), next()], next()));
         let hull = hull(elements.collect(), 2);
-        for end in hull.ends(&[next(), next()]) {
+        for end in hull.ends(&[next(), next()]).expect("determined") {
             match end.groups.as_slice() {
                 [0, 1] => {
                     middles += 1;
@@ -113,14 +115,15 @@ fn a_range_that_is_reached_is_not_called_bounds() {
         let sampled = Hull::of_sets(elements, 3, 0.0, 0).expect("few elements");
         assert!(sampled.is_sampled() && !all.is_sampled() && sampled.sets == 0);
         let along: Vec<f64> = (0..3).map(|_| next()).collect();
-        let (all, some) = (all.ends(&along), sampled.ends(&along));
+        let [all, some] = [&all, &sampled].map(|hull| hull.ends(&along).expect("determined"));
         assert!(all.iter().all(|end| end.is_bound) && some.iter().all(|end| !end.is_bound));
         let width = all[1].value - all[0].value;
         // Each point is a solution, so the range is not wider.
         assert!(some[0].value >= all[0].value - 1e-9 * width);
         assert!(some[1].value <= all[1].value + 1e-9 * width);
         assert!(some[1].value - some[0].value > 0.3 * width);
-        assert_eq!(sampled.largest_norm(&[(1.0, along)]), None);
+        let most = sampled.largest_norm(&[(1.0, along)]);
+        assert_eq!(most, Err(HullError::Many));
     }
 }
 
@@ -150,12 +153,42 @@ fn a_common_load_couples_its_components() {
         element(1, &[0.0, 1.0], 0.0),
     ];
     let hull = hull(elements, 2);
-    let [lowest, highest] = hull.ends(&[1.0, -1.0]);
+    let [lowest, highest] = hull.ends(&[1.0, -1.0]).expect("determined");
     assert!(lowest.value.abs() < 1e-12 && highest.value.abs() < 1e-12);
-    let [lowest, highest] = hull.ends(&[1.0, 0.0]);
+    let [lowest, highest] = hull.ends(&[1.0, 0.0]).expect("determined");
     assert!((lowest.value + 1.0).abs() < 1e-12 && highest.value.abs() < 1e-12);
     assert!(lowest.is_reached && highest.is_reached);
     let longest = hull.largest_norm(&[(1.0, vec![1.0, 0.0]), (1.0, vec![0.0, 1.0])]);
     let longest = longest.expect("bounds");
     assert!((longest - 2.0_f64.sqrt()).abs() < 1e-12);
+}
+
+/// Two loads of one component each in every coordinate: y_k = −a·c/(a + b) with any ratio a : b.
+/// Very large factors and very small compliances neither overflow nor vanish.
+#[test]
+fn large_factors_restrict_nothing() {
+    for p in [1, 3, 40] {
+        for (factor, nominal) in [(1e9, 1e-9), (1e70, 1.0), (1e300, 1e-300), (1e200, 1e250)] {
+            let elements = (0..2 * p).map(|k| {
+                let mut row = vec![0.0; p];
+                row[k / 2] = 1.0;
+                element(k, &row, f64::from(u8::from(k % 2 == 0)))
+            });
+            let mut hull = hull(elements.collect(), p);
+            hull.restrict(&Range {
+                factor,
+                nominal: &vec![nominal; 2 * p],
+            });
+            let ends = hull.ends(&vec![1.0; p]).expect("determined");
+            let p = p as f64;
+            let expected = [-p * factor / (1.0 + factor), -p / (1.0 + factor)];
+            for (end, expected) in ends.iter().zip(expected) {
+                assert!(
+                    (end.value - expected).abs() < 1e-9 * p,
+                    "{} {expected}",
+                    end.value
+                );
+            }
+        }
+    }
 }

@@ -36,6 +36,19 @@ impl<'a> Configuration<'a> {
         Self::of(Cow::Borrowed(mechanism), t, q, decision)
     }
 
+    /// Works like [`Self::new`], with a copy of the mechanism.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Self::new`].
+    pub fn owned(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        decision: &RankDecision,
+    ) -> Result<Configuration<'static>, RequestError> {
+        Configuration::of(Cow::Owned(mechanism.clone()), t, q, decision)
+    }
+
     /// Decides the rank of C at a configuration, like [`crate::decide`].
     ///
     /// # Errors
@@ -120,7 +133,6 @@ impl<'a> Configuration<'a> {
     }
 
     /// Returns the rows and columns of the mechanism.
-    /// Returns the layout of the rows of the mechanism.
     #[must_use]
     pub fn layout(&self) -> &Layout {
         self.reactions.mechanism.layout()

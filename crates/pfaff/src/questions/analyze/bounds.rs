@@ -311,7 +311,7 @@ fn of_reactions(
             let numbers = found.group(&Group::Combination(vec![term]))?;
             Ok::<_, BoundsError>(numbers.into_iter().map(|(_, bounds)| bounds).next())
         };
-        let mut reason = None;
+        let mut reason: Option<String> = None;
         let mut has_moment = false;
         for component in &mut reaction.components {
             match of_component(component.name) {
@@ -323,7 +323,9 @@ fn of_reactions(
                         (component.bounds, component.reached_at_least) = (own, reached);
                     }
                 }
-                Err(e) => reason = Some(format!("{}: {e}", component.name)),
+                Err(e) => {
+                    reason.get_or_insert_with(|| format!("{}: {e}", component.name));
+                }
             }
         }
         match found.largest_magnitudes(id) {

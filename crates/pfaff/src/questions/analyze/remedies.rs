@@ -53,6 +53,7 @@ pub(super) fn add(
             *remedies = Search { start, of: &freed }.remedies(&motion)?;
         }
     } else if document.evidence.permanent != Some(false)
+        && of.freedoms()?.blocked.is_empty()
         && (of.cannot_move()? != Some(true) || document.ranks.mobility == 0)
     {
         *remedies = Search { start, of }.remedies("the motion is the same")?;

@@ -56,9 +56,14 @@ fn bounds(d: &ToleranceDocument) -> Vec<Block> {
     let size = |b: &BoundsOfSamples| b.lowest.abs().max(b.highest.abs());
     known.sort_by(|a, b| size(&b.2).total_cmp(&size(&a.2)));
     if known.is_empty() {
-        return vec![Block::sentence(
-            "no reaction without range has bounds in all samples",
-        )];
+        let words = match d.described.redundancy {
+            0 => "no bounds: no row is redundant as described",
+            _ => {
+                "no bounds: some samples have none, for example because too many joints are rigid; \
+                 `analyze --bounds` prints the reason"
+            }
+        };
+        return vec![Block::sentence(words)];
     }
     let lines = known.iter().take(LISTED).map(|(r, value, bounds)| {
         [
