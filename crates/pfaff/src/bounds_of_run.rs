@@ -45,8 +45,6 @@ const STORED: usize = 4_000_000;
 
 /// Writer of `bounds.csv`. The bounds of several rows are computed in parallel.
 pub(crate) struct BoundsOfRun<'m> {
-    /// The directory of the table, if the table is written.
-    directory: Option<&'m OutputDirectory>,
     mechanism: &'m Mechanism,
     elasticity: &'m Elasticity,
     scene: &'m Scene,
@@ -55,7 +53,8 @@ pub(crate) struct BoundsOfRun<'m> {
     /// The joints and drives of the columns.
     reactions: Vec<ConstraintId>,
     rtol: f64,
-    table: Option<BoundsTable<OutputFile>>,
+    /// The table with its directory, if it is written.
+    table: Option<(&'m OutputDirectory, BoundsTable<OutputFile>)>,
     rows: TableRows,
     /// Whether rows between those of the table are computed for the page.
     is_pictured: bool,
@@ -105,8 +104,7 @@ impl<'m> BoundsOfRun<'m> {
     ) -> Result<Self, StudyError> {
         let table = BoundsTable::new(directory.scratch(ALL)?, &columns)?;
         Ok(Self {
-            directory: Some(directory),
-            table: Some(table),
+            table: Some((directory, table)),
             ..Self::new((scene, mechanism), elasticity, columns, plan, rows)
         })
     }
@@ -127,7 +125,6 @@ impl<'m> BoundsOfRun<'m> {
         let mut reactions: Vec<ConstraintId> = of_columns.collect();
         reactions.dedup();
         Self {
-            directory: None,
             mechanism,
             elasticity,
             scene,
@@ -169,13 +166,13 @@ impl<'m> BoundsOfRun<'m> {
             }
             self.found.note(t, &bounds, &self.reactions);
             if instant.is_row
-                && let Some(table) = &mut self.table
+                && let Some((_, table)) = &mut self.table
             {
                 table.row(t, &bounds.columns)?;
             }
             let stored = self.found.rows.len() * self.columns.len();
             // Without a table all rows are stored.
-            if self.is_pictured && (stored < STORED || self.directory.is_none()) {
+            if self.is_pictured && (stored < STORED || self.table.is_none()) {
                 self.found.rows.push((t, bounds.columns));
             }
         }
@@ -455,9 +452,7 @@ impl RowSink for BoundsOfRun<'_> {
 
     fn end(&mut self, verdicts: Option<&Stretches>, ending: &Ending<'_>) -> Result<(), StudyError> {
         self.compute()?;
-        let (Some(directory), Some(table), Some(stretches)) =
-            (self.directory, self.table.take(), verdicts)
-        else {
+        let (Some((directory, table)), Some(stretches)) = (self.table.take(), verdicts) else {
             return Ok(());
         };
         let mut all = table.finish()?;

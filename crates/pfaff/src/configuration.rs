@@ -493,8 +493,8 @@ impl<'a> ConfigurationAnalysis<'a> {
         elasticity::centres(self.scene, self.mechanism, &self.state.q)
     }
 
-    /// Returns bounds of the reactions for elastic joints, from one solution. Moments give way about
-    /// the points that the scene states.
+    /// Returns bounds of the reactions for elastic joints, from one solution. Moments give way
+    /// about the points that the scene states.
     ///
     /// # Errors
     /// Each number has its own error.

@@ -33,6 +33,7 @@ use std::num::NonZeroUsize;
 use crate::documents::ToleranceDocument;
 use model::System;
 use rayon::prelude::*;
+use scene::Scene;
 use solvability::Elasticity;
 
 use crate::assembled::AssembledScene;
@@ -144,10 +145,9 @@ impl<'r> ToleranceStudy<'r> {
     /// Returns the same study with bounds of the reactions that are not unique with the described
     /// redundancy, for elastic joints.
     #[must_use]
-    pub fn with_bounds(mut self, elasticity: Option<Elasticity>) -> Self {
-        if let Some(elasticity) = elasticity {
-            self.nominal.bound(elasticity);
-        }
+    pub fn with_bounds(mut self, scene: Scene, elasticity: Option<Elasticity>) -> Self {
+        let prepared = elasticity.map(|elasticity| self.nominal.sample_bounds(scene, elasticity));
+        self.nominal.bounds = prepared;
         self
     }
 

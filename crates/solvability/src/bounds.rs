@@ -226,8 +226,8 @@ impl<'m> Configuration<'m> {
 
     /// Returns the solutions of the same mechanism with displaced data, from a solution λ₀ there.
     /// The self-stresses are those of this configuration, in which the data are as described.
-    /// Displaced data couple all loads a little, and these couplings have no effect. No verdicts are
-    /// used.
+    /// Displaced data couple all loads a little, and these couplings have no effect. No verdicts
+    /// are used.
     ///
     /// # Errors
     /// [`BoundsError`]
@@ -268,7 +268,7 @@ impl<'m> Configuration<'m> {
                     reaction: id,
                     is_moment,
                 };
-                if self.is_unique(forms)? {
+                if are_unique(self, forms)? {
                     continue;
                 }
                 nominal.push(compliance);
@@ -354,7 +354,9 @@ impl<'m> Configuration<'m> {
             forms[range].iter().map(|(_, form)| form.clone()).collect()
         };
         let moments = match centres.of(id) {
-            Some(about) if !of(space.torques()).is_empty() => self.moments_about(id, about)?,
+            Some(about) if !of(space.torques()).is_empty() => {
+                self.reactions().moments(id, about)?
+            }
             _ => of(space.torques()),
         };
         let both = [(false, "N", of(space.forces())), (true, "N·m", moments)];
@@ -363,31 +365,19 @@ impl<'m> Configuration<'m> {
             .filter(|(.., forms)| !forms.is_empty())
             .collect())
     }
+}
 
-    /// Returns the components of the moment of a joint about a point, along the global axes.
-    fn moments_about(
-        &self,
-        id: ConstraintId,
-        about: [f64; 3],
-    ) -> Result<Vec<LinearForm>, RequestError> {
-        let space = self.layout().space;
-        let axes = space.torques().map(|k| {
-            let mut axis = [0.0; 3];
-            axis[space.axis_of(k)] = 1.0;
-            self.reactions().torque(id, axis, about)
-        });
-        axes.collect()
-    }
-
-    /// Returns whether all of these components are unique.
-    fn is_unique(&self, forms: &[LinearForm]) -> Result<bool, RequestError> {
-        for form in forms {
-            if !self.judge(form)?.verdict.is_unique() {
-                return Ok(false);
-            }
+/// Returns whether all of these components are unique.
+fn are_unique(
+    configuration: &Configuration<'_>,
+    forms: &[LinearForm],
+) -> Result<bool, RequestError> {
+    for form in forms {
+        if !configuration.judge(form)?.verdict.is_unique() {
+            return Ok(false);
         }
-        Ok(true)
     }
+    Ok(true)
 }
 
 /// Components of a load, with whether they are a moment, and their unit.

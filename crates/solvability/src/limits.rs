@@ -833,9 +833,9 @@ pub(crate) const SAMPLED_RATIO: f64 = 1e3;
 /// have no range. Too large: the request takes long. Test: none, work only.
 pub(crate) const SAMPLE_WORK: usize = 2_000_000_000;
 
-/// Logarithm of the largest factor between weights of solutions that restricts their averages. Unit:
-/// natural logarithm. Too small: bounds within a factor are wider than necessary. Too large: weights
-/// leave the range of numbers. Test: `large_factors_restrict_nothing`.
+/// Logarithm of the largest factor between weights of solutions that restricts their averages.
+/// Unit: natural logarithm. Too small: bounds within a factor are wider than necessary. Too large:
+/// weights leave the range of numbers. Test: `large_factors_restrict_nothing`.
 pub(crate) const LARGEST_EXPONENT: f64 = 500.0;
 
 /// Difference of leverages that count as equal. Unit: dimensionless. Too small: axes depend on

@@ -521,7 +521,8 @@ fn samples_have_the_bounds_of_the_mechanism_that_is_described() {
 }
 
 /// The rank of displaced data is higher than that of the described mechanism: a beam that can slide
-/// on three supports. The bounds are those of the described mechanism, for any size of the tolerance.
+/// on three supports. The bounds are those of the described mechanism, for any size of the
+/// tolerance.
 #[test]
 fn bounds_of_samples_are_continuous_in_the_tolerance() {
     let scene = r#"

@@ -116,13 +116,14 @@ impl Question for Tolerance {
         };
         let bounds = wanted.map(|wanted| elasticity(&wanted, mechanism.layout(), &reaction));
         let bounds = bounds.transpose()?;
+        let described = assembled.scene.clone();
         let vary = (!self.vary.is_empty()).then(|| {
             let text = (of.name.as_str(), of.text.as_str());
             VariedText::new(text, of.registry, of.tolerance, self.vary.clone())
         });
         let vary = vary.transpose().map_err(refused)?;
         let study = ToleranceStudy::varying(assembled, self.at_time, vary).map_err(refused)?;
-        let study = study.with_bounds(bounds);
+        let study = study.with_bounds(described, bounds);
         let memory = study.memory(self.runs);
         of.budget.allow(memory, "keeping these samples")?;
         let options = ToleranceOptions {

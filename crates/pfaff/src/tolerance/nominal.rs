@@ -71,12 +71,17 @@ pub(super) struct Nominal {
     pub(super) quantities: Vec<Quantity>,
     /// The verdict on each quantity for the rank of the described mechanism.
     pub(super) verdicts: Vec<&'static str>,
-    /// The described configuration, for bounds.
+    /// The request for bounds, if there is one.
+    pub(super) bounds: Option<SampleBounds>,
+}
+
+/// A request for bounds in each sample.
+pub(super) struct SampleBounds {
+    /// The described configuration, whose self-stresses are those of all samples.
     pub(super) configuration: Option<Configuration<'static>>,
     /// The scene, for the points about which moments give way.
-    pub(super) described: Scene,
-    /// Elastic joints for which bounds are computed; `None` without bounds.
-    pub(super) elasticity: Option<Elasticity>,
+    pub(super) scene: Scene,
+    pub(super) elasticity: Elasticity,
 }
 
 impl Nominal {
@@ -157,9 +162,7 @@ impl Nominal {
             reactions,
             quantities,
             verdicts,
-            configuration: None,
-            described: study.scene.clone(),
-            elasticity: None,
+            bounds: None,
             base: Base {
                 q: state.q,
                 v: state.v,
@@ -271,7 +274,7 @@ impl Nominal {
         let observed = self.mechanism.frames().observed();
         let places = 2 * self.mechanism.bodies().len() + 3 * observed.markers.len();
         // A verdict consists of a pointer and a length.
-        let bounds = 2 * usize::from(self.elasticity.is_some());
+        let bounds = 2 * usize::from(self.bounds.is_some());
         let of_reactions = (4 + bounds) * self.quantities.len() + 2 * self.reactions.len();
         // The last number accounts for the lists themselves.
         of_reactions + places + self.missing.len() + observed.measures.len() + 32

@@ -18,11 +18,12 @@ use rank::{RankDecision, RankStatus};
 use solvability::{Configuration, Elasticity, Equations, RowTerms};
 
 use crate::elasticity::centres;
+use scene::Scene;
 
 use super::draw::Stream;
 use super::failed::SampleFailure;
 use super::limits::SHARED;
-use super::nominal::{Base, DisplacedDatum, Nominal};
+use super::nominal::{Base, DisplacedDatum, Nominal, SampleBounds};
 use super::quantity::Quantity;
 use super::vary::VariedText;
 
@@ -346,20 +347,23 @@ impl Nominal {
         self.quantities.iter().map(verdict).collect()
     }
 
-    /// Requests bounds for elastic joints. The self-stresses are those of the described
+    /// Prepares bounds for elastic joints. The self-stresses are those of the described
     /// configuration.
-    pub(super) fn bound(&mut self, elasticity: Elasticity) {
+    pub(super) fn sample_bounds(&self, scene: Scene, elasticity: Elasticity) -> SampleBounds {
         let (mechanism, q) = (&self.mechanism, &self.base.q);
         let mut s = mechanism.scratch();
         mechanism.pose(self.t, q, &mut s);
         mechanism.c(&mut s);
         let decision = self.described_decision(mechanism, &s, q);
-        self.configuration = decision
-            .and_then(|decision| Configuration::owned(mechanism, self.t, q, &decision).ok());
-        self.elasticity = Some(Elasticity {
-            centres: centres(&self.described, mechanism, q),
-            ..elasticity
-        });
+        SampleBounds {
+            configuration: decision
+                .and_then(|decision| Configuration::owned(mechanism, self.t, q, &decision).ok()),
+            elasticity: Elasticity {
+                centres: centres(&scene, mechanism, q),
+                ..elasticity
+            },
+            scene,
+        }
     }
 
     /// Returns bounds of the numbers with the described redundancy, if they are requested.
@@ -369,12 +373,12 @@ impl Nominal {
         at: Option<&Configuration<'_>>,
         lambda: &[f64],
     ) -> Vec<[f64; 2]> {
-        let Some(elasticity) = &self.elasticity else {
+        let Some(asked) = &self.bounds else {
             return Vec::new();
         };
-        let centres = centres(&self.described, mechanism, q);
-        let found = self.configuration.as_ref().zip(at).map(|(described, at)| {
-            described.elastic_solutions_displaced((at, &centres), lambda, elasticity)
+        let centres = centres(&asked.scene, mechanism, q);
+        let found = asked.configuration.as_ref().zip(at).map(|(described, at)| {
+            described.elastic_solutions_displaced((at, &centres), lambda, &asked.elasticity)
         });
         let of = |quantity: &Quantity| match (&found, at) {
             (Some(Ok(found)), Some(at)) => quantity.bounds(at, found),

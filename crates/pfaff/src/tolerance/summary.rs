@@ -76,10 +76,7 @@ impl Nominal {
             bodies: self.bodies(&good),
             markers: self.markers(&good, described.as_ref()),
             measures: self.measures(&good, described.as_ref()),
-            bounds: self
-                .elasticity
-                .as_ref()
-                .map(|elasticity| self.assumption(elasticity)),
+            bounds: (self.bounds.as_ref()).map(|asked| self.assumption(&asked.elasticity)),
         }
     }
 

@@ -132,22 +132,21 @@ impl Choosing<'_> {
         for (k, group) in groups.iter().enumerate() {
             let id = ConstraintId(k);
             let space = group.space;
-            let mut components = group.components();
-            let centre = centres.of(id);
-            if centre.is_some() && components.iter().any(|c| space.torques().contains(c)) {
-                // About another point, the force has moments about all axes.
-                components.retain(|c| space.forces().contains(c));
-                components.extend(space.torques());
+            let mut own = Vec::new();
+            let components = group.components();
+            let is_torque = |c: &usize| space.torques().contains(c);
+            let centre = centres.of(id).filter(|_| components.iter().any(is_torque));
+            for c in components
+                .iter()
+                .filter(|c| centre.is_none() || !is_torque(c))
+            {
+                own.push((*c, self.reactions.component(id, space.components()[*c])?));
             }
-            for c in components {
-                let form = match centre.filter(|_| space.torques().contains(&c)) {
-                    Some(about) => {
-                        let mut axis = [0.0; 3];
-                        axis[space.axis_of(c)] = 1.0;
-                        self.reactions.torque(id, axis, about)?
-                    }
-                    None => self.reactions.component(id, space.components()[c])?,
-                };
+            if let Some(about) = centre {
+                // About another point, the force has moments about all axes.
+                own.extend(space.torques().zip(self.reactions.moments(id, about)?));
+            }
+            for (c, form) in own {
                 let (weight, misfit) = of(id, c);
                 terms.push(Term {
                     form,

@@ -96,6 +96,24 @@ impl<'a> ReactionForms<'a> {
         Ok(form)
     }
 
+    /// Returns the components of the moment of a reaction about a point, along the global axes.
+    ///
+    /// # Errors
+    /// [`RequestError::UnknownReaction`], [`RequestError::NotFinite`]
+    pub fn moments(
+        &self,
+        id: ConstraintId,
+        about: [f64; 3],
+    ) -> Result<Vec<LinearForm>, RequestError> {
+        let space = self.mechanism.space();
+        let axes = space.torques().map(|k| {
+            let mut axis = [0.0; 3];
+            axis[space.axis_of(k)] = 1.0;
+            self.torque(id, axis, about)
+        });
+        axes.collect()
+    }
+
     /// Returns a component of a reaction by its name: a component of the space, or the named
     /// component of the definition.
     ///
