@@ -85,6 +85,9 @@ struct Instant {
     is_row: bool,
 }
 
+/// Bounds of numbers with their names.
+type NamedEnds = Vec<(&'static str, [f64; 2])>;
+
 /// The bounds at a row; NaN without bounds.
 struct RowBounds {
     columns: Vec<[f64; 2]>,
@@ -246,13 +249,14 @@ impl<'m> BoundsOfRun<'m> {
         &self,
         found: &ReactionBounds<'_, '_>,
         column: &ReactionColumn,
-        of_group: &mut Option<(usize, Vec<(&'static str, [f64; 2])>)>,
+        of_group: &mut Option<(usize, NamedEnds)>,
     ) -> Result<[f64; 2], BoundsError> {
         let numbers = |group: &Group| {
             let numbers = found.group(group)?.into_iter();
-            let numbers = numbers.map(|(name, bounds)| match bounds.complete {
-                true => Ok((name, [bounds.lowest, bounds.highest])),
-                false => Err(BoundsError::Many),
+            let numbers = numbers.map(|(name, bounds)| {
+                let ends = [bounds.lowest, bounds.highest];
+                let complete = bounds.complete.then_some((name, ends));
+                complete.ok_or(BoundsError::Many)
             });
             numbers.collect::<Result<Vec<_>, _>>()
         };

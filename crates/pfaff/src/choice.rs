@@ -163,10 +163,8 @@ fn misfit(term: &str, space: SpaceKind, reaction: FindReaction<'_>) -> Result<Mi
         Refusal::input(message)
     };
     let (name, numbers) = term.rsplit_once('=').ok_or_else(wrong)?;
-    let reaction = reaction(name.trim()).map_err(|e| match name.contains('=') {
-        true => wrong(),
-        false => e,
-    })?;
+    let has_two = |e| if name.contains('=') { wrong() } else { e };
+    let reaction = reaction(name.trim()).map_err(has_two)?;
     let numbers = numbers.split(',').map(|word| {
         let x = word.trim().parse::<f64>().ok();
         x.filter(|x| x.is_finite()).ok_or_else(wrong)

@@ -402,7 +402,8 @@ impl ElasticSolutions<'_, '_> {
                 let [lowest, highest] = self.hull.ends(&along(form, &self.free))?;
                 let loads = |groups: &[usize]| groups.iter().map(|&k| self.loads[k]).collect();
                 let complete = lowest.is_bound && highest.is_bound;
-                if !complete && !(lowest.is_reached && highest.is_reached) {
+                let is_reached = lowest.is_reached && highest.is_reached;
+                if !(complete || is_reached) {
                     return Err(BoundsError::Many);
                 }
                 Ok(ElasticBounds {

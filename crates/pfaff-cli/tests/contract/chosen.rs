@@ -267,7 +267,7 @@ fn a_choice_that_is_not_possible_is_refused_before_the_run() {
     let output = with_scene(&simulate, &quiet);
     assert_eq!(output.status.code(), Some(2));
     assert!(
-        stderr(&output).contains("the choices have no table"),
+        stderr(&output).contains("choices and bounds need reactions"),
         "{}",
         stderr(&output)
     );

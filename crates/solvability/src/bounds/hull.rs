@@ -672,7 +672,7 @@ impl Minors<'_> {
             let root = |place: usize| match k.checked_sub(2 * loads.len()) {
                 Some(_) => SAMPLED_RATIO.powf(random()),
                 None if k / 2 != place => 1.0,
-                None if k % 2 == 0 => SAMPLED_RATIO,
+                None if k.is_multiple_of(2) => SAMPLED_RATIO,
                 None => SAMPLED_RATIO.recip(),
             };
             let roots: Vec<f64> = (0..loads.len()).map(root).collect();

@@ -278,9 +278,10 @@ pub(super) fn elasticity(
 
 /// Returns the bounds of a number, or the range that is reached if not all sets were examined.
 fn split(bounds: &ElasticBounds, layout: &Layout) -> (Option<BoundsOfNumber>, Option<[f64; 2]>) {
-    match bounds.complete {
-        true => (Some(BoundsOfNumber::new(bounds, layout)), None),
-        false => (None, Some([bounds.lowest, bounds.highest])),
+    if bounds.complete {
+        (Some(BoundsOfNumber::new(bounds, layout)), None)
+    } else {
+        (None, Some([bounds.lowest, bounds.highest]))
     }
 }
 
