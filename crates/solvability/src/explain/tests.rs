@@ -38,7 +38,7 @@ fn share(sketch: &Sketch, expected: &str) {
 #[test]
 fn coaxial_hinges_share_all_forces_and_the_moments_across() {
     let words = "`H0` and `H1` share 5 load components that equilibrium does not determine (forces in all directions \
-        and moments about x and y); of the sums over these joints, Fx, Fy, Fz, Tx and Ty about (0, 0, 0.4) are determined";
+        and moments about x and y); of the sums over these joints, Fx, Fy, Fz, Tx and Ty about (0, 0, 0.4) m are determined";
     share(&door(&[Revolute; 2], HOME), words);
     let words = "(forces in all directions and moments about x and y)";
     share(&door(&[Revolute; 3], HOME), words);
@@ -103,10 +103,10 @@ fn a_spherical_linkage_carries_forces_through_its_centre() {
     ];
     let names = ["crank", "coupler", "rocker", "A", "B", "C", "D"];
     let linkage = loop_of_four(names, [Revolute; 4], axes, axes, HOME);
-    share(&linkage, "(forces in all directions through (0, 0, 0))");
+    share(&linkage, "(forces in all directions through (0, 0, 0) m)");
 }
 
-/// The wrenches (F, M) about the origin that are reciprocal to the axes through (0, 0, 0), (0, 3,
+/// The wrenches (F, M) about the origin that are reciprocal to the axes through (0, 0, 0) m, (0, 3,
 /// 0) … have M = (−4·Fx + 3·Fz, −3·Fy + 4·Fz, 0).
 #[test]
 fn the_wrenches_of_bennett_have_pitches() {
@@ -117,9 +117,9 @@ fn the_wrenches_of_bennett_have_pitches() {
             .contains("(forces in all directions with moments)")
     );
     let loads = [
-        "a force along x through (0, 0, 0) with a moment of −4 N·m per N about it",
-        "a force along y through (0, 0, 0) with a moment of −3 N·m per N about it",
-        "a force along z through (−4, 3, 0)",
+        "a force along x through (0, 0, 0) m with a moment of −4 N·m per N about it",
+        "a force along y through (0, 0, 0) m with a moment of −3 N·m per N about it",
+        "a force along z through (−4, 3, 0) m",
     ];
     for (stress, load) in found.stresses.iter().zip(loads) {
         let words = format!("`J0`, `J1`, `J2` and `J3` can load each other with {load}");

@@ -365,7 +365,7 @@ fn a_car_turns_about_the_point_where_its_axles_meet() {
         d.joint(name, &[car], KnifeEdge { s, normal });
     }
     let free = freedoms(&d);
-    assert_eq!(texts(&free.motions), ["`car` turns about (−1, 3)"]);
+    assert_eq!(texts(&free.motions), ["`car` turns about (−1, 3) m"]);
     moves(&free.motions, 0, &[(0, [3.0, 1.0, 1.0])]);
 }
 

@@ -39,7 +39,7 @@ fn a_door_turns_about_its_hinges() {
 
 /// The coupler rotates about the intersection of A–B and D–C: s·(.3, .8) = (1.4, 0) + t·(.1, 1.1).
 const FOUR_BAR: &str = "`crank` turns about the axis through `A` along (0, 0, 1); with it `coupler` turns about \
-    the axis through (1.848, 4.928, 0) along (0, 0, −1) and `rocker` turns about the axis through `D` along (0, 0, 1)";
+    the axis through (1.848, 4.928, 0) m along (0, 0, −1) and `rocker` turns about the axis through `D` along (0, 0, 1)";
 
 #[test]
 fn few_other_bodies_are_told_with_their_axes() {
@@ -75,13 +75,13 @@ fn few_other_bodies_are_told_with_their_axes() {
     tells(&s, &[words]);
 }
 
-/// For O(0, 0), A(.3, .4), B(1.5, 0), the rod rotates about (1.5, 2) at −1/4 of the crank.
+/// For O(0, 0), A(.3, .4), B(1.5, 0), the rod rotates about (1.5, 2) m at −1/4 of the crank.
 #[test]
 fn a_block_slides_with_the_crank() {
     let names = ["crank", "rod", "block", "O", "A", "B", "slide"];
     let points = [[0.0; 3], [0.3, 0.4, 0.0], [1.5, 0.0, 0.0], [1.5, 0.0, 0.0]];
     let words = "`crank` turns about the axis through `O` along (0, 0, 1); with it `rod` turns about the axis \
-        through (1.5, 2, 0) along (0, 0, −1) and `block` slides along (−1, 0, 0)";
+        through (1.5, 2, 0) m along (0, 0, −1) and `block` slides along (−1, 0, 0)";
     for middle in [Revolute, Cylindrical, Spherical] {
         let kinds = [Revolute, Revolute, middle, Translational];
         tells(
@@ -96,7 +96,7 @@ fn a_block_slides_with_the_crank() {
 #[test]
 fn the_middle_link_of_bennett_moves_as_a_screw() {
     let words = "`first` turns about the axis through `J0` along (0, 0, 1); with it `middle` turns about the axis \
-        through (0, −0.9, 0) along (−0.3162, 0, 0.9487) with a pitch of 8.168 m per turn and `last` turns about \
+        through (0, −0.9, 0) m along (−0.3162, 0, 0.9487) with a pitch of 8.168 m per turn and `last` turns about \
         the axis through `J3` along (0, −0.8, −0.6)";
     tells(&bennett(Pose::GROUND), &[words]);
 }
@@ -113,7 +113,7 @@ fn a_spherical_four_bar_turns_about_its_centre() {
     ];
     let names = ["crank", "coupler", "rocker", "A", "B", "C", "D"];
     let words = "`crank` turns about the axis through `A` along (0, 0, 1); with it `coupler` turns about the axis \
-        through (0, 0, 0) along (0, −0.848, −0.53) and `rocker` turns about the axis through `D` along (0.8, 0, 0.6)";
+        through (0, 0, 0) m along (0, −0.848, −0.53) and `rocker` turns about the axis through `D` along (0.8, 0, 0.6)";
     tells(
         &loop_of_four(names, [Revolute; 4], axes, axes, Pose::GROUND),
         &[words],
