@@ -157,7 +157,7 @@ fn free_motions_in_space_are_written_for_frames() {
     let (d, _) = documents(&four_bar());
     let motion = &d["free_motions"][0];
     let words = "`crank` turns about the axis through `A` along (0, 0, 1); with it `coupler` turns about the axis \
-        through (1.848, 4.928, 0) along (0, 0, −1) and `rocker` turns about the axis through `D` along (0, 0, 1)";
+        through (1.848, 4.928, 0) m along (0, 0, −1) and `rocker` turns about the axis through `D` along (0, 0, 1)";
     assert_eq!(motion["text"], words);
     let v = &motion["velocities"][0];
     assert_eq!(v["crank"], json!([0.0, 0.0, 0.0, 0.0, 0.0, 1.0]));
