@@ -634,7 +634,7 @@ fn help_lists_what_there_is() {
         (
             "at = [1.0, 0.0]",
             "at = [1.0, 0.0]\naxle = [1, 0]",
-            "its keys are `name`, `type`, `bodies`, `at`, `points`, `tolerance`, `active`",
+            "its keys are `name`, `type`, `bodies`, `at`, `points`, `tolerance`, `centre_of_stiffness`, `active`",
         ),
     ] {
         let problems = read(&SCENE.replace(part, fault)).expect_err(fault);
