@@ -776,3 +776,32 @@ fn a_centre_of_stiffness_decides_where_a_moment_gives_way() {
     let back: Vec<[f64; 2]> = (0..6).map(|k| sign(k, back[k])).collect();
     assert!(near(&first, &back) < 1e-8, "{first:?} {back:?}");
 }
+
+/// A support and a wheel both prevent the same sideways motion. The support gives way by c·f_h, the
+/// wheel slips at the rate s·f_n, and f_h + f_n is the load: `c·ḟ_h = s·(F − f_h)`. After a load of
+/// 10 N has reversed, the support still carries a part of the old load, outside of the bounds. If
+/// the load has not changed for a while, the support is inside: the assumption says so.
+#[test]
+fn a_support_that_shares_with_a_slipping_wheel_has_a_memory() {
+    let study = study(
+        r#"scene = { name = "sled", space = "plane" }
+        body = [{ name = "sled", mass = 1.0, inertia = 1.0 }]
+        joint = [
+            { name = "support", type = "point-on-line", body = "sled", at = [0.0, 0.0], line = [[-1.0, 0.0], [1.0, 0.0]] },
+            { name = "wheel", type = "knife-edge", body = "sled", at = [0.0, 0.0], normal = [0.0, 1.0] },
+        ]
+        force = [{ name = "push", type = "point-force", body = "sled", at = [0.0, 0.0], force = [0.0, -10.0] }]"#,
+    );
+    let start = study.analyse(0.0, None).expect("small");
+    let solution = start.solution().expect("decided");
+    let found = start.bounds(&solution, &Elasticity::default());
+    // The reaction on the sled is opposite to the load.
+    let bounds = of(&found, 0, "Fy");
+    assert_range(&bounds, [0.0, 10.0], "support");
+    let rate = 3.0;
+    let after = |t: f64| 10.0 - 20.0 * (-rate * t).exp();
+    let is_inside = |t: f64| (bounds.lowest..=bounds.highest).contains(&after(t));
+    let known = 2.0_f64.ln() / rate;
+    assert!(!is_inside(0.0) && !is_inside(0.99 * known));
+    assert!(is_inside(1.01 * known) && is_inside(10.0));
+}
