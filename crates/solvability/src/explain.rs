@@ -276,11 +276,8 @@ fn mixing(mechanism: &Mechanism, s: &Scratch, q: &[f64], solvability: &Solvabili
                 let sums = determined_sums(&forms, solvability, &reactions);
                 let sums = match sums.as_slice() {
                     [] => String::new(),
-                    [one] => format!("; of the sums over these joints, {one} is determined"),
-                    all => format!(
-                        "; of the sums over these joints, {} are determined",
-                        list(all)
-                    ),
+                    [one] => format!("; of the sums, {one} is determined"),
+                    all => format!("; of the sums, {} are determined", list(all)),
                 };
                 format!("{} share {components}{loads}{sums}", list(several))
             }

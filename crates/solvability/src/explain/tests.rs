@@ -38,7 +38,7 @@ fn share(sketch: &Sketch, expected: &str) {
 #[test]
 fn coaxial_hinges_share_all_forces_and_the_moments_across() {
     let words = "`H0` and `H1` share 5 load components that equilibrium does not determine (forces in all directions \
-        and moments about x and y); of the sums over these joints, Fx, Fy, Fz, Tx and Ty about (0, 0, 0.4) m are determined";
+        and moments about x and y); of the sums, Fx, Fy, Fz, Tx and Ty about (0, 0, 0.4) m are determined";
     share(&door(&[Revolute; 2], HOME), words);
     let words = "(forces in all directions and moments about x and y)";
     share(&door(&[Revolute; 3], HOME), words);
