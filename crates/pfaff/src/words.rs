@@ -107,6 +107,22 @@ pub fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
+/// Formats the numbers of holonomic and nonholonomic rows.
+///
+/// ```
+/// assert_eq!(pfaff::words::count_of_rows(4, 0), "4 holonomic rows");
+/// assert_eq!(pfaff::words::count_of_rows(2, 1), "3 rows (2 holonomic, 1 nonholonomic)");
+/// ```
+#[must_use]
+pub fn count_of_rows(holonomic: usize, nonholonomic: usize) -> String {
+    match (holonomic, nonholonomic) {
+        (0, 0) => count(0, "row", "rows"),
+        (n, 0) => count(n, "holonomic row", "holonomic rows"),
+        (0, n) => count(n, "nonholonomic row", "nonholonomic rows"),
+        (m, n) => format!("{} rows ({m} holonomic, {n} nonholonomic)", m + n),
+    }
+}
+
 /// Formats names in grave accents, such as `` `A`, `B` ``.
 #[must_use]
 pub fn marked(names: &[impl AsRef<str>]) -> String {

@@ -10,6 +10,7 @@ use model::{ConstraintId, ConstraintKind, Layout, Mechanism, RowRanges, System};
 use rank::{DeletionError, Limits};
 
 use crate::matrices::Solvability;
+use crate::words::list;
 
 /// Rows that may be proposed for deletion.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -120,15 +121,16 @@ impl Solvability {
     }
 }
 
-/// Returns, for example, "delete `W4` and relax row 4 (`B`, y)".
+/// Returns, for example, "relax row 4 (`B`, y) and delete `W3` and `W4`".
 fn sentence(layout: &Layout, rows: &[usize]) -> String {
-    let mut words: Vec<String> = Vec::new();
+    let mut actions: Vec<(&str, Vec<String>)> = Vec::new();
+    let mut add = |verb, object| match actions.last_mut() {
+        Some((last, objects)) if *last == verb => objects.push(object),
+        _ => actions.push((verb, vec![object])),
+    };
     for group in &layout.groups {
-        let own: Vec<usize> = rows
-            .iter()
-            .copied()
-            .filter(|row| group.rows.contains(*row))
-            .collect();
+        let own = rows.iter().filter(|row| group.rows.contains(**row));
+        let own: Vec<usize> = own.copied().collect();
         if own.is_empty() {
             continue;
         }
@@ -137,16 +139,18 @@ fn sentence(layout: &Layout, rows: &[usize]) -> String {
                 ConstraintKind::Joint => "delete",
                 ConstraintKind::Drive => "release the drive",
             };
-            words.push(format!("{verb} `{}`", group.name));
+            add(verb, format!("`{}`", group.name));
         } else {
-            words.extend(
-                own.iter()
-                    .map(|&row| format!("relax row {}", layout.labels[row])),
-            );
+            for &row in &own {
+                add("relax", format!("row {}", layout.labels[row]));
+            }
         }
     }
-    match words.as_slice() {
+    let actions = actions.iter();
+    let actions = actions.map(|(verb, objects)| format!("{verb} {}", list(objects)));
+    let actions: Vec<String> = actions.collect();
+    match actions.as_slice() {
         [] => "nothing needs to be deleted".to_owned(),
-        words => words.join(" and "),
+        actions => list(actions),
     }
 }

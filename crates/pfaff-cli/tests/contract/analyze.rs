@@ -283,10 +283,7 @@ fn what_makes_a_reaction_unique() {
         "--allow",
         "whole",
     ]));
-    contains(
-        &text,
-        &["Ways to make W3 unique", "delete `W1` and delete `W4`"],
-    );
+    contains(&text, &["Ways to make W3 unique", "delete `W1` and `W4`"]);
 }
 
 #[test]

@@ -145,7 +145,7 @@ fn check_says_what_is_not_active() {
     let check = |more: &[&str]| with_scene(&[&["check", "-"], more].concat(), CRANK);
     let text = stdout(&check(&[]));
     assert!(
-        text.contains("1 body, 2 joints and drives, 3 rows"),
+        text.contains("1 body, 2 joints and drives, 3 holonomic rows"),
         "{text}"
     );
     assert!(text.contains("\nnot active: joint `lock`\n"), "{text}");

@@ -19,7 +19,7 @@ use crate::documents::{AnalysisDocument, ComponentDocument};
 use crate::elasticity::requested;
 use crate::error::StudyError;
 use crate::refusal::Refusal;
-use crate::words::{Block, Cell, load_unit};
+use crate::words::{Block, Cell, grouped, load_unit, marked};
 
 /// Bounds for any stiffness.
 pub(super) struct BoundsOfReactions;
@@ -250,10 +250,12 @@ pub(super) fn in_one_line(of: &ConfigurationAnalysis<'_>, d: &AnalysisDocument) 
     let words = all.iter().take(LISTED).map(|(id, (component, bounds))| {
         let (name, unit) = (&layout.groups[id.0].name, load_unit(component));
         let range = range(bounds.lowest, bounds.highest, unit);
-        format!("`{name}.{component}` {range}")
+        (range, format!("{name}.{component}"))
     });
+    let words = grouped(words).into_iter();
+    let words = words.map(|(range, names)| format!("{} {range}", marked(&names)));
     let words: Vec<String> = words.collect();
-    (!words.is_empty()).then(|| words.join(", "))
+    (!words.is_empty()).then(|| words.join("; "))
 }
 
 fn name(of: &ConfigurationAnalysis<'_>, id: ConstraintId) -> String {

@@ -19,11 +19,11 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
         // Reactions with the same way are listed together.
         let hinted = hints.iter().take(HINTS);
         let lines = grouped(hinted.map(|hint| (ways(hint, WAYS), hint.reaction.as_str())));
-        let lead = "Ways to make a reaction unique (design decisions";
+        let lead = "Design changes for unique reactions";
         if let [(text, _)] = lines.as_slice()
             && hints.iter().all(|hint| hint.ways.is_empty())
         {
-            out.extend([Block::Gap, Block::sentence(format!("{lead}): {text}"))]);
+            out.extend([Block::Gap, Block::sentence(format!("{lead}: {text}"))]);
         } else {
             let ways = lines.iter();
             let mut ways: Vec<String> = ways
@@ -33,7 +33,7 @@ pub(super) fn of(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> Vec<Bloc
                 ways.push("others: `--make-unique NAME`".to_owned());
             }
             let ways = ways.join("; ");
-            let text = format!("{lead}; `--make-unique NAME` lists all): {ways}");
+            let text = format!("{lead} (all: `--make-unique NAME`): {ways}");
             out.extend([Block::Gap, Block::sentence(text)]);
         }
     }

@@ -49,14 +49,15 @@ pub(super) fn add(
         {
             let mobility = freed.analysis.mobility();
             let accuracy = estimate(tolerance.length.unwrap_or_default(), "m");
-            let motion = format!("the mobility is {mobility}, as for data accurate to {accuracy}");
+            let motion =
+                format!("and the mobility is {mobility}, as for data accurate to {accuracy}");
             *remedies = Search { start, of: &freed }.remedies(&motion)?;
         }
     } else if document.evidence.permanent != Some(false)
         && of.freedoms()?.blocked.is_empty()
         && (of.cannot_move()? != Some(true) || document.ranks.mobility == 0)
     {
-        *remedies = Search { start, of }.remedies("the motion is the same")?;
+        *remedies = Search { start, of }.remedies("with the same motion")?;
     }
     Ok(())
 }
@@ -189,7 +190,7 @@ impl Search<'_, '_, '_> {
             _ => format!("the reactions of {} are unique", and(&reactions)),
         };
         RemedyDocument {
-            text: format!("make {}: {unique}, and {motion}", joints.join("; ")),
+            text: format!("make {}: {unique}, {motion}", joints.join("; ")),
             replace: replace.collect(),
             reactions,
             verified: true,
@@ -216,12 +217,9 @@ pub(super) fn covers(d: &AnalysisDocument, reaction: &str) -> bool {
 /// Returns the remedies as text.
 pub(super) fn words(d: &AnalysisDocument) -> Vec<Block> {
     let all = &d.answers.remedies;
-    let lead = "Other joint types (design decision, analysed with these joints; `--make-unique NAME` lists deletions):";
+    let lead = "Design change (deletions: `--make-unique NAME`):";
     if let [remedy] = all.as_slice() {
-        return vec![
-            Block::Gap,
-            Block::sentence(format!("{lead} {}", remedy.text)),
-        ];
+        return vec![Block::sentence(format!("{lead} {}", remedy.text))];
     }
     let items = all.iter().take(LISTED).map(|remedy| remedy.text.clone());
     let more = all.len().saturating_sub(LISTED);

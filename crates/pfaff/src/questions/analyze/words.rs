@@ -13,7 +13,7 @@ use super::additions::ADDITIONS;
 use super::document::Hints;
 use super::phrases::{LINES, coordinates, each, hanging, spoken};
 use super::{along, counts, data, deletions, numbers, rank, remedies};
-use crate::words::{Block, Cell, count, grouped, load_unit, marked};
+use crate::words::{Block, Cell, count, count_of_rows, grouped, load_unit, marked};
 
 /// Number of reasons that are listed.
 const REASONS: usize = 10;
@@ -49,11 +49,16 @@ pub(super) fn of(d: &AnalysisDocument, hints: &Hints) -> Vec<Block> {
     out.extend(ADDITIONS.iter().flat_map(|addition| addition.words(d)));
     out.extend(centres(d));
     out.extend(why(d));
-    if let Some(bounds) = &hints.bounds {
-        let text = format!("{bounds} (`--bounds` prints all)");
-        out.extend([Block::Gap, Block::after("for any stiffness: ", text)]);
+    let bounds = hints.bounds.iter().map(|bounds| {
+        Block::sentence(format!(
+            "for any stiffness (`--bounds` prints all): {bounds}"
+        ))
+    });
+    let beyond: Vec<Block> = bounds.chain(remedies::words(d)).collect();
+    if let Some(Block::Sentence { .. }) = beyond.first() {
+        out.push(Block::Gap);
     }
-    out.extend(remedies::words(d));
+    out.extend(beyond);
     out.extend(deletions::of(d, &hints.ways));
     out.extend(numbers::of(d));
     out.extend(d.answers.along.iter().flat_map(along::of));
@@ -88,10 +93,9 @@ fn size(d: &AnalysisDocument) -> Block {
     };
     let bodies = count(c.bodies, "body", "bodies");
     let coordinates = count(c.coordinates, "coordinate", "coordinates");
-    let rows = count(c.rows, "row", "rows");
-    let (holonomic, nonholonomic) = (c.holonomic_rows, c.nonholonomic_rows);
+    let rows = count_of_rows(c.holonomic_rows, c.nonholonomic_rows);
     Block::sentence(format!(
-        "{bodies}, {coordinates}{velocities}, {rows} ({holonomic} holonomic, {nonholonomic} nonholonomic): rank {}, redundancy {}, {}",
+        "{bodies}, {coordinates}{velocities}, {rows}: rank {}, redundancy {}, {}",
         ranks.rank,
         ranks.redundancy,
         ranks.freedoms.summary(ranks.mobility),

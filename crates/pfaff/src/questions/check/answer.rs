@@ -8,7 +8,7 @@ use serde::Serialize;
 use solvability::Freedoms;
 
 use crate::question::Answer;
-use crate::words::{Block, count};
+use crate::words::{Block, count, count_of_rows};
 
 /// Result for a scene that was read and assembled.
 #[derive(Clone, Debug, Serialize)]
@@ -95,12 +95,11 @@ impl CheckAnswer {
 
 impl Answer for CheckAnswer {
     fn words(&self) -> Vec<Block> {
-        let (m, h) = (self.holonomic_rows, self.nonholonomic_rows);
         let bodies = count(self.bodies, "body", "bodies");
         let reactions = count(self.reactions, "joint or drive", "joints and drives");
-        let rows = count(m + h, "row", "rows");
+        let rows = count_of_rows(self.holonomic_rows, self.nonholonomic_rows);
         let mut blocks = vec![Block::sentence(format!(
-            "{}: {bodies}, {reactions}, {rows} ({m} holonomic, {h} nonholonomic)",
+            "{}: {bodies}, {reactions}, {rows}",
             self.scene
         ))];
         blocks.extend(self.freedoms.iter().map(Block::sentence));
