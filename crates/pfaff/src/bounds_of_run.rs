@@ -5,7 +5,7 @@ use std::io::BufReader;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dynamics::{Plan, Sample};
+use dynamics::{MotionFault, Plan, Sample};
 use model::reaction::ConstraintGroup;
 use model::words::rounded;
 use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System};
@@ -85,6 +85,17 @@ struct Instant {
     is_row: bool,
 }
 
+impl Instant {
+    fn new(sample: &mut Sample<'_, '_>, is_row: bool) -> Result<Self, MotionFault> {
+        Ok(Self {
+            t: sample.t,
+            q: sample.q.to_vec(),
+            multipliers: sample.multipliers()?,
+            is_row,
+        })
+    }
+}
+
 /// Bounds of numbers with their names.
 type NamedEnds = Vec<(&'static str, [f64; 2])>;
 
@@ -146,6 +157,28 @@ impl<'m> BoundsOfRun<'m> {
         }
     }
 
+    /// Creates a sink without a table that computes the largest magnitudes of these reactions.
+    pub(crate) fn of_magnitudes(
+        parts: (&'m Scene, &'m Mechanism),
+        elasticity: &'m Elasticity,
+        reactions: Vec<ConstraintId>,
+        plan: &Plan<'_>,
+    ) -> Self {
+        let all = TableRows::new(1, plan.options().t_end);
+        Self {
+            reactions,
+            ..Self::new(parts, elasticity, Vec::new(), plan, (all, false))
+        }
+    }
+
+    /// Computes the bounds at a sample in this thread.
+    pub(crate) fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
+        let instant = Instant::new(sample, true)?;
+        let bounds = self.at(&instant);
+        self.found.note(instant.t, &bounds, &self.reactions);
+        Ok(())
+    }
+
     /// Returns the bounds of all rows, with their times.
     pub(crate) fn into_rows(self) -> Vec<(f64, Vec<[f64; 2]>)> {
         self.found.rows
@@ -163,10 +196,6 @@ impl<'m> BoundsOfRun<'m> {
         let each: Vec<RowBounds> = each.collect();
         for (instant, bounds) in waiting.iter().zip(each) {
             let t = instant.t;
-            if let Some(reason) = &bounds.reason {
-                let first = || Gap::at(t, reason.clone());
-                self.found.gap.get_or_insert_with(first).rows += 1;
-            }
             self.found.note(t, &bounds, &self.reactions);
             if instant.is_row
                 && let Some((_, table)) = &mut self.table
@@ -237,8 +266,12 @@ impl<'m> BoundsOfRun<'m> {
             }
         }
         for (&id, magnitudes) in self.reactions.iter().zip(&mut row.magnitudes) {
-            if let Ok(largest) = found.largest_magnitudes(id) {
-                *magnitudes = largest.map(|size| size.unwrap_or(f64::NAN));
+            match found.largest_magnitudes(id) {
+                Ok(largest) => *magnitudes = largest.map(|size| size.unwrap_or(f64::NAN)),
+                Err(e) => {
+                    let name = &self.mechanism.layout().groups[id.0].name;
+                    row.reason.get_or_insert_with(|| format!("`{name}`: {e}"));
+                }
             }
         }
         row
@@ -309,6 +342,10 @@ impl FoundBounds {
     }
 
     fn note(&mut self, time: f64, bounds: &RowBounds, reactions: &[ConstraintId]) {
+        if let Some(reason) = &bounds.reason {
+            let first = || Gap::at(time, reason.clone());
+            self.gap.get_or_insert_with(first).rows += 1;
+        }
         for (own, ends) in self.columns.iter_mut().zip(&bounds.columns) {
             if !ends[0].is_nan() {
                 let at = RangeOfRunDocument::at(time, *ends);
@@ -440,13 +477,7 @@ impl RowSink for BoundsOfRun<'_> {
     fn row(&mut self, sample: &mut Sample<'_, '_>) -> Result<ControlFlow<()>, RowFault> {
         let is_row = self.rows.take(sample.t);
         if is_row || self.is_pictured {
-            let instant = Instant {
-                t: sample.t,
-                q: sample.q.to_vec(),
-                multipliers: sample.multipliers()?,
-                is_row,
-            };
-            self.waiting.push(instant);
+            self.waiting.push(Instant::new(sample, is_row)?);
         }
         if self.waiting.len() == BATCH {
             self.compute()?;

@@ -41,6 +41,9 @@ pub enum StudyError {
         "choices and bounds need reactions, but `[output] reactions` of the scene is false: write reactions, or leave out --choose and --bounds"
     )]
     NoReactions,
+    /// The bounds that the scene requests do not fit its mechanism.
+    #[error("[output] bounds: {0}")]
+    Bounds(String),
     /// A combination cannot be parsed.
     #[error("`{text}`: {error}")]
     Combination {
@@ -137,6 +140,7 @@ impl StudyError {
             Self::SingularStart { .. } => const { Code::new(211) },
             Self::NoEnd => const { Code::new(214) },
             Self::NoReactions => const { Code::new(312) },
+            Self::Bounds(_) => const { Code::new(1) },
             Self::Combination { .. } => const { Code::new(311) },
             Self::UnknownReaction { .. } | Self::UnknownRow { .. } => const { Code::new(310) },
             Self::InactiveReaction { .. } => const { Code::new(317) },
@@ -204,6 +208,7 @@ impl StudyError {
             | Self::SingularStart { .. }
             | Self::NoEnd
             | Self::NoReactions
+            | Self::Bounds(_)
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }
             | Self::InactiveReaction { .. }

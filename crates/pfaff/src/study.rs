@@ -733,6 +733,14 @@ impl Study {
         requests::reaction(&self.scene, &self.prepared.mechanism, name)
     }
 
+    /// Returns the elastic joints of the request in the scene, if it requests bounds.
+    ///
+    /// # Errors
+    /// [`StudyError::Bounds`], if the request does not fit the mechanism.
+    pub(crate) fn wanted_bounds(&self) -> Result<Option<Elasticity>, StudyError> {
+        requests::bounds(&self.scene, &self.prepared.mechanism)
+    }
+
     /// Returns the groups of the scene with their names.
     fn groups(&self) -> Result<Vec<(String, Group)>, StudyError> {
         requests::groups(&self.scene, &self.prepared.mechanism, &[])

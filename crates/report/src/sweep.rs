@@ -37,7 +37,7 @@ pub use error::{Difference, JournalError};
 pub use journal::Journal;
 pub use line::digest;
 pub use records::Records;
-pub use row::{Extreme, SweepMotion, SweepRow, SweepStatus};
+pub use row::{BoundsOfRun, Extreme, SweepMotion, SweepRow, SweepStatus};
 pub use runs::Runs;
 pub use shards::{Shards, end_attempts};
 pub use tables::{FAMILY, write_sweep};
@@ -66,6 +66,9 @@ pub struct SweepPlan {
     pub state: Vec<String>,
     /// Joints and drives whose reactions are requested, in the order of their rows.
     pub reactions: Vec<String>,
+    /// Whether the rows contain upper bounds of the reactions that are not unique.
+    #[serde(default)]
+    pub bounds: bool,
 }
 
 /// The names of the state variables in the plane. Early journals did not contain these names.

@@ -2,9 +2,11 @@
 
 use model::{ConstraintId, Mechanism, System};
 use scene::{Combination, GroupContent, Scene, WrenchTerm};
-use solvability::{Group, Term};
+use solvability::{Elasticity, Group, Term};
 
+use crate::elasticity::elasticity;
 use crate::error::StudyError;
+use crate::refusal::Refusal;
 
 /// Finds the joint or drive with this name.
 pub(crate) fn reaction(
@@ -22,6 +24,24 @@ pub(crate) fn reaction(
         let nearest = scene.nearest_reaction(&name).map(str::to_owned);
         StudyError::UnknownReaction { name, nearest }
     })
+}
+
+/// Returns the elastic joints of the request in the scene, if it requests bounds.
+pub(crate) fn bounds(
+    scene: &Scene,
+    mechanism: &Mechanism,
+) -> Result<Option<Elasticity>, StudyError> {
+    let Some(wanted) = &scene.output.bounds else {
+        return Ok(None);
+    };
+    let reaction = |name: &str| {
+        let found = reaction(scene, mechanism, name);
+        found.map_err(|e| Refusal::input(e.to_string()))
+    };
+    let found = elasticity(wanted, mechanism.layout(), &reaction);
+    found
+        .map(Some)
+        .map_err(|e| StudyError::Bounds(e.document().error))
 }
 
 /// Returns groups with their names: those of the scene, then the requested combinations.

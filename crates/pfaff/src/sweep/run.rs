@@ -10,12 +10,13 @@ use dynamics::{
     SceneCode, Stop, Summary,
 };
 use model::space::norm;
-use model::{Mechanism, Reaction, System};
+use model::{ConstraintId, Mechanism, Reaction, System};
 use report::sweep::{Extreme, SweepMotion};
 use scene_codegen::Tape;
 use solvability::analysis::analyse_decided;
 use solvability::{Analysis, ReactionStretches, Stretches, Value, Verdict};
 
+use crate::bounds_of_run::{BoundsOfRun, FoundBounds};
 use crate::error::StudyError;
 use crate::study::Study;
 
@@ -98,24 +99,49 @@ impl PreparedRun {
         mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>,
     ) -> MadeRun {
         let mut watch = Watch::new(self);
+        // Without redundant rows all reactions are unique.
+        let is_redundant = self.analysis.decision.redundancy > 0 && !watch.reactions.is_empty();
+        let elastic = self.study.bounds.as_ref().filter(|_| is_redundant);
         let wanted = OutputRequest {
             rows: Rows::Every,
             accelerations: false,
-            reactions: Reactions::Of(watch.names()),
+            reactions: match elastic {
+                // The bounds of one reaction depend on the loads of all.
+                Some(_) => Reactions::All,
+                None => Reactions::Of(watch.names()),
+            },
             groups: Vec::new(),
             choices: Vec::new(),
-            // The row of a sweep contains no instants.
-            verdicts: Verdicts::OfRun,
+            // The row of a sweep contains no instants. `OfRun` leaves out the loads that bounds
+            // depend on.
+            verdicts: match elastic {
+                Some(_) => Verdicts::WithInstants,
+                None => Verdicts::OfRun,
+            },
         };
-        let row = |sample: &mut Sample<'_, '_>| {
-            watch.see(sample)?;
-            Ok(each(sample))
-        };
-        let outcome =
-            Plan::new(&self.study.prepared, &self.options, &wanted).map(|plan| match evaluator {
+        let mut bounds = None;
+        let plan = Plan::new(&self.study.prepared, &self.options, &wanted);
+        let outcome = plan.map(|plan| {
+            let Study {
+                scene, prepared, ..
+            } = &self.study;
+            let known = watch.reactions.iter().flatten();
+            let known: Vec<ConstraintId> = known.copied().map(ConstraintId).collect();
+            bounds = elastic.map(|elastic| {
+                BoundsOfRun::of_magnitudes((scene, &prepared.mechanism), elastic, known, &plan)
+            });
+            let row = |sample: &mut Sample<'_, '_>| {
+                watch.see(sample)?;
+                if let Some(bounds) = &mut bounds {
+                    bounds.see(sample)?;
+                }
+                Ok(each(sample))
+            };
+            match evaluator {
                 Some(evaluator) => plan.simulate_evaluated(evaluator, stop, row),
                 None => plan.simulate_watched(&|_| ControlFlow::Continue(()), stop, row),
-            });
+            }
+        });
         let (summary, error) = match outcome {
             Ok(Ok(summary)) => (summary, None),
             Ok(Err(failure)) => (failure.summary, Some(StudyError::from(failure.error))),
@@ -123,7 +149,7 @@ impl PreparedRun {
         };
         let mut events = summary.events.iter();
         MadeRun {
-            motion: watch.motion(&summary),
+            motion: watch.motion(&summary, bounds.as_ref().map(|bounds| bounds.found().1)),
             error,
             left_code: events.any(|event| event.kind == EventKind::CodeLeft),
         }
@@ -253,7 +279,29 @@ impl<'s> Watch<'s> {
         each.map(|(place, largest)| of(*place, *largest)).collect()
     }
 
-    fn motion(self, summary: &Summary) -> SweepMotion {
+    /// Returns the bounds of the reactions that are not unique on the whole run.
+    fn at_most(
+        &self,
+        verdicts: Option<&Stretches>,
+        found: Option<&FoundBounds>,
+    ) -> report::sweep::BoundsOfRun {
+        let of = |place: &Option<usize>| {
+            let id = ConstraintId((*place)?);
+            let is_unique = verdicts?.reactions.get(id.0)?.whole.of_run().is_unique();
+            let mut all = found?.magnitudes.iter();
+            let (_, largest) = all.find(|(known, _)| *known == id && !is_unique)?;
+            Some(largest.map(|most| most.map_or([f64::NAN; 2], |most| [most.value, most.time])))
+        };
+        let largest = self.reactions.iter();
+        let largest = largest.map(|place| of(place).unwrap_or([[f64::NAN; 2]; 2]));
+        let gap = found.and_then(|found| found.gap.as_ref());
+        report::sweep::BoundsOfRun {
+            rows_without: gap.map_or(0, |gap| gap.rows as u64),
+            largest: largest.collect(),
+        }
+    }
+
+    fn motion(self, summary: &Summary, found: Option<&FoundBounds>) -> SweepMotion {
         let PreparedRun {
             study,
             analysis,
@@ -285,6 +333,7 @@ impl<'s> Watch<'s> {
             t_state: self.t_state,
             state: self.state(),
             extremes: self.extremes(verdicts),
+            at_most: study.bounds.as_ref().map(|_| self.at_most(verdicts, found)),
         }
     }
 }

@@ -150,6 +150,64 @@ simulate = { t_end = 0.1 }
     assert_eq!(sweep.plan.reactions, ["right"]);
 }
 
+/// A beam on two hinges, with gravity along the beam and across it: each hinge carries half of the
+/// weight across, and between nothing and the whole weight along.
+#[test]
+fn bounds_of_reactions_are_columns() {
+    let beam = r#"
+scene = { name = "beam", space = "plane", gravity = [-4.0, -10.0] }
+body = [{ name = "beam", mass = 3.0, inertia = 1.0 }]
+joint = [
+    { name = "left", type = "revolute", bodies = ["ground", "beam"], at = [-1.0, 0.0] },
+    { name = "right", type = "revolute", bodies = ["ground", "beam"], at = [1.0, 0.0] },
+]
+simulate = { t_end = 0.1 }
+"#;
+    let registry = Registry::standard();
+    let bounded = |request: &str| format!("{beam}output = {{ bounds = {request} }}\n");
+    let of = |request: &str| {
+        let row = sweep(&registry, &bounded(request), &["body.beam.mass=1,2"]).row(2);
+        let motion = row.motion.expect("it stands still");
+        motion.at_most.expect("requested")
+    };
+    let found = of("true");
+    assert_eq!(found.rows_without, 0, "{found:?}");
+    for [force, torque] in found.largest {
+        assert!((force[0] - 164.0_f64.sqrt()).abs() < 1e-12, "{force:?}");
+        assert_eq!(force[1], 0.0);
+        // A hinge of the plane has no torque under any load.
+        assert!(torque[0].is_nan());
+    }
+    // The right hinge carries the whole weight along the beam if it alone is rigid.
+    let found = of("{ rigid = [\"right\"] }");
+    let [left, right] = [0, 1].map(|k: usize| found.largest[k][0][0]);
+    assert!((left - 10.0).abs() < 1e-12 && (right - 164.0_f64.sqrt()).abs() < 1e-12);
+
+    let folder = Folder::new("bounds");
+    let sweep = sweep(&registry, &bounded("true"), &["body.beam.mass=1,2"]);
+    run(&sweep, &folder, Shard::WHOLE, 1);
+    let rows = folder.table();
+    let column = rows[0].iter().position(|name| name == "right.F_at_most");
+    let column = column.expect("a column");
+    assert_eq!(
+        &rows[0][column + 1..],
+        ["right.F_at_most_t", "right.T_at_most", "right.T_at_most_t"]
+    );
+    let value: f64 = rows[2][column].parse().expect("a number");
+    assert!((value - 164.0_f64.sqrt()).abs() < 1e-12, "{value}");
+
+    // Bounds that cannot be computed are refused before any run.
+    for (request, said) in [
+        ("{ within = 2, compliance = \"lefd=1\" }", "`lefd`"),
+        ("true, reactions = false", "bounds need reactions"),
+    ] {
+        let axes = vec!["body.beam.mass=1,2".parse().expect("an axis")];
+        let error = Sweep::read("scene.toml", &bounded(request), &registry, axes).err();
+        let error = error.expect("refused").to_string();
+        assert!(error.contains(said), "{error}");
+    }
+}
+
 /// Three parallel cranks are upright at the start and rotate. One pivot consists of two points on
 /// lines, and the horizontal one is unique only at the start.
 const UPRIGHT: &str = r#"

@@ -16,6 +16,7 @@ use super::axis::{Axis, Grid};
 use super::code::SweepCode;
 use super::run::{MadeRun, PreparedRun, UnvariedScene};
 use crate::assembled::AssembledScene;
+use crate::configuration::requests;
 use crate::error::StudyError;
 use crate::run_options::RunOptions;
 
@@ -107,6 +108,10 @@ impl<'r> Sweep<'r> {
         let reactions: Vec<usize> = (0..groups.len())
             .filter(|k| is_wanted(&groups[*k].name))
             .collect();
+        let bounds = requests::bounds(&assembled.scene, &assembled.mechanism)?.is_some();
+        if bounds && reactions.is_empty() {
+            return Err(StudyError::NoReactions.into());
+        }
         let plan = SweepPlan {
             scene: assembled.scene.name().to_owned(),
             digest: format!("{:016x}", digest(known_text(text, tolerance).as_bytes())),
@@ -129,6 +134,7 @@ impl<'r> Sweep<'r> {
                 .map(|name| (*name).to_owned())
                 .collect(),
             reactions: reactions.iter().map(|k| groups[*k].name.clone()).collect(),
+            bounds,
         };
         let scales = scales(&template, &grid, registry);
         Ok(Self {
@@ -278,6 +284,7 @@ impl<'r> Sweep<'r> {
         let mut study = assembled.prepare_after(&RunOptions::default(), other)?;
         let options = study.options.clone().ok_or(StudyError::NoEnd)?;
         options.check()?;
+        study.bounds = study.wanted_bounds()?;
         let PreparedMechanism {
             mechanism,
             q,

@@ -97,6 +97,19 @@ pub struct SweepMotion {
     /// Extremes of force and torque of the joints and drives of [`SweepPlan::reactions`]; `None`
     /// for a joint or drive without reactions.
     pub extremes: Vec<Option<[Extreme; 2]>>,
+    /// Upper bounds of the reactions that are not unique, if the scene requests them.
+    pub at_most: Option<BoundsOfRun>,
+}
+
+/// Upper bounds of force and torque over the output rows of a run, for joints of any stiffness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundsOfRun {
+    /// Number of output rows in which some reactions have no bounds; these rows are not included.
+    pub rows_without: u64,
+    /// The largest bound of force (N) and of torque (N·m) of the joints and drives of
+    /// [`SweepPlan::reactions`], each with its first time (s); NaN if the reaction is unique or has
+    /// no bounds.
+    pub largest: Vec<[[f64; 2]; 2]>,
 }
 
 /// A run.
@@ -138,11 +151,12 @@ const NUMBERS: Columns<f64, 7> = [
     ("t_state", |m| m.t_state),
 ];
 const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
+const AT_MOST: [&str; 4] = ["F_at_most", "F_at_most_t", "T_at_most", "T_at_most_t"];
 
 impl SweepPlan {
     /// The columns are `run`, the varied keys, `status`, `error`, `method`, `t`, counts and other
-    /// values. Then follow the last state of each body, and the extremes of each requested joint
-    /// and drive.
+    /// values. Then follow the last state of each body, the extremes of each requested joint and
+    /// drive, and, if the scene requests bounds, the number of rows without bounds and the bounds.
     #[must_use]
     pub fn columns(&self) -> Vec<Column> {
         let column = |kind: Kind| move |name: String| Column { name, kind };
@@ -152,7 +166,13 @@ impl SweepPlan {
                 .map(|name| (*name).to_owned())
                 .map(column(kind))
         };
-        let extremes = EXTREME.map(str::to_owned);
+        let [extremes, at_most] = [EXTREME, AT_MOST].map(|names| names.map(str::to_owned));
+        let bounded: &[String] = if self.bounds { &self.reactions } else { &[] };
+        let without: &[&str] = if self.bounds {
+            &["rows_without_bounds"]
+        } else {
+            &[]
+        };
         let of = |things: &[String], parts: &[String]| {
             let names = things
                 .iter()
@@ -167,6 +187,8 @@ impl SweepPlan {
             .chain(NUMBERS.map(|(name, _)| column(Kind::Number)(name.to_owned())))
             .chain(of(&self.bodies, &self.state))
             .chain(of(&self.reactions, &extremes))
+            .chain(own(without, Kind::Count))
+            .chain(of(bounded, &at_most))
             .collect()
     }
 
@@ -183,20 +205,24 @@ impl SweepPlan {
         cells.extend(COUNTS.map(|(_, of)| Cell::Count(motion.and_then(of))));
         cells.extend(NUMBERS.map(|(_, of)| number(of)));
         match motion {
-            Some(m) => {
-                cells.extend(m.state.iter().copied().map(Cell::Number));
-                for extremes in &m.extremes {
-                    let values = extremes
-                        .as_ref()
-                        .map(|of| of.each_ref().map(Extreme::cells));
-                    let values = values.unwrap_or([[f64::NAN; 2]; 2]);
-                    cells.extend(values.into_iter().flatten().map(Cell::Number));
-                }
-            }
+            Some(m) => cells.extend(m.state.iter().copied().map(Cell::Number)),
             None => {
                 let states = self.state.len() * self.bodies.len();
-                let n = states + EXTREME.len() * self.reactions.len();
-                cells.extend(std::iter::repeat_n(Cell::Number(f64::NAN), n));
+                cells.extend(std::iter::repeat_n(Cell::Number(f64::NAN), states));
+            }
+        }
+        for k in 0..self.reactions.len() {
+            let extremes = motion.and_then(|m| m.extremes[k].as_ref());
+            let values = extremes.map(|of| of.each_ref().map(Extreme::cells));
+            let values = values.unwrap_or([[f64::NAN; 2]; 2]);
+            cells.extend(values.into_iter().flatten().map(Cell::Number));
+        }
+        if self.bounds {
+            let at_most = motion.and_then(|m| m.at_most.as_ref());
+            cells.push(Cell::Count(at_most.map(|found| found.rows_without)));
+            for k in 0..self.reactions.len() {
+                let largest = at_most.map_or([[f64::NAN; 2]; 2], |found| found.largest[k]);
+                cells.extend(largest.into_iter().flatten().map(Cell::Number));
             }
         }
         cells

@@ -81,6 +81,7 @@ fn plan() -> SweepPlan {
         bodies: vec!["bob".to_owned()],
         state: super::planar(),
         reactions: vec!["pivot".to_owned()],
+        bounds: false,
     }
 }
 
@@ -112,6 +113,7 @@ fn row(run: u64) -> SweepRow {
             t_state: 1.0,
             state: vec![0.1 + 0.2, -1e300, x, 1.0 / x, f64::NAN, f64::INFINITY],
             extremes: vec![None],
+            at_most: None,
         }),
     }
 }
