@@ -174,6 +174,7 @@ impl AssembledScene {
             options,
             choices: Vec::new(),
             bounds: None,
+            remedies: Vec::new(),
         })
     }
 

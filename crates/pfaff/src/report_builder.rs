@@ -18,6 +18,7 @@ use solvability::{DeletableRows, Sensitivities, Stretches, Verdict};
 
 use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
+use crate::questions::analyze::remedies::RemedyDocument;
 use crate::rows::{RowFault, RowSink};
 use crate::words::SceneUnits;
 
@@ -36,6 +37,7 @@ pub(crate) struct OfRun<'a> {
     pub(crate) stretches: Option<&'a Stretches>,
     /// Bounds of the columns of reactions, if they were requested.
     pub(crate) bounds: Option<(&'a [ReactionColumn], &'a FoundBounds)>,
+    pub(crate) remedies: &'a [RemedyDocument],
 }
 
 /// Rows of a run that are collected for its page.
@@ -125,6 +127,7 @@ impl<'a> ReportBuilder<'a> {
             document: run,
             stretches,
             bounds,
+            remedies,
         } = *of_run;
         let choices = if self.has_choices {
             run.choice.iter().map(ToString::to_string).collect()
@@ -137,7 +140,7 @@ impl<'a> ReportBuilder<'a> {
             own.is_some_and(|(_, r)| r.verdict() == "not_unique")
         };
         let (comparisons, mut left_out) = compare(mechanism, &self.recording, is_open, &choices);
-        let (mut analysis, hints) = self.analysis(start);
+        let (mut analysis, hints) = self.analysis(start, remedies);
         analysis.warnings.extend(self.scene.cautions());
         analysis.add_sensitivities(sensitivities, mechanism.layout());
         analysis.add_notes(mechanism.layout());
@@ -173,20 +176,21 @@ impl<'a> ReportBuilder<'a> {
     fn analysis(
         &self,
         start: &ConfigurationAnalysis<'_>,
+        remedies: &[RemedyDocument],
     ) -> (AnalysisDocument, Vec<MakeUniqueDocument>) {
         let mut document = AnalysisDocument::new(self.scene.name(), &start.analysis, None);
         if let Ok(Some(explanation)) = start.explanation() {
             document.explain(&explanation, start.mechanism.layout());
         }
+        document.answers.remedies = remedies.to_vec();
         let limits = Limits {
             trials: HINT_TRIALS,
             ..Limits::default()
         };
-        let open = start
-            .analysis
-            .reactions
-            .iter()
-            .filter(|r| r.wrench.verdict == Verdict::NotUnique);
+        let open =
+            start.analysis.reactions.iter().filter(|r| {
+                r.wrench.verdict == Verdict::NotUnique && !document.has_remedy(&r.name)
+            });
         let hints = open.take(HINTS).map(|r| {
             let found = start.make_unique(r.id, &DeletableRows::Sensible, limits);
             MakeUniqueDocument::new(&r.name, &DeletableRows::Sensible, found)

@@ -36,6 +36,7 @@ use crate::assembled::{AssembledScene, refused};
 use crate::bounds_of_run::{self, BOUNDS, BoundsOfRun};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
+use crate::questions::analyze::remedies::RemedyDocument;
 use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, RowFault, RowSink, RunEnd, run_into};
 use crate::run_options::RunOptions;
@@ -74,6 +75,8 @@ pub struct Study {
     /// Elastic joints for which a run computes bounds of the reactions that the model does not
     /// determine; without them, no bounds are computed.
     pub bounds: Option<Elasticity>,
+    /// Joints of other types that make reactions unique, for the report.
+    pub remedies: Vec<RemedyDocument>,
 }
 
 /// A run that has ended.
@@ -305,6 +308,7 @@ impl Study {
             options: self.options.clone(),
             choices: self.choices.clone(),
             bounds: self.bounds.clone(),
+            remedies: self.remedies.clone(),
         }
     }
 
@@ -967,6 +971,7 @@ impl Study {
                 document: &document,
                 stretches: ended.summary.verdicts.as_ref(),
                 bounds: found,
+                remedies: &self.remedies,
             };
             let page = report_builder.page(&of_run, origin, figure.as_deref());
             directory.write("report.html", page.as_bytes())?;

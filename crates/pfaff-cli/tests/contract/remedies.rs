@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use suite::numbers::Numbers;
 
-use super::{stderr, stdout, with_scene};
+use super::{Folder, stderr, stdout, with_scene};
 
 const HATCH: &str = include_str!("../remedies/hatch.toml");
 const SLIDER: &str = include_str!("../remedies/slider.toml");
@@ -331,4 +331,15 @@ fn global_directions_stay_global() {
             assert!(replaced.get("directions").is_none(), "{replaced}");
         }
     }
+}
+
+/// The report lists the remedy, and no deletion of a joint that has one.
+#[test]
+fn the_report_has_the_remedy() {
+    let folder = Folder::new("remedy-report");
+    let carriage = include_str!("../../../../examples/carriage.toml");
+    with_scene(&["simulate", "-", "--out", folder.text()], carriage);
+    let page = std::fs::read_to_string(folder.0.join("report.html")).expect("written");
+    assert!(page.contains("Make each of <b>rear</b> and <b>front</b> a pin on a line"));
+    assert!(!page.contains("delete <b>"));
 }

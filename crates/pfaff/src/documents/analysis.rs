@@ -221,6 +221,13 @@ pub struct MixingDocument {
 }
 
 impl AnalysisDocument {
+    /// Whether joints of other types make the reaction of this joint or drive unique.
+    #[must_use]
+    pub fn has_remedy(&self, reaction: &str) -> bool {
+        let mut all = self.answers.remedies.iter();
+        all.any(|remedy| remedy.reactions.iter().any(|name| name == reaction))
+    }
+
     /// Builds the document of an analysis with ranks at other configurations; `None` if the ranks
     /// were not requested, or if no other configuration could be reached. The evidence is that of
     /// the part whose rank is least certain.

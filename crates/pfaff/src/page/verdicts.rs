@@ -174,7 +174,9 @@ fn why(out: &mut String, page: &RunPage<'_>) {
         out.push_str("<h3>Redundant constraints</h3>\n");
         some(out, &reasons);
     }
-    let hints = remedies(page.hints);
+    let retyped = analysis.answers.remedies.iter();
+    let retyped = retyped.map(|remedy| capital(&remedy.text));
+    let hints: Vec<String> = retyped.chain(remedies(page.hints)).collect();
     if !hints.is_empty() {
         out.push_str("<h3>Ways to make a reaction unique without changing the motion</h3>\n");
         some(out, &hints);

@@ -19,6 +19,7 @@ use crate::error::StudyError;
 use crate::question::{
     Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Progress, Question, Writing,
 };
+use crate::questions::analyze::remedies;
 use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::start::Start;
@@ -108,6 +109,10 @@ impl Question for Simulate {
         (study.choices, study.bounds) = (choices, bounds);
         let memory = study.memory(of.text.len()).map_err(|e| of.refusal(e))?;
         of.budget.allow(memory, "this run")?;
+        if study.scene.output.report && run.drop.is_none() {
+            // A search that fails must not prevent the run.
+            study.remedies = remedies::of_run(of, &study).unwrap_or_default();
+        }
         let Some(options) = &study.options else {
             return Err(of.refusal(StudyError::NoEnd));
         };

@@ -113,7 +113,7 @@ fn ways(
     let reactions = configuration.analysis.reactions.iter();
     // A joint is not deleted if another type suffices.
     let open = reactions
-        .filter(|r| r.wrench.verdict == Verdict::NotUnique && !remedies::covers(document, &r.name));
+        .filter(|r| r.wrench.verdict == Verdict::NotUnique && !document.has_remedy(&r.name));
     // One more than the listed number shows whether there are more.
     open.take(HINTS + 1)
         .map(

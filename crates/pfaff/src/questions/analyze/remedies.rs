@@ -18,6 +18,7 @@ use crate::configuration::ConfigurationAnalysis;
 use crate::documents::AnalysisDocument;
 use crate::error::StudyError;
 use crate::start::Start;
+use crate::study::Study;
 use crate::words::{Block, grouped, marked};
 use types::{OtherType, other_types};
 
@@ -60,6 +61,18 @@ pub(super) fn add(
         *remedies = Search { start, of }.remedies("with the same motion")?;
     }
     Ok(())
+}
+
+/// Returns the remedies of a run from its start, if its mechanism is small.
+pub(crate) fn of_run(start: &Start<'_>, study: &Study) -> Result<Vec<RemedyDocument>, StudyError> {
+    let mechanism = &study.prepared.mechanism;
+    if study.prepared.decision.redundancy == 0 || mechanism.layout().rows() > ROWS {
+        return Ok(Vec::new());
+    }
+    let of = study.analyse(0.0, None)?;
+    let mut document = of.document(&[])?;
+    add(&Analyze::default(), start, &of, &mut document)?;
+    Ok(document.answers.remedies)
 }
 
 /// Reads the scene with other types of joints; `None` if it is invalid.
@@ -206,12 +219,6 @@ fn and(names: &[impl AsRef<str>]) -> String {
         }
         names => marked(names),
     }
-}
-
-/// Whether a remedy makes this reaction unique.
-pub(super) fn covers(d: &AnalysisDocument, reaction: &str) -> bool {
-    let mut all = d.answers.remedies.iter();
-    all.any(|remedy| remedy.reactions.iter().any(|name| name == reaction))
 }
 
 /// Returns the remedies as text.
