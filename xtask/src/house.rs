@@ -33,11 +33,11 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 146_400;
+const TOTAL_MOST: usize = 146_570;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 110_880;
+const PRODUCT_MOST: usize = 111_050;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
-const TOKENS_MOST: usize = 1_051_700;
+const TOKENS_MOST: usize = 1_053_900;
 /// Largest number of lines of code of `dynamics`.
 const DYNAMICS_MOST: usize = 11_250;
 /// Largest number of stateful types above the bounds.
