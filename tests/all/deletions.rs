@@ -139,7 +139,7 @@ fn proposals_are_sentences_and_can_be_restricted() {
     );
     assert_eq!(
         w3(&DeletableRows::Whole),
-        ["delete `W1` and delete `W4`", "delete `W2` and delete `W4`"]
+        ["delete `W1` and `W4`", "delete `W2` and `W4`"]
     );
     assert!(w3(&DeletableRows::Rows(vec![3, 17])).is_empty());
     assert_eq!(sets(&straight, "A", &DeletableRows::Sensible), [[0; 0]]);
