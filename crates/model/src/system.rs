@@ -115,6 +115,18 @@ impl Layout {
         self.n_q - self.turns..self.n_q
     }
 
+    /// Returns the last number before a time t (s) if t is a break time after the start; otherwise
+    /// t. A row at a break time has the values just before it.
+    #[must_use]
+    pub fn before_break(&self, t: f64) -> f64 {
+        let found = self.break_times.binary_search_by(|at| at.total_cmp(&t));
+        if found.is_ok() && t > 0.0 {
+            t.next_down()
+        } else {
+            t
+        }
+    }
+
     /// Returns the rows of drives, ascending.
     #[must_use]
     pub fn drive_rows(&self) -> Vec<usize> {

@@ -44,7 +44,8 @@ pub use plan::decision_key;
 pub use report::ByName;
 pub use report::figures::RangeDocument;
 pub use run::{
-    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument, choice_file,
+    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, LoadOfRunDocument, Run,
+    RunDocument, choice_file,
 };
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{

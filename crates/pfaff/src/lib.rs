@@ -43,6 +43,7 @@ pub mod elasticity;
 pub mod error;
 pub mod explain;
 pub mod forked;
+mod loads_of_run;
 pub mod memory;
 pub mod page;
 pub mod prelude;

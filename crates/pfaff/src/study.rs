@@ -36,6 +36,7 @@ use crate::assembled::{AssembledScene, refused};
 use crate::bounds_of_run::{self, BOUNDS, BoundsOfRun};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
+use crate::loads_of_run::{self, LOADS, LoadsOfRun};
 use crate::questions::analyze::remedies::RemedyDocument;
 use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, RowFault, RowSink, RunEnd, run_into};
@@ -698,8 +699,11 @@ impl Study {
                 (all, true),
             )
         });
+        let every = TableRows::new(1, plan.options().t_end);
+        let mut loads = LoadsOfRun::begin(None, mechanism, every)?;
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut caller];
         sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
+        sinks.extend(loads.as_mut().map(|sink| sink as &mut dyn RowSink));
         let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), &mut sinks)?;
         if let Some(bounds) = &mut bounds {
             bounds.end(ended.summary.verdicts.as_ref(), &ended.ending())?;
@@ -715,6 +719,7 @@ impl Study {
             ..WrittenRun::default()
         };
         let mut document = begun.document(&plan, &ended, written);
+        document.loads = loads_of_run::documents(loads.as_ref());
         if let Some(elasticity) = elasticity {
             let found = bounds.as_ref().map(BoundsOfRun::found);
             bounds_of_run::add_to(&mut document, mechanism, elasticity, found);
@@ -921,7 +926,13 @@ impl Study {
             written_rows += usize::from(counted.take(sample.t));
             Ok(ControlFlow::Continue(()))
         });
+        // Without rows of reactions a run need not stop at the rows.
+        let mut loads = match output.reactions {
+            WantedReactions::None => None,
+            _ => LoadsOfRun::begin(Some(directory), mechanism, table_rows)?,
+        };
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut counter];
+        sinks.extend(loads.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(trajectory.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(reactions.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
@@ -939,7 +950,8 @@ impl Study {
         };
         let found = bounds.as_ref().map(BoundsOfRun::found);
         let has_bounds = found.is_some_and(|(_, found)| found.has_table);
-        let files = files_of(output, choice_files, has_bounds);
+        let others = [(LOADS, loads.is_some()), (BOUNDS, has_bounds)];
+        let files = files_of(output, choice_files, others);
         let mut document = begun.document(
             &plan,
             &ended,
@@ -952,6 +964,7 @@ impl Study {
                 peaks,
             },
         );
+        document.loads = loads_of_run::documents(loads.as_ref());
         if let Some(elasticity) = elasticity {
             bounds_of_run::add_to(&mut document, mechanism, elasticity, found);
         }
@@ -1071,12 +1084,14 @@ pub const FAMILY: Family = Family(&[
     "choice_*.csv",
     "bounds.csv",
     "bounds_*.csv",
+    "loads.csv",
     "summary.json",
     "report.html",
 ]);
 
-/// Returns the files of a run with this output, these tables of choices, and a table of bounds.
-fn files_of(output: &Output, choices: &[String], has_bounds: bool) -> Vec<String> {
+/// Returns the files of a run with this output, these tables of choices, and those of the other
+/// tables that exist.
+fn files_of(output: &Output, choices: &[String], more: [(&str, bool); 2]) -> Vec<String> {
     let reactions = !matches!(output.reactions, WantedReactions::None);
     let tables = [
         ("trajectory.csv", output.trajectory),
@@ -1086,7 +1101,7 @@ fn files_of(output: &Output, choices: &[String], has_bounds: bool) -> Vec<String
     let wanted = |(name, is): (&str, bool)| is.then(|| name.to_owned());
     let tables = tables.into_iter().filter_map(wanted);
     let tables = tables.chain(choices.iter().cloned());
-    let tables = tables.chain(has_bounds.then(|| BOUNDS.to_owned()));
+    let tables = tables.chain(more.into_iter().filter_map(wanted));
     tables
         .chain(others.into_iter().filter_map(wanted))
         .collect()

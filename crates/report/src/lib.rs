@@ -30,9 +30,9 @@ pub use peaks::{Peak, PeakRecorder};
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{
-    BoundsTable, Column, Quantity, ReactionColumn, ReactionTable, Selection, Table, TableError,
-    Trajectory, TrajectoryTable, columns_of_reactions, reaction_columns, write_chosen,
-    write_determined, write_open_bounds,
+    BoundsTable, Column, LoadTable, Quantity, ReactionColumn, ReactionTable, Selection, Table,
+    TableError, Trajectory, TrajectoryTable, columns_of_reactions, load_columns, load_numbers,
+    reaction_columns, write_chosen, write_determined, write_open_bounds,
 };
 pub use work_precision::{
     CurveName, Place, Provenance, RankingLine, ReferenceDocument, WorkPrecisionDocument,

@@ -5,6 +5,7 @@
 //! The caller chooses the times and the destination of rows.
 
 mod bounds;
+mod loads;
 mod reactions;
 #[cfg(test)]
 mod tests;
@@ -16,6 +17,7 @@ use std::io::{self, BufWriter, Write};
 use serde::Serialize;
 
 pub use bounds::{BoundsTable, write_open_bounds};
+pub use loads::{LoadTable, load_columns, load_numbers};
 pub use reactions::{
     Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, reaction_columns,
     write_chosen, write_determined,

@@ -341,7 +341,7 @@ simulate = { t_end = 0.1 }
     );
     // Components that are not determined have no peak.
     let peaks = page
-        .split_once("<h3>Peak reactions</h3>")
+        .split_once("Peak loads</h2>")
         .expect("a table of peaks")
         .1;
     let row = |name: &str| {

@@ -45,14 +45,14 @@ pub struct RangeOfRunDocument {
     pub highest: ExtremeDocument,
 }
 
-/// Upper bounds of the magnitudes of a load over a run.
+/// The largest magnitudes of a load over a run, or upper bounds of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct MagnitudeOfRunDocument {
-    /// Largest magnitude of the force (N); `null` if the joint has no force.
+    /// Largest magnitude of the force (N); `null` if there is no force.
     pub force: Option<ExtremeDocument>,
-    /// Largest magnitude of the moment about the reference point (N·m); `null` if the joint has no
+    /// Largest magnitude of the moment about the reference point (N·m); `null` if there is no
     /// moment.
     pub moment: Option<ExtremeDocument>,
 }

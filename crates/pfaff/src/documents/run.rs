@@ -11,9 +11,9 @@ use solvability::{Freedoms, ReactionVerdict, Sensitivities};
 
 use super::plan::{short, short_of};
 use super::{
-    ByName, DataDocument, FreedomsDocument, Gap, ImpulseDocument, MisfitDocument,
-    RunBoundsDocument, RunGroupDocument, RunReactionDocument, RunVerdicts, SpecialDocument,
-    SpreadDocument, from_one,
+    ByName, DataDocument, FreedomsDocument, Gap, ImpulseDocument, MagnitudeOfRunDocument,
+    MisfitDocument, RangeOfRunDocument, RunBoundsDocument, RunGroupDocument, RunReactionDocument,
+    RunVerdicts, SpecialDocument, SpreadDocument, from_one,
 };
 
 /// A run and its results.
@@ -120,6 +120,9 @@ pub struct RunDocument {
     /// Verdicts of the groups of the scene, by name.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub groups: ByName<RunGroupDocument>,
+    /// Extreme values of the loads of force elements, by name.
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub loads: ByName<LoadOfRunDocument>,
     /// The assumptions of the bounds, if bounds were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds: Option<RunBoundsDocument>,
@@ -187,6 +190,18 @@ pub struct EventDocument {
     /// verdicts at this instant.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub impulses: ByName<ImpulseDocument>,
+}
+
+/// Extreme values of a load over the rows of a run. The model determines the loads of force
+/// elements at every state.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct LoadOfRunDocument {
+    /// The largest magnitudes of force and moment.
+    pub peak: MagnitudeOfRunDocument,
+    /// The smallest and the largest value of each component on the first body (N, N·m), of the
+    /// `length` (m) or `angle` (rad), and of its `rate`.
+    pub components: ByName<RangeOfRunDocument>,
 }
 
 /// The choice that determines the numbers of a table, on an interval of time.
@@ -337,6 +352,7 @@ impl RunDocument {
                 .collect(),
             reactions,
             groups,
+            loads: ByName(Vec::new()),
             bounds: None,
             special: verdicts.map_or_else(Vec::new, |v| {
                 SpecialDocument::all(v.stretches, v.groups, mechanism.layout())

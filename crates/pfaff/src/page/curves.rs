@@ -1,11 +1,11 @@
 //! Curves other than reactions: joint coordinates, drives, energies and residuals.
 
-use model::{Measure, Mechanism, System};
+use model::{Load, Mechanism, System};
 use serde::Serialize;
 
 use super::run_page::{DriveCurve, RunPage};
-use report::Frame;
 use report::channel::Channel;
+use report::{Frame, load_columns, load_numbers};
 
 /// Largest number of joint coordinates that are plotted.
 pub(super) const MEASURES_MAX: usize = 24;
@@ -13,29 +13,26 @@ pub(super) const MEASURES_MAX: usize = 24;
 /// Largest number of drives that are plotted.
 pub(super) const DRIVES_MAX: usize = 12;
 
+/// Largest number of force elements that are plotted.
+pub(super) const LOADS_MAX: usize = 12;
+
 /// Curves other than reactions.
 #[derive(Serialize)]
-pub(super) struct Curves<'a> {
-    measures: Vec<MeasureCurve<'a>>,
-    drives: Vec<Drive<'a>>,
+pub(super) struct Curves {
+    charts: Vec<Chart>,
     energy: Energy,
     residuals: Residuals,
 }
 
+/// Curves of one unit in a frame.
 #[derive(Serialize)]
-struct MeasureCurve<'a> {
-    name: &'a str,
-    text: String,
+struct Chart {
+    /// Identifier of the element of the page that contains the chart.
+    place: &'static str,
+    title: String,
     unit: &'static str,
-    value: Channel,
-}
-
-#[derive(Serialize)]
-struct Drive<'a> {
-    name: &'a str,
-    text: &'a str,
-    unit: &'static str,
-    value: Channel,
+    /// Each curve with its label.
+    curves: Vec<(String, Channel)>,
 }
 
 #[derive(Serialize)]
@@ -55,13 +52,14 @@ struct Residuals {
     velocity: Channel,
 }
 
-impl<'a> Curves<'a> {
+impl Curves {
     /// Returns the curves of a page.
-    pub(super) fn of(page: &'a RunPage<'a>) -> Self {
+    pub(super) fn of(page: &RunPage<'_>) -> Self {
         let measured = EnergyCurves::of(page.mechanism, &page.recording.frames);
+        let drives = page.drives.iter().take(DRIVES_MAX).map(drive);
+        let charts = measures(page).chain(loads(page)).chain(drives);
         Self {
-            measures: measures(page),
-            drives: page.drives.iter().take(DRIVES_MAX).map(drive).collect(),
+            charts: charts.collect(),
             energy: measured.energy(),
             residuals: Residuals {
                 position: logarithmic(measured.position.iter().copied()),
@@ -72,33 +70,69 @@ impl<'a> Curves<'a> {
 }
 
 /// Returns the joint coordinates at the frames.
-fn measures<'a>(page: &RunPage<'a>) -> Vec<MeasureCurve<'a>> {
+fn measures<'p>(page: &'p RunPage<'_>) -> impl Iterator<Item = Chart> + 'p {
     let (mechanism, frames) = (page.mechanism, &page.recording.frames);
     let observed = mechanism.frames().observed();
     let name = |of: Option<usize>| of.map_or("ground", |k| observed.markers[k].name.as_str());
     let measures = observed.measures.iter().take(MEASURES_MAX).enumerate();
-    let curve = |(k, measure): (usize, &'a Measure)| {
+    measures.map(move |(k, measure)| {
         let [first, second] = measure.between.map(name);
-        MeasureCurve {
-            name: &measure.name,
-            text: format!("{} of {second} from {first}", measure.kind.name()),
+        let values = frames.iter();
+        let values = values.map(|f| mechanism.frames().measure(k, &f.q, &f.v));
+        let kind = measure.kind.name();
+        Chart {
+            place: "measure-curves",
+            title: format!("{}: {kind} of {second} from {first}", measure.name),
             unit: measure.kind.unit(),
-            value: Channel::new(
-                frames
-                    .iter()
-                    .map(|f| mechanism.frames().measure(k, &f.q, &f.v)),
-            ),
+            curves: vec![(measure.name.clone(), Channel::new(values))],
         }
-    };
-    measures.map(curve).collect()
+    })
 }
 
-fn drive(curve: &DriveCurve) -> Drive<'_> {
-    Drive {
-        name: &curve.name,
-        text: &curve.text,
+/// Returns the loads of force elements at the frames, one chart for each unit of an element.
+/// Components that are always zero are left out.
+fn loads<'p>(page: &'p RunPage<'_>) -> impl Iterator<Item = Chart> + 'p {
+    let (mechanism, frames) = (page.mechanism, &page.recording.frames);
+    let (space, mut loads) = (mechanism.space(), mechanism.loads());
+    let layout = mechanism.layout();
+    let rows: Vec<Vec<Load>> = frames
+        .iter()
+        .map(|f| loads.at(layout.before_break(f.t), &f.q, &f.v))
+        .collect();
+    let forces = loads.forces().take(LOADS_MAX).enumerate();
+    forces.flat_map(move |(k, (name, measure))| {
+        let mut charts: Vec<Chart> = Vec::new();
+        for (at, (column, unit)) in load_columns(space, name, measure).enumerate() {
+            let number = |row: &Vec<Load>| load_numbers(space, &row[k]).nth(at);
+            let values = rows.iter().map(|row| number(row).unwrap_or(f64::NAN));
+            let values: Vec<f64> = values.collect();
+            if values.iter().all(|value| *value == 0.0) {
+                continue;
+            }
+            let curve = (column.number.to_owned(), Channel::new(values.into_iter()));
+            match charts.last_mut() {
+                Some(chart) if chart.unit == unit => chart.curves.push(curve),
+                _ => charts.push(Chart {
+                    place: "load-curves",
+                    title: name.to_owned(),
+                    unit,
+                    curves: vec![curve],
+                }),
+            }
+        }
+        charts
+    })
+}
+
+fn drive(curve: &DriveCurve) -> Chart {
+    Chart {
+        place: "drive-curves",
+        title: format!("{}: {}", curve.name, curve.text),
         unit: curve.unit,
-        value: Channel::new(curve.values.iter().copied()),
+        curves: vec![(
+            curve.name.clone(),
+            Channel::new(curve.values.iter().copied()),
+        )],
     }
 }
 
@@ -129,16 +163,7 @@ impl EnergyCurves {
         let layout = mechanism.layout();
         let mut s = mechanism.scratch();
         for frame in frames {
-            // Rows at a break time contain the values just before it.
-            let breaks = layout
-                .break_times
-                .binary_search_by(|t| t.total_cmp(&frame.t));
-            let t = if breaks.is_ok() && frame.t > 0.0 {
-                frame.t.next_down()
-            } else {
-                frame.t
-            };
-            mechanism.pose(t, &frame.q, &mut s);
+            mechanism.pose(layout.before_break(frame.t), &frame.q, &mut s);
             mechanism.phi(&mut s);
             mechanism.c(&mut s);
             mechanism.b(&mut s);

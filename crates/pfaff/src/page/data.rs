@@ -36,7 +36,7 @@ pub(super) struct Data<'a> {
     pub(super) first_order: FirstOrder<'a>,
     comparisons: Vec<ComparisonData<'a>>,
     #[serde(flatten)]
-    curves: Curves<'a>,
+    curves: Curves,
     events: &'a [EventDocument],
     /// Units of the scene for the units of the curves, with the number of scene units in one SI
     /// unit.

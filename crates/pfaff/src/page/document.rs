@@ -341,11 +341,13 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
          <option value=\"body\">in axes of the first body</option></select></div>\n\
          <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n",
     );
-    peaks::table(out, page);
     out.push_str(
         "<details class=\"on-request\" id=\"all-reactions\"><summary>Curves of all reactions</summary>\n\
-         <p class=\"grey\">The curves are drawn when this section is opened. They are printed only if it is open.</p>\n<div id=\"all-curves\"></div>\n</details>\n</section>\n\
-         <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n",
+         <p class=\"grey\">The curves are drawn when this section is opened. They are printed only if it is open.</p>\n<div id=\"all-curves\"></div>\n</details>\n</section>\n",
+    );
+    peaks::table(out, page);
+    out.push_str(
+        "<section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n",
     );
     let units = page.scene.units;
     let units = units.length.into_iter().chain(units.angle);
@@ -374,15 +376,29 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
         );
     }
     out.push_str("</div>\n");
-    if page.mechanism.frames().observed().measures.is_empty() {
-        out.push_str("<div id=\"measure-curves\" hidden></div>\n");
-    } else {
-        out.push_str("<h2>Measures (quantities between markers)</h2>\n<div class=\"curves\" id=\"measure-curves\"></div>\n");
-    }
-    if !page.drives.is_empty() {
-        out.push_str("<h2>Drives</h2>\n<div class=\"curves\" id=\"drive-curves\"></div>\n");
-    } else {
-        out.push_str("<div id=\"drive-curves\" hidden></div>\n");
+    let has_measures = !page.mechanism.frames().observed().measures.is_empty();
+    let has_forces = !page.mechanism.applied_forces().is_empty();
+    for (place, title, is_shown) in [
+        (
+            "measure",
+            "Measures (quantities between markers)",
+            has_measures,
+        ),
+        (
+            "load",
+            "Loads of force elements on their first bodies",
+            has_forces,
+        ),
+        ("drive", "Drives", !page.drives.is_empty()),
+    ] {
+        if is_shown {
+            add(
+                out,
+                format_args!(
+                    "<h2>{title}</h2>\n<div class=\"curves\" id=\"{place}-curves\"></div>\n"
+                ),
+            );
+        }
     }
     out.push_str("<h2>Energy and checks</h2>\n<div class=\"curves\" id=\"energy-curves\"></div>\n");
     events(out, run);

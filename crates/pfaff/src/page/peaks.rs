@@ -7,7 +7,7 @@ use model::{ConstraintId, Mechanism, Reaction, System};
 
 use super::run_page::RunPage;
 use super::{data, verdicts};
-use crate::documents::{ExtremeDocument, RunReactionDocument};
+use crate::documents::{ExtremeDocument, LoadOfRunDocument, RunReactionDocument};
 use crate::words::{Scale, UnitSystem};
 use report::Frame;
 use report::page::{add, safe};
@@ -61,11 +61,14 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     };
     let layout = page.mechanism.layout();
     let has_reactions = frames.iter().any(|f| !f.reactions.is_empty());
-    if !has_reactions || run.reactions.0.len() != layout.groups.len() {
+    let has_reactions = has_reactions && run.reactions.0.len() == layout.groups.len();
+    if !has_reactions && run.loads.is_empty() {
         return;
     }
     let noise = data::noise(frames);
-    let told = layout.constraint_ids().take(LINES);
+    let told = layout
+        .constraint_ids()
+        .take(if has_reactions { LINES } else { 0 });
     let lines = told.map(|id| {
         let (name, document) = &run.reactions.0[id.0];
         if document.verdict() == "unique" {
@@ -109,14 +112,15 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
             holds,
         }
     });
-    let lines: Vec<PeakLine<'_>> = lines.collect();
+    let loads = run.loads.0.iter().take(LINES);
+    let lines: Vec<PeakLine<'_>> = lines.chain(loads.map(PeakLine::of_load)).collect();
     let numbers = lines.iter().flat_map(PeakLine::numbers);
     let scale = Scale::new(numbers, UnitSystem::Scene(page.scene.units));
     let [force, moment] = [FORCE, MOMENT].map(|unit| scale.unit(unit).0);
     add(
         out,
         format_args!(
-            "<h3>Peak reactions</h3>\n<div class=\"wide\"><table class=\"peaks\">\n<thead><tr><th>Joint or drive</th>\
+            "<section aria-labelledby=\"peaks-title\">\n<h2 id=\"peaks-title\">Peak loads</h2>\n<div class=\"wide\"><table class=\"peaks\">\n<thead><tr><th>Joint, drive or force</th>\
              <th>Largest force ({force})</th><th>at (s)</th><th>Largest moment ({moment})</th><th>at (s)</th>\
              <th>Component</th><th>at (s)</th><th>Valid for</th></tr></thead>\n<tbody>\n",
         ),
@@ -126,6 +130,7 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     }
     out.push_str("</tbody>\n</table></div>\n");
     notes(out, page.mechanism, page.recording.stride);
+    out.push_str("</section>\n");
 }
 
 /// Unit of forces.
@@ -170,7 +175,33 @@ fn holds(document: &RunReactionDocument) -> String {
     }
 }
 
-impl PeakLine<'_> {
+impl<'a> PeakLine<'a> {
+    /// The line of a force element; lengths and angles have both extreme values.
+    fn of_load((name, load): &'a (String, LoadOfRunDocument)) -> Self {
+        let peak = |extreme: ExtremeDocument| Peak {
+            value: extreme.value,
+            t: extreme.time,
+        };
+        let ranges = load.components.0.iter();
+        let ranges = ranges.filter_map(|(number, range)| {
+            let (named, unit) = match number.as_str() {
+                "length" => (["least length", "largest length"], "m"),
+                "angle" => (["least angle", "largest angle"], "rad"),
+                _ => return None,
+            };
+            let ends = named.into_iter().zip([range.lowest, range.highest]);
+            Some(ends.map(move |(named, end)| (Some(named), unit, peak(end))))
+        });
+        Self {
+            name,
+            is_bound: false,
+            force: load.peak.force.map(peak),
+            moment: load.peak.moment.map(peak),
+            components: ranges.flatten().collect(),
+            holds: "every choice (force element)".to_owned(),
+        }
+    }
+
     /// Returns all numbers with their units.
     fn numbers(&self) -> impl Iterator<Item = (f64, &'static str)> {
         let totals = [(self.force, FORCE), (self.moment, MOMENT)];
@@ -236,7 +267,7 @@ fn notes(out: &mut String, mechanism: &Mechanism, stride: usize) {
         out,
         format_args!(
             "<p class=\"grey\">Each peak is the largest value in the {rows}. Between these rows, a reaction may be larger. Forces and \
-             moments act on the first body. Moments are about the reference point of the joint.</p>\n"
+             moments act on the first body. Moments are about the reference point of the joint, or about the point of the force on this body.</p>\n"
         ),
     );
 }

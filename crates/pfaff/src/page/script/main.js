@@ -353,18 +353,12 @@ function showComponent(chart, joint, name, k, { large, frame }) {
   chart.show(series, { ...options, band });
 }
 
-/** Measures, drives, energy, residuals. */
+/** Measures, loads, drives, energy, residuals. */
 function setUpChecks() {
-  const measures = byId("measure-curves");
-  data.measures.forEach((measure, k) => {
-    const chart = new Chart(measures, { title: `${measure.name}: ${measure.text}`, unit: measure.unit, onSeek: seek });
-    chart.show([{ label: measure.name, values: decode(measure.value), colour: k % 7 }]);
-  });
-  const drives = byId("drive-curves");
-  data.drives.forEach((drive, k) => {
-    const chart = new Chart(drives, { title: `${drive.name}: ${drive.text}`, unit: drive.unit, onSeek: seek });
-    chart.show([{ label: drive.name, values: decode(drive.value), colour: k }]);
-  });
+  for (const { place, title, unit, curves } of data.charts) {
+    const chart = new Chart(byId(place), { title, unit, onSeek: seek });
+    chart.show(curves.map(([label, channel], k) => ({ label, values: decode(channel), colour: k % 7, dash: k })));
+  }
   const energy = new Chart(byId("energy-curves"), { title: "Energy", unit: "J", onSeek: seek });
   const [kinetic, potential, work] = [data.energy.kinetic, data.energy.potential, data.energy.work].map(decode);
   const parts = [

@@ -1,0 +1,220 @@
+//! The loads of applied forces on their bodies, at a state.
+
+use joints::spec::{ForceSpec, Shape, Unit};
+
+use super::Mechanism;
+use crate::body::BodyRef;
+use crate::element::PlacedForce;
+use crate::reaction::Reaction;
+use crate::space::{cross, difference};
+use crate::system::{Scratch, System};
+
+/// The joint coordinate of an applied force: a quantity that the force measures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ForceMeasure {
+    /// Distance of two points, or the joint coordinate of a drive (m).
+    Length,
+    /// Angle between two bodies (rad).
+    Angle,
+}
+
+impl ForceMeasure {
+    /// Returns the names of the measure and of its rate in tables.
+    #[must_use]
+    pub fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::Length => ["length", "rate"],
+            Self::Angle => ["angle", "rate"],
+        }
+    }
+
+    /// Returns the units of the measure and of its rate.
+    #[must_use]
+    pub fn units(self) -> [&'static str; 2] {
+        match self {
+            Self::Length => ["m", "m/s"],
+            Self::Angle => ["rad", "rad/s"],
+        }
+    }
+
+    fn of(spec: &ForceSpec, is_law: bool) -> Option<Self> {
+        if is_law {
+            let mut units = spec.common.functions();
+            let turns = units.any(|(_, unit)| unit == Unit::Angle);
+            return Some(if turns { Self::Angle } else { Self::Length });
+        }
+        if spec.common.points_apart {
+            return Some(Self::Length);
+        }
+        let mut parameters = spec.common.parameters.iter();
+        let turns = parameters.any(|p| matches!(p.shape, Shape::Numbers([Unit::Angle])));
+        turns.then_some(Self::Angle)
+    }
+}
+
+/// The load of an applied force: the wrench on its first body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Load {
+    /// Force and torque on the first body, in ground axes (N, N·m). The torque is about
+    /// [`Load::place`].
+    pub wrench: Reaction,
+    /// The first point of the force on the first body (m, ground axes). A force without such a
+    /// point has the centre of mass of the body, or the origin of the ground.
+    pub place: [f64; 3],
+    /// The measure of the force and its rate, if it has one.
+    pub measure: Option<[f64; 2]>,
+}
+
+/// Computes the loads of the applied forces of a mechanism. A drive with a force law is one of
+/// these forces. The weight is not.
+pub struct Loads<'m> {
+    mechanism: &'m Mechanism,
+    s: Scratch,
+    block: Vec<f64>,
+}
+
+impl Mechanism {
+    /// Returns the loads of the applied forces; see [`Loads`]. The function allocates memory.
+    ///
+    /// ```
+    /// use pfaff_joints::plane::Vector;
+    /// use pfaff_model::{Body, BodyRef, Description, Mechanism};
+    /// use pfaff_joints::SpringDamper;
+    /// let mut d = Description::new("hanging");
+    /// let bob = d.body(Body::new("bob", 1.0, 1.0));
+    /// d.force("spring", SpringDamper::new([0.0, 1.0], [0.0; 2], 50.0, 0.0, Some(0.8)), &[BodyRef::Ground, bob]);
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// let load = mechanism.loads().at(0.0, &[0.0; 3], &[0.0; 3])[0];
+    /// // The spring pulls the ground down.
+    /// assert!((load.wrench.force[1] + 10.0).abs() < 1e-12);
+    /// assert_eq!(load.measure, Some([1.0, 0.0]));
+    /// ```
+    #[must_use]
+    pub fn loads(&self) -> Loads<'_> {
+        Loads {
+            mechanism: self,
+            s: self.scratch(),
+            block: vec![0.0; self.scratch().block.len()],
+        }
+    }
+}
+
+impl<'m> Loads<'m> {
+    /// Returns the name of each force, with its measure.
+    pub fn forces(&self) -> impl Iterator<Item = (&'m str, Option<ForceMeasure>)> + use<'m> {
+        let forces = self.mechanism.elements.forces.iter();
+        forces.map(|f| (f.name.as_str(), ForceMeasure::of(f.spec(), f.is_law())))
+    }
+
+    /// Computes the loads at time t (s), coordinates q and velocities v, in the order of the
+    /// forces. An undefined load is NaN.
+    ///
+    /// # Panics
+    /// Panics if q or v has the wrong length.
+    pub fn at(&mut self, t: f64, q: &[f64], v: &[f64]) -> Vec<Load> {
+        self.mechanism.pose(t, q, &mut self.s);
+        self.mechanism.twist(v, &mut self.s);
+        let mut block = std::mem::take(&mut self.block);
+        let forces = self.mechanism.elements.forces.iter();
+        let loads = forces.map(|force| self.of(force, (q, v), &mut block));
+        let loads = loads.collect();
+        self.block = block;
+        loads
+    }
+
+    fn of(&self, force: &PlacedForce, (q, v): (&[f64], &[f64]), block: &mut [f64]) -> Load {
+        let (s, space) = (&self.s, self.mechanism.space());
+        let points = force.points();
+        let first = force.site.bodies.first().copied();
+        let first = first.unwrap_or(BodyRef::Ground);
+        let own = points.iter().find(|(body, _)| *body == first);
+        let place = match (own, first) {
+            (Some((body, point)), _) => self.global(*body, *point),
+            (None, BodyRef::Body(k)) => s.bodies.origin(k),
+            (None, BodyRef::Ground) => [0.0; 3],
+        };
+        force.q(&s.slots, block);
+        let mut wrench = Reaction::default();
+        for (column, &value) in force.columns.iter().zip(&*block) {
+            let Some(column) = *column else { continue };
+            let body = space.body_of(column);
+            // The load on the ground is opposite to the loads on the other bodies.
+            let sign = match first {
+                BodyRef::Ground => -1.0,
+                BodyRef::Body(k) if k == body => 1.0,
+                BodyRef::Body(_) => continue,
+            };
+            let mut add = |torque: [f64; 3]| {
+                for (own, x) in wrench.torque.iter_mut().zip(torque) {
+                    *own += x;
+                }
+            };
+            let dof = space.dof_of(column);
+            if space.forces().contains(&dof) {
+                let mut pushed = [0.0; 3];
+                pushed[dof] = sign * value;
+                wrench.force[dof] += pushed[dof];
+                add(cross(difference(s.bodies.origin(body), place), pushed));
+            } else if space.n_rotations() == 1 {
+                add([0.0, 0.0, sign * value]);
+            } else {
+                let axis = s.bodies.axes(body)[space.axis_of(dof)];
+                add(axis.map(|x| sign * value * x));
+            }
+        }
+        Load {
+            wrench,
+            place,
+            measure: self.measure(force, &points, (q, v)),
+        }
+    }
+
+    fn global(&self, body: BodyRef, point: [f64; 3]) -> [f64; 3] {
+        let moved = |k| self.s.bodies.to_global(k, point);
+        body.moving().map_or(point, moved)
+    }
+
+    fn measure(
+        &self,
+        force: &PlacedForce,
+        points: &[(BodyRef, [f64; 3])],
+        (q, v): (&[f64], &[f64]),
+    ) -> Option<[f64; 2]> {
+        let measure = ForceMeasure::of(force.spec(), force.is_law())?;
+        if let Some(drive) = force.drive(&self.s.slots) {
+            return Some([drive.measure, drive.rate]);
+        }
+        let omega = |body: BodyRef| {
+            let turning = |k| self.mechanism.frames().body(k, q, v).omega;
+            body.moving().map_or([0.0; 3], turning)
+        };
+        let &[from, to] = force.site.bodies.as_slice() else {
+            return None;
+        };
+        if measure == ForceMeasure::Angle {
+            let angle = |body: BodyRef| body.moving().map_or(0.0, |k| self.s.bodies.angle(k));
+            return Some([angle(to) - angle(from), omega(to)[2] - omega(from)[2]]);
+        }
+        let &[a, b] = points else { return None };
+        let state = |(body, point): (BodyRef, [f64; 3])| {
+            let place = self.global(body, point);
+            let Some(k) = body.moving() else {
+                return (place, [0.0; 3]);
+            };
+            let turned = cross(omega(body), difference(place, self.s.bodies.origin(k)));
+            let mut velocity = turned;
+            for (x, column) in velocity
+                .iter_mut()
+                .zip(self.mechanism.space().translations_of(k))
+            {
+                *x += v[column];
+            }
+            (place, velocity)
+        };
+        let ((a, va), (b, vb)) = (state(a), state(b));
+        let (d, dv) = (difference(b, a), difference(vb, va));
+        let length = crate::space::norm(&d);
+        let along: f64 = d.iter().zip(&dv).map(|(x, v)| x * v).sum();
+        Some([length, if length > 0.0 { along / length } else { 0.0 }])
+    }
+}
