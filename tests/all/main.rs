@@ -33,6 +33,7 @@ mod invariance;
 mod large;
 mod limits;
 mod linearise;
+mod loads;
 mod long_runs;
 mod misfits;
 mod nearly_redundant;
