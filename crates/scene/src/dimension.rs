@@ -25,6 +25,8 @@ impl Dimension {
     pub(crate) const ACCELERATION: Self = Self([0, 0, 1, -2, 0]);
     pub(crate) const ANGULAR_VELOCITY: Self = Self([0, 0, 0, -1, 1]);
     pub(crate) const PER_TIME: Self = Self([0, 0, 0, -1, 0]);
+    pub(crate) const PRESSURE: Self = Self([0, 1, -2, 0, 0]);
+    pub(crate) const POWER: Self = Self([0, 1, 1, -1, 0]);
 
     /// The unknown dimension of a value in a wrong context; it agrees with every dimension.
     pub(crate) const UNKNOWN: Self = Self([i8::MIN; 5]);
@@ -84,6 +86,8 @@ impl Dimension {
             Self::ACCELERATION => "an acceleration",
             Self::INERTIA => "a moment of inertia",
             Self::ANGULAR_VELOCITY => "an angular velocity",
+            Self::PRESSURE => "a pressure",
+            Self::POWER => "a power",
             _ => "a quantity",
         };
         format!("{name} ({self})")

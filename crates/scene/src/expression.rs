@@ -25,7 +25,7 @@ pub(crate) use quantity::{Bases, Quantity};
 pub(crate) use term::law;
 use token::{Token, tokens};
 pub(crate) use token::{decimal, is_name};
-use unit::{UNITS, is_unit};
+use unit::{UNITS, Unit, named};
 pub(crate) use unit::{in_units_here, names_of};
 
 use crate::dimension::Dimension;
@@ -55,8 +55,16 @@ const PI_NAME: &str = "pi";
 
 /// All units with their names, each as a quantity.
 pub(crate) fn units() -> impl Iterator<Item = (&'static str, Quantity)> {
-    let unit = |&(name, times, over, of): &_| (name, Quantity::unit(times, over, of));
-    UNITS.iter().map(unit)
+    UNITS.iter().map(quantity)
+}
+
+/// The unit with this name, as the table of units writes it, and as a quantity.
+pub(crate) fn unit(name: &str) -> Option<(&'static str, Quantity)> {
+    named(name).map(quantity)
+}
+
+fn quantity(&(name, times, over, of): &Unit) -> (&'static str, Quantity) {
+    (name, Quantity::unit(times, over, of))
 }
 
 /// The unit or constant with this name.
@@ -64,8 +72,7 @@ fn constant(name: &str) -> Option<Quantity> {
     if name == PI_NAME {
         return Some(Quantity::pi());
     }
-    let found = UNITS.iter().find(|(unit, ..)| *unit == name);
-    found.map(|&(_, times, over, of)| Quantity::unit(times, over, of))
+    unit(name).map(|(_, unit)| unit)
 }
 
 fn function(name: &str) -> Option<(&'static str, &'static str)> {
@@ -73,24 +80,22 @@ fn function(name: &str) -> Option<(&'static str, &'static str)> {
 }
 
 /// The meaning of a name that is the same in every expression, if there is one; parameters must
-/// have other names.
+/// have other names. A parameter may have the name of a unit; see [`token::UnitTerm`].
 pub(crate) fn reserved(name: &str) -> Option<&'static str> {
     match name {
         PI_NAME => Some("a constant"),
-        name if function(name).is_some() => Some("a function"),
-        name => constant(name).map(|_| "a unit"),
+        name => function(name).map(|_| "a function"),
     }
 }
 
-/// All names with a meaning in every expression.
-pub(crate) fn reserved_names() -> impl Iterator<Item = &'static str> {
-    let units = UNITS.iter().map(|(name, ..)| *name);
+/// All names with a meaning in an expression without parameters.
+pub(crate) fn known_names() -> impl Iterator<Item = &'static str> {
+    let units = units().map(|(name, _)| name);
     let functions = FUNCTIONS.iter().map(|(name, _)| *name);
     units.chain(functions).chain([PI_NAME])
 }
 
-/// The names in an expression that are neither units nor constants nor functions; empty if the
-/// expression cannot be parsed.
+/// The names in an expression that may be parameters; empty if the expression cannot be parsed.
 pub(crate) fn names(text: &str) -> Vec<(&str, Range<usize>)> {
     let words = tokens(text).unwrap_or_default().into_iter();
     let name = |(token, span)| match token {
@@ -266,8 +271,11 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         self.at += 1;
         match token {
             Token::Number(value) => self.number(Quantity::bare(value).into(), span, depth),
-            Token::Name(name) if self.is_next(b'(') => self.call(name, span, depth),
+            Token::Name(name) | Token::Unit(name) if self.is_next(b'(') => {
+                self.call(name, span, depth)
+            }
             Token::Name(name) => Ok((self.name(name, &span), span)),
+            Token::Unit(name) => Ok((constant(name).map(V::from), span)),
             Token::Sign(b'(') => {
                 let (value, _) = self.sum(SUM, depth + 1)?;
                 let end = self.close(&span)?;
@@ -290,7 +298,7 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
     /// Parses a number, with the unit after it if there is one; `2 mm^2` means 2·(1 mm)².
     fn number(&mut self, q: V, span: Range<usize>, depth: usize) -> Result<Part<V>, Fault> {
         match self.peek().0 {
-            Token::Name(unit) if is_unit(unit) => {
+            Token::Unit(_) => {
                 let (unit, of) = self.sum(POWER, depth + 1)?;
                 let span = span.start..of.end;
                 let bases = self.scope.bases();
@@ -317,11 +325,8 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
         }
     }
 
-    /// A constant, a unit or a parameter.
+    /// A parameter, or otherwise a constant or a unit.
     fn name(&mut self, name: &str, span: &Range<usize>) -> Option<V> {
-        if let Some(q) = constant(name) {
-            return Some(q.into());
-        }
         let parameter = self.scope.parameter(name);
         let mut variables = self.variables.iter();
         if let Some((name, variable)) = variables.find(|(variable, _)| *variable == name) {
@@ -329,10 +334,12 @@ impl<'s, S: Scope, V: Value> Parser<'s, S, V> {
             let value = is_free.then(|| variable.clone());
             return self.judge(span.clone(), value.ok_or(Problem::Twice { name }));
         }
-        let problem = match (parameter, function(name)) {
-            (Some(value), _) => return value.map(V::from),
-            (None, Some((name, _))) => Problem::NoBrackets { name },
-            (None, None) => Problem::UnknownName {
+        if let Some(value) = parameter.or_else(|| constant(name).map(Some)) {
+            return value.map(V::from);
+        }
+        let problem = match function(name) {
+            Some((name, _)) => Problem::NoBrackets { name },
+            None => Problem::UnknownName {
                 name: name.to_owned(),
             },
         };

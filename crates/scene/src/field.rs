@@ -226,6 +226,18 @@ impl<'t> Field<'t> {
     /// Reports an error in an expression, at its position.
     fn report(&self, fault: Fault, language: &Language) {
         let Fault { span, problem } = fault;
+        let text = self.value.get_ref().as_str().unwrap_or_default();
+        if language.is_unfit(text, &span) {
+            return;
+        }
+        if let Problem::Twice { name } = problem {
+            // The position of the parameter, so that all of its uses are one error.
+            let place = language.position(name).unwrap_or_else(|| self.part(span));
+            let code = Mistake::from(&problem);
+            let (message, help) = (problem.to_string(), problem.help());
+            let findings = self.findings;
+            return findings.error_with_help(code, place, message, problem.label(), help);
+        }
         let mut label = problem.label().to_owned();
         let mut help = problem.help();
         if let Problem::UnknownName { name } | Problem::UnknownFunction { name } = &problem {

@@ -3,6 +3,7 @@
 pub(crate) mod read;
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use model::words::rounded;
 
@@ -15,8 +16,17 @@ pub(crate) struct Language {
     bases: Bases,
     /// Names of the units of bare numbers.
     pub(crate) units: Units,
-    /// Values of the parameters; `None` if the text of a parameter is wrong.
-    parameters: BTreeMap<String, Option<Quantity>>,
+    parameters: BTreeMap<String, Parameter>,
+    /// Names of parameters that expressions cannot contain; they have been reported.
+    unfit: Vec<String>,
+}
+
+/// A parameter.
+struct Parameter {
+    /// The value; `None` if the name or the text of the parameter is wrong.
+    value: Option<Quantity>,
+    /// Position of the name in the file.
+    name: Range<usize>,
 }
 
 /// The units in which a scene writes lengths and angles.
@@ -60,7 +70,7 @@ impl Default for Units {
 
 impl Scope for Language {
     fn parameter(&self, name: &str) -> Option<Option<Quantity>> {
-        self.parameters.get(name).copied()
+        self.parameters.get(name).map(|parameter| parameter.value)
     }
 
     fn bases(&self) -> Bases {
@@ -75,6 +85,7 @@ impl Language {
         bases: Bases::SI,
         units: Units::SI,
         parameters: BTreeMap::new(),
+        unfit: Vec::new(),
     };
 
     /// The unit of lengths that are written without a unit.
@@ -88,7 +99,24 @@ impl Language {
     /// All names that may be suggested for an unknown name in an expression.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> + '_ {
         self.own_names()
-            .chain(expression::reserved_names().map(|name| name as &str))
+            .chain(expression::known_names().map(|name| name as &str))
+    }
+
+    /// Position of the name of a parameter in the file.
+    pub(crate) fn position(&self, parameter: &str) -> Option<Range<usize>> {
+        let parameter = self.parameters.get(parameter);
+        parameter.map(|parameter| parameter.name.clone())
+    }
+
+    /// Returns whether this part of an expression contains a part of a name that expressions cannot
+    /// contain. If so, an error in this part is only a consequence of the name.
+    pub(crate) fn is_unfit(&self, text: &str, part: &Range<usize>) -> bool {
+        let names = self.unfit.iter().filter(|name| !name.is_empty());
+        let mut uses = names.flat_map(|name| {
+            let uses = text.match_indices(name.as_str());
+            uses.map(|(at, name)| at..at + name.len())
+        });
+        uses.any(|name| part.start <= name.end && name.start <= part.end)
     }
 
     /// Names of the parameters.

@@ -38,7 +38,7 @@ pub(crate) enum Problem {
     Deep { most: usize },
     #[error("there is no parameter `{name}`")]
     UnknownName { name: String },
-    #[error("`{name}` is a parameter and the {name} of a drive")]
+    #[error("`{name}` is a parameter and {}", variable(name))]
     Twice { name: &'static str },
     #[error("there is no function `{name}`")]
     UnknownFunction { name: String },
@@ -71,6 +71,14 @@ pub(crate) enum Problem {
     Undefined { name: &'static str, value: f64 },
     #[error("the result is not a number up to {LARGEST:e}")]
     Overflow,
+}
+
+/// Describes a variable of force laws and functions of time.
+fn variable(name: &str) -> String {
+    match name {
+        "t" => "the time".to_owned(),
+        name => format!("the {name} of a drive"),
+    }
 }
 
 fn before(found: &str) -> String {

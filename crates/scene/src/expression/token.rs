@@ -5,12 +5,15 @@ use std::ops::Range;
 use linalg::Dd;
 
 use super::problem::{Fault, Problem};
+use super::unit::named;
 
 /// A token.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Token<'s> {
     Number(Dd),
     Name(&'s str),
+    /// A name inside a unit term, which is never a parameter; see [`UnitTerm`].
+    Unit(&'s str),
     /// One of the characters `+ - * / ^ ( ) ,`.
     Sign(u8),
     End,
@@ -27,7 +30,8 @@ pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault
         return Err(Fault { span, problem });
     }
     let mut found = Vec::new();
-    let mut at = 0;
+    let (mut at, mut end) = (0, 0);
+    let mut term = UnitTerm::Outside;
     while let Some(c) = text[at..].chars().next() {
         let rest = &text[at..];
         let (token, length) = match c {
@@ -43,14 +47,20 @@ pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault
             // Messages contain this character in units, so it is accepted as well.
             '·' => (Token::Sign(b'*'), c.len_utf8()),
             '²' | '³' => {
-                found.push((Token::Sign(b'^'), at..at + c.len_utf8()));
+                let sign = Token::Sign(b'^');
+                term = term.after(sign, end == at);
+                end = at;
+                found.push((sign, at..at + c.len_utf8()));
                 let power = if c == '²' { 2.0 } else { 3.0 };
                 (Token::Number(power.into()), c.len_utf8())
             }
-            '°' => (Token::Name("deg"), c.len_utf8()),
+            '°' => (Token::Unit("deg"), c.len_utf8()),
             c if begins_name(c) => {
                 let length = rest.find(|c| !in_name(c)).unwrap_or(rest.len());
-                (Token::Name(&rest[..length]), length)
+                let name = &rest[..length];
+                let is_unit = term.takes(name, end == at);
+                let token = if is_unit { Token::Unit } else { Token::Name };
+                (token(name), length)
             }
             sign => {
                 return Err(Fault {
@@ -59,11 +69,51 @@ pub(crate) fn tokens(text: &str) -> Result<Vec<(Token<'_>, Range<usize>)>, Fault
                 });
             }
         };
+        term = term.after(token, end == at);
         found.push((token, at..at + length));
         at += length;
+        end = at;
     }
     found.push((Token::End, text.len()..text.len()));
     Ok(found)
+}
+
+/// Position of the reader relative to a unit term, in which names are never parameters. A unit term
+/// is the unit after a number, and the `*`, `/` and `^` with units and exponents that follow it
+/// without a blank, as in `0.4 N*s/mm`.
+#[derive(Clone, Copy, PartialEq)]
+enum UnitTerm {
+    Outside,
+    /// After a number, where a unit starts a unit term.
+    Number,
+    /// After a unit or its exponent.
+    Unit,
+    /// After `*` or `/`, where a unit continues the unit term.
+    Factor,
+    /// After `^`, where an exponent continues the unit term.
+    Power,
+}
+
+impl UnitTerm {
+    /// The position after another token, which may follow `close` to the token before it.
+    fn after(self, token: Token, close: bool) -> Self {
+        match (self, token) {
+            (Self::Power, Token::Number(_)) if close => Self::Unit,
+            (_, Token::Number(_)) => Self::Number,
+            (_, Token::Unit(_)) => Self::Unit,
+            (Self::Unit, Token::Sign(b'*' | b'/')) if close => Self::Factor,
+            (Self::Unit, Token::Sign(b'^')) | (Self::Power, Token::Sign(b'+' | b'-')) if close => {
+                Self::Power
+            }
+            _ => Self::Outside,
+        }
+    }
+
+    /// Whether a name at this position is a unit.
+    fn takes(self, name: &str, close: bool) -> bool {
+        let here = self == Self::Number || self == Self::Factor && close;
+        here && named(name).is_some()
+    }
 }
 
 fn begins_name(c: char) -> bool {

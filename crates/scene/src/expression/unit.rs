@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use crate::dimension::Dimension;
 
 /// Units in expressions, each with its size `times/over` in the units of the format.
-pub(super) const UNITS: [(&str, f64, f64, Dimension); 13] = [
+pub(super) const UNITS: [Unit; 17] = [
+    ("µm", 1.0, 1e6, Dimension::LENGTH),
     ("mm", 1.0, 1e3, Dimension::LENGTH),
     ("cm", 1.0, 1e2, Dimension::LENGTH),
     ("m", 1.0, 1.0, Dimension::LENGTH),
@@ -19,11 +20,20 @@ pub(super) const UNITS: [(&str, f64, f64, Dimension); 13] = [
     ("min", 60.0, 1.0, Dimension::TIME),
     ("N", 1.0, 1.0, Dimension::FORCE),
     ("kN", 1e3, 1.0, Dimension::FORCE),
+    ("bar", 1e5, 1.0, Dimension::PRESSURE),
+    ("MPa", 1e6, 1.0, Dimension::PRESSURE),
+    ("kW", 1e3, 1.0, Dimension::POWER),
 ];
 
-/// Whether a unit has this name.
-pub(super) fn is_unit(name: &str) -> bool {
-    UNITS.iter().any(|(unit, ..)| *unit == name)
+/// A unit: its name, its size and its dimension.
+pub(super) type Unit = (&'static str, f64, f64, Dimension);
+
+/// The unit with this name. The prefix micro is U+00B5 on keyboards and U+03BC in Greek; both have
+/// the same meaning.
+pub(super) fn named(name: &str) -> Option<&'static Unit> {
+    let micro = |c| if c == '\u{3bc}' { '\u{b5}' } else { c };
+    let mut units = UNITS.iter();
+    units.find(|(unit, ..)| unit.chars().eq(name.chars().map(micro)))
 }
 
 /// Returns the names of the units of a dimension.

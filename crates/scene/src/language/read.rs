@@ -7,7 +7,7 @@ use linalg::Dd;
 
 use super::{Language, Units};
 use crate::dimension::Dimension;
-use crate::expression::{self, Bases, is_name, names_of, reserved, units};
+use crate::expression::{self, Bases, is_name, names_of, reserved, unit};
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Key, Takes};
@@ -43,6 +43,10 @@ fn lengths() -> Vec<&'static str> {
 fn angles() -> Vec<&'static str> {
     names_of(Dimension::ANGLE)
 }
+
+/// Largest number of unfit names whose uses are recognised, because each error in an expression is
+/// compared with all of them.
+const UNFIT: usize = 100;
 
 impl Language {
     /// Reads `format` and `units` of `[scene]`, and `[parameters]`. Further problems of these
@@ -103,9 +107,21 @@ impl Language {
         for (key, mut value) in table.all() {
             value.subject = "`[parameters]`".into();
             let name = value.key.to_string();
-            check_name(&name, key, field.findings);
-            self.parameters.insert(name.clone(), None);
-            list.push(Parameter { name, value });
+            let fitness = check_name(&name, key.clone(), field.findings);
+            if fitness == Fitness::Unfit && self.unfit.len() < UNFIT {
+                self.unfit.push(name.clone());
+            }
+            let is_refused = fitness != Fitness::Fit;
+            let declared = super::Parameter {
+                value: None,
+                name: key,
+            };
+            self.parameters.insert(name.clone(), declared);
+            list.push(Parameter {
+                name,
+                value,
+                is_refused,
+            });
         }
         let at: BTreeMap<&str, usize> = (0..).zip(&list).map(|(k, p)| (&*p.name, k)).collect();
         let needs: Vec<Vec<(usize, Range<usize>)>> = list
@@ -126,7 +142,11 @@ impl Language {
         let mut ready: Vec<usize> = (0..list.len()).filter(|k| waits[*k] == 0).collect();
         while let Some(k) = ready.pop() {
             let value = list[k].value.quantity("a number or an expression", self);
-            self.parameters.insert(list[k].name.clone(), value);
+            let declared = self.parameters.get_mut(&list[k].name);
+            // The value of a refused name stays unknown, so that its uses are not reported.
+            if let Some(parameter) = declared.filter(|_| !list[k].is_refused) {
+                parameter.value = value;
+            }
             for &user in &users[k] {
                 waits[user] -= 1;
                 if waits[user] == 0 {
@@ -142,6 +162,17 @@ impl Language {
 struct Parameter<'t> {
     name: String,
     value: Field<'t>,
+    /// Whether the name has been reported.
+    is_refused: bool,
+}
+
+/// Whether expressions can contain the name of a parameter.
+#[derive(Clone, Copy, PartialEq)]
+enum Fitness {
+    Fit,
+    /// The name has another meaning in expressions.
+    Reserved,
+    Unfit,
 }
 
 /// Reports each cycle of parameters once. Parameters that are not in a cycle, but refer to one, are
@@ -201,7 +232,7 @@ fn list_of(names: &[&str], between: &str) -> String {
 }
 
 /// Reports a name that is not permitted in expressions, or that has another meaning in expressions.
-fn check_name(name: &str, span: Range<usize>, findings: &Findings) {
+fn check_name(name: &str, span: Range<usize>, findings: &Findings) -> Fitness {
     if let Some(what) = reserved(name) {
         findings.error_with_help(
             Mistake::ReservedName,
@@ -210,6 +241,7 @@ fn check_name(name: &str, span: Range<usize>, findings: &Findings) {
             "choose another name",
             format!("for example `{name}_1`"),
         );
+        Fitness::Reserved
     } else if !is_name(name) {
         findings.error_with_help(
             Mistake::UnfitName,
@@ -218,6 +250,9 @@ fn check_name(name: &str, span: Range<usize>, findings: &Findings) {
             "choose another name",
             "names have letters, digits and `_`, and begin with no digit".to_owned(),
         );
+        Fitness::Unfit
+    } else {
+        Fitness::Fit
     }
 }
 
@@ -244,8 +279,7 @@ fn bases(field: &Field) -> (Bases, Units) {
     let mut base = |key: &Key, of: Dimension| {
         let field = table.optional(key)?;
         let name = field.text(key.expected)?;
-        let mut fitting = units().filter(|(_, unit)| unit.dimension == Some(of));
-        let found = fitting.find(|(unit, _)| *unit == name);
+        let found = unit(name).filter(|(_, unit)| unit.dimension == Some(of));
         if found.is_none() {
             let names = names_of(of);
             field.error_with_help(

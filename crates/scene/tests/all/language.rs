@@ -286,11 +286,11 @@ fn every_fault_has_its_place_inside_of_the_text() {
         ),
         (
             "L = 300.1",
-            "L = 300.1\ng = 9.81",
+            "L = 300.1\nsin = 9.81\ng = \"sin + 2*sin\"",
             [
-                "g",
-                "the parameter `g` has the name of a unit",
-                "choose another name | for example `g_1`",
+                "sin",
+                "the parameter `sin` has the name of a function",
+                "choose another name | for example `sin_1`",
             ],
         ),
         (
@@ -346,6 +346,78 @@ fn every_fault_has_its_place_inside_of_the_text() {
         assert_eq!(found.len(), 1, "{to}: {found:#?}");
         let [marked, message, advice] = &found[0];
         assert_eq!([marked.as_str(), message, advice], expected, "{to}");
+    }
+}
+
+/// A name that is refused is one error, however often expressions contain it.
+#[test]
+fn a_refused_name_is_one_error() {
+    for (name, used) in [
+        ("2L", "2L"),
+        ("a-b", "a-b"),
+        ("k%", "k%"),
+        ("end-", "end-"),
+        ("sin", "sin"),
+        ("pi", "pi"),
+        ("L M", "L M"),
+    ] {
+        let uses: Vec<String> = (0..30)
+            .map(|k| format!("x{k} = \"{k} + 3*{used}\"\ny{k} = \"{used} - L\"\n"))
+            .collect();
+        let parameters = format!("L = 300.1\n\"{name}\" = 2\n{}", uses.concat());
+        let text = CRANK.replacen("L = 300.1\n", &parameters, 1).replacen(
+            "damping = 0.5",
+            &format!("damping = \"{used}*2\""),
+            1,
+        );
+        let problems = read(&text).expect_err(name);
+        let marked: Vec<&str> = problems
+            .iter()
+            .map(|p| text[p.primary.span.clone()].trim_matches('"'))
+            .collect();
+        assert_eq!(marked, [name], "{problems:#?}");
+    }
+    // Other errors of the same expression remain.
+    let text = CRANK
+        .replacen("L = 300.1\n", "L = 300.1\n\"2L\" = 2\n", 1)
+        .replacen("damping = 0.5", "damping = \"zeta + 0*2L\"", 1)
+        .replacen("\"2e4\"", "\"eta + 2 L\"", 1);
+    let problems = read(&text).expect_err("three errors");
+    let marked: Vec<&str> = problems
+        .iter()
+        .map(|p| &text[p.primary.span.clone()])
+        .collect();
+    assert_eq!(marked, ["\"2L\"", "eta", "L", "zeta"]);
+}
+
+/// The numbers were computed by hand: m·g = 2·9.5 N, and so on.
+#[test]
+fn symbols_of_textbooks_are_parameters() {
+    let text = CRANK
+        .replacen(
+            "L = 300.1\n",
+            "L = 300.1\nm = \"2 kg\"\ng = \"9.5 m/s^2\"\nN = \"m*g\"\ns = \"N/(1 kN)\"\n",
+            1,
+        )
+        .replacen("mass = \"m1/(L/100)\"", "mass = \"m + 500 g\"", 1)
+        .replacen("t_end = \"2 s\"", "t_end = \"s*1000 s + N/(1 N)*1 s\"", 1);
+    let scene = read(&text).unwrap_or_else(|p| panic!("{p:#?}"));
+    let d = scene.description.plane().expect("a planar scene").clone();
+    assert_eq!(d.bodies[0].mass, 2.5);
+    assert_eq!(scene.simulate.expect("a run").t_end, 38.0);
+}
+
+/// Both characters for the prefix micro are accepted as the unit of the scene.
+#[test]
+fn lengths_may_be_in_micrometres() {
+    for micro in ['\u{b5}', '\u{3bc}'] {
+        let units = format!("length = \"{micro}m\"");
+        let text = CRANK.replacen("length = \"mm\"", &units, 1);
+        let text = text.replacen("-9810", "-9.81e6", 1);
+        let scene = read(&text).unwrap_or_else(|p| panic!("{p:#?}"));
+        let d = scene.description.plane().expect("a planar scene").clone();
+        assert_eq!(d.bodies[0].inertia, 2e-8);
+        assert_eq!(scene.units.length, "\u{b5}m");
     }
 }
 
@@ -463,7 +535,8 @@ proptest! {
         let quoted = |text: &str| toml::Value::from(text).to_string();
         let scene = CRANK
             .replacen("\"L*cos(phi)\"", &quoted(&text), 1)
-            .replacen("\"25 mm + L\"", &quoted(&other), 1);
+            .replacen("\"25 mm + L\"", &quoted(&other), 1)
+            .replacen("phi = 30\n", "phi = 30\nN = 2\nmm = \"3 mm\"\n", 1);
         if let Err(problems) = read(&scene) {
             prop_assert!(!problems.is_empty());
             for p in problems {
