@@ -105,6 +105,35 @@ impl Arguments {
         self.spans.push(span);
     }
 
+    /// Returns the stated value of a length that otherwise follows from the start, such as the free
+    /// length of a spring, with its key and its position in the text.
+    pub(crate) fn stated_length(&self, spec: &Spec) -> Option<(&'static str, f64, Range<usize>)> {
+        let values = spec.parameters.iter().zip(&self.values).zip(&self.spans);
+        let mut values = values.filter(|((parameter, _), _)| parameter.optional);
+        values.find_map(
+            |((parameter, value), span)| match (parameter.shape, value) {
+                (Shape::Numbers([Unit::Length]), Argument::Numbers(stated)) => {
+                    Some((parameter.name, *stated.first()?, span.clone()))
+                }
+                _ => None,
+            },
+        )
+    }
+
+    /// Returns the points, each relative to the centre of mass of its body.
+    pub(crate) fn points<S: SceneSpace>(
+        &self,
+        spec: &Spec,
+    ) -> impl Iterator<Item = S::Vector<f64>> {
+        let all = spec.parameters.iter().zip(&self.values);
+        let points = all.filter(|(parameter, _)| is_point(parameter));
+        points.filter_map(|(_, value)| match value {
+            Argument::Pair(point) => S::of_numbers(point),
+            Argument::Triple(point) => S::of_numbers(point),
+            _ => None,
+        })
+    }
+
     /// Returns axes that are parallel to the axes of another parameter, and the position of that
     /// parameter in the text.
     fn like<S: SceneSpace>(

@@ -78,6 +78,19 @@ impl<S: SceneSpace> Bodies<S> {
         }
     }
 
+    /// Ground coordinates of a point at the start, before the start is corrected. The point is
+    /// relative to the centre of mass of its body.
+    pub(crate) fn at_start(&self, body: BodyRef, point: S::Vector<f64>) -> S::Vector<f64> {
+        let described = body.moving().and_then(|at| Some((at, self.list.get(at)?)));
+        let Some((at, body)) = described else {
+            return point;
+        };
+        match self.poses.binary_search_by_key(&at, |pose| pose.body) {
+            Ok(k) => S::to_global(&S::moved(body, &self.poses[k].frame), point),
+            Err(_) => S::to_global(body, point),
+        }
+    }
+
     /// Position of a marker relative to the centre of mass of its body.
     pub(crate) fn place_of(&self, marker: &Marker) -> S::Vector<f64> {
         self.about_centre(marker.body, S::vector(marker.point))

@@ -27,6 +27,9 @@ pub(crate) const LISTED: usize = 5000;
 /// Largest number of warnings of one kind that are listed; further warnings are only counted.
 const WARNED: usize = 10;
 
+/// The same for warnings about a whole scene.
+const ONCE: usize = 1;
+
 /// The problems of a file, in the order of their detection. Tables and fields contain a reference
 /// to this list, so that they can report errors.
 pub(crate) struct Findings<'s> {
@@ -148,9 +151,34 @@ impl<'s> Findings<'s> {
         label: &str,
         help: &str,
     ) {
+        self.warn((code, WARNED), span, message, label, help);
+    }
+
+    /// Adds a warning of a kind that is listed only once for a scene; further ones are only
+    /// counted.
+    pub(crate) fn warning_once(
+        &self,
+        code: Code,
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: &str,
+        help: &str,
+    ) {
+        self.warn((code, ONCE), span, message, label, help);
+    }
+
+    /// Adds a warning, if fewer than `most` warnings with this code are listed.
+    fn warn(
+        &self,
+        (code, most): (Code, usize),
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: &str,
+        help: &str,
+    ) {
         let lists = &mut *self.lists.borrow_mut();
         let (listed, more) = lists.warned.entry(code).or_default();
-        if *listed == WARNED {
+        if *listed == most {
             *more += 1;
             return;
         }

@@ -7,6 +7,7 @@ use crate::connection;
 use crate::element::{self, Types};
 use crate::function::Domain;
 use crate::joint_name::References;
+use crate::plausible;
 use crate::source_map::Entry;
 use crate::space::SceneSpace;
 use crate::spring;
@@ -35,6 +36,9 @@ pub(crate) fn read<S: SceneSpace>(
     };
     let definitions: Vec<_> = types.registry.forces(scene_type).collect();
     let read = element::read(&mut table, &definitions, &references, domains);
+    if let Some(read) = read.as_ref().filter(|_| references.is_active) {
+        plausible::forces::spring(&table, read, references.bodies);
+    }
     let entry = element::end(table, name, references.is_active);
     let read = read?;
     let (bodies, element) = read.element?;

@@ -4,12 +4,15 @@
 
 use std::ops::Range;
 
-/// Longest line (bytes). This is sufficient for a table of 100 000 values.
+/// Longest line. This is sufficient for a table of 100 000 values. Unit: bytes. Too small: long
+/// tables are rejected. Too large: errors in one line take too much time. Test:
+/// `large_texts_are_refused_at_once`.
 pub(crate) const LONGEST_LINE: usize = 4 << 20;
 
 /// Maximum number of the characters `[`, `{`, `,` and `=`. The text of 100 000 joints with their
 /// bodies contains less than two million of them. While the file is read, each character needs
-/// about 200 bytes of memory.
+/// about 200 bytes of memory. Unit: number. Too small: large scenes are rejected. Too large: the
+/// memory of small machines is insufficient. Test: `large_texts_are_refused_at_once`.
 pub(crate) const MOST_SIGNS: usize = 1 << 23;
 
 /// Two axes of wheels are parallel if the sine of the angle between them is below this limit. The
@@ -20,6 +23,25 @@ pub(crate) const MOST_SIGNS: usize = 1 << 23;
 /// Too large: a line of action is not quite normal to the plane of the axes. Test:
 /// `bearings_of_teeth`.
 pub(crate) const MEETING: f64 = 1e-6;
+
+/// Largest plausible ratio of a given force to the weight of all bodies. A force of 5 kN that is
+/// given as 5000 kN, or masses that are given in tonnes, make it 1000 times too large. Unit: share.
+/// Too small: a jack or a cylinder that moves more than its mechanism gives a warning. Too large: a
+/// wrong unit gives none. Test: `a_force_of_a_hundred_weights_is_reported`.
+pub(crate) const HEAVIEST_FORCE: f64 = 100.0;
+
+/// Largest plausible ratio of the length of a spring at the start to its free length. The length of
+/// a drawing in mm that is read in m makes the ratio 1000 times too small or too large. Unit:
+/// share. Too small: a rubber band, which stretches to 8 times its length, gives a warning. Too
+/// large: a free length in cm that is read as mm gives none. Test:
+/// `a_spring_of_ten_free_lengths_is_reported`.
+pub(crate) const LONGEST_SPRING: f64 = 10.0;
+
+/// Number of equal parts of the run, at whose ends the functions of time of a force are compared
+/// with the weight. Unit: number. Too small: a force that is zero at all of these instants gives no
+/// warning. Too large: reading a scene with many forces takes longer. Test:
+/// `a_force_of_a_hundred_weights_is_reported`.
+pub(crate) const RUN_INSTANTS: u32 = 100;
 
 /// A violation of a limit: its position, the message, and the text at the mark.
 pub(crate) struct Excess {

@@ -4,9 +4,10 @@
 //! code (`silence`).
 //!
 //! A check that needs only one value is done when the value is read; for angles, see `angles`. For
-//! checks that need the mechanism, see `mechanism`.
+//! checks that need the mechanism, see `mechanism`; for forces, see `forces`.
 
 pub(crate) mod angles;
+pub(crate) mod forces;
 mod mechanism;
 
 use model::codes::Code;

@@ -5,6 +5,7 @@ mod syntax;
 use std::collections::BTreeMap;
 
 use joints::{Plane, Space3};
+use model::space::norm;
 use model::{
     AnyDescription, BuildError, Mechanism, MechanismDescription, Observables, Registry,
     StartOptions, ToleranceScope,
@@ -167,6 +168,10 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
             simulate.check_rows(rows, findings);
         }
     }
+    let masses = parts.bodies.list.iter().map(S::mass);
+    let weight = masses.sum::<f64>() * norm(heading.gravity.as_ref());
+    let t_end = simulate.as_ref().map_or(0.0, |run| run.options.t_end);
+    plausible::forces::applied(&parts.forces, weight, t_end, findings);
     let (measures, measure_entries) = parts.measures.into_iter().unzip();
     let joints = parts.joints.into_iter();
     let mut centres = Vec::new();

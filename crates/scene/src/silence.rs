@@ -8,7 +8,9 @@ use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
 /// All warnings about a scene. They are never errors, and each of them can be suppressed.
-const WARNINGS: [Code; 10] = [
+const WARNINGS: [Code; 12] = [
+    Code::new(188),
+    Code::new(189),
     Code::new(190),
     Code::new(191),
     Code::new(192),

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use joints::{Argument, Plane, Space, Space3};
 use model::start::KeepLevel;
-use model::{AnyDescription, BodySpace, Definitions, MechanismDescription, Registry};
+use model::{AnyDescription, BodySpace, Definitions, FramePose, MechanismDescription, Registry};
 
 use crate::key::Key;
 
@@ -82,6 +82,12 @@ pub(crate) trait SceneSpace: BodySpace {
 
     /// The inverse of [`BodySpace::to_local`].
     fn to_global(body: &Self::Body, point: Self::Vector<f64>) -> Self::Vector<f64>;
+
+    /// Returns the body with its frame in another pose.
+    fn moved(body: &Self::Body, frame: &FramePose) -> Self::Body;
+
+    /// Returns the mass of a body (kg).
+    fn mass(body: &Self::Body) -> f64;
 
     /// Transforms a direction from the axes of a body, or of the ground, to the axes of another
     /// body. In the plane the direction does not change, because each direction is given in the

@@ -28,7 +28,7 @@ pub(crate) struct Table<'t> {
     pub(crate) header: Range<usize>,
     entries: &'t DeTable<'t>,
     /// Meaning of the numbers in the table.
-    language: &'t Language,
+    pub(crate) language: &'t Language,
     /// The list to which problems are added.
     pub(crate) findings: &'t Findings<'t>,
     known: Vec<&'static str>,

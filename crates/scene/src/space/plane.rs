@@ -2,7 +2,7 @@
 
 use joints::{Argument, Plane};
 use model::start::KeepLevel;
-use model::{AnyDescription, Body, Definitions, Description, Registry};
+use model::{AnyDescription, Body, Definitions, Description, FramePose, Registry};
 use serde_json::json;
 
 use super::{BodyCoordinate, SceneSpace};
@@ -47,6 +47,18 @@ impl SceneSpace for Plane {
 
     fn to_global(body: &Body, point: [f64; 2]) -> [f64; 2] {
         body.pose().to_global(point)
+    }
+
+    fn moved(body: &Body, frame: &FramePose) -> Body {
+        let mut moved = body.clone();
+        if let &FramePose::Plane { position, angle } = frame {
+            (moved.position, moved.angle) = (position, angle);
+        }
+        moved
+    }
+
+    fn mass(body: &Body) -> f64 {
+        body.mass
     }
 
     fn carried(direction: [f64; 2], _: Option<&Body>, _: Option<&Body>) -> [f64; 2] {

@@ -3,7 +3,7 @@
 use joints::space3::Pose;
 use joints::{Argument, Space3};
 use model::start::KeepLevel;
-use model::{AnyDescription, Definitions, Registry, SpatialBody, SpatialDescription};
+use model::{AnyDescription, Definitions, FramePose, Registry, SpatialBody, SpatialDescription};
 use serde_json::json;
 
 use super::{BodyCoordinate, SceneSpace};
@@ -53,6 +53,22 @@ impl SceneSpace for Space3 {
 
     fn to_global(body: &SpatialBody, point: [f64; 3]) -> [f64; 3] {
         body.pose().to_global(point)
+    }
+
+    fn moved(body: &SpatialBody, frame: &FramePose) -> SpatialBody {
+        let mut moved = body.clone();
+        if let &FramePose::Space3 {
+            position,
+            orientation,
+        } = frame
+        {
+            (moved.position, moved.orientation) = (position, orientation);
+        }
+        moved
+    }
+
+    fn mass(body: &SpatialBody) -> f64 {
+        body.mass
     }
 
     fn carried(

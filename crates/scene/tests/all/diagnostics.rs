@@ -867,3 +867,23 @@ fn the_longest_table_is_allowed_and_a_longer_one_gets_advice() {
     }
     assert!(with_step("2e-4").is_ok());
 }
+
+/// A line of 4 MiB and 2²³ signs are permitted, and one more of each is an error at its position.
+#[test]
+fn large_texts_are_refused_at_once() {
+    let said = |text: &str| {
+        let problems = read(text).expect_err("not a scene");
+        (
+            problems[0].code.to_string(),
+            problems[0].primary.span.clone(),
+        )
+    };
+    let line = |bytes: usize| format!("#{}\n", "x".repeat(bytes - 1));
+    assert_ne!(said(&line(4 << 20)).0, "P0113");
+    let longer = said(&line((4 << 20) + 1));
+    assert_eq!(longer, ("P0113".to_owned(), (4 << 20)..(4 << 20) + 1));
+    let signs = |n: usize| "#[[[[[[[[[[[[[[[\n".repeat(n / 15) + "#" + &"[".repeat(n % 15);
+    assert_ne!(said(&signs(1 << 23)).0, "P0113");
+    let (code, span) = said(&signs((1 << 23) + 1));
+    assert_eq!((code.as_str(), span.len()), ("P0113", 1));
+}

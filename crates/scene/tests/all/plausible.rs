@@ -400,6 +400,125 @@ fn rows_lie_within_the_run() {
     ]);
 }
 
+/// The weight of both bodies is (1 + 3)·9.81 N = 39.24 N.
+#[test]
+fn a_force_of_a_hundred_weights_is_reported() {
+    let push = |name: &str, force: &str| {
+        format!(
+            "\n[[force]]\nname = \"{name}\"\ntype = \"point-force\"\nbody = \"rod\"\npoint = [0.0, 0.0]\nforce = {force}\n"
+        )
+    };
+    let of = |force: &str| warned(&format!("{CRANK}{}", push("F", force)));
+    for heavy in [
+        "[3925.0, 0.0]",
+        "[-2775.0, 2775.0]", // 3924.4 N, and each component alone is below the limit
+        "[0.0, { type = \"steps\", steps = [{ from = 0.5, to = 0.9, by = 4e3 }, { from = 0.9, to = 1.0, by = -4e3 }] }]",
+        "[0.0, { type = \"harmonic\", amplitude = 4100.0, omega = 6.283185307179586 }]",
+        "[{ type = \"constant-rate\", rate = 2e3 }, 0.0]",
+        "[{ type = \"table\", times = [0, 0.501, 2], values = [0, 4e3, 0] }, 0.0]",
+    ] {
+        assert_eq!(of(heavy), [("P0188".to_owned(), heavy.to_owned())]);
+    }
+    for light in [
+        "[3923.0, 0.0]",
+        "[-2774.0, 2774.0]",
+        "[{ type = \"constant-rate\", rate = 1.9e3 }, 0.0]",
+        "[0.0, { type = \"harmonic\", amplitude = 3900.0, omega = 6.283185307179586 }]",
+    ] {
+        assert_eq!(of(light), [], "{light}");
+    }
+    // Torques have no weight to be compared with, and without gravity no force has one.
+    let torque = "\n[[force]]\nname = \"T\"\ntype = \"torque\"\nbody = \"rod\"\ntorque = 1e9\n";
+    assert_eq!(warned(&format!("{CRANK}{torque}")), []);
+    let floating = with("gravity = [0.0, -9.81]", "");
+    let heavy = push("F", "[1e9, 0.0]");
+    assert_eq!(warned(&format!("{floating}{heavy}")), []);
+    assert_eq!(warned(&format!("{CRANK}{heavy}active = false\n")), []);
+    // Many forces are one warning, and its advice and its code end it.
+    let many: Vec<String> = (0..20)
+        .map(|k| push(&format!("F{k}"), "[5e6, 0.0]"))
+        .collect();
+    let text = format!("{CRANK}{}", many.concat());
+    let scene = read(&text).expect("a scene");
+    let [warning] = &scene.warnings[..] else {
+        panic!("{:#?}", scene.warnings)
+    };
+    assert_eq!(
+        warning.message,
+        "force `F0` reaches 5000000 N, 127421 times the weight of the mechanism, 39.24 N (and 19 more like this)"
+    );
+    assert_eq!(
+        warning.help.as_deref(),
+        Some(
+            "write the force in N, or the masses in kg: numbers without a unit are in these units; if it is meant, `silence = [\"P0188\"]` in `[scene]`"
+        )
+    );
+    let computed = text.replacen("space", "format = 2\nspace", 1);
+    assert_eq!(warned(&computed.replace("5e6", "\"0.5 kN\"")), []);
+    let silent = text.replacen("space", "silence = [\"P0188\"]\nspace", 1);
+    assert_eq!(warned(&silent), []);
+}
+
+/// The ends of the spring are 0.6 m apart: (−0.2, 0) and (0.4, 0).
+#[test]
+fn a_spring_of_ten_free_lengths_is_reported() {
+    let spring = |name: &str, free: &str| {
+        format!(
+            "\n[[force]]\nname = \"{name}\"\ntype = \"spring-damper\"\nbodies = [\"ground\", \"rod\"]\nat = [[-0.2, 0.0], [0.4, 0.0]]\nstiffness = 100.0\ndamping = 0.0\n{free}\n"
+        )
+    };
+    let of = |free: &str| warned(&format!("{CRANK}{}", spring("K", free)));
+    assert_eq!(
+        of("free_length = 0.0599"),
+        [("P0189".to_owned(), "0.0599".to_owned())]
+    );
+    for meant in [
+        "",
+        "free_length = 0.0601",
+        "free_length = 0.0",
+        "free_length = 600.0",
+        "free_length = 1e-9\nactive = false",
+    ] {
+        assert_eq!(of(meant), [], "{meant}");
+    }
+    // Many springs are one warning. The advice was followed: without the key there is no warning.
+    let free = "free_length = 6e-4";
+    let many: Vec<String> = (0..20).map(|k| spring(&format!("K{k}"), free)).collect();
+    let text = format!("{CRANK}{}", many.concat());
+    let scene = read(&text).expect("a scene");
+    let [warning] = &scene.warnings[..] else {
+        panic!("{:#?}", scene.warnings)
+    };
+    assert_eq!(
+        warning.message,
+        "force `K0`: `free_length` is 0.0006 m, but at the start its ends are 0.6 m apart, 1000 times as far (and 19 more like this)"
+    );
+    assert_eq!(
+        warning.help.as_deref(),
+        Some(
+            "numbers without a unit are in m: correct `free_length`, or leave it out for the length at the start; if it is meant, `silence = [\"P0189\"]` in `[scene]`"
+        )
+    );
+    assert_eq!(warned(&text.replace(free, "")), []);
+    // At the start, the rod is closer to the ground than in its described pose, or farther away.
+    let starting = |x: f64, free: &str| {
+        let rod = with(
+            "position = [0.4, 0.0]",
+            &format!("position = [0.4, 0.0]\nstart = {{ position = [{x:?}, 0.0] }}"),
+        );
+        warned(&format!("{rod}{}", spring("K", free))).len()
+    };
+    assert_eq!(starting(-0.1, "free_length = 0.0599"), 0);
+    assert_eq!(starting(0.5, "free_length = 0.0601"), 1);
+    // In space, and in a scene in millimetres.
+    let space = "[scene]\nname = \"s\"\nspace = \"spatial\"\nformat = 2\nunits = { length = \"mm\" }\n\n[[body]]\nname = \"a\"\nmass = 1\ninertia = [9e3, 9e3, 9e3]\nposition = [0, 0, 300]\n\n[[force]]\nname = \"S\"\ntype = \"spring-damper\"\nbodies = [\"ground\", \"a\"]\nat = [[0, 0, 0], [0, 0, 300]]\nstiffness = 1\ndamping = 0\nfree_length = \"25 µm\"\n";
+    assert_eq!(
+        warned(space),
+        [("P0189".to_owned(), "\"25 µm\"".to_owned())]
+    );
+    assert_eq!(warned(&space.replace("25 µm", "31 mm")), []);
+}
+
 /// Finds the files below a folder whose names have this ending.
 fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
