@@ -195,6 +195,89 @@ drive = [{{ name = \"law\", joint = \"strut\", type = \"length\", force = \"{law
     }
 }
 
+/// Expressions of the time in every place of a function of time, compared with closed forms: the
+/// motion of a drive and its torque, a rotor under a torque, a stone under a force, and a belt with
+/// a prescribed velocity and its reaction.
+#[test]
+fn expressions_of_the_time_move_as_their_closed_forms() {
+    let text = r#"
+scene = { name = "functions", space = "plane", format = 2 }
+parameters = { m = 2, s = 0.3, w = "2 rad/s" }
+body = [
+    { name = "driven", mass = 1.0, inertia = 0.4 },
+    { name = "rotor", mass = 1.0, inertia = 0.5, position = [1, 0] },
+    { name = "stone", mass = "m", inertia = 1.0, position = [2, 0], velocity = [0, 0] },
+    { name = "belt", mass = "m", inertia = 1.0, position = [3, 0] },
+]
+joint = [
+    { name = "A", type = "revolute", bodies = ["ground", "driven"], at = [0, 0] },
+    { name = "B", type = "revolute", bodies = ["ground", "rotor"], at = [1, 0] },
+    { name = "V", type = "velocity", body = "belt", point = [0, 0], direction = [0, 1], rate = "s*exp(-t/(2 s))" },
+]
+drive = [{ name = "D", joint = "A", type = "angle", motion = "s*sin(w*t)^2" }]
+force = [
+    { name = "T", type = "torque", body = "rotor", torque = "20*cos(5*t)" },
+    { name = "F", type = "point-force", body = "stone", point = [0, 0], force = ["m*abs(1 N - 2 N/s*t)", "8*t^3"] },
+]
+"#;
+    let study = study(text);
+    for method in [Method::Dop853, Method::Radau5] {
+        let options = MotionOptions {
+            method,
+            ..options(1.0)
+        };
+        let (rows, _) = run(&study, &options);
+        for row in rows {
+            let t = row.t;
+            let [driven, rotor, stone, belt] = [0, 3, 6, 9];
+            // 0.3·sin²2t = 0.15·(1 − cos 4t)
+            close(
+                row.q[driven + 2],
+                0.15 * (1.0 - (4.0 * t).cos()),
+                0.3,
+                "angle",
+            );
+            close(row.v[driven + 2], 0.6 * (4.0 * t).sin(), 0.6, "rate");
+            let torque = row.reactions[2].component.expect("a drive has one");
+            close(
+                torque,
+                -0.4 * 2.4 * (4.0 * t).cos(),
+                1.0,
+                "torque of the drive",
+            );
+            close(row.v[rotor + 2], 8.0 * (5.0 * t).sin(), 8.0, "rotor");
+            // The acceleration is |1 − 2t|, with its kink at t = 0.5.
+            let speed = if t < 0.5 { t - t * t } else { t * t - t + 0.5 };
+            let bent = (row.v[stone] - speed).abs();
+            assert!(bent < 1e-6, "a kink that is not declared: {bent:e}");
+            close(row.v[stone + 1], t.powi(4), 1.0, "stone");
+            close(row.v[belt + 1], 0.3 * (-t / 2.0).exp(), 0.3, "belt");
+            // The reaction acts on the belt and is m·v̇.
+            let force = row.reactions[3].force[1];
+            close(force, -0.3 * (-t / 2.0).exp(), 0.3, "force of the belt");
+        }
+    }
+    let error = scene_codegen::scene_tape("x", text, &Registry::standard(), &[]);
+    let error = error.err().expect("rejected").to_string();
+    assert!(
+        error.starts_with("`D` has an expression of the time"),
+        "{error}"
+    );
+}
+
+/// A force without a value at some time stops the run with its name.
+#[test]
+fn a_force_without_a_value_stops_by_name() {
+    let text = r#"
+scene = { name = "stone", space = "plane", format = 2 }
+body = [{ name = "stone", mass = 2.0, inertia = 1.0 }]
+force = [{ name = "F", type = "point-force", body = "stone", point = [0, 0], force = ["log(1 - 1.5*t)", 0] }]
+"#;
+    let failure = study(text).run(&options(1.0), |_| Ok(ControlFlow::Continue(())));
+    let error = failure.expect_err("stops").error.to_string();
+    assert!(error.contains("the force `F` is not finite"), "{error}");
+}
+
 #[test]
 fn a_law_without_a_value_stops_by_name() {
     // The wheel has ω = t/0.4, so the angle is 0.5 at t = √0.4.
@@ -231,6 +314,8 @@ fn units_of_laws_are_checked() {
         ("5*sin(rate)", "found an angular velocity"),
         ("1/(0*2) + measure", "division by zero"),
         ("20 - speed", "no parameter `speed`"),
+        ("sin(measure)*(5 N)", "found a force (N)"),
+        ("(2/rad)*measure", "found a number without a unit"),
     ] {
         let error = refused(law);
         assert!(error.contains(part), "{law}: {error}");
@@ -239,6 +324,9 @@ fn units_of_laws_are_checked() {
         "2 N*m - 3 N*m*s/rad*rate",
         "20*exp(-rate/40)",
         "-5*sin(measure)",
+        "sin(measure)",
+        "(1 + 2*cos(measure)^2)*exp(-sin(measure))",
+        "sin(measure)*(5 N*m)",
     ] {
         study(&MOTOR.replace("20 - 0.5*rate", fits));
     }

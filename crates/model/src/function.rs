@@ -1,6 +1,7 @@
 //! Functions of time, with their first two derivatives and the times at which a derivative jumps.
 //! Only these functions depend explicitly on time; nothing else in the crates does.
 
+mod expression;
 mod lines;
 mod parts;
 mod spline;
@@ -8,6 +9,8 @@ mod spline;
 use joints::LARGEST;
 
 use crate::codes::Code;
+use crate::law::{LawError, Operation};
+use expression::Expression;
 use lines::Lines;
 use spline::Spline;
 
@@ -42,6 +45,7 @@ enum TimeLaw {
     },
     Table(Spline),
     Lines(Lines),
+    Expression(Expression),
 }
 
 /// A smooth step `by·(10s³ − 15s⁴ + 6s⁵)`, `s = (t − from)/(to − from)` clamped to [0, 1].
@@ -98,6 +102,9 @@ pub enum FunctionError {
         /// The later time, which is not larger than the earlier one.
         later: f64,
     },
+    /// The operations of an expression are wrong.
+    #[error(transparent)]
+    Operations(#[from] LawError),
 }
 
 impl FunctionError {
@@ -108,6 +115,7 @@ impl FunctionError {
             Self::NotFinite { .. } => const { Code::new(111) },
             Self::EmptyStep { .. } | Self::NotIncreasing { .. } => const { Code::new(117) },
             Self::Uneven { .. } | Self::ShortTable { .. } => const { Code::new(118) },
+            Self::Operations(_) => const { Code::new(106) },
         }
     }
 }
@@ -238,7 +246,35 @@ impl Function {
         Ok(Self(TimeLaw::Lines(Lines::new(times, values))))
     }
 
-    /// Returns `[f(t), ḟ(t), f̈(t)]`.
+    /// Returns the function that operations compute from the time, as in force laws.
+    ///
+    /// ```
+    /// use pfaff_model::Function;
+    /// use pfaff_model::law::{Operation, UnaryFunction};
+    /// let f = Function::expression(&[Operation::Time, Operation::Apply(UnaryFunction::Whole(3))])?;
+    /// assert_eq!(f.jet(2.0), [8.0, 12.0, 12.0]);
+    /// # Ok::<(), pfaff_model::FunctionError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Returns an error if the operations do not produce exactly one value, need more than 64
+    /// values at a time, or contain a joint coordinate or its rate.
+    pub fn expression(operations: &[Operation]) -> Result<Self, FunctionError> {
+        Ok(Self(TimeLaw::Expression(Expression::new(operations)?)))
+    }
+
+    /// Returns whether the function and its first two derivatives are continuous, except at
+    /// [break times](Self::break_times).
+    #[must_use]
+    pub fn is_smooth(&self) -> bool {
+        match &self.0 {
+            TimeLaw::Expression(expression) => expression.is_smooth(),
+            _ => true,
+        }
+    }
+
+    /// Returns `[f(t), ḟ(t), f̈(t)]`. The values are NaN if the operations of an
+    /// [expression](Self::expression) have no value at this time.
     #[must_use]
     pub fn jet(&self, t: f64) -> [f64; 3] {
         match &self.0 {
@@ -267,6 +303,7 @@ impl Function {
             }
             TimeLaw::Table(spline) => spline.jet(t),
             TimeLaw::Lines(lines) => lines.jet(t),
+            TimeLaw::Expression(expression) => expression.jet(t),
         }
     }
 
@@ -287,6 +324,7 @@ impl Function {
             TimeLaw::Steps { steps, .. } => steps.iter().all(|step| step.by == 0.0),
             TimeLaw::Table(spline) => spline.is_constant(),
             TimeLaw::Lines(lines) => lines.is_constant(),
+            TimeLaw::Expression(expression) => expression.is_constant(),
         }
     }
 
@@ -299,7 +337,9 @@ impl Function {
     #[must_use]
     pub fn break_times(&self) -> Vec<f64> {
         let mut times = match &self.0 {
-            TimeLaw::Polynomial(_) | TimeLaw::Harmonic { .. } => Vec::new(),
+            TimeLaw::Polynomial(_) | TimeLaw::Harmonic { .. } | TimeLaw::Expression(_) => {
+                Vec::new()
+            }
             TimeLaw::Steps { steps, .. } => steps.iter().flat_map(|s| [s.from, s.to]).collect(),
             TimeLaw::Table(spline) => spline.times().to_vec(),
             TimeLaw::Lines(lines) => lines.times().to_vec(),

@@ -6,9 +6,9 @@
 
 mod drive;
 mod error;
-mod number;
+pub(crate) mod number;
 mod operation;
-mod program;
+pub(crate) mod program;
 #[cfg(test)]
 mod tests;
 mod undefined;

@@ -82,6 +82,23 @@ impl Mechanism {
     pub fn functions(&self) -> impl Iterator<Item = &TimeFunction> {
         self.elements.functions()
     }
+
+    /// Returns the name of the first joint, drive or force with a function of time that is an
+    /// [expression](crate::Function::expression).
+    #[must_use]
+    pub fn expression_of_time(&self) -> Option<&str> {
+        let elements = &self.elements;
+        let groups = self.layout().groups.iter().map(|group| group.name.as_str());
+        let constraints = groups.zip(elements.constraints.iter().map(|c| &c.site));
+        let forces = elements.forces.iter().map(|f| (f.name.as_str(), &f.site));
+        let is_expression = |k: usize| {
+            let function = elements.given[k].function();
+            let function = function.map(|f| f.parts().0.parts());
+            matches!(function, Some(crate::function::Parts::Expression(_)))
+        };
+        let mut all = constraints.chain(forces);
+        all.find_map(|(name, site)| site.functions.clone().any(is_expression).then_some(name))
+    }
 }
 
 impl RecordedEquations {

@@ -40,6 +40,15 @@ pub enum CodeError {
         /// Name of the drive.
         drive: String,
     },
+    /// A function of time is an expression. If it has no value, a run must stop, which is not
+    /// possible in generated code.
+    #[error(
+        "`{element}` has an expression of the time, which generated code cannot stop by name; write a function of time with a `type`, or run this scene interpreted"
+    )]
+    Expression {
+        /// Name of the joint, drive or force.
+        element: String,
+    },
     /// A force uses a callback, which cannot be recorded.
     #[error("{0}, and no code; run this scene interpreted")]
     Called(CalledForce),

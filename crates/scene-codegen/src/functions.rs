@@ -348,6 +348,10 @@ pub(crate) fn recordable(mechanism: &Mechanism) -> Result<(), CodeError> {
     if let Some(force) = mechanism.applied_forces().called().next() {
         return Err(CodeError::Called(force));
     }
+    if let Some(element) = mechanism.expression_of_time() {
+        let element = element.to_owned();
+        return Err(CodeError::Expression { element });
+    }
     match mechanism.applied_forces().law_drives().next() {
         Some((drive, _)) => Err(CodeError::Law {
             drive: drive.to_owned(),

@@ -26,6 +26,8 @@ pub(crate) fn jet(function: &Function, numbers: &[String]) -> (String, &'static 
         }
         Parts::Spline { .. } => (format!("spline(t, &[{}])", points(numbers, 3)), &["spline"]),
         Parts::Lines { .. } => (format!("lines(t, &[{}])", points(numbers, 2)), &["lines"]),
+        // `recordable` rejects mechanisms with expressions.
+        Parts::Expression(_) => ("[f64::NAN; 3]".to_owned(), &[]),
     }
 }
 

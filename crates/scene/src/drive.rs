@@ -157,7 +157,7 @@ fn motion_of(
 ) -> Option<Function> {
     let of = dimension.unwrap_or(Dimension::UNKNOWN);
     let motion = function::read(field, of, domains)?;
-    if field.may_be_number() {
+    if motion.is_constant() && field.may_be_number() {
         warn_if_held(field, &motion);
     }
     Some(motion)

@@ -22,11 +22,11 @@ use std::ops::Range;
 
 pub(crate) use problem::{Fault, Problem};
 pub(crate) use quantity::{Bases, Quantity};
-pub(crate) use term::law;
+pub(crate) use term::{law, of_time};
 use token::{Token, tokens};
 pub(crate) use token::{decimal, is_name};
+pub(crate) use unit::{TIME, in_units_here, names_of};
 use unit::{UNITS, Unit, named};
-pub(crate) use unit::{in_units_here, names_of};
 
 use crate::dimension::Dimension;
 

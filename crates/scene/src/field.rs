@@ -9,9 +9,9 @@ use std::slice;
 
 use joints::{LARGEST, Space3, is_usable};
 use linalg::Dd;
-use model::Law;
 use model::codes::Code;
 use model::law::Operation;
+use model::{Function, Law};
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
 
@@ -175,14 +175,7 @@ impl<'t> Field<'t> {
     /// yet.
     pub(crate) fn quantity(&self, expected: &str, language: &Language) -> Option<Quantity> {
         if let Some(text) = self.value.get_ref().as_str().filter(|_| language.computes) {
-            let faults = match expression::evaluate(text, language) {
-                Ok(q) => return Some(q),
-                Err(faults) => faults,
-            };
-            for fault in faults {
-                self.report(fault, language);
-            }
-            return None;
+            return self.accept(expression::evaluate(text, language), language);
         }
         let Some(value) = as_number(self.value.get_ref()) else {
             self.mismatch(expected);
@@ -212,15 +205,33 @@ impl<'t> Field<'t> {
             let value = self.number_expected(expected, result)?;
             return Law::new(&[Operation::Number(value)]).ok();
         };
-        match expression::law(text, of, result, self.language) {
-            Ok(law) => Some(law),
-            Err(faults) => {
-                for fault in faults {
-                    self.report(fault, self.language);
-                }
-                None
-            }
-        }
+        let law = expression::law(text, of, result, self.language);
+        self.accept(law, self.language)
+    }
+
+    /// Returns whether the value is an expression that contains the time.
+    pub(crate) fn is_of_time(&self) -> bool {
+        let text = self.value.get_ref().as_str();
+        let text = text.filter(|_| self.language.computes).unwrap_or_default();
+        let mut names = expression::names(text).into_iter();
+        names.any(|(name, _)| name == expression::TIME)
+    }
+
+    /// Reads an expression of the time with values of this dimension.
+    pub(crate) fn of_time(&self, of: Dimension) -> Option<Function> {
+        let text = self.value.get_ref().as_str().unwrap_or_default();
+        let function = expression::of_time(text, of, self.language);
+        self.accept(function, self.language)
+    }
+
+    /// Reports the errors in an expression, or returns its value.
+    fn accept<T>(&self, value: Result<T, Vec<Fault>>, language: &Language) -> Option<T> {
+        let report = |faults: Vec<Fault>| {
+            faults
+                .into_iter()
+                .for_each(|fault| self.report(fault, language));
+        };
+        value.map_err(report).ok()
     }
 
     /// Reports an error in an expression, at its position.

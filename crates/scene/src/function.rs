@@ -1,13 +1,16 @@
-//! Functions of time: a number, or an inline table with a `type`.
+//! Functions of time: a number, an expression of the time, or an inline table with a `type`.
 
 use std::ops::Range;
 use std::rc::Rc;
 
+use joints::spec::Unit;
+use model::words::rounded;
 use model::{Function, FunctionError};
 
 use crate::dimension::Dimension;
 use crate::field::{Field, all};
 use crate::key::{Interval, Key, TYPE, Takes};
+use crate::limits::RUN_INSTANTS;
 use crate::mistake::Mistake;
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
@@ -119,18 +122,76 @@ fn names() -> impl Iterator<Item = &'static str> {
     KINDS.iter().map(|kind| kind.name)
 }
 
-/// The time interval of a table; the run must not exceed it.
+/// The times at which a function is defined; the run must not exceed them.
 pub(crate) struct Domain {
     pub(crate) subject: Rc<str>,
     pub(crate) span: Range<usize>,
-    pub(crate) first: f64,
-    pub(crate) last: f64,
+    extent: Extent,
+}
+
+/// The times at which a function is defined.
+enum Extent {
+    /// The interval of a table.
+    Interval { first: f64, last: f64 },
+    /// The times at which an expression has a value and this number of derivatives.
+    Expression {
+        key: String,
+        function: Function,
+        derivatives: usize,
+    },
+}
+
+impl Domain {
+    /// Returns the reason why a run from t = 0 exceeds the domain, if it does. Expressions are
+    /// evaluated at instants of the run.
+    pub(crate) fn excess(&self, t_end: f64) -> Option<(Mistake, String, &'static str)> {
+        let subject = &self.subject;
+        match &self.extent {
+            Extent::Interval { first, last } if *first <= 0.0 && *last >= t_end => None,
+            Extent::Interval { first, last } => Some((
+                Mistake::Uncovered,
+                format!(
+                    "{subject}: the table runs from t = {first} to t = {last}, the run from t = 0 to t = {t_end}"
+                ),
+                "must cover the whole run",
+            )),
+            Extent::Expression {
+                key,
+                function,
+                derivatives,
+            } => {
+                let mut instants =
+                    (0..=RUN_INSTANTS).map(|k| t_end * f64::from(k) / f64::from(RUN_INSTANTS));
+                let (t, what) =
+                    instants.find_map(|t| Some((t, missing(function, *derivatives, t)?)))?;
+                Some((
+                    Mistake::NoValue,
+                    format!("{subject}: `{key}` has no {what} at t = {} s", rounded(t)),
+                    "must be defined during the whole run",
+                ))
+            }
+        }
+    }
 }
 
 /// Reads a function with values of this dimension. The time intervals of tables are added to
 /// `domains`.
 pub(crate) fn read(field: &Field, of: Dimension, domains: &mut Vec<Domain>) -> Option<Function> {
-    const EXPECTED: &str = "a number or a function of time { type = … }";
+    const EXPECTED: &str = "a number, an expression of `t` or a function of time { type = … }";
+    if field.is_of_time() {
+        let function = field.of_time(of)?;
+        let derivatives = regular(&function, of, field)?;
+        domains.push(Domain {
+            subject: Rc::clone(&field.subject),
+            span: field.span(),
+            extent: Extent::Expression {
+                key: field.key.to_string(),
+                function: function.clone(),
+                derivatives,
+            },
+        });
+        return Some(function);
+    }
     if field.may_be_number() {
         let value = field.number(of)?;
         return accept(Function::constant(value), field);
@@ -260,11 +321,59 @@ fn points(
         domains.push(Domain {
             subject: Rc::clone(&table.subject),
             span: times.span(),
-            first,
-            last,
+            extent: Extent::Interval { first, last },
         });
     }
     Some(function)
+}
+
+/// Returns the number of derivatives that a function of this dimension needs, or reports that they
+/// do not exist at the start. A load needs only a value, a prescribed velocity also a rate, and the
+/// motion of a drive also a second derivative. Prescribed motions must have no kinks, because the
+/// times of kinks are not known in advance.
+fn regular(function: &Function, of: Dimension, field: &Field) -> Option<usize> {
+    let loads = [Unit::Force, Unit::Torque].map(Dimension::from);
+    let derivatives = match of {
+        of if loads.contains(&of) => 0,
+        Dimension::VELOCITY => 1,
+        _ => 2,
+    };
+    let (subject, key) = (&field.subject, &field.key);
+    let report = |message: &str, label: &str, help: &str| {
+        field.findings.error_with_help(
+            Mistake::NoValue,
+            field.span(),
+            format!("{subject}: `{key}` {message}"),
+            label,
+            help.to_owned(),
+        );
+    };
+    if derivatives > 0 && !function.is_smooth() {
+        report(
+            "prescribes a motion, so it cannot contain `abs`, `min`, `max` or `atan2` of the time",
+            "has kinks or jumps",
+            "write a function of time of the type `steps` or `linear-table`",
+        );
+        return None;
+    }
+    let Some(what) = missing(function, derivatives, 0.0) else {
+        return Some(derivatives);
+    };
+    report(
+        &format!("has no {what} at t = 0 s"),
+        "not a number at the start",
+        "write an expression that is defined from the start to the end of the run",
+    );
+    None
+}
+
+/// The first of the value and these derivatives that does not exist at a time.
+fn missing(function: &Function, derivatives: usize, t: f64) -> Option<&'static str> {
+    let names = ["value", "rate", "second derivative"];
+    let all = names.into_iter().zip(function.jet(t)).take(derivatives + 1);
+    all.filter(|(_, x)| !x.is_finite())
+        .map(|(name, _)| name)
+        .next()
 }
 
 fn accept(function: Result<Function, FunctionError>, field: &Field) -> Option<Function> {

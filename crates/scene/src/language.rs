@@ -16,13 +16,13 @@ pub(crate) struct Language {
     bases: Bases,
     /// Names of the units of bare numbers.
     pub(crate) units: Units,
-    parameters: BTreeMap<String, Parameter>,
+    parameters: BTreeMap<String, ParameterValue>,
     /// Names of parameters that expressions cannot contain; they have been reported.
     unfit: Vec<String>,
 }
 
-/// A parameter.
-struct Parameter {
+/// A parameter as expressions use it.
+struct ParameterValue {
     /// The value; `None` if the name or the text of the parameter is wrong.
     value: Option<Quantity>,
     /// Position of the name in the file.

@@ -37,10 +37,10 @@ pub(crate) const HEAVIEST_FORCE: f64 = 100.0;
 /// `a_spring_of_ten_free_lengths_is_reported`.
 pub(crate) const LONGEST_SPRING: f64 = 10.0;
 
-/// Number of equal parts of the run, at whose ends the functions of time of a force are compared
-/// with the weight. Unit: number. Too small: a force that is zero at all of these instants gives no
-/// warning. Too large: reading a scene with many forces takes longer. Test:
-/// `a_force_of_a_hundred_weights_is_reported`.
+/// Number of equal parts of the run, at whose ends expressions of the time must have a value, and
+/// forces are compared with the weight. Unit: number. Too small: an expression without a value
+/// stops the run instead of being reported at its position. Too large: reading a scene with many
+/// functions takes longer. Test: `a_force_of_a_hundred_weights_is_reported`.
 pub(crate) const RUN_INSTANTS: u32 = 100;
 
 /// A violation of a limit: its position, the message, and the text at the mark.

@@ -264,10 +264,10 @@ fn function() -> Value {
         table
     });
     let mut number = value::number(Interval::Any);
-    number["title"] = "Constant".into();
+    number["title"] = "Constant, or an expression of the time `t`".into();
     json!({
         "title": "Function of time",
-        "description": "A number, or { type = … }",
+        "description": "A number, an expression of `t` (s), or { type = … }",
         "oneOf": std::iter::once(number).chain(kinds).collect::<Vec<_>>(),
     })
 }

@@ -274,24 +274,15 @@ impl Simulate {
         }
     }
 
-    /// Reports tables of functions that end before the end of the run.
+    /// Reports functions of time that are not defined during the whole run.
     pub(crate) fn check_domains(&self, domains: &[Domain], findings: &Findings) {
         let t_end = self.options.t_end;
         for domain in domains {
-            let Domain { first, last, .. } = *domain;
-            if first <= 0.0 && last >= t_end {
+            let Some((mistake, message, label)) = domain.excess(t_end) else {
                 continue;
-            }
-            findings.collision(Mistake::Uncovered,
-                domain.span.clone(),
-                format!(
-                    "{}: the table runs from t = {first} to t = {last}, the run from t = 0 to t = {t_end}",
-                    domain.subject
-                ),
-                "must cover the whole run",
-                self.t_end.clone(),
-                "the run ends here",
-            );
+            };
+            let (place, end) = (domain.span.clone(), self.t_end.clone());
+            findings.collision(mistake, place, message, label, end, "the run ends here");
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::spline::Spline;
 use super::{Function, TimeLaw, points};
+use crate::law::Operation;
 
 /// The kind of a function, with its parameters.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,6 +44,8 @@ pub enum Parts<'a> {
         /// Values at these times.
         values: &'a [f64],
     },
+    /// Operations on the time, in the order of evaluation.
+    Expression(&'a [Operation]),
 }
 
 impl Parts<'_> {
@@ -55,11 +58,13 @@ impl Parts<'_> {
             Self::Steps { .. } => "steps",
             Self::Spline { .. } => "spline",
             Self::Lines { .. } => "lines",
+            Self::Expression(_) => "expression",
         }
     }
 
     /// Returns all parameters: the coefficients; amplitude, omega, phase and offset; the start and
-    /// each step; time, value and curvature of each point; or time and value of each point.
+    /// each step; time, value and curvature of each point; or time and value of each point. An
+    /// expression has no parameters, because its operations may depend on their values.
     #[must_use]
     pub fn numbers(&self) -> Vec<f64> {
         match self {
@@ -86,6 +91,7 @@ impl Parts<'_> {
                 let points = times.iter().zip(*values);
                 points.flat_map(|(t, f)| [*t, *f]).collect()
             }
+            Self::Expression(_) => Vec::new(),
         }
     }
 }
@@ -131,6 +137,7 @@ impl Function {
                 ))))
             }
             TimeLaw::Lines(_) => Self::lines(&every(2, 0), &every(2, 1)).ok(),
+            TimeLaw::Expression(_) => Some(self.clone()),
         }
     }
 
@@ -172,6 +179,7 @@ impl Function {
                 let (times, values) = lines.points();
                 Parts::Lines { times, values }
             }
+            TimeLaw::Expression(expression) => Parts::Expression(expression.operations()),
         }
     }
 }

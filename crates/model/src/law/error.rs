@@ -17,6 +17,9 @@ pub enum LawError {
     /// There are too many values on the stack.
     #[error("a law is nested deeper than {DEEPEST}")]
     Deep,
+    /// A function of time contains a joint coordinate or its rate.
+    #[error("a function of time depends on the time only, not on a joint coordinate or its rate")]
+    Variable,
     /// A force law requires a drive with one row and at most `most` bodies.
     #[error(
         "`{definition}` has {rows} rows and {slots} bodies; a law needs 1 row and at most {most} bodies"

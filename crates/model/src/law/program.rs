@@ -7,11 +7,11 @@ use super::{Operation, UndefinedValue};
 
 /// A sequence of operations with one result.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Program(Box<[Operation]>);
+pub(crate) struct Program(Box<[Operation]>);
 
 impl Program {
     /// Checks that the operations have one result.
-    pub(super) fn new(operations: &[Operation]) -> Result<Self, LawError> {
+    pub(crate) fn new(operations: &[Operation]) -> Result<Self, LawError> {
         let mut left: usize = 0;
         for operation in operations {
             let takes = match operation {
@@ -29,6 +29,10 @@ impl Program {
             1 => Ok(Self(operations.into())),
             left => Err(LawError::Incomplete { left }),
         }
+    }
+
+    pub(crate) fn operations(&self) -> &[Operation] {
+        &self.0
     }
 
     /// Returns the value with its derivatives. A derivative that is not finite is replaced by 0.
@@ -52,7 +56,7 @@ impl Program {
 
     /// Returns the value of the program for joint coordinate, rate and time. Every intermediate
     /// result must be finite.
-    pub(super) fn evaluate<T: LawNumber>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
+    pub(crate) fn evaluate<T: LawNumber>(&self, inputs: [T; 3]) -> Result<T, UndefinedValue> {
         let mut stack = [inputs[0]; DEEPEST];
         let mut top = 0;
         let is_finite = |x: T| x.number().is_none_or(f64::is_finite);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use joints::LARGEST;
 use model::words::rounded;
 
-use super::unit::{in_units_here, names_of};
+use super::unit::{TIME, in_units_here, names_of};
 use crate::dimension::Dimension;
 
 /// An error, and its position in the text.
@@ -76,7 +76,7 @@ pub(crate) enum Problem {
 /// Describes a variable of force laws and functions of time.
 fn variable(name: &str) -> String {
     match name {
-        "t" => "the time".to_owned(),
+        TIME => "the time".to_owned(),
         name => format!("the {name} of a drive"),
     }
 }
@@ -136,7 +136,10 @@ impl Problem {
             }
             Self::Twice { .. } => "give the parameter another name".to_owned(),
             Self::NoBrackets { name } => format!("write `{name}(…)`"),
-            Self::Dimension { expected, .. } => suffixes(*expected)?,
+            Self::Dimension { found, expected } if *expected == Dimension::NONE => {
+                format!("divide it by its unit, as `/(1 {found})`")
+            }
+            Self::Dimension { expected, .. } => suffixes(*expected),
             Self::Mixed { .. } => "write both with units of one kind".to_owned(),
             Self::Pi => {
                 "write `*rad` behind it, or the angle in the unit that `units` says".to_owned()
@@ -149,15 +152,12 @@ impl Problem {
 }
 
 /// Units for a value of this dimension, as a text for messages.
-fn suffixes(of: Dimension) -> Option<String> {
-    if of == Dimension::NONE {
-        return Some("divide it by its unit, as `/(1 rad)` or `/(1 m)`".to_owned());
-    }
-    Some(match &names_of(of)[..] {
+fn suffixes(of: Dimension) -> String {
+    match &names_of(of)[..] {
         [] => format!("write its unit, as `2 {of}`"),
         names => format!(
             "its units are {}",
             crate::nearest::list(names.iter().copied())
         ),
-    })
+    }
 }

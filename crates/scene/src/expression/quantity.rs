@@ -22,7 +22,7 @@ pub(crate) struct Quantity {
     /// The dimension; `None` for a bare number, which gets the dimension of its key.
     pub(crate) dimension: Option<Dimension>,
     /// Whether the value contains π; if so, and if it is an angle, it is in radians.
-    has_pi: bool,
+    pub(super) has_pi: bool,
 }
 
 /// The factors of bare numbers, which follow from the units that a scene chooses.
@@ -41,7 +41,7 @@ impl Bases {
 
     /// Converts a bare number for a key of this dimension to SI; dimensionless numbers do not
     /// change.
-    fn scaled(self, bare: Quantity, dimension: Dimension) -> Result<Quantity, Problem> {
+    pub(super) fn scaled(self, bare: Quantity, dimension: Dimension) -> Result<Quantity, Problem> {
         let [length, angle] = dimension.chosen();
         if bare.has_pi && angle != 0 && self.angle != Dd::ONE {
             return Err(Problem::Pi);

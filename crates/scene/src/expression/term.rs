@@ -1,14 +1,16 @@
-//! Terms that contain variables of a force law: their dimension, if it is known, and the operations
-//! that evaluate them later.
+//! Terms that contain variables of a force law or of a function of time: their dimension, if it is
+//! known, and the operations that evaluate them later.
 //!
 //! If the dimension of a term is known, its value is in kg, N, m, s and rad. The dimension of the
 //! product of a bare number and a variable is not known (`0.5*rate` may be a torque). Until a key
 //! or a sum determines the dimension, such a term is a number in the units of the scene, like a
-//! bare number.
+//! bare number. The sine of a variable is a bare number, as the sine of a constant is.
 
 use model::law::{Join, Law, LawError, Operation, UnaryFunction};
+use model::{Function, FunctionError};
 
 use super::quantity::{Bases, Quantity};
+use super::unit::TIME;
 use super::{Fault, Problem, Scope, Value, parse, taken};
 use crate::dimension::Dimension;
 
@@ -22,6 +24,11 @@ pub(super) enum LawTerm {
 #[derive(Clone)]
 pub(super) struct Variable {
     dimension: Option<Dimension>,
+    /// Whether the value is computed from bare numbers and functions such as `sin` only. Then it
+    /// has no dimension and takes that of its key, like a bare number.
+    is_bare: bool,
+    /// Whether the value contains π and has no unit of an angle; see [`Quantity`].
+    has_pi: bool,
     work: Vec<Operation>,
 }
 
@@ -33,37 +40,70 @@ pub(crate) fn law(
     result: Dimension,
     scope: &impl Scope,
 ) -> Result<Law, Vec<Fault>> {
-    let variable = |of: Dimension, operation| {
-        LawTerm::Variable(Variable {
-            dimension: Some(of),
-            work: vec![operation],
-        })
-    };
     let variables = [
-        ("measure", variable(measure, Operation::Measure)),
-        (
-            "rate",
-            variable(measure.times(Dimension::TIME, -1), Operation::Rate),
-        ),
-        ("t", variable(Dimension::TIME, Operation::Time)),
+        variable("measure", measure, Operation::Measure),
+        variable("rate", measure.times(Dimension::TIME, -1), Operation::Rate),
+        time(),
     ];
-    let term = parse(text, scope, &variables)?;
-    let whole = |problem| {
-        vec![Fault {
-            span: 0..text.len(),
-            problem,
+    let work = operations(text, &variables, result, scope)?;
+    Law::new(&work).map_err(|error| vec![refused(text, &error)])
+}
+
+/// Parses a function of time with values of dimension `result`.
+pub(crate) fn of_time(
+    text: &str,
+    result: Dimension,
+    scope: &impl Scope,
+) -> Result<Function, Vec<Fault>> {
+    let work = operations(text, &[time()], result, scope)?;
+    Function::expression(&work).map_err(|error| {
+        vec![match &error {
+            FunctionError::Operations(error) => refused(text, error),
+            _ => refused(text, &LawError::Variable),
         }]
-    };
-    let work = term.at(result, scope.bases()).map_err(whole)?.work;
-    Law::new(&work).map_err(|error| {
-        whole(match error {
-            LawError::Deep => Problem::Deep {
-                most: super::DEEPEST,
-            },
-            // This error does not occur, because operands come before their operations.
-            _ => Problem::Empty,
-        })
     })
+}
+
+fn variable(name: &'static str, of: Dimension, operation: Operation) -> (&'static str, LawTerm) {
+    let variable = Variable {
+        dimension: Some(of),
+        is_bare: false,
+        has_pi: false,
+        work: vec![operation],
+    };
+    (name, LawTerm::Variable(variable))
+}
+
+fn time() -> (&'static str, LawTerm) {
+    variable(TIME, Dimension::TIME, Operation::Time)
+}
+
+/// Parses an expression of these variables with a value of dimension `result`.
+fn operations(
+    text: &str,
+    variables: &[(&'static str, LawTerm)],
+    result: Dimension,
+    scope: &impl Scope,
+) -> Result<Vec<Operation>, Vec<Fault>> {
+    let term = parse(text, scope, variables)?;
+    let span = 0..text.len();
+    let term = term.at(result, scope.bases());
+    term.map(|term| term.work)
+        .map_err(|problem| vec![Fault { span, problem }])
+}
+
+/// The error for operations that are not accepted.
+fn refused(text: &str, error: &LawError) -> Fault {
+    let problem = match error {
+        LawError::Deep => Problem::Deep {
+            most: super::DEEPEST,
+        },
+        // Other errors do not occur: operands come before their operations, and the variables are
+        // those of the caller.
+        _ => Problem::Empty,
+    };
+    let span = 0..text.len();
+    Fault { span, problem }
 }
 
 impl From<Quantity> for LawTerm {
@@ -80,33 +120,47 @@ impl LawTerm {
         }
     }
 
+    fn is_bare(&self) -> bool {
+        match self {
+            Self::Constant(q) => q.dimension.is_none(),
+            Self::Variable(v) => v.is_bare,
+        }
+    }
+
     /// Converts the term for a key that requires the dimension `expected`.
     fn at(self, expected: Dimension, bases: Bases) -> Result<Variable, Problem> {
-        match self {
-            Self::Constant(q) => {
-                let value = q.at(expected, bases)?.to_f64();
-                Ok(Variable {
-                    dimension: Some(expected),
-                    work: vec![Operation::Number(value)],
-                })
-            }
-            Self::Variable(v) => match v.dimension {
-                None => v.scaled(expected, bases, Join::Multiply),
-                Some(found) if found.fits(expected) => Ok(v),
-                Some(found) => Err(Problem::Dimension { found, expected }),
-            }
-            .map(|v| Variable {
+        let is_bare = self.is_bare() && expected == Dimension::NONE;
+        let v = match self {
+            Self::Constant(q) => Variable {
                 dimension: Some(expected),
-                ..v
-            }),
-        }
+                is_bare,
+                has_pi: q.has_pi,
+                work: vec![Operation::Number(q.at(expected, bases)?.to_f64())],
+            },
+            Self::Variable(v) => match v.dimension {
+                Some(found) if !v.is_bare && !found.fits(expected) => {
+                    return Err(Problem::Dimension { found, expected });
+                }
+                Some(_) if !v.is_bare => v,
+                _ => v.scaled(expected, bases, Join::Multiply)?,
+            },
+        };
+        Ok(Variable {
+            dimension: Some(expected),
+            is_bare,
+            has_pi: v.has_pi && is_bare,
+            ..v
+        })
     }
 
     /// Converts the term to a number in the units of the scene.
     fn bare(self, bases: Bases) -> Result<Variable, Problem> {
+        let is_number = self.is_bare() || self.dimension().is_none();
         let v = match self {
             Self::Constant(q) => Variable {
                 dimension: q.dimension,
+                is_bare: false,
+                has_pi: q.has_pi,
                 work: vec![Operation::Number(q.to_f64())],
             },
             Self::Variable(v) => v,
@@ -117,18 +171,32 @@ impl LawTerm {
         }
         .map(|v| Variable {
             dimension: None,
+            is_bare: false,
+            has_pi: v.has_pi && is_number,
             ..v
         })
     }
 
+    /// Returns whether the term has a known dimension that contains an angle.
+    fn is_angular(&self) -> bool {
+        let dimension = self.dimension().filter(|_| !self.is_bare());
+        dimension.is_some_and(|of| of.chosen()[1] != 0)
+    }
+
     /// Converts both terms to one dimension, if at least one of the two dimensions is known.
     fn matched(self, other: Self, bases: Bases) -> Result<[Variable; 2], Problem> {
-        match (self.dimension(), other.dimension()) {
-            (None, None) => Ok([self.bare(bases)?, other.bare(bases)?]),
-            (Some(of), None) => Ok([self.at(of, bases)?, other.at(of, bases)?]),
-            (Some(a), Some(b)) if b.fits(a) => Ok([self.at(a, bases)?, other.at(a, bases)?]),
-            (Some(a), Some(b)) if !a.fits(b) => Err(Problem::Mixed { a, b }),
-            (_, Some(of)) => Ok([self.at(of, bases)?, other.at(of, bases)?]),
+        let bare = [self.is_bare(), other.is_bare()];
+        let of = match (bare, self.dimension(), other.dimension()) {
+            ([true, true], ..) => Some(Dimension::NONE),
+            ([true, false], _, of) | ([false, true], of, _) => of,
+            (_, None, None) => None,
+            (_, Some(a), Some(b)) if b.fits(a) => Some(a),
+            (_, Some(a), Some(b)) if !a.fits(b) => return Err(Problem::Mixed { a, b }),
+            (_, of, None) | (_, _, of) => of,
+        };
+        match of {
+            Some(of) => Ok([self.at(of, bases)?, other.at(of, bases)?]),
+            None => Ok([self.bare(bases)?, other.bare(bases)?]),
         }
     }
 
@@ -138,11 +206,20 @@ impl LawTerm {
         } else {
             Join::Divide
         };
-        let of = self.dimension().zip(other.dimension());
-        let factors = match of {
+        let of = if self.is_bare() && other.is_bare() {
+            Some((Dimension::NONE, Dimension::NONE))
+        } else {
+            self.dimension().zip(other.dimension())
+        };
+        let is_angular = self.is_angular() || other.is_angular();
+        let mut factors = match of {
             Some((a, b)) => [self.at(a, bases)?, other.at(b, bases)?],
             None => [self.bare(bases)?, other.bare(bases)?],
         };
+        for factor in &mut factors {
+            // With a unit of an angle, as in `pi*t*rad`, the angle is in radians.
+            factor.has_pi &= !is_angular;
+        }
         Ok(joined(factors, join, of.map(|(a, b)| a.times(b, power))))
     }
 
@@ -167,6 +244,11 @@ impl LawTerm {
         if let Some(of) = self.dimension().filter(|d| *d != Dimension::NONE) {
             return Err(Problem::PowerOfUnit { of });
         }
+        if self.is_bare() && exponent.is_bare() {
+            let none = Dimension::NONE;
+            let factors = [self.at(none, bases)?, exponent.at(none, bases)?];
+            return Ok(joined(factors, Join::Power, Some(none)));
+        }
         let factors = [self.bare(bases)?, exponent.bare(bases)?];
         Ok(joined(factors, Join::Power, None))
     }
@@ -179,13 +261,22 @@ fn joined([a, b]: [Variable; 2], join: Join, dimension: Option<Dimension>) -> La
     let mut work = a.work;
     work.extend(b.work);
     work.push(Operation::Join(join));
-    LawTerm::Variable(Variable { dimension, work })
+    LawTerm::Variable(Variable {
+        dimension,
+        is_bare: a.is_bare && b.is_bare && dimension == Some(Dimension::NONE),
+        has_pi: a.has_pi || b.has_pi,
+        work,
+    })
 }
 
 impl Variable {
     /// Multiplies or divides the term by the unit that the scene chooses for a dimension.
     fn scaled(mut self, of: Dimension, bases: Bases, join: Join) -> Result<Self, Problem> {
-        let unit = Quantity::bare(linalg::Dd::ONE).at(of, bases)?.to_f64();
+        let one = Quantity {
+            has_pi: self.has_pi && join == Join::Multiply,
+            ..Quantity::bare(linalg::Dd::ONE)
+        };
+        let unit = bases.scaled(one, of)?.to_f64();
         if unit != 1.0 {
             self.work
                 .extend([Operation::Number(unit), Operation::Join(join)]);
@@ -281,6 +372,11 @@ impl Value for LawTerm {
         };
         let taken = taken(name).unwrap_or(Dimension::NONE);
         let x = x.at(taken, bases).map_err(|e| (true, e))?;
+        let x = Variable {
+            is_bare: of == Dimension::NONE,
+            has_pi: false,
+            ..x
+        };
         Ok(x.applied(f, Some(of)))
     }
 }

@@ -1,8 +1,11 @@
-//! The units in expressions, and conversions of other units.
+//! The units in expressions, conversions of other units, and the name of the time.
 
 use std::f64::consts::PI;
 
 use crate::dimension::Dimension;
+
+/// The name of the time in force laws and functions of time.
+pub(crate) const TIME: &str = "t";
 
 /// Units in expressions, each with its size `times/over` in the units of the format.
 pub(super) const UNITS: [Unit; 17] = [

@@ -112,7 +112,7 @@ impl Language {
                 self.unfit.push(name.clone());
             }
             let is_refused = fitness != Fitness::Fit;
-            let declared = super::Parameter {
+            let declared = super::ParameterValue {
                 value: None,
                 name: key,
             };

@@ -414,8 +414,8 @@ fn drives_and_functions() {
         (
             MOTION,
             "«true»",
-            "drive `motor`: `motion` must be a number or a function of time { type = … }, found `true`",
-            "expected a number or a function of time { type = … }",
+            "drive `motor`: `motion` must be a number, an expression of `t` or a function of time { type = … }, found `true`",
+            "expected a number, an expression of `t` or a function of time { type = … }",
         ),
         (
             MOTION,

@@ -1,7 +1,7 @@
 //! Tests format 2 with expressions, parameters and units; every error has a position inside the
 //! text.
 
-use std::f64::consts::FRAC_PI_6;
+use std::f64::consts::{FRAC_PI_6, PI};
 
 use joints::{Pose, Twist};
 use model::BodyRef;
@@ -421,6 +421,212 @@ fn lengths_may_be_in_micrometres() {
     }
 }
 
+/// The value with two derivatives of the motion of the crank, whose units are mm and deg.
+fn motion_of(text: &str) -> impl Fn(f64) -> [f64; 3] {
+    let motion = format!("motion = \"{text}\"");
+    let text = CRANK.replacen(STEPS, &motion, 1);
+    let scene = read(&text).unwrap_or_else(|p| panic!("{text}\n{p:#?}"));
+    assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
+    let d = scene.description.plane().expect("a planar scene").clone();
+    move |t| d.drives[0].motion.jet(t)
+}
+
+const STEPS: &str =
+    "motion = { type = \"steps\", steps = [{ from = 0, to = \"500 ms\", by = \"phi/2\" }] }";
+
+/// Expressions of the time, with closed forms that were derived by hand. Numbers without a unit are
+/// in degrees here, so that `6*t` in a sine is 6 deg/s·t.
+#[test]
+fn functions_of_time_may_be_expressions() {
+    let degree = PI / 180.0;
+    for t in [0.0_f64, 0.3, 1.7] {
+        let (sin, cos) = (6.0 * t).sin_cos();
+        let (slow, slower) = (6.0 * degree * t).sin_cos();
+        let w = 6.0 * degree;
+        let (up, down) = (PI * t).sin_cos();
+        let wave = [90.0 * up, 90.0 * PI * down, -90.0 * PI * PI * up].map(|x| x * degree);
+        for (text, expected) in [
+            ("30*t", [30.0 * t, 30.0, 0.0].map(|x| x * degree)),
+            ("30 deg/s*t", [30.0 * t, 30.0, 0.0].map(|x| x * degree)),
+            (
+                "2 + 4*t^3",
+                [2.0 + 4.0 * t.powi(3), 12.0 * t * t, 24.0 * t].map(|x| x * degree),
+            ),
+            (
+                "phi*sin(6 rad/s*t)",
+                [30.0 * sin, 180.0 * cos, -1080.0 * sin].map(|x| x * degree),
+            ),
+            ("sin(pi*t*rad)*90", wave),
+            ("sin(2*pi*rad*t/2)*90", wave),
+            ("sin(6*t)*1 rad", [slow, w * slower, -w * w * slow]),
+            (
+                "sin(6*t)",
+                [slow, w * slower, -w * w * slow].map(|x| x * degree),
+            ),
+        ] {
+            let found = motion_of(text)(t);
+            for (found, expected) in found.iter().zip(expected) {
+                let bound = 1e-14 * expected.abs().max(1.0);
+                assert!(
+                    (found - expected).abs() <= bound,
+                    "{text}: {found} {expected}"
+                );
+            }
+        }
+    }
+}
+
+/// Each error of an expression of the time is at its position, and states the correction.
+#[test]
+fn faults_of_functions_of_time_have_their_places() {
+    for (motion, expected) in [
+        (
+            "phi*sin(t)",
+            [
+                "t",
+                "found a time (s), need an angle (rad)",
+                "another unit is needed | its units are `deg`, `rad`",
+            ],
+        ),
+        (
+            "sin(2*pi*t)*90",
+            [
+                "2*pi*t",
+                "a number with `pi` is an angle here, but angles without a unit are not in radians",
+                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+            ],
+        ),
+        (
+            "pi*t",
+            [
+                "pi*t",
+                "a number with `pi` is an angle here, but angles without a unit are not in radians",
+                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+            ],
+        ),
+        (
+            "exp(t)*1 deg",
+            [
+                "t",
+                "found a time (s), need a number without a unit",
+                "another unit is needed | divide it by its unit, as `/(1 s)`",
+            ],
+        ),
+        (
+            "2*t + zeta",
+            [
+                "zeta",
+                "there is no parameter `zeta`",
+                "no such parameter | the parameters are `L`, `m1`, `phi`, `spring`, `tip`",
+            ],
+        ),
+        (
+            "abs(2*t - 1)",
+            [
+                "\"abs(2*t - 1)\"",
+                "`motion` prescribes a motion, so it cannot contain `abs`, `min`, `max` or `atan2` of the time",
+                "has kinks or jumps | write a function of time of the type `steps` or `linear-table`",
+            ],
+        ),
+        (
+            "(2*t)^1.5*1",
+            [
+                "\"(2*t)^1.5*1\"",
+                "`motion` has no second derivative at t = 0 s",
+                "not a number at the start | write an expression that is defined from the start to the end of the run",
+            ],
+        ),
+        (
+            "sqrt(2*t)",
+            [
+                "\"sqrt(2*t)\"",
+                "`motion` has no rate at t = 0 s",
+                "not a number at the start | write an expression that is defined from the start to the end of the run",
+            ],
+        ),
+        (
+            "log(2*t)",
+            [
+                "\"log(2*t)\"",
+                "`motion` has no value at t = 0 s",
+                "not a number at the start | write an expression that is defined from the start to the end of the run",
+            ],
+        ),
+    ] {
+        let text = CRANK.replacen(STEPS, &format!("motion = \"{motion}\""), 1);
+        let problems = read(&text).expect_err(motion);
+        let found: Vec<_> = problems.iter().map(|p| said(&text, p)).collect();
+        assert_eq!(found.len(), 1, "{motion}: {found:#?}");
+        let [marked, message, advice] = &found[0];
+        let message = message.rsplit(": ").next().unwrap_or_default();
+        assert_eq!([marked.as_str(), message, advice], expected, "{motion}");
+    }
+    // The run ends at 2 s. The first of its hundredths without a value is reported.
+    for (motion, what) in [
+        ("log(1.43 - t/(1 s))", "`motion` has no value at t = 1.44 s"),
+        ("sqrt(1.5 - t/(1 s))", "`motion` has no rate at t = 1.5 s"),
+        (
+            "(1.5 - t/(1 s))^1.5",
+            "`motion` has no second derivative at t = 1.5 s",
+        ),
+    ] {
+        let text = CRANK.replacen(STEPS, &format!("motion = \"{motion}\""), 1);
+        let problems = read(&text).expect_err(motion);
+        let found: Vec<_> = problems.iter().map(|p| said(&text, p)).collect();
+        let expected = [
+            format!("\"{motion}\""),
+            format!("drive `D`: {what}"),
+            "must be defined during the whole run | ".to_owned(),
+        ];
+        assert_eq!(found, [expected]);
+        let shorter = text.replacen("t_end = \"2 s\"", "t_end = \"1.4 s\"", 1);
+        read(&shorter).unwrap_or_else(|p| panic!("{motion}: {p:#?}"));
+    }
+    // A load needs only a value, so that kinks and infinite rates are permitted.
+    for load in ["sqrt(2*t)", "abs(sin(300*t))", "max(1 - 2*t, 0)"] {
+        let push = format!(
+            "{CRANK}\n[[force]]\nname = \"F\"\ntype = \"point-force\"\nbody = \"crank\"\npoint = [0, 0]\nforce = [\"{load}\", 0]\n"
+        );
+        read(&push).unwrap_or_else(|p| panic!("{load}: {p:#?}"));
+    }
+    // In format 1, the message states the text to add.
+    let old = "[scene]\nname = \"a\"\nspace = \"plane\"\n[[body]]\nname = \"a\"\nmass = 1\ninertia = 1\n[[force]]\nname = \"T\"\ntype = \"torque\"\nbody = \"a\"\ntorque = \"2*t\"\n";
+    let problems = read(old).expect_err("format 1");
+    let help = problems[0].help.as_deref().unwrap_or_default();
+    assert!(help.ends_with("`format = 2` in `[scene]`"), "{help}");
+}
+
+/// The time is `t` in laws and functions of time. A parameter with this name is one error, however
+/// often it is used there, and is permitted in other values.
+#[test]
+fn a_parameter_is_not_the_time() {
+    let named = CRANK.replacen("L = 300.1\n", "L = 300.1\nt = 4\n", 1);
+    let thick = named.replacen("damping = 0.5", "damping = \"t/8\"", 1);
+    read(&thick).unwrap_or_else(|p| panic!("{p:#?}"));
+    let torques: Vec<String> = (0..30)
+        .map(|k| {
+            format!(
+                "\n[[force]]\nname = \"T{k}\"\ntype = \"torque\"\nbody = \"crank\"\ntorque = \"2*t + t^2\"\n"
+            )
+        })
+        .collect();
+    let text = format!("{thick}{}", torques.concat());
+    let problems = read(&text).expect_err("two meanings");
+    let found: Vec<_> = problems.iter().map(|p| said(&text, p)).collect();
+    let expected = [
+        "t",
+        "`t` is a parameter and the time",
+        "two meanings | give the parameter another name",
+    ];
+    assert_eq!(found, [expected.map(str::to_owned)]);
+    assert_eq!(problems[0].primary.line, 10);
+    // The advice was followed.
+    let renamed = text
+        .replacen("\nt = 4\n", "\nt_1 = 4\n", 1)
+        .replacen("t/8", "t_1/8", 1);
+    read(&renamed.replace(" + t^2", "")).unwrap_or_else(|p| panic!("{p:#?}"));
+}
+
 #[test]
 fn all_faults_are_told_at_once() {
     let text = CRANK
@@ -536,7 +742,8 @@ proptest! {
         let scene = CRANK
             .replacen("\"L*cos(phi)\"", &quoted(&text), 1)
             .replacen("\"25 mm + L\"", &quoted(&other), 1)
-            .replacen("phi = 30\n", "phi = 30\nN = 2\nmm = \"3 mm\"\n", 1);
+            .replacen("phi = 30\n", "phi = 30\nN = 2\nmm = \"3 mm\"\n", 1)
+            .replacen(STEPS, &format!("motion = {}", quoted(&text)), 1);
         if let Err(problems) = read(&scene) {
             prop_assert!(!problems.is_empty());
             for p in problems {
@@ -549,8 +756,8 @@ proptest! {
 fn expression() -> impl Strategy<Value = String> {
     let words = prop::sample::select(vec![
         "1", "0", "2.5", "1e308", "1e-320", "1e999", "L", "tip", "m1", "x", "mm", "deg", "N", "s",
-        "min", "pi", "+", "-", "*", "/", "^", "(", ")", ",", "sin(", "acos(", "atan2(", "sqrt(",
-        "min(", "exp(", "log(", " ", "_", "²", "°", "é", "\n", "\"", "\u{0}",
+        "t", "2*t", "abs(", "min", "pi", "+", "-", "*", "/", "^", "(", ")", ",", "sin(", "acos(",
+        "atan2(", "sqrt(", "min(", "exp(", "log(", " ", "_", "²", "°", "é", "\n", "\"", "\u{0}",
     ]);
     prop_oneof![
         prop::collection::vec(words, 0..24).prop_map(|words| words.concat()),
