@@ -8,6 +8,7 @@ mod bounds;
 mod freedoms;
 mod gap;
 mod impulses;
+mod loads;
 mod misfits;
 mod motion;
 mod plan;
@@ -38,6 +39,7 @@ pub use bounds::{ExtremeDocument, MagnitudeOfRunDocument, RangeOfRunDocument, Ru
 pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use gap::Gap;
 pub use impulses::ImpulseDocument;
+pub use loads::{LoadsDocument, loads_at};
 pub use misfits::{MisfitDocument, SpreadDocument};
 pub use motion::{MomentDocument, MotionDocument};
 pub use plan::decision_key;

@@ -74,6 +74,13 @@ pub fn part_as_json(part: &impl Serialize) -> io::Result<String> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ByName<T>(pub Vec<(String, T)>);
 
+/// No names; a type of the values without a default suffices.
+impl<T> Default for ByName<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
 impl<T> ByName<T> {
     /// Whether the object is empty.
     #[must_use]

@@ -28,6 +28,7 @@ mod import;
 mod language;
 mod library;
 mod linearise;
+mod loads;
 mod man;
 mod new;
 mod own_joint;

@@ -33,7 +33,7 @@ pub use notes::NoteDocument;
 pub(crate) use reaction::components;
 pub use reaction::{FreeDirectionDocument, GroupDocument, ReactionDocument, RowDocument};
 
-use super::{FreedomsDocument, from_one};
+use super::{ByName, FreedomsDocument, LoadsDocument, from_one};
 use crate::questions::analyze::{bounds, matrices, remedies};
 
 /// Ranks and verdicts of one configuration.
@@ -156,6 +156,10 @@ pub struct AnswersDocument {
     /// Reactions for different choices.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub choices: Vec<DistributionDocument>,
+    /// With choices: the loads of force elements on their first bodies (N, N·m), with lengths (m)
+    /// and angles (rad) and their rates. They do not depend on the choice.
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub loads: LoadsDocument,
     /// Verdicts along the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub along: Option<AlongDocument>,

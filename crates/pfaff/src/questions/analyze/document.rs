@@ -1,12 +1,12 @@
 //! The document of one configuration, with the results that the options request.
 
-use crate::documents::AnalysisDocument;
+use crate::documents::{AnalysisDocument, loads_at};
 use crate::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,
 };
 use model::System;
 use rank::{DeletionError, Limits};
-use solvability::{DeletableRows, EliminationError, Verdict};
+use solvability::{DeletableRows, EliminationError, State, Verdict};
 
 use super::additions::ADDITIONS;
 use super::bounds;
@@ -74,6 +74,10 @@ pub(super) fn of(
             .map(|(group, values)| ValuesDocument::of_group(&group.name, &values))
             .collect();
         document.answers.choices.push(made);
+    }
+    if !choices.is_empty() {
+        let State { q, v } = &configuration.state;
+        document.answers.loads = loads_at(configuration.mechanism, asked.at_time, q, v);
     }
     Ok(document)
 }

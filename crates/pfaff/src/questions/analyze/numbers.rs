@@ -40,8 +40,27 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
             table.push(cells);
         }
     }
-    let heading = "Reactions on the first body:".to_owned();
-    let mut out = vec![Block::Heading(heading), Block::Table(table)];
+    for (name, numbers) in &d.answers.loads.0 {
+        let components = numbers
+            .0
+            .iter()
+            .filter(|(number, _)| !load_unit(number).is_empty());
+        for (component, value) in components {
+            let mut cells = vec![
+                name.as_str().into(),
+                component.as_str().into(),
+                Cell::quantity(*value, load_unit(component)),
+            ];
+            cells.extend(choices.iter().map(|_| Cell::from("")));
+            table.push(cells);
+        }
+    }
+    let heading = if d.answers.loads.is_empty() {
+        "Reactions on the first body:"
+    } else {
+        "Reactions and forces on the first body:"
+    };
+    let mut out = vec![Block::Heading(heading.to_owned()), Block::Table(table)];
     let label = |(k, choice): (usize, &DistributionDocument)| {
         Block::Legend(format!("choice {}", k + 1), choice.label.clone())
     };

@@ -1,6 +1,6 @@
 //! An equilibrium: its distance from the start, its residual forces, and its reactions.
 
-use crate::documents::{SensitivityDocument, VerdictDocument};
+use crate::documents::{LoadsDocument, SensitivityDocument, VerdictDocument, loads_at};
 use dynamics::equilibrium::{Equilibrium, RestStability};
 use linalg::kernels::norm;
 use model::{Layout, Mechanism, SpaceKind, System};
@@ -50,6 +50,9 @@ pub struct EquilibriumAnswer {
     /// Reason why there are no values of reactions.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub no_reactions_because: Option<String>,
+    /// Loads of force elements on their first bodies (N, N·m), with lengths (m) and angles (rad).
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub loads: LoadsDocument,
     /// Scene file that starts at the equilibrium.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<&'static str>,
@@ -147,6 +150,7 @@ impl EquilibriumAnswer {
             moving_on: x.moving_on.clone(),
             reactions,
             no_reactions_because,
+            loads: loads_at(mechanism, x.time, &x.q, &vec![0.0; mechanism.layout().n_v]),
             file: None,
             text_at_rest: String::new(),
             units: SceneUnits::of(&study.scene),

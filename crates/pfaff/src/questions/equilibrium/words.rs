@@ -35,6 +35,9 @@ pub(super) fn of(d: &EquilibriumAnswer) -> Vec<Block> {
     } else if !d.reactions.0.is_empty() {
         blocks.push(reactions(d));
     }
+    if !d.loads.is_empty() {
+        blocks.push(loads(d));
+    }
     if let Some(file) = d.file {
         blocks.push(Block::sentence(format!(
             "`{file}` starts at the equilibrium, e.g. for `pfaff simulate` and `pfaff linearise`"
@@ -136,4 +139,28 @@ fn reactions(d: &EquilibriumAnswer) -> Block {
         (vec![name.into()], values.collect(), vec![verdict.into()])
     });
     table(&["reaction"], &["verdict"], &lines.collect::<Vec<_>>())
+}
+
+fn loads(d: &EquilibriumAnswer) -> Block {
+    let lines = d.loads.0.iter().map(|(name, numbers)| {
+        let numbers = numbers.0.iter();
+        // The equilibrium is at rest.
+        let numbers = numbers.filter(|(number, _)| number != "rate");
+        let cells = numbers.map(|(number, x)| (number.as_str(), Cell::quantity(*x, unit(number))));
+        (vec![name.into()], cells.collect(), Vec::new())
+    });
+    table(
+        &["force on the first body"],
+        &[],
+        &lines.collect::<Vec<_>>(),
+    )
+}
+
+/// The SI unit of a number of a load.
+fn unit(number: &str) -> &'static str {
+    match number {
+        "length" => "m",
+        "angle" => "rad",
+        component => load_unit(component),
+    }
 }
