@@ -20,12 +20,14 @@ pub(crate) struct Recorded {
     pub(crate) v: Vec<f64>,
     pub(crate) trajectory: Vec<f64>,
     pub(crate) reactions: Vec<f64>,
+    pub(crate) loads: Vec<f64>,
     /// The same values for each choice, with its name.
     pub(crate) chosen: Vec<(String, Vec<f64>)>,
     /// The lowest and the highest values of the columns of reactions; empty without bounds.
     pub(crate) bounds: [Vec<f64>; 2],
     pub(crate) columns: Vec<Column>,
     pub(crate) reaction_columns: Vec<Column>,
+    pub(crate) load_columns: Vec<Column>,
     /// Names of the columns in `reactions.csv`.
     pub(crate) reaction_names: Vec<String>,
     pub(crate) document: String,
@@ -70,6 +72,8 @@ pub(crate) struct Run {
     trajectory: Py<PyArray2<f64>>,
     #[pyo3(get)]
     reactions: Py<PyArray2<f64>>,
+    #[pyo3(get)]
+    loads: Py<PyArray2<f64>>,
     /// Names and values of choices.
     chosen: Vec<(String, Py<PyArray2<f64>>)>,
     /// The lowest and the highest values.
@@ -78,6 +82,8 @@ pub(crate) struct Run {
     columns: Vec<Column>,
     #[pyo3(get)]
     reaction_columns: Vec<Column>,
+    #[pyo3(get)]
+    load_columns: Vec<Column>,
     #[pyo3(get)]
     reaction_names: Vec<String>,
     #[pyo3(get)]
@@ -93,6 +99,7 @@ impl Run {
             v: by_rows(py, recorded.v, n),
             trajectory: by_rows(py, recorded.trajectory, n),
             reactions: by_rows(py, recorded.reactions, n),
+            loads: by_rows(py, recorded.loads, n),
             chosen: recorded
                 .chosen
                 .into_iter()
@@ -102,6 +109,7 @@ impl Run {
             t: recorded.t.into_pyarray(py).unbind(),
             columns: recorded.columns,
             reaction_columns: recorded.reaction_columns,
+            load_columns: recorded.load_columns,
             reaction_names: recorded.reaction_names,
             document: recorded.document,
             stopped: recorded.stopped,

@@ -18,6 +18,7 @@ use pfaff::refusal::{Refusal, json};
 use pfaff::report::part_as_json;
 use pfaff::report::{
     Column as ReportColumn, FileError, OutputDirectory, Provenance, ReactionColumn, Trajectory,
+    load_columns, load_numbers,
 };
 use pfaff::scene::{KeyError, Template as Keys};
 use pfaff::solvability::Choice;
@@ -179,6 +180,12 @@ impl Source {
         let mut rows = Recorded {
             chosen: names.map(|name| (name, Vec::new())).collect(),
             columns: trajectory.columns().iter().map(column).collect(),
+            load_columns: {
+                let (space, loads) = (mechanism.space(), mechanism.loads());
+                let all = loads.forces();
+                let all = all.flat_map(|(name, measure)| load_columns(space, name, measure));
+                all.map(|(own, _)| column(&own)).collect()
+            },
             ..Recorded::default()
         };
         let space = mechanism.space();
@@ -209,6 +216,9 @@ impl Source {
                     }
                     own.extend(numbers.groups.as_chosen());
                 }
+                let loads = numbers.loads.iter();
+                let loads = loads.flat_map(|load| load_numbers(space, load));
+                rows.loads.extend(loads);
                 for event in sample.events {
                     if let Some(on_event) = &on_event {
                         let document = EventDocument::new(event, mechanism.layout());
@@ -287,6 +297,7 @@ impl Room {
             &mut rows.v,
             &mut rows.trajectory,
             &mut rows.reactions,
+            &mut rows.loads,
         ];
         let chosen = rows.chosen.iter_mut().map(|(_, numbers)| numbers);
         let mut tables: Vec<&mut Vec<f64>> = fixed.into_iter().chain(chosen).collect();

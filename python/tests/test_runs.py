@@ -590,3 +590,32 @@ def test_a_misfit_is_a_preload() -> None:
     long = table.analyze().reactions(soft, misfits={"C": [0.0, 0.0, -1e-5]})
     for name, sign in zip("ABCD", (-1.0, 1.0, -1.0, 1.0), strict=True):
         assert math.isclose(long[name]["Fz"] - fits[name]["Fz"], sign * 2.5, abs_tol=1e-9)
+
+
+def test_loads_of_springs_are_those_by_hand() -> None:
+    """A mass on a spring: the tension is k·(l − l0) at the length that the run has."""
+    scene = pfaff.Scene("hanging", gravity=[0.0, -10.0])
+    scene = scene.body("bob", mass=2.0, inertia=1.0, position=[0.0, -1.0])
+    scene = scene.force(
+        "spring",
+        "spring-damper",
+        bodies=["bob", "ground"],
+        points={"bob": [0.0, 0.0], "ground": [0.0, 0.0]},
+        stiffness=50.0,
+        damping=0.0,
+        free_length=0.8,
+    )
+    run = scene.simulate(t_end=1.0)
+    assert run.forces == ["spring"]
+    load = run.load("spring")
+    y = run.body("bob").position[:, 1]
+    np.testing.assert_allclose(load.length, -y, atol=1e-12)
+    np.testing.assert_allclose(load.force[:, 1], 50.0 * (-y - 0.8), atol=1e-9)
+    np.testing.assert_allclose(load.rate, -run.body("bob").velocity[:, 1], atol=1e-12)
+    assert not load.torque.any()
+    assert not run.loads.flags.writeable
+    assert "spring.Fy" in run.to_pandas().columns
+    peak = run.document["loads"]["spring"]["peak"]["force"]
+    assert peak["value"] == np.abs(load.force[:, 1]).max()
+    with pytest.raises(pfaff.InputError, match="did you mean `spring`"):
+        run.load("sprung")

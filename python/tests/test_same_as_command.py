@@ -99,6 +99,7 @@ def test_motions(path: Path, command: Command, tmp_path: Path) -> None:
         ("trajectory.csv", run.columns, run.trajectory),
         ("reactions.csv", run.reaction_columns, run.reactions),
         ("choice.csv", run.reaction_columns, chosen.reactions),
+        ("loads.csv", run.load_columns, run.loads),
     ):
         if not (tmp_path / "run" / file).exists():
             continue

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dynamics::Sample;
 use model::space::norm;
-use model::{Loads, Mechanism, SpaceKind, System};
+use model::{Load, Loads, Mechanism, SpaceKind, System};
 use report::{LoadTable, OutputDirectory, OutputFile, load_columns, load_numbers};
 use solvability::Stretches;
 
@@ -64,6 +64,16 @@ impl<'m> LoadsOfRun<'m> {
         }))
     }
 
+    /// Returns the loads at a row, and includes them in the extreme values.
+    pub(crate) fn see(&mut self, sample: &Sample<'_, '_>) -> Vec<Load> {
+        let t = self.mechanism.layout().before_break(sample.t);
+        let loads = self.loads.at(t, sample.q, sample.v);
+        for (found, load) in self.found.iter_mut().zip(&loads) {
+            found.note(sample.t, self.mechanism.space(), load);
+        }
+        loads
+    }
+
     fn documents(&self) -> ByName<LoadOfRunDocument> {
         let space = self.mechanism.space();
         let each = self.loads.forces().zip(&self.found);
@@ -87,7 +97,7 @@ pub(crate) fn documents(loads: Option<&LoadsOfRun<'_>>) -> ByName<LoadOfRunDocum
 }
 
 impl FoundLoad {
-    fn note(&mut self, t: f64, space: SpaceKind, load: &model::Load) {
+    fn note(&mut self, t: f64, space: SpaceKind, load: &Load) {
         let numbers = load_numbers(space, load).enumerate();
         for (k, number) in numbers {
             if self.columns.len() == k {
@@ -112,11 +122,7 @@ impl RowSink for LoadsOfRun<'_> {
         if !self.rows.take(sample.t) {
             return Ok(ControlFlow::Continue(()));
         }
-        let t = self.mechanism.layout().before_break(sample.t);
-        let loads = self.loads.at(t, sample.q, sample.v);
-        for (found, load) in self.found.iter_mut().zip(&loads) {
-            found.note(sample.t, self.mechanism.space(), load);
-        }
+        let loads = self.see(sample);
         if let Some(table) = &mut self.table {
             table.row(sample.t, &loads)?;
         }

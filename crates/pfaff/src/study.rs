@@ -18,8 +18,8 @@ use dynamics::{
 };
 use model::start::assemble;
 use model::{
-    AnyDescription, ConfigurationAccuracy, ConstraintId, FramePose, Reaction, Registry, StartError,
-    StartPose, System,
+    AnyDescription, ConfigurationAccuracy, ConstraintId, FramePose, Load, Reaction, Registry,
+    StartError, StartPose, System,
 };
 use report::{
     Family, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, Selection, TableError,
@@ -111,6 +111,8 @@ pub struct ChosenNumbers {
     /// The same values for each choice of [`Study::choices`] and then of
     /// [`OutputRequest::choices`]; NaN if a choice selects no solution.
     pub choices: Vec<ChosenNumbers>,
+    /// Loads of force elements, which do not depend on a choice; empty in [`Self::choices`].
+    pub loads: Vec<Load>,
 }
 
 impl Study {
@@ -670,8 +672,11 @@ impl Study {
         let mut groups = GroupNumbers::new(mechanism, q, &plan.groups);
         let (columns, space) = (begun.columns(&Selection::All)?, mechanism.space());
         let mut peaks = PeakRecorder::new(columns.len(), &mechanism.layout().break_times);
+        let every = TableRows::new(1, plan.options().t_end);
+        let mut loads = LoadsOfRun::begin(None, mechanism, every)?;
         let mut caller = Calling(|sample: &mut Sample<'_, '_>| {
             let numbers = ChosenNumbers {
+                loads: loads.as_mut().map_or_else(Vec::new, |all| all.see(sample)),
                 reactions: sample.reactions()?,
                 groups: group_numbers(&mut groups, sample)?,
                 choices: chosen_numbers(sample, &mut groups, &mut gaps)?,
@@ -699,11 +704,8 @@ impl Study {
                 (all, true),
             )
         });
-        let every = TableRows::new(1, plan.options().t_end);
-        let mut loads = LoadsOfRun::begin(None, mechanism, every)?;
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut caller];
         sinks.extend(bounds.as_mut().map(|sink| sink as &mut dyn RowSink));
-        sinks.extend(loads.as_mut().map(|sink| sink as &mut dyn RowSink));
         let ended = run_into(&plan, (&goes_on, stop), &mut |_| goes_on(0.0), &mut sinks)?;
         if let Some(bounds) = &mut bounds {
             bounds.end(ended.summary.verdicts.as_ref(), &ended.ending())?;
@@ -1144,6 +1146,7 @@ fn chosen_numbers(
             groups: numbers_of(groups, sample, &found.multipliers)?,
             reactions: found.reactions,
             choices: Vec::new(),
+            loads: Vec::new(),
         });
     }
     Ok(all)

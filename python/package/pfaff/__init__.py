@@ -29,7 +29,7 @@ from ._errors import (
 from ._functions import BodyState
 from ._linearisation import Linearisation
 from ._pfaff import __version__, explain
-from ._run import BodyMotion, ChosenReactions, Event, Reaction, Run
+from ._run import BodyMotion, ChosenReactions, Event, Load, Reaction, Run
 from ._samples import Samples
 from ._scene import Matrices, Scene, templates
 from .cluster import SweepResult
@@ -49,6 +49,7 @@ __all__ = [
     "InputError",
     "InternalError",
     "Linearisation",
+    "Load",
     "Matrices",
     "Place",
     "Reaction",

@@ -129,6 +129,40 @@ class Reaction(_Columns):
         return self["T"] if "T" in self._numbers else self._of(("Tx", "Ty", "Tz"))
 
 
+class Load(_Columns):
+    """The load of a force element on its first body, in ground axes.
+
+    Torques are about the point of the element on this body. The model determines these loads.
+    """
+
+    __slots__ = ()
+
+    @property
+    def force(self) -> Array:
+        """Forces (N), 2 or 3 columns."""
+        return self._of(("Fx", "Fy", "Fz"))
+
+    @property
+    def torque(self) -> Array:
+        """Torques (N·m): one value per time in the plane, 3 columns in space."""
+        return self["T"] if "T" in self._numbers else self._of(("Tx", "Ty", "Tz"))
+
+    @property
+    def length(self) -> Array:
+        """Lengths (m) of an element between two points."""
+        return self["length"]
+
+    @property
+    def angle(self) -> Array:
+        """Angles (rad) of an element between two directions."""
+        return self["angle"]
+
+    @property
+    def rate(self) -> Array:
+        """Rates of the length (m/s) or of the angle (rad/s)."""
+        return self["rate"]
+
+
 class ChosenReactions:
     """Reactions of a run for one choice.
 
@@ -190,6 +224,8 @@ class Run:
 
         Empty cells are NaN. With a single choice the values are those of the choice.
         """
+        self.loads: Array = of.loads
+        """The columns of ``loads.csv`` after ``t``."""
         lowest, highest = of.bounds()
         has_bounds = lowest.shape[1] > 0
         columns = of.reaction_columns
@@ -208,6 +244,10 @@ class Run:
         """Names of the columns of :attr:`trajectory`."""
         self.reaction_columns: list[str] = of.reaction_names
         """Names of the columns of :attr:`reactions`."""
+        headings = [_heading(owner, number) for _, owner, number in of.load_columns]
+        self.load_columns: list[str] = headings
+        """Names of the columns of :attr:`loads`."""
+        self._loads = _grouped(of.load_columns, self.loads, Load, ("force",))
         self._bodies = _grouped(of.columns, self.trajectory, BodyMotion, ("body",))
         self._markers = _grouped(of.columns, self.trajectory, BodyMotion, ("marker",))
         self._others = _grouped(of.columns, self.trajectory, _Columns, ("measure", "law"))
@@ -215,7 +255,7 @@ class Run:
         self._groups = _grouped(of.reaction_columns, self.reactions, _Columns, ("group",))
 
     def _seal(self) -> None:
-        for array in (self.t, self.q, self.v, self.trajectory, self.reactions):
+        for array in (self.t, self.q, self.v, self.trajectory, self.reactions, self.loads):
             array.flags.writeable = False
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -270,6 +310,15 @@ class Run:
         """Returns the reaction of a joint or drive."""
         return _named("joint or drive", name, self._reactions)
 
+    @property
+    def forces(self) -> list[str]:
+        """Names of force elements, and of drives with laws."""
+        return list(self._loads)
+
+    def load(self, name: str) -> Load:
+        """Returns the load of a force element or of a drive with a law."""
+        return _named("force", name, self._loads)
+
     def group(self, name: str) -> _Columns:
         """Returns the values of a group of the scene; NaN for values that are not determined."""
         return _named("group with numbers", name, self._groups)
@@ -294,15 +343,16 @@ class Run:
         import pandas
 
         index = pandas.Index(self.t, name="t")
-        table = np.hstack((self.trajectory, self.reactions))
-        return pandas.DataFrame(table, index=index, columns=self.columns + self.reaction_columns)
+        table = np.hstack((self.trajectory, self.reactions, self.loads))
+        columns = self.columns + self.reaction_columns + self.load_columns
+        return pandas.DataFrame(table, index=index, columns=columns)
 
     def to_polars(self) -> Any:
         """Returns all columns as a ``polars.DataFrame``, the first of which is ``t``."""
         import polars
 
-        table = np.column_stack((self.t, self.trajectory, self.reactions))
-        schema = ["t", *self.columns, *self.reaction_columns]
+        table = np.column_stack((self.t, self.trajectory, self.reactions, self.loads))
+        schema = ["t", *self.columns, *self.reaction_columns, *self.load_columns]
         return polars.from_numpy(table, schema=schema, orient="row")
 
     def plot(self, *columns: str, ax: Any = None) -> Any:
@@ -328,6 +378,7 @@ class Run:
         for headings, table in (
             (self.columns, self.trajectory),
             (self.reaction_columns, self.reactions),
+            (self.load_columns, self.loads),
         ):
             if heading in headings:
                 return table[:, headings.index(heading)]
