@@ -62,6 +62,28 @@ impl Reaction {
         }
     }
 
+    /// Returns the force and the torque reduced by those of another wrench about the same point.
+    pub(crate) fn minus(mut self, other: Self) -> Self {
+        for (own, x) in self.force.iter_mut().zip(other.force) {
+            *own -= x;
+        }
+        for (own, x) in self.torque.iter_mut().zip(other.torque) {
+            *own -= x;
+        }
+        self
+    }
+
+    /// Returns the components of force and torque along these axes.
+    #[must_use]
+    pub fn along(self, axes: [[f64; 3]; 3]) -> Self {
+        let along = |v: [f64; 3]| axes.map(|a| a[0] * v[0] + a[1] * v[1] + a[2] * v[2]);
+        Self {
+            force: along(self.force),
+            torque: along(self.torque),
+            ..self
+        }
+    }
+
     /// Returns the components of force and torque, in the order of [`SpaceKind::components`].
     ///
     /// ```
@@ -311,7 +333,8 @@ impl<'a> Reactions<'a> {
     }
 
     /// Returns the axes of a body frame, in ground axes.
-    fn frame_axes(self, body: BodyRef) -> [[f64; 3]; 3] {
+    #[must_use]
+    pub fn frame_axes(self, body: BodyRef) -> [[f64; 3]; 3] {
         let Some(k) = body.moving() else {
             return GROUND_AXES;
         };

@@ -6,6 +6,7 @@ use dynamics::linearise::LineariseError;
 use dynamics::{MotionError, MotionFault};
 use model::BuildError;
 use model::codes::Code;
+use model::words::listed;
 use rank::DeletionError;
 use report::{FileError, TableError};
 use scene::{CombinationError, Diagnostic};
@@ -44,6 +45,17 @@ pub enum StudyError {
     /// The bounds that the scene requests do not fit its mechanism.
     #[error("[output] bounds: {0}")]
     Bounds(String),
+    /// All loads on a body are requested, but the model does not determine some of them.
+    #[error(
+        "[output] bodies: the loads of {} on `{body}` are not determined: choose one of the possible solutions with --choose, or make them unique",
+        listed(joints)
+    )]
+    OpenLoads {
+        /// Name of the body.
+        body: String,
+        /// Joints and drives whose reactions are not unique.
+        joints: Vec<String>,
+    },
     /// A combination cannot be parsed.
     #[error("`{text}`: {error}")]
     Combination {
@@ -141,6 +153,7 @@ impl StudyError {
             Self::NoEnd => const { Code::new(214) },
             Self::NoReactions => const { Code::new(312) },
             Self::Bounds(_) => const { Code::new(1) },
+            Self::OpenLoads { .. } => const { Code::new(318) },
             Self::Combination { .. } => const { Code::new(311) },
             Self::UnknownReaction { .. } | Self::UnknownRow { .. } => const { Code::new(310) },
             Self::InactiveReaction { .. } => const { Code::new(317) },
@@ -209,6 +222,7 @@ impl StudyError {
             | Self::NoEnd
             | Self::NoReactions
             | Self::Bounds(_)
+            | Self::OpenLoads { .. }
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }
             | Self::InactiveReaction { .. }

@@ -32,6 +32,7 @@
 
 pub mod along_motion;
 pub mod assembled;
+mod body_loads;
 mod bounds_of_run;
 pub mod choice;
 #[cfg(feature = "command")]

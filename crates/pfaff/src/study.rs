@@ -33,6 +33,7 @@ use solvability::{
 };
 
 use crate::assembled::{AssembledScene, refused};
+use crate::body_loads::{BodyLoads, body_file, joints_of};
 use crate::bounds_of_run::{self, BOUNDS, BoundsOfRun};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
@@ -804,7 +805,10 @@ impl Study {
             groups: groups.collect(),
             ..wanted(&self.scene.output)
         };
-        if self.bounds.is_some() && matches!(wanted.reactions, Reactions::Of(_)) {
+        let asks_bodies = !self.scene.output.bodies.is_empty();
+        wanted.accelerations |= asks_bodies;
+        let needs_all = asks_bodies || self.bounds.is_some();
+        if needs_all && matches!(wanted.reactions, Reactions::Of(_)) {
             // The bounds of one reaction depend on the loads of all.
             wanted.reactions = Reactions::All;
         }
@@ -872,9 +876,13 @@ impl Study {
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
         let begun = self.begun()?;
-        let needs_reactions = !begun.choices.is_empty() || self.bounds.is_some();
+        let asks_bodies = !output.bodies.is_empty();
+        let needs_reactions = asks_bodies || !begun.choices.is_empty() || self.bounds.is_some();
         if needs_reactions && matches!(output.reactions, WantedReactions::None) {
             return Err(StudyError::NoReactions);
+        }
+        if begun.choices.is_empty() {
+            begun.check_loads_of(&output.bodies)?;
         }
         plan.choices.clone_from(&begun.choices);
         let table_rows = TableRows::new(between, t_end);
@@ -933,7 +941,14 @@ impl Study {
             WantedReactions::None => None,
             _ => LoadsOfRun::begin(Some(directory), mechanism, table_rows)?,
         };
+        let is_complete = (is_plain, !begun.choices.is_empty());
+        let of_bodies = output
+            .bodies
+            .iter()
+            .map(|&body| BodyLoads::begin(directory, mechanism, body, table_rows, is_complete));
+        let mut of_bodies: Vec<BodyLoads<'_>> = of_bodies.collect::<Result<_, _>>()?;
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut counter];
+        sinks.extend(of_bodies.iter_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(loads.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(trajectory.as_mut().map(|sink| sink as &mut dyn RowSink));
         sinks.extend(reactions.as_mut().map(|sink| sink as &mut dyn RowSink));
@@ -953,7 +968,9 @@ impl Study {
         let found = bounds.as_ref().map(BoundsOfRun::found);
         let has_bounds = found.is_some_and(|(_, found)| found.has_table);
         let others = [(LOADS, loads.is_some()), (BOUNDS, has_bounds)];
-        let files = files_of(output, choice_files, others);
+        let mut files = files_of(output, choice_files, others);
+        let bodies = output.bodies.iter();
+        files.extend(bodies.map(|&body| body_file(mechanism, body)));
         let mut document = begun.document(
             &plan,
             &ended,
@@ -1026,6 +1043,25 @@ struct WrittenRun<'w> {
 }
 
 impl RunPreparation<'_> {
+    /// Rejects bodies on which some loads are not determined at the start.
+    fn check_loads_of(&self, bodies: &[usize]) -> Result<(), StudyError> {
+        let mechanism = self.start.mechanism;
+        for &body in bodies {
+            let own = joints_of(mechanism, body).into_iter();
+            let reactions = &self.start.analysis.reactions;
+            let open = own.filter(|id| !reactions[id.0].wrench.verdict.is_unique());
+            let open = open.map(|id| mechanism.layout().groups[id.0].name.clone());
+            let open: Vec<String> = open.collect();
+            if !open.is_empty() {
+                return Err(StudyError::OpenLoads {
+                    body: mechanism.bodies()[body].name.clone(),
+                    joints: open,
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// Adds the groups of the scene and the choices to the requested output.
     fn wanted(&self, wanted: OutputRequest) -> OutputRequest {
         let groups = self.groups.iter().map(|(_, group)| group.clone());
@@ -1087,6 +1123,8 @@ pub const FAMILY: Family = Family(&[
     "bounds.csv",
     "bounds_*.csv",
     "loads.csv",
+    "body_*.csv",
+    "all_body_*.csv",
     "summary.json",
     "report.html",
 ]);

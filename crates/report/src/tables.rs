@@ -95,7 +95,10 @@ impl<W: Write> Table<W> {
     }
 
     /// Writes a row of numbers, which need no quotes.
-    fn row(&mut self, values: &[f64]) -> Result<(), TableError> {
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn row(&mut self, values: &[f64]) -> Result<(), TableError> {
         self.line.clear();
         let mut text = zmij::Buffer::new();
         for &value in values {

@@ -5,9 +5,10 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use joints::spec::ConstraintSpec;
-use model::SpaceKind;
+use model::{BodyRef, SpaceKind};
 
 use crate::active;
+use crate::body::BodyNames;
 use crate::combination::{self, Combination, Reactions};
 use crate::field::Field;
 use crate::key::{Interval, Key, Takes};
@@ -43,6 +44,8 @@ pub struct Output {
     pub report: bool,
     /// `bounds.csv`
     pub bounds: Option<WantedBounds>,
+    /// Indices of the bodies with a table of all loads, `body_NAME.csv`.
+    pub bodies: Vec<usize>,
 }
 
 /// Requested bounds of the reactions that are not determined.
@@ -63,6 +66,7 @@ impl Default for Output {
             reactions: WantedReactions::All,
             report: true,
             bounds: None,
+            bodies: Vec::new(),
         }
     }
 }
@@ -121,8 +125,11 @@ const BOUNDS: Key = Key::optional(
 .doc("Whether `bounds.csv` is written: bounds of the reactions that the model does not determine")
 .or(|| false.into());
 
+const BODIES: Key = Key::optional("bodies", "a list of bodies", Takes::Texts(0))
+    .doc("Bodies with a table of all loads, `body_NAME.csv`, for finite elements");
+
 /// Keys of `[output]`.
-pub(crate) const OUTPUT_KEYS: [Key; 4] = [TRAJECTORY, REACTIONS, REPORT, BOUNDS];
+pub(crate) const OUTPUT_KEYS: [Key; 5] = [TRAJECTORY, REACTIONS, REPORT, BOUNDS, BODIES];
 
 /// Components that can be requested: force and torque, even if they are identically zero, and the
 /// component named by the definition.
@@ -170,7 +177,7 @@ pub(crate) fn group(mut table: Table, name: &str, names: &Reactions) -> Option<G
 }
 
 /// Reads the section `[output]`.
-pub(crate) fn output(mut table: Table, names: &Reactions) -> Output {
+pub(crate) fn output(mut table: Table, names: &Reactions, bodies: &BodyNames) -> Output {
     let defaults = Output::default();
     let reactions = table.optional(&REACTIONS);
     let reactions = reactions.and_then(|field| match field.value.get_ref().as_bool() {
@@ -185,9 +192,28 @@ pub(crate) fn output(mut table: Table, names: &Reactions) -> Output {
         bounds: table
             .optional(&BOUNDS)
             .and_then(|field| bounds(&field, names)),
+        bodies: table
+            .optional(&BODIES)
+            .map_or_else(Vec::new, |field| loaded(&field, bodies)),
     };
     table.close();
     output
+}
+
+/// Reads a list of bodies without the ground; repetitions are ignored.
+fn loaded(field: &Field, bodies: &BodyNames) -> Vec<usize> {
+    let mut all = Vec::new();
+    for item in field.items(BODIES.expected).into_iter().flatten() {
+        match bodies.find(&item) {
+            Some(BodyRef::Body(body)) if !all.contains(&body) => all.push(body),
+            Some(BodyRef::Ground) => {
+                let label = "the ground is no body with a balance of loads";
+                item.error(Mistake::UnknownBody, " refers to the ground", label);
+            }
+            _ => {}
+        }
+    }
+    all
 }
 
 /// Reads the requested bounds.

@@ -152,8 +152,13 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
     let (groups, group_entries) = groups(&mut root, &mut parts);
     let start = section(&mut root, &section::START, &mut sections)
         .map(|table| start::read::<S>(table, &parts.bodies.names));
-    let output = section(&mut root, &section::OUTPUT, &mut sections)
-        .map(|table| reactions::output(table, &parts.reactions(Participation::Active)));
+    let output = section(&mut root, &section::OUTPUT, &mut sections).map(|table| {
+        reactions::output(
+            table,
+            &parts.reactions(Participation::Active),
+            &parts.bodies.names,
+        )
+    });
     let simulate = section(&mut root, &section::SIMULATE, &mut sections)
         .and_then(|table| simulate::read(table));
     if parts.bodies.list.is_empty() {

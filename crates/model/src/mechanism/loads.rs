@@ -123,7 +123,7 @@ impl<'m> Loads<'m> {
     }
 
     fn of(&self, force: &PlacedForce, (q, v): (&[f64], &[f64]), block: &mut [f64]) -> Load {
-        let (s, space) = (&self.s, self.mechanism.space());
+        let s = &self.s;
         let points = force.points();
         let first = force.site.bodies.first().copied();
         let first = first.unwrap_or(BodyRef::Ground);
@@ -134,39 +134,61 @@ impl<'m> Loads<'m> {
             (None, BodyRef::Ground) => [0.0; 3],
         };
         force.q(&s.slots, block);
-        let mut wrench = Reaction::default();
-        for (column, &value) in force.columns.iter().zip(&*block) {
-            let Some(column) = *column else { continue };
-            let body = space.body_of(column);
+        let moving = force.site.bodies.iter().filter_map(|body| body.moving());
+        let wrench = match first {
+            BodyRef::Body(k) => self.wrench(force, block, k, place),
             // The load on the ground is opposite to the loads on the other bodies.
-            let sign = match first {
-                BodyRef::Ground => -1.0,
-                BodyRef::Body(k) if k == body => 1.0,
-                BodyRef::Body(_) => continue,
-            };
-            let mut add = |torque: [f64; 3]| {
-                for (own, x) in wrench.torque.iter_mut().zip(torque) {
-                    *own += x;
-                }
-            };
-            let dof = space.dof_of(column);
-            if space.forces().contains(&dof) {
-                let mut pushed = [0.0; 3];
-                pushed[dof] = sign * value;
-                wrench.force[dof] += pushed[dof];
-                add(cross(difference(s.bodies.origin(body), place), pushed));
-            } else if space.n_rotations() == 1 {
-                add([0.0, 0.0, sign * value]);
-            } else {
-                let axis = s.bodies.axes(body)[space.axis_of(dof)];
-                add(axis.map(|x| sign * value * x));
-            }
-        }
+            BodyRef::Ground => moving.fold(Reaction::default(), |all, k| {
+                all.minus(self.wrench(force, block, k, place))
+            }),
+        };
         Load {
             wrench,
             place,
             measure: self.measure(force, &points, (q, v)),
         }
+    }
+
+    /// Returns the part of Q (the values in `block`) on one body as a wrench about a point.
+    fn wrench(&self, force: &PlacedForce, block: &[f64], body: usize, about: [f64; 3]) -> Reaction {
+        let (s, space) = (&self.s, self.mechanism.space());
+        let mut wrench = Reaction::default();
+        for (column, &value) in force.columns.iter().zip(block) {
+            let Some(column) = column.filter(|column| space.body_of(*column) == body) else {
+                continue;
+            };
+            let dof = space.dof_of(column);
+            let torque = if space.forces().contains(&dof) {
+                let mut pushed = [0.0; 3];
+                pushed[dof] = value;
+                wrench.force[dof] += value;
+                cross(difference(s.bodies.origin(body), about), pushed)
+            } else if space.n_rotations() == 1 {
+                [0.0, 0.0, value]
+            } else {
+                s.bodies.axes(body)[space.axis_of(dof)].map(|x| value * x)
+            };
+            for (own, x) in wrench.torque.iter_mut().zip(torque) {
+                *own += x;
+            }
+        }
+        wrench
+    }
+
+    /// Returns the loads on one body about its centre of mass, in ground axes, with the indices of
+    /// the forces that act on it, at the state of the last [`Loads::at`].
+    ///
+    /// # Panics
+    /// Panics if the body does not exist.
+    pub fn on_body(&self, body: usize) -> impl Iterator<Item = (usize, Reaction)> + '_ {
+        let forces = self.mechanism.elements.forces.iter().enumerate();
+        let own = forces.filter(move |(_, f)| f.site.bodies.contains(&BodyRef::Body(body)));
+        let centre = self.s.bodies.origin(body);
+        let mut block = vec![0.0; self.block.len()];
+        own.map(move |(k, force)| {
+            force.q(&self.s.slots, &mut block);
+            (k, self.wrench(force, &block, body, centre))
+        })
     }
 
     fn global(&self, body: BodyRef, point: [f64; 3]) -> [f64; 3] {

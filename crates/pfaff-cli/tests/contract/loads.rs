@@ -84,3 +84,107 @@ fn choices_of_reactions_come_with_the_loads() {
     assert_eq!(d["loads"]["M2"]["Fz"].as_f64(), Some(0.0), "{d}");
     assert_eq!(json(&["analyze", "-", "--json"]).get("loads"), None);
 }
+
+/// A pendulum in the plane of the page, in space: an arm of length 1 on a hinge along z, whose axes
+/// are turned.
+const ARM: &str = r#"
+scene = { name = "arm", space = "spatial", gravity = [0, -10, 0] }
+body = [{ name = "arm", mass = 2.0, inertia = [0.1, 0.2, 0.25], position = [1, 0, 0], angular_velocity = [0, 0, 3], velocity = [0, 3, 0] }]
+joint = [{ name = "hinge", type = "revolute", bodies = ["ground", "arm"], at = [0, 0, 0], axis = [0, 0, 1] }]
+force = [{ name = "push", type = "point-force", frame = "body", body = "arm", point = [0.5, 0, 0], force = [0, 4, 0] }]
+simulate = { t_end = 1.0 }
+"#;
+
+/// The rows of a table by the names of its columns.
+fn rows(folder: &Folder, file: &str) -> Vec<std::collections::HashMap<String, f64>> {
+    let table = std::fs::read_to_string(folder.0.join(file)).expect("written");
+    let mut lines = table.lines();
+    let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let row = |line: &str| {
+        let numbers = line.split(',').map(|x| x.parse().expect("a number"));
+        let named = header.iter().map(|name| (*name).to_owned()).zip(numbers);
+        named.collect()
+    };
+    lines.map(row).collect()
+}
+
+#[test]
+fn all_loads_on_a_body_balance_in_its_axes() {
+    let folder = Folder::new("body-loads");
+    let scene = format!("{ARM}output = {{ bodies = [\"arm\"] }}\n");
+    with_scene(&["simulate", "-", "--out", folder.text()], &scene);
+    let all = rows(&folder, "body_arm.csv");
+    assert_eq!(all.len(), 201);
+    for row in &all {
+        for component in ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"] {
+            let parts = ["hinge", "push", "gravity", "inertia"];
+            let sum: f64 = parts
+                .iter()
+                .map(|part| row[&format!("{part}.{component}")])
+                .sum();
+            assert!(sum.abs() < 1e-10, "{component} at {}: {sum:e}", row["t"]);
+        }
+        // In the axes of the arm: the force follows the arm, 0.5 m ahead of its centre of mass.
+        assert!((row["push.Fy"] - 4.0).abs() < 1e-12 && (row["push.Tz"] - 2.0).abs() < 1e-12);
+    }
+    // At the start: the moment 2 − 20 + 6 about the hinge turns J + m = 2.25, and ω = 3.
+    let alpha = (6.0 - 20.0) / 2.25;
+    let first = &all[0];
+    for (column, expected) in [
+        ("inertia.Fx", 2.0 * 9.0),
+        ("inertia.Fy", -2.0 * alpha),
+        ("inertia.Tz", -0.25 * alpha),
+        ("gravity.Fy", -20.0),
+        ("hinge.Fx", -2.0 * 9.0),
+    ] {
+        assert!(
+            (first[column] - expected).abs() < 1e-9,
+            "{column}: {}",
+            first[column]
+        );
+    }
+    let summary = std::fs::read_to_string(folder.0.join("summary.json")).expect("written");
+    assert!(summary.contains("body_arm.csv"));
+}
+
+#[test]
+fn loads_that_are_not_determined_need_a_choice() {
+    let door = include_str!("../../../../examples/door.toml").to_owned()
+        + "\noutput = { bodies = [\"leaf\"] }\n";
+    let folder = Folder::new("open-body");
+    let refused = with_scene(&["simulate", "-", "--out", folder.text()], &door);
+    let said = super::stderr(&refused);
+    assert!(!refused.status.success());
+    assert!(
+        said.contains("lower, upper") && said.contains("--choose"),
+        "{said}"
+    );
+    let chosen = with_scene(
+        &[
+            "simulate",
+            "-",
+            "--choose",
+            "minimum-norm:length=1",
+            "--out",
+            folder.text(),
+        ],
+        &door,
+    );
+    assert!(chosen.status.success(), "{}", super::stderr(&chosen));
+    for row in rows(&folder, "body_leaf.csv") {
+        for component in ["Fx", "Fy", "T"] {
+            let parts = ["lower", "upper", "gravity", "inertia"];
+            let sum: f64 = parts
+                .iter()
+                .map(|part| row[&format!("{part}.{component}")])
+                .sum();
+            assert!(sum.abs() < 1e-9, "{component}: {sum:e}");
+        }
+    }
+    let unknown = door.replace("[\"leaf\"] }", "[\"lesf\"] }");
+    let said = super::stderr(&with_scene(&["check", "-"], &unknown));
+    assert!(said.contains("did you mean `leaf`?"), "{said}");
+    let ground = door.replace("[\"leaf\"] }", "[\"ground\"] }");
+    let said = super::stderr(&with_scene(&["check", "-"], &ground));
+    assert!(said.contains("refers to the ground"), "{said}");
+}
