@@ -18,21 +18,25 @@ pub(crate) struct Recorded {
     pub(crate) t: Vec<f64>,
     pub(crate) q: Vec<f64>,
     pub(crate) v: Vec<f64>,
-    pub(crate) trajectory: Vec<f64>,
-    pub(crate) reactions: Vec<f64>,
-    pub(crate) loads: Vec<f64>,
+    pub(crate) trajectory: RecordedTable,
+    pub(crate) reactions: RecordedTable,
+    pub(crate) loads: RecordedTable,
     /// The same values for each choice, with its name.
     pub(crate) chosen: Vec<(String, Vec<f64>)>,
     /// The lowest and the highest values of the columns of reactions; empty without bounds.
     pub(crate) bounds: [Vec<f64>; 2],
-    pub(crate) columns: Vec<Column>,
-    pub(crate) reaction_columns: Vec<Column>,
-    pub(crate) load_columns: Vec<Column>,
     /// Names of the columns in `reactions.csv`.
     pub(crate) reaction_names: Vec<String>,
     pub(crate) document: String,
     /// Reason why the run stopped before its end.
     pub(crate) stopped: Option<Refusal>,
+}
+
+/// The numbers of a table, row by row, and its columns.
+#[derive(Default)]
+pub(crate) struct RecordedTable {
+    pub(crate) numbers: Vec<f64>,
+    pub(crate) columns: Vec<Column>,
 }
 
 impl Recorded {
@@ -45,7 +49,7 @@ impl Recorded {
         are_told: bool,
     ) {
         let width = columns.len().max(1);
-        for (k, number) in self.reactions.iter_mut().enumerate() {
+        for (k, number) in self.reactions.numbers.iter_mut().enumerate() {
             let (t, column) = (self.t[k / width], &columns[k % width]);
             let value = column.quantity.value(stretches, t, *number);
             if let Some(determined) = value.determined() {
@@ -68,22 +72,12 @@ pub(crate) struct Run {
     q: Py<PyArray2<f64>>,
     #[pyo3(get)]
     v: Py<PyArray2<f64>>,
-    #[pyo3(get)]
-    trajectory: Py<PyArray2<f64>>,
-    #[pyo3(get)]
-    reactions: Py<PyArray2<f64>>,
-    #[pyo3(get)]
-    loads: Py<PyArray2<f64>>,
+    /// Trajectory, reactions and loads, each with its columns.
+    tables: [(Py<PyArray2<f64>>, Vec<Column>); 3],
     /// Names and values of choices.
     chosen: Vec<(String, Py<PyArray2<f64>>)>,
     /// The lowest and the highest values.
     bounds: [Py<PyArray2<f64>>; 2],
-    #[pyo3(get)]
-    columns: Vec<Column>,
-    #[pyo3(get)]
-    reaction_columns: Vec<Column>,
-    #[pyo3(get)]
-    load_columns: Vec<Column>,
     #[pyo3(get)]
     reaction_names: Vec<String>,
     #[pyo3(get)]
@@ -97,9 +91,8 @@ impl Run {
         Self {
             q: by_rows(py, recorded.q, n),
             v: by_rows(py, recorded.v, n),
-            trajectory: by_rows(py, recorded.trajectory, n),
-            reactions: by_rows(py, recorded.reactions, n),
-            loads: by_rows(py, recorded.loads, n),
+            tables: [recorded.trajectory, recorded.reactions, recorded.loads]
+                .map(|table| (by_rows(py, table.numbers, n), table.columns)),
             chosen: recorded
                 .chosen
                 .into_iter()
@@ -107,9 +100,6 @@ impl Run {
                 .collect(),
             bounds: recorded.bounds.map(|numbers| by_rows(py, numbers, n)),
             t: recorded.t.into_pyarray(py).unbind(),
-            columns: recorded.columns,
-            reaction_columns: recorded.reaction_columns,
-            load_columns: recorded.load_columns,
             reaction_names: recorded.reaction_names,
             document: recorded.document,
             stopped: recorded.stopped,
@@ -119,6 +109,13 @@ impl Run {
 
 #[pymethods]
 impl Run {
+    /// The trajectory, the reactions and the loads, each with its columns.
+    fn tables(&self, py: Python<'_>) -> Vec<(Py<PyArray2<f64>>, Vec<Column>)> {
+        let each = self.tables.iter();
+        each.map(|(numbers, columns)| (numbers.clone_ref(py), columns.clone()))
+            .collect()
+    }
+
     /// The columns of `reactions` for each choice, with its name.
     fn chosen(&self, py: Python<'_>) -> Vec<(String, Py<PyArray2<f64>>)> {
         let each = self.chosen.iter();

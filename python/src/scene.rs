@@ -10,7 +10,7 @@ use pfaff::documents::EventDocument;
 use pfaff::import::{Axes, Base, FixedLinks, Folder, Options};
 use pfaff::memory::Budget;
 use pfaff::model::codes::Code;
-use pfaff::model::{Registry, System, Tolerance};
+use pfaff::model::{Mechanism, Registry, System, Tolerance};
 use pfaff::page::Origin;
 use pfaff::question::{Control, Output, Place};
 use pfaff::questions::Questions;
@@ -34,7 +34,7 @@ use crate::fault::{Fault, wrong};
 use crate::functions::Functions;
 use crate::hearing::{Hearing, heard, heard_here};
 use crate::options::{Common, RunKeywords, Size, budget, rows_from_zero, unknown};
-use crate::run::{Column, Recorded, Run, by_rows};
+use crate::run::{Column, Recorded, RecordedTable, Run, by_rows};
 
 pub(crate) static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::standard);
 
@@ -179,12 +179,13 @@ impl Source {
         let names = wanted.choices.iter().map(|named| named.label.to_string());
         let mut rows = Recorded {
             chosen: names.map(|name| (name, Vec::new())).collect(),
-            columns: trajectory.columns().iter().map(column).collect(),
-            load_columns: {
-                let (space, loads) = (mechanism.space(), mechanism.loads());
-                let all = loads.forces();
-                let all = all.flat_map(|(name, measure)| load_columns(space, name, measure));
-                all.map(|(own, _)| column(&own)).collect()
+            trajectory: RecordedTable {
+                columns: trajectory.columns().iter().map(column).collect(),
+                ..RecordedTable::default()
+            },
+            loads: RecordedTable {
+                columns: columns_of_loads(mechanism),
+                ..RecordedTable::default()
             },
             ..Recorded::default()
         };
@@ -205,8 +206,8 @@ impl Source {
                 rows.t.push(sample.t);
                 rows.q.extend(sample.q);
                 rows.v.extend(sample.v);
-                trajectory.extend(&mut rows.trajectory, sample.t, sample.q, sample.v);
-                let all = std::iter::once(&mut rows.reactions);
+                trajectory.extend(&mut rows.trajectory.numbers, sample.t, sample.q, sample.v);
+                let all = std::iter::once(&mut rows.reactions.numbers);
                 let all = all.chain(rows.chosen.iter_mut().map(|(_, own)| own));
                 let of_each = std::iter::once(numbers).chain(&numbers.choices);
                 for (own, numbers) in all.zip(of_each) {
@@ -218,7 +219,7 @@ impl Source {
                 }
                 let loads = numbers.loads.iter();
                 let loads = loads.flat_map(|load| load_numbers(space, load));
-                rows.loads.extend(loads);
+                rows.loads.numbers.extend(loads);
                 for event in sample.events {
                     if let Some(on_event) = &on_event {
                         let document = EventDocument::new(event, mechanism.layout());
@@ -252,7 +253,7 @@ impl Source {
             Err(StudyError::Interrupted) => return Ok(rows),
             other => other.map_err(|e| self.fault(e))?,
         };
-        rows.reaction_columns = columns.iter().map(|c| column(&c.column)).collect();
+        rows.reactions.columns = columns.iter().map(|c| column(&c.column)).collect();
         rows.reaction_names = columns.iter().map(ReactionColumn::name).collect();
         if let Some(stretches) = stretches {
             rows.tell_determined(&columns, &stretches, numbers_of_choice);
@@ -295,9 +296,9 @@ impl Room {
             &mut rows.t,
             &mut rows.q,
             &mut rows.v,
-            &mut rows.trajectory,
-            &mut rows.reactions,
-            &mut rows.loads,
+            &mut rows.trajectory.numbers,
+            &mut rows.reactions.numbers,
+            &mut rows.loads.numbers,
         ];
         let chosen = rows.chosen.iter_mut().map(|(_, numbers)| numbers);
         let mut tables: Vec<&mut Vec<f64>> = fixed.into_iter().chain(chosen).collect();
@@ -322,6 +323,13 @@ impl Room {
             }
         }
     }
+}
+
+fn columns_of_loads(mechanism: &Mechanism) -> Vec<Column> {
+    let (space, loads) = (mechanism.space(), mechanism.loads());
+    let all = loads.forces();
+    let all = all.flat_map(|(name, measure)| load_columns(space, name, measure));
+    all.map(|(own, _)| column(&own)).collect()
 }
 
 fn column(column: &ReportColumn) -> Column {

@@ -205,8 +205,9 @@ class Run:
         self, of: _pfaff.Run, scene: Scene, options: dict[str, Any], is_chosen: bool = False
     ) -> None:
         self._options = options
+        (trajectory, columns), (reactions, of_reactions), (loads, of_loads) = of.tables()
         self.choices: list[ChosenReactions] = [
-            ChosenReactions(name, numbers, of.reaction_columns) for name, numbers in of.chosen()
+            ChosenReactions(name, numbers, of_reactions) for name, numbers in of.chosen()
         ]
         """The values for each choice of ``choose``, in its order; empty if rows are deleted."""
         self.scene = scene
@@ -217,42 +218,41 @@ class Run:
         """Coordinates."""
         self.v: Array = of.v
         """Velocities."""
-        self.trajectory: Array = of.trajectory
+        self.trajectory: Array = trajectory
         """The columns of ``trajectory.csv`` after ``t``."""
-        self.reactions: Array = self.choices[0].reactions if is_chosen else of.reactions
+        self.reactions: Array = self.choices[0].reactions if is_chosen else reactions
         """The columns of ``reactions.csv`` after ``t``.
 
         Empty cells are NaN. With a single choice the values are those of the choice.
         """
-        self.loads: Array = of.loads
+        self.loads: Array = loads
         """The columns of ``loads.csv`` after ``t``."""
         lowest, highest = of.bounds()
         has_bounds = lowest.shape[1] > 0
-        columns = of.reaction_columns
         self.lowest: ChosenReactions | None = (
-            ChosenReactions("lowest", lowest, columns) if has_bounds else None
+            ChosenReactions("lowest", lowest, of_reactions) if has_bounds else None
         )
         """The lowest values for joints of any stiffness; ``None`` without bounds."""
         self.highest: ChosenReactions | None = (
-            ChosenReactions("highest", highest, columns) if has_bounds else None
+            ChosenReactions("highest", highest, of_reactions) if has_bounds else None
         )
         """The highest values for joints of any stiffness; ``None`` without bounds."""
         self._seal()
         self.document: dict[str, Any] = json.loads(of.document)
         """The summary, as in ``summary.json``."""
-        self.columns: list[str] = [_heading(owner, number) for _, owner, number in of.columns]
+        self.columns: list[str] = [_heading(owner, number) for _, owner, number in columns]
         """Names of the columns of :attr:`trajectory`."""
         self.reaction_columns: list[str] = of.reaction_names
         """Names of the columns of :attr:`reactions`."""
-        headings = [_heading(owner, number) for _, owner, number in of.load_columns]
+        headings = [_heading(owner, number) for _, owner, number in of_loads]
         self.load_columns: list[str] = headings
         """Names of the columns of :attr:`loads`."""
-        self._loads = _grouped(of.load_columns, self.loads, Load, ("force",))
-        self._bodies = _grouped(of.columns, self.trajectory, BodyMotion, ("body",))
-        self._markers = _grouped(of.columns, self.trajectory, BodyMotion, ("marker",))
-        self._others = _grouped(of.columns, self.trajectory, _Columns, ("measure", "law"))
-        self._reactions = _grouped(of.reaction_columns, self.reactions, Reaction, ("reaction",))
-        self._groups = _grouped(of.reaction_columns, self.reactions, _Columns, ("group",))
+        self._loads = _grouped(of_loads, self.loads, Load, ("force",))
+        self._bodies = _grouped(columns, self.trajectory, BodyMotion, ("body",))
+        self._markers = _grouped(columns, self.trajectory, BodyMotion, ("marker",))
+        self._others = _grouped(columns, self.trajectory, _Columns, ("measure", "law"))
+        self._reactions = _grouped(of_reactions, self.reactions, Reaction, ("reaction",))
+        self._groups = _grouped(of_reactions, self.reactions, _Columns, ("group",))
 
     def _seal(self) -> None:
         for array in (self.t, self.q, self.v, self.trajectory, self.reactions, self.loads):
