@@ -450,6 +450,15 @@ impl Scene {
         made.map(|((name, text), remarks, omissions)| (Self::of(name, text), remarks, omissions))
     }
 
+    /// Returns the scene with the values of one of its load cases.
+    fn case(&self, py: Python<'_>, name: String) -> PyResult<Self> {
+        let own = Arc::clone(&self.0);
+        let text = heard(py, move |_| {
+            Ok(source::with_case(own.text.clone(), &name, &REGISTRY)?)
+        })?;
+        Ok(Self::of(self.0.name.clone(), text))
+    }
+
     /// Returns the same scene with other numbers or expressions.
     fn with_settings(
         &self,

@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use pfaff::model::{Registry, Tolerance};
-use pfaff::scene::{KeyError, Template, nearest};
+use pfaff::scene::{KeyError, Setting, nearest};
 use pfaff::source;
 use pfaff::start::Start;
 
@@ -36,7 +36,7 @@ impl<'r> Source<'r> {
         let (name, text) = text_of(path)?;
         Ok(Self {
             name,
-            text: with_settings(text, settings)?,
+            text: with_settings(text, settings, console.registry)?,
             tolerance: Tolerance::default(),
             registry: console.registry,
         })
@@ -78,20 +78,23 @@ pub(crate) fn text_of(path: &Path) -> Result<(String, String), Failure> {
     Ok(source::of_file(path)?)
 }
 
-/// Returns the text of a scene in which these values replace its own. A text that is not TOML
-/// remains unchanged, because the reader of scenes reports its errors.
-fn with_settings(text: String, Settings { list }: &Settings) -> Result<String, Failure> {
-    if list.is_empty() {
-        return Ok(text);
-    }
-    let keys: Vec<&str> = list.iter().map(|set| set.key.as_str()).collect();
-    let template = match Template::new(&text, &keys) {
-        Ok(template) => template,
-        Err(KeyError::NotToml) => return Ok(text),
-        Err(e) => return Err(Failure::input(format!("--set: {e}")).coded(e.code())),
+/// Returns the text of a scene in which the values of the load case, and then these values, replace
+/// its own. A text that is not a scene remains unchanged, because the reader of scenes reports its
+/// errors.
+fn with_settings(
+    text: String,
+    Settings { list, case }: &Settings,
+    registry: &Registry,
+) -> Result<String, Failure> {
+    let text = match case {
+        Some(case) => source::with_case(text, case, registry)?,
+        None => text,
     };
-    let expressions: Vec<&str> = list.iter().map(|set| set.expression.as_str()).collect();
-    Ok(template.with_expressions(&expressions))
+    match Setting::replaced(&text, list) {
+        Ok(replaced) => Ok(replaced),
+        Err(KeyError::NotToml) => Ok(text),
+        Err(e) => Err(Failure::input(format!("--set: {e}")).coded(e.code())),
+    }
 }
 
 /// Builds the error for a file that cannot be read; it suggests a scene in the same directory with

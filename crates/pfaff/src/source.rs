@@ -4,8 +4,9 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use model::Registry;
 use model::codes::Code;
-use scene::nearest;
+use scene::{Setting, nearest};
 
 use crate::refusal::Refusal;
 
@@ -99,4 +100,30 @@ fn end_of(text: &[u8]) -> (usize, usize) {
     let text = String::from_utf8_lossy(text);
     let last = text.rsplit('\n').next().unwrap_or_default();
     (text.matches('\n').count() + 1, last.chars().count() + 1)
+}
+
+/// Returns the text of a scene with the values of one of its load cases. A text that is not a valid
+/// scene remains unchanged, because the reader of scenes reports its errors.
+///
+/// # Errors
+/// [`Refusal::Input`]: the scene has no such case.
+pub fn with_case(text: String, case: &str, registry: &Registry) -> Result<String, Refusal> {
+    let Ok(scene) = scene::read("", &text, registry) else {
+        return Ok(text);
+    };
+    let names = || scene.cases.iter().map(|case| case.name.as_str());
+    let Some(found) = scene.cases.iter().find(|own| own.name == case) else {
+        let message = if scene.cases.is_empty() {
+            "the scene has no load cases; add `[[case]]` to it".to_owned()
+        } else {
+            let near = nearest(case, names());
+            let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+            let known: Vec<&str> = names().collect();
+            let known = known.join(", ");
+            format!("there is no load case `{case}`; there are: {known}{advice}")
+        };
+        return Err(Refusal::input(message));
+    };
+    let replaced = Setting::replaced(&text, &found.settings);
+    replaced.map_err(|e| Refusal::input(format!("case `{case}`: {e}")).coded(e.code()))
 }

@@ -33,6 +33,7 @@ mod bearings;
 mod between;
 mod bodies;
 mod body;
+mod case;
 mod combination;
 mod connection;
 mod coupling;
@@ -82,6 +83,7 @@ mod text;
 mod tolerance;
 mod units;
 
+pub use case::{LoadCase, Setting};
 pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use language::Units;

@@ -14,6 +14,7 @@ use toml::de::DeTable;
 
 use crate::active::{self, ACTIVE};
 use crate::body::SceneBody;
+use crate::case;
 use crate::diagnostic::Diagnostic;
 use crate::drive::DriveRead;
 use crate::findings::Findings;
@@ -150,6 +151,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
     section(&mut root, &section::PARAMETERS, &mut sections);
     let mut parts = Parts::<S>::read(&mut root, registry);
     let (groups, group_entries) = groups(&mut root, &mut parts);
+    let cases = case::read(&mut root, findings);
     let start = section(&mut root, &section::START, &mut sections)
         .map(|table| start::read::<S>(table, &parts.bodies.names));
     let output = section(&mut root, &section::OUTPUT, &mut sections).map(|table| {
@@ -224,6 +226,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
         output: output.unwrap_or_default(),
         centres,
         groups,
+        cases,
         source: Some(source),
         units: Units::SI,
         scales: Vec::new(),

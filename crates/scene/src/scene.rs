@@ -7,6 +7,7 @@ use model::{
     StartError, StartOptions,
 };
 
+use crate::case::LoadCase;
 use crate::combination::{self, Combination, CombinationError, ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
 use crate::language::Units;
@@ -45,6 +46,8 @@ pub struct Scene {
     pub centres: Vec<CentreOfStiffness>,
     /// Combinations of reactions for which uniqueness verdicts are requested.
     pub groups: Vec<GroupRequest>,
+    /// Load cases.
+    pub cases: Vec<LoadCase>,
     /// Positions in the text; `None` if there is no text.
     pub source: Option<SourceMap>,
     /// Units of bare numbers in the text.

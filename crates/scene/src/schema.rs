@@ -13,6 +13,7 @@ use serde_json::{Map, Value, json};
 
 use crate::active::ACTIVE;
 use crate::body::SceneBody;
+use crate::case;
 use crate::drive::{DRIVE_KEYS, MEASURE};
 use crate::element::COUPLING;
 use crate::function::{KINDS, STEP_KEYS};
@@ -44,6 +45,7 @@ pub fn schema(registry: &Registry) -> Value {
     let common = [
         (&section::PARAMETERS, Times::Once, value::parameters()),
         (&section::GROUP, Times::Many, group()),
+        (&section::CASE, Times::Many, table("Case", &case::KEYS)),
         (&section::START, Times::Once, table("Start", &start::KEYS)),
         (
             &section::SIMULATE,

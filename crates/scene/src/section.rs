@@ -51,6 +51,10 @@ pub(crate) const GROUP: Section = Section::new(
     "group",
     "Reactions together, or sums of their components, whose verdict is wanted",
 );
+pub(crate) const CASE: Section = Section::new(
+    "case",
+    "Load cases: named lists of values that replace those of the scene",
+);
 pub(crate) const START: Section =
     Section::new("start", "What assembling the start may and may not change");
 pub(crate) const SIMULATE: Section = Section::new(

@@ -243,6 +243,10 @@ class Scene(Questions):
         keys, expressions = [key for key, _ in pairs], [text for _, text in pairs]
         return Scene._made(self._of.with_settings(keys, expressions))
 
+    def case(self, name: str) -> Scene:
+        """Returns the scene with the values of one of its load cases, like ``--case``."""
+        return Scene._made(self._of.case(arguments.text("name", name)))
+
     # Methods that compute results.
 
     def simulate(

@@ -1,10 +1,8 @@
 //! Options of the command line that change values of a scene, or the accuracy of its data.
 
-use std::str::FromStr;
-
 use clap::Args;
 use pfaff::model::Tolerance;
-use pfaff::scene::in_si;
+use pfaff::scene::{Setting, in_si};
 
 /// Other numbers in a scene.
 #[derive(Args, Clone, Default)]
@@ -12,27 +10,9 @@ pub(crate) struct Settings {
     /// Override a parameter or scene key, e.g. L=0.4, L="400 mm" or body.crank.mass=2; repeatable
     #[arg(long = "set", value_name = "NAME=EXPR")]
     pub(crate) list: Vec<Setting>,
-}
-
-/// A key of a scene with its new value.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Setting {
-    pub(crate) key: String,
-    pub(crate) expression: String,
-}
-
-impl FromStr for Setting {
-    type Err = &'static str;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        // Names may contain the equals sign, expressions may not.
-        let (key, expression) = text.rsplit_once('=').unwrap_or_default();
-        let [key, expression] = [key, expression].map(|part| part.trim().to_owned());
-        if key.is_empty() || expression.is_empty() {
-            return Err("need NAME=EXPR, as L=0.4 or L=\"2*25 mm\"");
-        }
-        Ok(Self { key, expression })
-    }
+    /// Use the values of a load case ([[case]] of the scene); --set takes precedence
+    #[arg(long, value_name = "NAME")]
+    pub(crate) case: Option<String>,
 }
 
 /// Other numbers in a scene, and other tolerances of its data.

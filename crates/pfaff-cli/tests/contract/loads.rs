@@ -188,3 +188,83 @@ fn loads_that_are_not_determined_need_a_choice() {
     let said = super::stderr(&with_scene(&["check", "-"], &ground));
     assert!(said.contains("refers to the ground"), "{said}");
 }
+
+/// A block on a spring, with two load cases; the second one also stops it by a second support.
+const CASES: &str = r#"
+scene = { name = "block", space = "plane", format = 2, gravity = [0.0, -10.0] }
+parameters = { load = 3.0 }
+body = [{ name = "block", mass = "load", inertia = 1.0 }]
+joint = [
+    { name = "guide", type = "translational", bodies = ["ground", "block"], at = [0.0, 0.0], axis = [1.0, 0.0] },
+    { name = "second", type = "translational", bodies = ["ground", "block"], at = [1.0, 0.0], axis = [1.0, 0.0], active = false },
+]
+force = [{ name = "push", type = "point-force", body = "block", at = [0.0, 0.0], force = [1.0, 0.0] }]
+case = [
+    { name = "heavy", set = ["load = 5", "force.push.force[0] = 2"] },
+    { name = "twice", set = ["joint.second.active = 1"] },
+]
+simulate = { t_end = 1.0 }
+"#;
+
+#[test]
+fn a_load_case_replaces_values_of_the_scene() {
+    let chosen = |options: &[&str]| -> Value {
+        let arguments = ["analyze", "-", "--json", "--choose", "minimum-norm"];
+        let output = with_scene(&[&arguments, options].concat(), CASES);
+        serde_json::from_str(&stdout(&output)).expect("JSON")
+    };
+    let numbers = |d: &Value| {
+        let of = |d: &Value| d.as_f64().expect("a number");
+        let guide = d["choices"][0]["reactions"][0]["components"]
+            .as_array()
+            .expect("components");
+        let fy = guide.iter().find(|c| c["name"] == "Fy").expect("Fy");
+        (
+            of(&fy["value"]),
+            of(&d["loads"]["push"]["Fx"]),
+            of(&d["redundancy"]),
+        )
+    };
+    // On the ground, the first body, the block pushes down with its weight.
+    assert_eq!(numbers(&chosen(&[])), (-30.0, 1.0, 0.0));
+    assert_eq!(numbers(&chosen(&["--case", "heavy"])), (-50.0, 2.0, 0.0));
+    assert_eq!(
+        numbers(&chosen(&["--case", "heavy", "--set", "load=7"])),
+        (-70.0, 2.0, 0.0)
+    );
+    // A case that changes the rank.
+    assert_eq!(numbers(&chosen(&["--case", "twice"])).2, 2.0);
+    for (option, said) in [
+        (&["--case", "heavi"][..], "did you mean `heavy`?"),
+        (&["--case", ""], "there is no load case"),
+    ] {
+        let output = with_scene(&[&["check", "-"], option].concat(), CASES);
+        let error = super::stderr(&output);
+        assert!(!output.status.success() && error.contains(said), "{error}");
+    }
+    let none = with_scene(&["check", "-", "--case", "heavy"], BED);
+    assert!(super::stderr(&none).contains("has no load cases"));
+}
+
+#[test]
+fn load_cases_are_checked() {
+    for (from, to, said) in [
+        ("load = 5", "laod = 5", "did you mean `load`?"),
+        ("load = 5", "load", "need NAME=EXPR"),
+        ("name = \"twice\"", "name = \"heavy\"", "exists already"),
+        (
+            "set = [\"joint.second.active = 1\"]",
+            "sat = [\"load = 1\"]",
+            "did you mean `set`?",
+        ),
+    ] {
+        let scene = CASES.replace(from, to);
+        assert_ne!(scene, CASES);
+        let output = with_scene(&["check", "-"], &scene);
+        let error = super::stderr(&output);
+        assert!(
+            !output.status.success() && error.contains(said),
+            "{to}: {error}"
+        );
+    }
+}
