@@ -5,14 +5,18 @@
 //! of mass. Descriptions and outputs use the origin o of the body frame. With c = [`Body::centre`],
 //! `r = o + R·c` and `ṙ = ȯ + ω × R·c`.
 
+#[cfg(test)]
+mod tests;
+
 use crate::body::{Body, BodyRecord, BodyRef, DescribedBody};
 use crate::element::{Bodies, angle_at, axes_at, turned_at};
 use crate::mechanism::Mechanism;
-use crate::observed::{Marker, Measure, MeasureKind, Observables};
-use crate::space::{SpaceKind, cross, difference, norm, normalised, quaternion_product};
+use crate::observed::{Marker, Measure, MeasureKind, Observables, are_parallel, unit};
+use crate::space::{SpaceKind, cross, difference, dot, norm, normalised, quaternion_product};
 use crate::system::System;
 
-/// Position and velocity, in ground axes, of a point of a body or of the origin of its frame.
+/// Position, velocity and acceleration, in ground axes, of a point of a body or of the origin of its
+/// frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameState {
     /// The space of the mechanism.
@@ -27,6 +31,11 @@ pub struct FrameState {
     pub omega: [f64; 3],
     /// Orientation in space, as stored in the coordinates.
     pub quaternion: [f64; 4],
+    /// Acceleration (m/s²); NaN unless the accelerations of the bodies are known, see
+    /// [`Frames::with_accelerations`].
+    pub acceleration: [f64; 3],
+    /// Angular acceleration (rad/s²); NaN unless the accelerations of the bodies are known.
+    pub alpha: [f64; 3],
 }
 
 impl FrameState {
@@ -39,16 +48,15 @@ impl FrameState {
         }
     }
 
-    /// Transforms a vector from ground axes to the axes of the frame.
-    fn own(&self, d: [f64; 3]) -> [f64; 3] {
-        let [x, y, z] = d;
+    /// Transforms a vector from the axes of the frame to ground axes.
+    fn turned(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
         if self.space == SpaceKind::Space3 {
             let [w, e1, e2, e3] = self.quaternion;
-            let axes = axes_at(self.space, &[0.0, 0.0, 0.0, w, e1, e2, e3]);
-            return axes.map(|axis| axis[0] * x + axis[1] * y + axis[2] * z);
+            let [a, b, c] = axes_at(self.space, &[0.0, 0.0, 0.0, w, e1, e2, e3]);
+            return [0, 1, 2].map(|k| a[k] * x + b[k] * y + c[k] * z);
         }
         let (sin, cos) = self.angle.sin_cos();
-        [cos * x + sin * y, cos * y - sin * x, z]
+        [cos * x - sin * y, sin * x + cos * y, z]
     }
 
     /// Returns the distance to another state (m), and the angle between its axes and the axes of
@@ -102,13 +110,23 @@ impl FrameState {
         }
         numbers.into_iter().take(count)
     }
+
+    /// Returns the accelerations of the state, in the order of [`SpaceKind::accelerations`].
+    pub fn accelerations(&self) -> impl Iterator<Item = f64> + use<> {
+        let (own, alpha, space) = (self.acceleration, self.alpha, self.space);
+        let turning = space.torques().map(move |k| alpha[space.axis_of(k)]);
+        own.into_iter().take(space.n_translations()).chain(turning)
+    }
 }
 
 impl Mechanism {
     /// Returns the frames of the bodies, the markers and the measures of the mechanism.
     #[must_use]
     pub fn frames(&self) -> Frames<'_> {
-        Frames(self)
+        Frames {
+            mechanism: self,
+            a: None,
+        }
     }
 
     /// Returns the coordinates and velocities given in the description, without correction.
@@ -129,14 +147,43 @@ impl Mechanism {
 /// Converts between the equations of a mechanism, which use centres of mass, and descriptions and
 /// outputs, which use body frames and points.
 #[derive(Clone, Copy)]
-pub struct Frames<'m>(&'m Mechanism);
+pub struct Frames<'m> {
+    mechanism: &'m Mechanism,
+    /// Accelerations of the bodies, n_v.
+    a: Option<&'m [f64]>,
+}
 
 impl<'m> Frames<'m> {
+    /// Returns the frames with known accelerations of the bodies: n_v values, in the order of the
+    /// velocities.
+    ///
+    /// ```
+    /// use pfaff_model::{Body, Description, Mechanism};
+    /// // A rod that turns about its centre of mass at 2 rad/s: r·ω² toward the centre.
+    /// let mut d = Description::new("rod");
+    /// d.body(Body { centre: [0.5, 0.0], ..Body::new("rod", 1.0, 0.1) });
+    /// let rod = Mechanism::build(&d).unwrap();
+    /// let frames = rod.frames().with_accelerations(&[0.0, 0.0, 3.0]);
+    /// let end = frames.body(0, &[0.0, 0.0, 0.0], &[0.0, 0.0, 2.0]);
+    /// assert_eq!(end.place, [-0.5, 0.0, 0.0]);
+    /// assert_eq!(end.acceleration, [0.5 * 4.0, -0.5 * 3.0, 0.0]);
+    /// ```
+    #[must_use]
+    pub fn with_accelerations<'a>(self, a: &'a [f64]) -> Frames<'a>
+    where
+        'm: 'a,
+    {
+        Frames {
+            mechanism: self.mechanism,
+            a: Some(a),
+        }
+    }
+
     /// Returns the markers and measures. A part of a mechanism contains only the markers for which
     /// a tolerance is stated.
     #[must_use]
     pub fn observed(self) -> &'m Observables {
-        &self.0.observed
+        &self.mechanism.observed
     }
 
     /// Transforms a vector from the axes of the coordinates of a body to the axes of the body
@@ -148,7 +195,7 @@ impl<'m> Frames<'m> {
     /// Panics if the body does not exist.
     #[must_use]
     pub fn vector(self, body: BodyRef, own: [f64; 3]) -> [f64; 3] {
-        let record = body.moving().map(|k| &self.0.bodies()[k]);
+        let record = body.moving().map(|k| &self.mechanism.bodies()[k]);
         let principal = record.and_then(|record| record.principal.as_ref());
         principal.map_or(own, |of| of.to_frame(own))
     }
@@ -160,9 +207,9 @@ impl<'m> Frames<'m> {
     /// Panics if q has the wrong length.
     #[must_use]
     pub fn poses(self, q: &[f64]) -> Bodies {
-        let space = self.0.space();
-        let mut told = q[..self.0.bodies().len() * space.n_q()].to_vec();
-        for (body, record) in self.0.bodies().iter().enumerate() {
+        let space = self.mechanism.space();
+        let mut told = q[..self.mechanism.bodies().len() * space.n_q()].to_vec();
+        for (body, record) in self.mechanism.bodies().iter().enumerate() {
             if let Some(of) = &record.principal {
                 let own = &mut told[space.coordinates(body)];
                 let frame = of.turned_back([own[3], own[4], own[5], own[6]]);
@@ -201,9 +248,9 @@ impl<'m> Frames<'m> {
     /// Panics under the same conditions as [`Self::body`].
     #[must_use]
     pub fn point(self, body: usize, point: [f64; 3], q: &[f64], v: &[f64]) -> FrameState {
-        let space = self.0.space();
+        let space = self.mechanism.space();
         let own = &q[space.coordinates(body)];
-        let arm = self.0.bodies()[body].from_centre(point);
+        let arm = self.mechanism.bodies()[body].from_centre(point);
         let mut state = FrameState {
             space,
             angle: angle_at(space, own),
@@ -219,7 +266,7 @@ impl<'m> Frames<'m> {
         if space == SpaceKind::Space3 {
             state.omega = turned_at(space, own, state.omega);
             let axes = [own[3], own[4], own[5], own[6]];
-            let principal = self.0.bodies()[body].principal.as_ref();
+            let principal = self.mechanism.bodies()[body].principal.as_ref();
             state.quaternion = principal.map_or(axes, |own| own.turned_back(axes));
         }
         if arm != [0.0; 3] {
@@ -230,6 +277,17 @@ impl<'m> Frames<'m> {
                 state.velocity[k] += moved[k];
             }
         }
+        (state.acceleration, state.alpha) = ([f64::NAN; 3], [f64::NAN; 3]);
+        if let Some(a) = self.a {
+            // Accelerations depend on a as velocities depend on v; the centripetal acceleration is
+            // added.
+            let frames = self.mechanism.frames();
+            let pushed = frames.point(body, point, q, a);
+            let arm = turned_at(space, own, arm);
+            let inwards = cross(state.omega, cross(state.omega, arm));
+            state.acceleration = [0, 1, 2].map(|k| pushed.velocity[k] + inwards[k]);
+            state.alpha = pushed.omega;
+        }
         state
     }
 
@@ -238,7 +296,7 @@ impl<'m> Frames<'m> {
     /// given angular velocity.
     #[must_use]
     pub fn given_velocities(self, q: &[f64]) -> Vec<Option<f64>> {
-        let space = self.0.space();
+        let space = self.mechanism.space();
         let of_plane = |k: usize, b: &Body| -> Vec<Option<f64>> {
             let [mut vx, mut vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
             if let (Some([x, y]), Some(omega), false) =
@@ -274,7 +332,12 @@ impl<'m> Frames<'m> {
                 all.concat()
             }
         };
-        self.0.bodies().iter().enumerate().flat_map(of).collect()
+        self.mechanism
+            .bodies()
+            .iter()
+            .enumerate()
+            .flat_map(of)
+            .collect()
     }
 
     /// Returns the state of a marker at q and v; the angle or orientation is that of the marker
@@ -290,12 +353,12 @@ impl<'m> Frames<'m> {
             angle,
             orientation,
             ..
-        } = self.0.observed.markers[marker];
+        } = self.mechanism.observed.markers[marker];
         let of_body = match body {
             BodyRef::Body(k) => self.point(k, point, q, v),
             BodyRef::Ground => FrameState {
                 place: point,
-                ..FrameState::of_ground(self.0.space())
+                ..FrameState::of_ground(self.mechanism.space())
             },
         };
         let quaternion = match orientation {
@@ -332,34 +395,118 @@ impl<'m> Frames<'m> {
     /// Panics if the measure does not exist, or if q or v has the wrong length.
     #[must_use]
     pub fn measure(self, measure: usize, q: &[f64], v: &[f64]) -> f64 {
-        let Measure { kind, between, .. } = self.0.observed.measures[measure];
+        let [value, _, _] = self.measure_rates(measure, q, v);
+        value
+    }
+
+    /// Returns the value of a measure at q and v, its rate and its second derivative. They are NaN
+    /// if they do not exist, for example the rate of a distance of zero, or if they require
+    /// accelerations that are not known (see [`Self::with_accelerations`]).
+    ///
+    /// # Panics
+    /// Panics under the same conditions as [`Self::measure`].
+    #[must_use]
+    pub fn measure_rates(self, measure: usize, q: &[f64], v: &[f64]) -> [f64; 3] {
+        let Measure { kind, between, .. } = self.mechanism.observed.measures[measure];
         let state = |of: Option<usize>| {
-            let ground = || FrameState::of_ground(self.0.space());
+            let ground = || FrameState::of_ground(self.mechanism.space());
             of.map_or_else(ground, |marker| self.marker(marker, q, v))
         };
         let [first, second] = between.map(state);
-        value(kind, &first, &second)
+        values(kind, &first, &second)
+    }
+
+    /// Returns the first measure that is not defined at q, with its requirement.
+    pub(crate) fn unmet_requirement(self, q: &[f64]) -> Option<(String, &'static str)> {
+        let rest = vec![0.0; self.mechanism.layout().n_v];
+        let mut measures = self.observed().measures.iter().enumerate();
+        let (_, unmet) = measures.find(|(k, _)| self.measure(*k, q, &rest).is_nan())?;
+        let requirement = "its second direction is not parallel to `about`";
+        Some((unmet.name.clone(), requirement))
     }
 }
 
-/// Returns the value of a measure from the states of both markers.
-fn value(kind: MeasureKind, first: &FrameState, second: &FrameState) -> f64 {
+/// A vector with its first two derivatives.
+type Vectors = [[f64; 3]; 3];
+
+/// Returns a measure with its first two derivatives from the states of both markers. Derivatives of
+/// vectors are those that an observer on the first marker sees.
+fn values(kind: MeasureKind, first: &FrameState, second: &FrameState) -> [f64; 3] {
     let d = difference(second.place, first.place);
-    let turned = difference(second.omega, first.omega);
+    let moved = difference(
+        difference(second.velocity, first.velocity),
+        cross(first.omega, d),
+    );
+    let turning = difference(second.omega, first.omega);
+    // a₂ − a₁ − α₁ × d − ω₁ × (ω₁ × d) − 2·ω₁ × ḋ
+    let carried = [0, 1, 2].map(|k| {
+        let inwards = cross(first.omega, cross(first.omega, d));
+        cross(first.alpha, d)[k] + inwards[k] + 2.0 * cross(first.omega, moved)[k]
+    });
+    let pushed = difference(difference(second.acceleration, first.acceleration), carried);
+    // α₂ − α₁ − ω₁ × ω₂
+    let turned = difference(
+        difference(second.alpha, first.alpha),
+        cross(first.omega, second.omega),
+    );
+    let unknown = [f64::NAN; 3];
+    let along = |n: [f64; 3], of: Vectors| of.map(|x| dot(n, x));
+    // A direction that is fixed in the second marker.
+    let fixed = |b: [f64; 3]| -> Vectors {
+        let rate = cross(turning, b);
+        let (sideways, inwards) = (cross(turned, b), cross(turning, rate));
+        [b, rate, [0, 1, 2].map(|k| sideways[k] + inwards[k])]
+    };
     match kind {
-        MeasureKind::Distance => norm(&d),
-        MeasureKind::Angle => second.angle - first.angle,
-        MeasureKind::X => first.own(d)[0],
-        MeasureKind::Y => first.own(d)[1],
-        MeasureKind::Z => first.own(d)[2],
-        MeasureKind::Speed => {
-            let carried = cross(first.omega, d);
-            norm(&difference(
-                difference(second.velocity, first.velocity),
-                carried,
-            ))
+        MeasureKind::Distance => length([d, moved, pushed]),
+        MeasureKind::Along(n) => along(first.turned(unit(n)), [d, moved, pushed]),
+        MeasureKind::Angle {
+            directions: [a, b], ..
+        } if first.space != SpaceKind::Space3 => {
+            let offset = cross(a, b)[2].atan2(dot(a, b));
+            let angle = second.angle - first.angle + offset;
+            [angle, turning[2], turned[2]]
         }
-        MeasureKind::AngularVelocity if first.space == SpaceKind::Space3 => norm(&turned),
-        MeasureKind::AngularVelocity => turned[2],
+        MeasureKind::Angle {
+            directions: [a, b],
+            about,
+        } => {
+            let (a, b) = (first.turned(unit(a)), fixed(second.turned(unit(b))));
+            let Some(about) = about.map(|about| first.turned(unit(about))) else {
+                return angle(length(b.map(|b| cross(a, b))), along(a, b));
+            };
+            if are_parallel(b[0], about) {
+                return unknown;
+            }
+            let across = [0, 1, 2].map(|k| a[k] - dot(about, a) * about[k]);
+            angle(along(cross(about, a), b), along(across, b))
+        }
+        MeasureKind::Inclination([a, b]) => {
+            let (a, b) = (first.turned(unit(a)), fixed(second.turned(unit(b))));
+            angle(along(a, b), length(b.map(|b| cross(a, b))))
+        }
+        MeasureKind::Speed => length([moved, pushed, unknown]),
+        MeasureKind::AngularVelocity if first.space == SpaceKind::Space3 => {
+            length([turning, turned, unknown])
+        }
+        MeasureKind::AngularVelocity => [turning[2], turned[2], f64::NAN],
     }
+}
+
+/// Returns the length of a vector with its first two derivatives; a length of zero has no
+/// derivatives.
+fn length([x, rate, second]: Vectors) -> [f64; 3] {
+    let length = norm(&x);
+    let along = dot(x, rate) / length;
+    let across = dot(rate, rate) - along * along;
+    [length, along, (across + dot(x, second)) / length]
+}
+
+/// Returns atan2(y, x) with its first two derivatives.
+fn angle(y: [f64; 3], x: [f64; 3]) -> [f64; 3] {
+    let squared = x[0] * x[0] + y[0] * y[0];
+    let rate = (x[0] * y[1] - y[0] * x[1]) / squared;
+    let stretched = x[0] * x[1] + y[0] * y[1];
+    let second = (x[0] * y[2] - y[0] * x[2] - 2.0 * rate * stretched) / squared;
+    [y[0].atan2(x[0]), rate, second]
 }

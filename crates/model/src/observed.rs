@@ -2,7 +2,7 @@
 //! They do not constrain the mechanism; [`crate::frame`] evaluates them on request.
 
 use crate::body::{BodyRecord, BodyRef};
-use crate::space::SpaceKind;
+use crate::space::{SpaceKind, cross, norm};
 
 /// A named point of a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +65,7 @@ impl Marker {
 }
 
 /// A quantity of the second marker relative to the first.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Measure {
     /// Name of the measure.
     pub name: String,
@@ -76,44 +76,100 @@ pub struct Measure {
 }
 
 /// Kind of the measured quantity. Here p = Rᵀ·(r₂ − r₁) is the position of the second marker in the
-/// axes of the first; in the plane the markers have the angles θ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// axes of the first; in the plane the markers have the angles θ. Directions have any length: a, n
+/// and o are fixed in the first marker and given in its axes, b is fixed in the second marker. In
+/// the formulas they are unit vectors in the axes of the first marker.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MeasureKind {
     /// Distance |p| (m).
     Distance,
-    /// Angle θ₂ − θ₁ (rad), including full revolutions; in the plane.
-    Angle,
-    /// Component p_x (m).
-    X,
-    /// Component p_y (m).
-    Y,
-    /// Component p_z (m), in space.
-    Z,
+    /// Component n·p (m).
+    Along([f64; 3]),
+    /// Angle from the direction a to the direction b (rad). In the plane, it is counted about the
+    /// normal of the plane and includes full revolutions.
+    Angle {
+        /// The directions a and b.
+        directions: [[f64; 3]; 2],
+        /// In space, the direction o about which the angle is counted: it is the angle between the
+        /// projections of a and b perpendicular to o, atan2(o·(a × b), a·b − (o·a)·(o·b)), more
+        /// than −π and at most π. `None` means that the angle has no sign: atan2(|a × b|, a·b).
+        about: Option<[f64; 3]>,
+    },
+    /// In space, the angle from the plane perpendicular to a to the direction b (rad), positive on
+    /// the side of a: atan2(a·b, |a × b|).
+    Inclination([[f64; 3]; 2]),
     /// Speed |ṗ| (m/s).
     Speed,
     /// Angular velocity θ̇₂ − θ̇₁ (rad/s); in space |ω₂ − ω₁|.
     AngularVelocity,
 }
 
+/// Sine of the angle between two directions below which they count as parallel (–). An angle about
+/// a direction is then not defined. Too small: rounding errors of 1e-16 change the angle visibly.
+/// Too large: valid angles are rejected. Test: `an_angle_about_a_parallel_direction_is_rejected`.
+pub(crate) const PARALLEL: f64 = 1e-9;
+
 impl MeasureKind {
-    /// All kinds.
-    pub const ALL: [Self; 7] = [
+    /// Component of p along the first axis of the first marker (m).
+    pub const X: Self = Self::Along([1.0, 0.0, 0.0]);
+    /// Component of p along the second axis of the first marker (m).
+    pub const Y: Self = Self::Along([0.0, 1.0, 0.0]);
+    /// Component of p along the third axis of the first marker (m), in space.
+    pub const Z: Self = Self::Along([0.0, 0.0, 1.0]);
+    /// Angle between the first axes of the markers (rad).
+    pub const ANGLE: Self = Self::Angle {
+        directions: [[1.0, 0.0, 0.0]; 2],
+        about: None,
+    };
+
+    /// One kind for each name; the directions are examples.
+    pub const ALL: [Self; 9] = [
         Self::Distance,
-        Self::Angle,
+        Self::ANGLE,
+        Self::Inclination([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]),
         Self::X,
         Self::Y,
         Self::Z,
+        Self::Along([1.0, 1.0, 0.0]),
         Self::Speed,
         Self::AngularVelocity,
     ];
 
-    /// Returns whether this kind of measure exists in a space.
+    /// Returns the reason why there is no such measure in a space, or `None` if there is.
+    ///
+    /// ```
+    /// use pfaff_model::{MeasureKind, SpaceKind};
+    /// assert_eq!(MeasureKind::Z.fault(SpaceKind::Space3), None);
+    /// assert!(MeasureKind::Z.fault(SpaceKind::Plane).is_some());
+    /// assert!(MeasureKind::Along([0.0; 3]).fault(SpaceKind::Plane).is_some());
+    /// ```
     #[must_use]
-    pub fn exists_in(self, space: SpaceKind) -> bool {
-        match self {
-            Self::Angle => space != SpaceKind::Space3,
-            Self::Z => space == SpaceKind::Space3,
-            _ => true,
+    pub fn fault(self, space: SpaceKind) -> Option<&'static str> {
+        let is_spatial = space == SpaceKind::Space3;
+        let (directions, is_in_plane) = match self {
+            Self::Along(n) => ([Some(n), None, None], true),
+            Self::Angle {
+                directions: [a, b],
+                about,
+            } => ([Some(a), Some(b), about], about.is_none()),
+            Self::Inclination([a, b]) => ([Some(a), Some(b), None], false),
+            _ => ([None; 3], true),
+        };
+        let mut all = directions.into_iter().flatten();
+        if all.any(|d| d == [0.0; 3] || !d.iter().all(|x| joints::is_usable(*x))) {
+            return Some("a direction needs finite components that are not all zero");
+        }
+        let mut all = directions.into_iter().flatten();
+        if !(is_spatial || is_in_plane && all.all(|[_, _, z]| z == 0.0)) {
+            return Some(
+                "it needs a direction out of the plane: leave it out, or use `space = \"spatial\"`",
+            );
+        }
+        match directions {
+            [Some(a), _, Some(about)] if are_parallel(unit(a), unit(about)) => {
+                Some("its first direction must not be parallel to `about`")
+            }
+            _ => None,
         }
     }
 
@@ -122,25 +178,47 @@ impl MeasureKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Distance => "distance",
-            Self::Angle => "angle",
+            Self::Angle { .. } => "angle",
+            Self::Inclination(_) => "inclination",
             Self::X => "x",
             Self::Y => "y",
             Self::Z => "z",
+            Self::Along(_) => "along",
             Self::Speed => "speed",
             Self::AngularVelocity => "angular-velocity",
+        }
+    }
+
+    /// Returns the units of the measure, of its rate and of its second derivative. `None` means
+    /// that the second derivative requires more than accelerations.
+    #[must_use]
+    pub fn units(self) -> [Option<&'static str>; 3] {
+        match self {
+            Self::Distance | Self::Along(_) => [Some("m"), Some("m/s"), Some("m/s²")],
+            Self::Angle { .. } | Self::Inclination(_) => {
+                [Some("rad"), Some("rad/s"), Some("rad/s²")]
+            }
+            Self::Speed => [Some("m/s"), Some("m/s²"), None],
+            Self::AngularVelocity => [Some("rad/s"), Some("rad/s²"), None],
         }
     }
 
     /// Returns the unit of the measure.
     #[must_use]
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::Distance | Self::X | Self::Y | Self::Z => "m",
-            Self::Angle => "rad",
-            Self::Speed => "m/s",
-            Self::AngularVelocity => "rad/s",
-        }
+        self.units()[0].unwrap_or_default()
     }
+}
+
+/// Returns the unit vector of a direction.
+pub(crate) fn unit(direction: [f64; 3]) -> [f64; 3] {
+    let length = norm(&direction);
+    direction.map(|x| x / length)
+}
+
+/// Whether two unit vectors are parallel.
+pub(crate) fn are_parallel(a: [f64; 3], b: [f64; 3]) -> bool {
+    norm(&cross(a, b)) < PARALLEL
 }
 
 /// The markers and measures of a mechanism.

@@ -245,6 +245,33 @@ impl SpaceKind {
         in_space!(self, S => &S::COLUMNS[S::COLUMNS.len() - S::N_V..])
     }
 
+    /// Returns the names of the output numbers of the accelerations of a frame, in the order of
+    /// [`Self::velocities`].
+    ///
+    /// ```
+    /// let plane = pfaff_model::SpaceKind::Plane;
+    /// assert_eq!(plane.accelerations(), ["ax", "ay", "alpha"]);
+    /// ```
+    #[must_use]
+    pub fn accelerations(self) -> &'static [&'static str] {
+        in_space!(self, S => S::ACCELERATIONS)
+    }
+
+    /// Returns the SI unit of an output number of a frame; empty for components of a quaternion and
+    /// for other names.
+    #[must_use]
+    pub fn column_unit(self, name: &str) -> &'static str {
+        match name {
+            "x" | "y" | "z" => "m",
+            "angle" => "rad",
+            "vx" | "vy" | "vz" => "m/s",
+            "omega" | "wx" | "wy" | "wz" => "rad/s",
+            "ax" | "ay" | "az" => "m/s²",
+            "alpha" | "alphax" | "alphay" | "alphaz" => "rad/s²",
+            _ => "",
+        }
+    }
+
     /// Returns the names of the directions in which a body moves with its velocities.
     #[must_use]
     pub fn directions(self) -> &'static [&'static str] {

@@ -150,12 +150,13 @@ fn posed(mechanism: &Mechanism, poses: &[StartPose], q: &[f64]) -> Result<Vec<f6
     Ok(posed)
 }
 
-/// Checks the requirements of all definitions at a configuration.
+/// Checks the requirements of all definitions and measures at a configuration.
 ///
 /// # Errors
 /// [`StartError::Requirement`]: the first requirement that is not satisfied.
 pub fn requirement(mechanism: &Mechanism, q: &[f64]) -> Result<(), StartError> {
-    match unmet_requirement(mechanism, q) {
+    let unmet = unmet_requirement(mechanism, q);
+    match unmet.or_else(|| mechanism.frames().unmet_requirement(q)) {
         Some((name, requirement)) => Err(StartError::Requirement { name, requirement }),
         None => Ok(()),
     }

@@ -49,6 +49,10 @@ pub(crate) enum Takes {
     Number(Interval),
     /// A vector with this number of components.
     Vector(usize, Interval),
+    /// A direction with this number of components: the name of an axis, or a vector.
+    Direction(usize),
+    /// Two such directions.
+    Directions(usize),
     /// An orientation of a body.
     Orientation,
     /// A table with these keys.

@@ -73,7 +73,10 @@ pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> 
             body_key(map, d, body, "orientation", |_| true),
             "no orientation",
         ),
-        BuildError::Measure { name, .. } => (place_key(map, name, &["type"]), "no such measure"),
+        BuildError::Measure { name, .. } => {
+            let keys = ["axis", "axes", "about", "type"];
+            (place_key(map, name, &keys), "no such measure")
+        }
         BuildError::VelocityAlone { body } => (
             body_key(map, d, body, "velocity", |_| true),
             "needs `angular_velocity` too",
@@ -141,7 +144,13 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
             };
         }
         StartError::Requirement { name, .. } => {
-            (element_key(map, name, &PLACE_KEYS), "required here")
+            let is_element = map.elements().any(|entry| entry.name == *name);
+            let span = if is_element {
+                element_key(map, name, &PLACE_KEYS)
+            } else {
+                place_key(map, name, &["about"])
+            };
+            (span, "required here")
         }
         StartError::KeptOrigin { .. } => (map.section("start", "keep"), "held here"),
         _ => (map.section("start", ""), "of this scene"),

@@ -49,7 +49,7 @@ impl<'r, S: SceneBody> Parts<'r, S> {
         for (table, name) in tables(root, &section::MEASURE) {
             names.bodies.push(NameUse::of(&name, &table));
             names.measures.push(NameUse::of(&name, &table));
-            measures.extend(measure::read(table, &name, S::KIND, &bodies.markers));
+            measures.extend(measure::read::<S>(table, &name, &bodies.markers));
         }
         let mut domains = Vec::new();
         let found = tables(root, &section::JOINT);

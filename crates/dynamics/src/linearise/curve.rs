@@ -447,22 +447,10 @@ fn frame_rates(
     body: usize,
     (q, v, a): (&[f64], &[f64], &[f64]),
 ) -> [[f64; BODY]; 2] {
-    let frames = mechanism.frames();
-    let moved = frames.body(body, q, v);
-    // Accelerations of the frames depend on a as their velocities depend on v; the centripetal
-    // acceleration is added.
-    let pushed = frames.body(body, q, a);
-    let space = mechanism.space();
-    let centre = &q[space.coordinates(body)];
-    let mut arm = moved.place;
-    for k in space.forces() {
-        arm[k] -= centre[k];
-    }
-    let inwards = cross(moved.omega, cross(moved.omega, arm));
+    let moved = mechanism.frames().with_accelerations(a).body(body, q, v);
     let join = |x: [f64; 3], y: [f64; 3]| [x[0], x[1], x[2], y[0], y[1], y[2]];
-    let acceleration = std::array::from_fn(|k| pushed.velocity[k] + inwards[k]);
     [
         join(moved.velocity, moved.omega),
-        join(acceleration, pushed.omega),
+        join(moved.acceleration, moved.alpha),
     ]
 }

@@ -3,7 +3,6 @@
 use joints::LARGEST;
 
 use crate::codes::Code;
-use crate::observed::MeasureKind;
 use crate::tolerance::ToleranceScope;
 
 /// One error in a description.
@@ -163,16 +162,13 @@ pub enum BuildError {
         /// The measure.
         name: String,
     },
-    /// The kind of the measure does not exist in this space.
-    #[error("measure `{name}`: there is no `{}` {}", kind.name(), match kind {
-        MeasureKind::Z => "in the plane",
-        _ => "between bodies that turn in space; measure `angular-velocity`, or drive the joint",
-    })]
+    /// The measure does not exist in this space, or a direction of it is invalid.
+    #[error("measure `{name}`: {reason}")]
     Measure {
         /// The measure.
         name: String,
-        /// Kind of the measure.
-        kind: MeasureKind,
+        /// Reason why there is no such measure.
+        reason: &'static str,
     },
     /// A drive is in the list of joints, or a joint is in the list of drives.
     #[error("`{name}` is in the list of {list}, but `{definition}` does not belong there")]

@@ -363,9 +363,8 @@ fn check_observed<S: BodySpace>(d: &MechanismDescription<S>, errors: &mut Vec<Bu
             });
         } else if first == second {
             errors.push(BuildError::SameMarker { name });
-        } else if !measure.kind.exists_in(S::KIND) {
-            let kind = measure.kind;
-            errors.push(BuildError::Measure { name, kind });
+        } else if let Some(reason) = measure.kind.fault(S::KIND) {
+            errors.push(BuildError::Measure { name, reason });
         }
     }
 }

@@ -8,6 +8,7 @@ use super::traits::{MOST_COORDINATES, PlanarSpace, Space};
 
 /// Names of the output values of a planar frame.
 const PLANE_COLUMNS: &[&str] = &["x", "y", "angle", "vx", "vy", "omega"];
+const PLANE_ACCELERATIONS: &[&str] = &["ax", "ay", "alpha"];
 const PLANE_DIRECTIONS: &[&str] = &["x", "y", "angle"];
 const PLANE_COMPONENTS: &[&str] = &["Fx", "Fy", "T"];
 const PLANE_BODY_COMPONENTS: &[&str] = &["Fx'", "Fy'", "T"];
@@ -23,6 +24,7 @@ impl Space for Plane {
     const N_TRANSLATIONS: usize = 2;
     const COORDINATES: &'static [&'static str] = &["x", "y", "angle"];
     const COLUMNS: &'static [&'static str] = PLANE_COLUMNS;
+    const ACCELERATIONS: &'static [&'static str] = PLANE_ACCELERATIONS;
     const DIRECTIONS: &'static [&'static str] = PLANE_DIRECTIONS;
     const COMPONENTS: &'static [&'static str] = PLANE_COMPONENTS;
     const BODY_COMPONENTS: &'static [&'static str] = PLANE_BODY_COMPONENTS;
@@ -86,6 +88,7 @@ impl Space for UnitCircle {
     const N_TRANSLATIONS: usize = 2;
     const COORDINATES: &'static [&'static str] = &["x", "y", "cosine", "sine"];
     const COLUMNS: &'static [&'static str] = PLANE_COLUMNS;
+    const ACCELERATIONS: &'static [&'static str] = PLANE_ACCELERATIONS;
     const DIRECTIONS: &'static [&'static str] = PLANE_DIRECTIONS;
     const COMPONENTS: &'static [&'static str] = PLANE_COMPONENTS;
     const BODY_COMPONENTS: &'static [&'static str] = PLANE_BODY_COMPONENTS;

@@ -23,6 +23,8 @@ impl Space for Space3 {
     const COLUMNS: &'static [&'static str] = &[
         "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz",
     ];
+    const ACCELERATIONS: &'static [&'static str] =
+        &["ax", "ay", "az", "alphax", "alphay", "alphaz"];
     const DIRECTIONS: &'static [&'static str] = &[
         "x",
         "y",

@@ -27,6 +27,10 @@ pub trait Space {
     /// velocity components.
     const COLUMNS: &'static [&'static str];
 
+    /// Names of the output values of the accelerations of a frame, in the order of its velocity
+    /// components.
+    const ACCELERATIONS: &'static [&'static str];
+
     /// Names of the directions in which a body moves, in the order of its velocity components.
     const DIRECTIONS: &'static [&'static str];
 

@@ -6,6 +6,7 @@ use serde_json::{Map, Value, json};
 use crate::body::{ANGLE, AXIS, MATRIX, QUATERNION, RPY};
 use crate::dimension::Dimension;
 use crate::key::{Interval, Key, Takes};
+use crate::measure::AXIS_NAMES;
 use crate::section::LONGEST_NAME;
 use crate::silence;
 use crate::space::SceneSpace;
@@ -35,6 +36,8 @@ pub(super) fn described(key: &Key) -> Value {
         }),
         Takes::Number(range) => number(range),
         Takes::Vector(n, range) => tuple(vec![number(range); n]),
+        Takes::Direction(n) => direction(n),
+        Takes::Directions(n) => tuple(vec![direction(n); 2]),
         Takes::Orientation => orientation(),
         Takes::Table(keys) => table(keys),
         Takes::FlagOr(keys) => json!({ "oneOf": [{ "type": "boolean" }, table(keys)] }),
@@ -119,6 +122,12 @@ pub(super) fn name_in<S: SceneSpace>(name: &str) -> String {
 /// A vector.
 pub(super) fn vector<S: SceneSpace>() -> Value {
     tuple(vec![number(Interval::Any); S::DIM])
+}
+
+/// A direction: the name of an axis, or a vector with this number of components.
+fn direction(n: usize) -> Value {
+    let axes = &AXIS_NAMES[..n.min(AXIS_NAMES.len())];
+    json!({ "anyOf": [{ "enum": axes }, tuple(vec![number(Interval::Any); n])] })
 }
 
 /// A point.

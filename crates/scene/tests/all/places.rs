@@ -147,7 +147,7 @@ fn markers_and_measures_are_read() {
         measures,
         [
             (MeasureKind::Distance, [Some(1), Some(2)]),
-            (MeasureKind::Angle, [None, Some(1)])
+            (MeasureKind::ANGLE, [None, Some(1)])
         ]
     );
 }
