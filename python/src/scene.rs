@@ -23,7 +23,7 @@ use pfaff::report::{
 use pfaff::scene::{KeyError, Template as Keys};
 use pfaff::solvability::Choice;
 use pfaff::start::{JudgedStart, Start};
-use pfaff::study::EndedRun;
+use pfaff::study::{EndedRun, more_columns};
 use pfaff::template::Template;
 use pfaff::view::{Drawing, Form};
 use pfaff::work_precision::provenance::{date, machine};
@@ -175,7 +175,8 @@ impl Source {
         let mut motion = motion.ok_or_else(|| self.fault(StudyError::NoEnd))?;
         motion.output_step = options.output_step.unwrap_or(motion.output_step);
         let mechanism = &study.prepared.mechanism;
-        let mut trajectory = Trajectory::new(mechanism);
+        wanted.accelerations = study.scene.output.accelerations;
+        let mut trajectory = Trajectory::new(mechanism, more_columns(&study.scene.output));
         let names = wanted.choices.iter().map(|named| named.label.to_string());
         let mut rows = Recorded {
             chosen: names.map(|name| (name, Vec::new())).collect(),
@@ -206,7 +207,12 @@ impl Source {
                 rows.t.push(sample.t);
                 rows.q.extend(sample.q);
                 rows.v.extend(sample.v);
-                trajectory.extend(&mut rows.trajectory.numbers, sample.t, sample.q, sample.v);
+                let a = trajectory
+                    .has_accelerations()
+                    .then(|| sample.acceleration());
+                let a = a.and_then(Result::ok);
+                let state = (sample.q, sample.v);
+                trajectory.extend(&mut rows.trajectory.numbers, sample.t, state, a.as_deref());
                 let all = std::iter::once(&mut rows.reactions.numbers);
                 let all = all.chain(rows.chosen.iter_mut().map(|(_, own)| own));
                 let of_each = std::iter::once(numbers).chain(&numbers.choices);
@@ -329,7 +335,7 @@ fn columns_of_loads(mechanism: &Mechanism) -> Vec<Column> {
     let (space, loads) = (mechanism.space(), mechanism.loads());
     let all = loads.forces();
     let all = all.flat_map(|(name, measure)| load_columns(space, name, measure));
-    all.map(|(own, _)| column(&own)).collect()
+    all.map(|own| column(&own)).collect()
 }
 
 fn column(column: &ReportColumn) -> Column {
@@ -337,6 +343,7 @@ fn column(column: &ReportColumn) -> Column {
         kind,
         owner,
         number,
+        ..
     } = column;
     ((*kind).to_owned(), owner.clone(), (*number).to_owned())
 }

@@ -111,6 +111,27 @@ impl FrameState {
         numbers.into_iter().take(count)
     }
 
+    /// Returns roll, pitch and yaw (rad) of the axes in space: the rotations about the axes x, then
+    /// y, then z of the ground that turn them into this orientation. Pitch is between −π/2 and π/2.
+    /// At its ends only the sum or the difference of roll and yaw is defined, and roll is zero.
+    ///
+    /// ```
+    /// use pfaff_model::{FrameState, SpaceKind};
+    /// // A quarter turn about z.
+    /// let quaternion = [1.0, 0.0, 0.0, 1.0];
+    /// let turned = FrameState { space: SpaceKind::Space3, quaternion, ..FrameState::default() };
+    /// assert_eq!(turned.roll_pitch_yaw(), [0.0, 0.0, std::f64::consts::FRAC_PI_2]);
+    /// ```
+    #[must_use]
+    pub fn roll_pitch_yaw(&self) -> [f64; 3] {
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|d| self.turned(d));
+        let pitch = (0.0 - x[2]).atan2(x[0].hypot(x[1]));
+        if are_parallel(x, [0.0, 0.0, 1.0]) {
+            return [0.0, pitch, (0.0 - y[0]).atan2(y[1])];
+        }
+        [y[2].atan2(z[2]), pitch, x[1].atan2(x[0])]
+    }
+
     /// Returns the accelerations of the state, in the order of [`SpaceKind::accelerations`].
     pub fn accelerations(&self) -> impl Iterator<Item = f64> + use<> {
         let (own, alpha, space) = (self.acceleration, self.alpha, self.space);

@@ -263,7 +263,7 @@ impl SpaceKind {
     pub fn column_unit(self, name: &str) -> &'static str {
         match name {
             "x" | "y" | "z" => "m",
-            "angle" => "rad",
+            "angle" | "roll" | "pitch" | "yaw" => "rad",
             "vx" | "vy" | "vz" => "m/s",
             "omega" | "wx" | "wy" | "wz" => "rad/s",
             "ax" | "ay" | "az" => "m/s²",

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use dynamics::Sample;
 use model::{BodyRef, ConstraintId, Loads, Mechanism, Reaction, SpaceKind, System};
-use report::{OutputDirectory, OutputFile, Table, TableError};
+use report::{OutputDirectory, OutputFile, SceneUnits, Table, TableError};
 use solvability::Stretches;
 
 use crate::documents::Ending;
@@ -58,7 +58,7 @@ impl<'m> BodyLoads<'m> {
         directory: &'m OutputDirectory,
         mechanism: &'m Mechanism,
         body: usize,
-        rows: TableRows,
+        (rows, units): (TableRows, Option<SceneUnits>),
         (is_plain, is_chosen): (bool, bool),
     ) -> Result<Self, StudyError> {
         let layout = mechanism.layout();
@@ -70,9 +70,16 @@ impl<'m> BodyLoads<'m> {
         let names = joints.iter().map(|id| layout.groups[id.0].name.as_str());
         let names = names.chain(forces.map(|force| force.name));
         let names = names.chain(["gravity", "inertia"]);
-        let components = mechanism.space().components();
-        let columns = names.flat_map(|name| components.iter().map(move |c| format!("{name}.{c}")));
-        let header: Vec<String> = std::iter::once("t".to_owned()).chain(columns).collect();
+        let space = mechanism.space();
+        let components = space.components();
+        let of = |name: &str| {
+            let column = |c: &&'static str| {
+                let unit = space.load_unit(c).unwrap_or_default();
+                (format!("{name}.{c}"), unit)
+            };
+            components.iter().map(column).collect::<Vec<_>>()
+        };
+        let columns: Vec<(String, &str)> = names.flat_map(of).collect();
         let file = body_file(mechanism, body);
         let is_final = is_plain || is_chosen;
         let out = if is_final {
@@ -86,7 +93,7 @@ impl<'m> BodyLoads<'m> {
             body,
             joints,
             loads,
-            table: Some(Table::new(NAME, out, &header)?),
+            table: Some(Table::over_time(NAME, out, columns, units)?),
             is_final,
             is_chosen,
             rows,

@@ -28,6 +28,7 @@ use crate::elasticity::{assumption, centres};
 use crate::error::StudyError;
 use crate::page::Band;
 use crate::rows::{RowFault, RowSink};
+use crate::study::table_units;
 use crate::tables_of_run::{TableRows, finished};
 use crate::words::{Block, Cell, count};
 
@@ -116,7 +117,7 @@ impl<'m> BoundsOfRun<'m> {
         plan: &Plan<'_>,
         rows: (TableRows, bool),
     ) -> Result<Self, StudyError> {
-        let table = BoundsTable::new(directory.scratch(ALL)?, &columns)?;
+        let table = BoundsTable::new(directory.scratch(ALL)?, &columns, table_units(scene))?;
         Ok(Self {
             table: Some((directory, table)),
             ..Self::new((scene, mechanism), elasticity, columns, plan, rows)

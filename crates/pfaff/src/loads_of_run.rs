@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use dynamics::Sample;
 use model::space::norm;
 use model::{Load, Loads, Mechanism, SpaceKind, System};
-use report::{LoadTable, OutputDirectory, OutputFile, load_columns, load_numbers};
+use report::{LoadTable, OutputDirectory, OutputFile, SceneUnits, load_columns, load_numbers};
 use solvability::Stretches;
 
 use crate::documents::{
@@ -38,9 +38,9 @@ struct FoundLoad {
 
 impl<'m> LoadsOfRun<'m> {
     /// Creates a sink; `None` if the mechanism has no force elements. With a directory, it writes
-    /// the table.
+    /// the table, in these units.
     pub(crate) fn begin(
-        directory: Option<&OutputDirectory>,
+        directory: Option<(&OutputDirectory, Option<SceneUnits>)>,
         mechanism: &'m Mechanism,
         rows: TableRows,
     ) -> Result<Option<Self>, StudyError> {
@@ -50,9 +50,9 @@ impl<'m> LoadsOfRun<'m> {
         let loads = mechanism.loads();
         let table = match directory {
             None => None,
-            Some(directory) => {
+            Some((directory, units)) => {
                 let file = directory.file(LOADS)?;
-                Some(LoadTable::new(file, mechanism.space(), &loads)?)
+                Some(LoadTable::new(file, mechanism.space(), &loads, units)?)
             }
         };
         Ok(Some(Self {
@@ -79,8 +79,8 @@ impl<'m> LoadsOfRun<'m> {
         let each = self.loads.forces().zip(&self.found);
         let each = each.map(|((name, measure), found)| {
             let columns = load_columns(space, name, measure).zip(&found.columns);
-            let components = columns
-                .filter_map(|((column, _), range)| Some((column.number.to_owned(), (*range)?)));
+            let components =
+                columns.filter_map(|(column, range)| Some((column.number.to_owned(), (*range)?)));
             let document = LoadOfRunDocument {
                 peak: MagnitudeOfRunDocument::new(found.force, found.moment),
                 components: ByName(components.collect()),

@@ -20,7 +20,7 @@ use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
 use crate::questions::analyze::remedies::RemedyDocument;
 use crate::rows::{RowFault, RowSink};
-use crate::words::SceneUnits;
+use crate::words::scene_units;
 
 /// Number of non-unique reactions for which the page lists deletions that would make them unique,
 /// and number of sets tried for each.
@@ -271,7 +271,7 @@ pub fn written_scene(scene: &Scene) -> WrittenScene<'_> {
     WrittenScene {
         text: scene.text(),
         inactive: scene.inactive.iter().map(ToString::to_string).collect(),
-        units: SceneUnits::of(scene),
+        units: scene_units(scene),
     }
 }
 

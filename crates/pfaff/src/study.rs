@@ -22,10 +22,10 @@ use model::{
     StartError, StartPose, System,
 };
 use report::{
-    Family, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, Selection, TableError,
-    TrajectoryTable, columns_of_reactions, write_json,
+    Family, MoreColumns, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, SceneUnits,
+    Selection, TableError, Trajectory, TrajectoryTable, columns_of_reactions, write_json,
 };
-use scene::{KeyError, Output, Scene, WantedReactions};
+use scene::{KeyError, Output, OutputUnits, Scene, WantedReactions};
 use solvability::{
     Choice, ChosenValues, Contradiction, Elasticity, Freedoms, Group, GroupNumbers,
     GroupSensitivities, NamedChoice, ReactionVerdict, Sensitivities, Sensitivity, State, Stretches,
@@ -47,6 +47,7 @@ use crate::tables_of_run::{
     ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of,
 };
 use crate::within::missed;
+use crate::words::scene_units;
 
 /// Largest number of rows of a mechanism for which an animation has additional rows between those
 /// of the tables.
@@ -648,7 +649,7 @@ impl Study {
         options: &MotionOptions,
         wanted: &OutputRequest,
         stop: &Stop<'_>,
-        row: impl FnMut(&Sample<'_, '_>, &ChosenNumbers) -> ControlFlow<()>,
+        row: impl FnMut(&mut Sample<'_, '_>, &ChosenNumbers) -> ControlFlow<()>,
     ) -> Result<EndedRun, StudyError> {
         self.show_bounded(options, wanted, self.bounds.as_ref(), stop, row)
     }
@@ -663,7 +664,7 @@ impl Study {
         wanted: &OutputRequest,
         elasticity: Option<&Elasticity>,
         stop: &Stop<'_>,
-        mut row: impl FnMut(&Sample<'_, '_>, &ChosenNumbers) -> ControlFlow<()>,
+        mut row: impl FnMut(&mut Sample<'_, '_>, &ChosenNumbers) -> ControlFlow<()>,
     ) -> Result<EndedRun, StudyError> {
         let begun = self.begun()?;
         let plan = Plan::new(&self.prepared, options, &begun.wanted(wanted.clone()))?;
@@ -886,9 +887,11 @@ impl Study {
         }
         plan.choices.clone_from(&begun.choices);
         let table_rows = TableRows::new(between, t_end);
+        let units = table_units(&self.scene);
         let mut trajectory = if output.trajectory {
             let file = directory.file("trajectory.csv")?;
-            let table = TrajectoryTable::new(file, mechanism)?;
+            let trajectory = Trajectory::new(mechanism, more_columns(output));
+            let table = TrajectoryTable::new(file, trajectory, units)?;
             Some(TrajectoryFile::new(table, table_rows))
         } else {
             None
@@ -897,7 +900,7 @@ impl Study {
             Some(selection) => Some(ReactionFiles::begin(
                 directory,
                 (mechanism, &self.prepared.q),
-                begun.columns(&selection)?,
+                (begun.columns(&selection)?, units),
                 &plan,
                 table_rows,
                 self.prepared.decision.redundancy == 0,
@@ -939,13 +942,12 @@ impl Study {
         // Without rows of reactions a run need not stop at the rows.
         let mut loads = match output.reactions {
             WantedReactions::None => None,
-            _ => LoadsOfRun::begin(Some(directory), mechanism, table_rows)?,
+            _ => LoadsOfRun::begin(Some((directory, units)), mechanism, table_rows)?,
         };
         let is_complete = (is_plain, !begun.choices.is_empty());
-        let of_bodies = output
-            .bodies
-            .iter()
-            .map(|&body| BodyLoads::begin(directory, mechanism, body, table_rows, is_complete));
+        let of_bodies = output.bodies.iter().map(|&body| {
+            BodyLoads::begin(directory, mechanism, body, (table_rows, units), is_complete)
+        });
         let mut of_bodies: Vec<BodyLoads<'_>> = of_bodies.collect::<Result<_, _>>()?;
         let mut sinks: Vec<&mut dyn RowSink> = vec![&mut path, &mut counter];
         sinks.extend(of_bodies.iter_mut().map(|sink| sink as &mut dyn RowSink));
@@ -1160,10 +1162,26 @@ fn wanted(output: &Output) -> OutputRequest {
     };
     OutputRequest {
         rows,
-        // No table contains accelerations.
-        accelerations: false,
+        accelerations: output.trajectory && output.accelerations,
         reactions,
         ..OutputRequest::default()
+    }
+}
+
+/// Returns the columns of the trajectory that the output requests.
+#[must_use]
+pub fn more_columns(output: &Output) -> MoreColumns {
+    MoreColumns {
+        accelerations: output.accelerations,
+        angles: output.rpy,
+    }
+}
+
+/// Returns the units of the tables of a run; `None` for SI units.
+pub(crate) fn table_units(scene: &Scene) -> Option<SceneUnits> {
+    match scene.output.units {
+        OutputUnits::Si => None,
+        OutputUnits::Scene => Some(scene_units(scene)),
     }
 }
 

@@ -6,17 +6,17 @@
 //! choices, numbers that the model determines are replaced by those of the run.
 
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufReader, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use crate::documents::Ending;
 use crate::documents::{Gap, choice_file};
-use dynamics::{Plan, Sample};
+use dynamics::{MotionFault, Plan, Sample};
 use model::{Mechanism, System};
 use report::{
     FileError, OutputDirectory, OutputFile, Peak, PeakRecorder, ReactionColumn, ReactionTable,
-    TableError, TrajectoryTable, write_chosen, write_determined,
+    SceneUnits, TableError, TrajectoryTable, write_chosen, write_determined,
 };
 use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
 
@@ -77,7 +77,8 @@ impl RowSink for TrajectoryFile<'_> {
         if self.rows.take(sample.t)
             && let Some(table) = &mut self.table
         {
-            table.row(sample.t, sample.q, sample.v)?;
+            let a = acceleration(table, sample)?;
+            table.row(sample.t, (sample.q, sample.v), a.as_deref())?;
         }
         Ok(ControlFlow::Continue(()))
     }
@@ -88,6 +89,15 @@ impl RowSink for TrajectoryFile<'_> {
         }
         Ok(())
     }
+}
+
+/// Returns the accelerations of a row, if the table contains them.
+pub(crate) fn acceleration<W: Write>(
+    table: &TrajectoryTable<'_, W>,
+    sample: &mut Sample<'_, '_>,
+) -> Result<Option<Vec<f64>>, MotionFault> {
+    let has_accelerations = table.has_accelerations();
+    has_accelerations.then(|| sample.acceleration()).transpose()
 }
 
 /// Writer of `reactions.csv`, and of tables of choices if a cell of it is empty. Before the end of
@@ -125,12 +135,12 @@ impl<'m> ReactionFiles<'m> {
     pub(crate) fn begin(
         directory: &'m OutputDirectory,
         (mechanism, q): (&'m Mechanism, &[f64]),
-        columns: Vec<ReactionColumn>,
+        (columns, units): (Vec<ReactionColumn>, Option<SceneUnits>),
         plan: &Plan<'_>,
         rows: TableRows,
         is_plain: bool,
     ) -> Result<Self, StudyError> {
-        let table = |name, file| ReactionTable::new(name, file, mechanism, columns.clone());
+        let table = |name, file| ReactionTable::new(name, file, mechanism, columns.clone(), units);
         let choices = if is_plain { 0 } else { plan.choices.len() };
         let own = match (is_plain, choices) {
             (true, _) => table(REACTIONS, directory.file(REACTIONS)?)?,

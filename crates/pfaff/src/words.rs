@@ -2,8 +2,9 @@
 
 mod table;
 
+pub use report::SceneUnits;
 pub(crate) use table::Scale;
-pub use table::{Cell, SceneUnits, UnitSystem};
+pub use table::{Cell, UnitSystem, scene_units};
 
 use std::iter;
 

@@ -21,6 +21,7 @@ pub mod peaks;
 mod recording;
 pub mod sweep;
 pub mod tables;
+mod units;
 pub mod work_precision;
 
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Png, PngError, Series, Style};
@@ -30,10 +31,11 @@ pub use peaks::{Peak, PeakRecorder};
 pub use recording::{Frame, Recording};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{
-    BoundsTable, Column, LoadTable, Quantity, ReactionColumn, ReactionTable, Selection, Table,
-    TableError, Trajectory, TrajectoryTable, columns_of_reactions, load_columns, load_numbers,
-    reaction_columns, write_chosen, write_determined, write_open_bounds,
+    BoundsTable, Column, LoadTable, MoreColumns, Quantity, ReactionColumn, ReactionTable,
+    Selection, Table, TableError, Trajectory, TrajectoryTable, columns_of_reactions, load_columns,
+    load_numbers, reaction_columns, write_chosen, write_determined, write_open_bounds,
 };
+pub use units::SceneUnits;
 pub use work_precision::{
     CurveName, Place, Provenance, RankingLine, ReferenceDocument, WorkPrecisionDocument,
     WorkPrecisionRow, WorkPrecisionScene, WorkPrecisionTable, work_precision_page,

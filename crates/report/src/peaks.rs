@@ -115,6 +115,7 @@ mod tests {
                 owner: "hinge".into(),
                 kind: "reaction",
                 number: "Fx",
+                unit: "N",
             },
             quantity: Quantity::Component(ConstraintId(0), "Fx"),
             fragile: false,

@@ -16,13 +16,15 @@ use std::io::{self, BufWriter, Write};
 
 use serde::Serialize;
 
+use crate::units::SceneUnits;
+
 pub use bounds::{BoundsTable, write_open_bounds};
 pub use loads::{LoadTable, load_columns, load_numbers};
 pub use reactions::{
     Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, reaction_columns,
     write_chosen, write_determined,
 };
-pub use trajectory::{Column, Trajectory, TrajectoryTable};
+pub use trajectory::{Column, MoreColumns, Trajectory, TrajectoryTable};
 
 /// Reason why a table or a row cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -75,6 +77,8 @@ impl TableError {
 pub struct Table<W: Write> {
     name: &'static str,
     out: BufWriter<W>,
+    /// The values of the units of the columns in SI units; empty for SI units.
+    units: Vec<f64>,
     /// Buffer for one line, reused.
     line: Vec<u8>,
 }
@@ -88,10 +92,43 @@ impl<W: Write> Table<W> {
         let mut table = Self {
             name,
             out: BufWriter::new(out),
+            units: Vec::new(),
             line: Vec::new(),
         };
         table.record(header)?;
         Ok(table)
+    }
+
+    /// Writes the header of a table over time: `t`, then these names with their SI units. With
+    /// units of a scene, the numbers are in these units, and the header contains them, as in
+    /// `crank.x (mm)`.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn over_time(
+        name: &'static str,
+        out: W,
+        columns: impl IntoIterator<Item = (String, &'static str)>,
+        units: Option<SceneUnits>,
+    ) -> Result<Self, TableError> {
+        let columns = std::iter::once(("t".to_owned(), "s")).chain(columns);
+        let Some(chosen) = units else {
+            let names: Vec<String> = columns.map(|(name, _)| name).collect();
+            return Self::new(name, out, &names);
+        };
+        let in_unit = |(name, si): (String, &str)| {
+            let (unit, value) = chosen.unit(si).unwrap_or_else(|| (si.to_owned(), 1.0));
+            let name = match si {
+                "" => name,
+                _ => format!("{name} ({unit})"),
+            };
+            (name, value)
+        };
+        let (names, values): (Vec<String>, Vec<f64>) = columns.map(in_unit).unzip();
+        Ok(Self {
+            units: values,
+            ..Self::new(name, out, &names)?
+        })
     }
 
     /// Writes a row of numbers, which need no quotes.
@@ -99,25 +136,24 @@ impl<W: Write> Table<W> {
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
     pub fn row(&mut self, values: &[f64]) -> Result<(), TableError> {
-        self.line.clear();
-        let mut text = zmij::Buffer::new();
-        for &value in values {
-            self.line.extend_from_slice(text.format(value).as_bytes());
-            self.line.push(b',');
-        }
-        if let Some(last) = self.line.last_mut() {
-            *last = b'\n';
-        }
-        let written = self.out.write_all(&self.line);
-        self.checked(written)
+        self.numbers(values, |_| true)
     }
 
     /// Writes a row of numbers; a number that does not exist is an empty cell.
     fn row_with_gaps(&mut self, values: &[f64]) -> Result<(), TableError> {
+        self.numbers(values, |value| !value.is_nan())
+    }
+
+    fn numbers(
+        &mut self,
+        values: &[f64],
+        is_written: impl Fn(f64) -> bool,
+    ) -> Result<(), TableError> {
         self.line.clear();
         let mut text = zmij::Buffer::new();
-        for &value in values {
-            if !value.is_nan() {
+        for (k, &value) in values.iter().enumerate() {
+            if is_written(value) {
+                let value = value / self.units.get(k).copied().unwrap_or(1.0);
                 self.line.extend_from_slice(text.format(value).as_bytes());
             }
             self.line.push(b',');

@@ -1,9 +1,15 @@
 //! Tests pictures and tables of mechanisms in space.
 
 use joints::space3::{Axes, Revolute};
-use model::{BodyRef, Marker, Mechanism, Reaction, SpaceKind, SpatialBody, SpatialDescription};
+use model::{
+    BodyRef, Marker, Measure, MeasureKind, Mechanism, Reaction, SpaceKind, SpatialBody,
+    SpatialDescription,
+};
 use pfaff_report::figures::{Marking, mechanism};
-use pfaff_report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
+use pfaff_report::{
+    MoreColumns, ReactionTable, SceneUnits, Selection, Trajectory, TrajectoryTable,
+    columns_of_reactions,
+};
 use solvability::ChosenValues;
 
 /// A four-bar in a vertical plane that is rotated by `turn` about the vertical axis y.
@@ -105,6 +111,91 @@ fn a_four_bar_has_its_joints_where_they_are_seen() {
     }
 }
 
+/// The crank turns about its axis x at 3 rad/s and is accelerated by 5 rad/s²; the tip is at 2 m.
+#[test]
+fn a_trajectory_has_accelerations_and_angles_on_request() {
+    let mut d = four_bar(0.0);
+    d.bodies.truncate(1);
+    d.joints.truncate(1);
+    let tip = Marker {
+        orientation: Some([1.0, 1.0, 0.0, 0.0]),
+        ..Marker::new("tip", BodyRef::Body(0), [0.0, 2.0, 0.0])
+    };
+    d.observed.markers.push(tip);
+    for (name, kind) in [("height", MeasureKind::Z), ("speed", MeasureKind::Speed)] {
+        d.observed.measures.push(Measure {
+            name: name.into(),
+            kind,
+            between: [None, Some(0)],
+        });
+    }
+    let built = Mechanism::build(&d).expect("builds");
+    let more = MoreColumns {
+        accelerations: true,
+        angles: true,
+    };
+    let millimetres = SceneUnits {
+        length: Some(("mm", 1e-3)),
+        angle: Some(("deg", std::f64::consts::PI / 180.0)),
+    };
+    let trajectory = Trajectory::new(&built, more);
+    let mut table =
+        TrajectoryTable::new(Vec::new(), trajectory, Some(millimetres)).expect("writes");
+    let q = [1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+    let [v, a] = [3.0, 5.0].map(|x| [0.0, 0.0, 0.0, x, 0.0, 0.0]);
+    table.row(0.5, (&q, &v), Some(&a)).expect("writes");
+    let error = table
+        .row(0.5, (&q, &v), Some(&a[..3]))
+        .expect_err("too few");
+    assert!(error.to_string().contains("3 accelerations"), "{error}");
+    let text = String::from_utf8(table.finish().expect("writes")).expect("UTF-8");
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let header = reader.headers().expect("a header").clone();
+    let row: Vec<f64> = reader
+        .deserialize()
+        .next()
+        .expect("one row")
+        .expect("numbers");
+    assert_eq!(
+        (header.len(), reader.deserialize::<Vec<f64>>().count()),
+        (row.len(), 0)
+    );
+    let value = |name: &str| {
+        let at = header.iter().position(|column| column == name);
+        row[at.unwrap_or_else(|| panic!("{name}: {header:?}"))]
+    };
+    for (name, expected) in [
+        ("t (s)", 0.5),
+        ("crank.x (mm)", 1000.0),
+        ("crank.qw", 1.0),
+        ("crank.wx (deg/s)", 3.0_f64.to_degrees()),
+        ("crank.roll (deg)", 0.0),
+        ("crank.alphax (deg/s²)", 5.0_f64.to_degrees()),
+        ("crank.ax (mm/s²)", 0.0),
+        // r·α across, and r·ω² toward the axis.
+        ("tip.ay (mm/s²)", -2000.0 * 9.0),
+        ("tip.az (mm/s²)", 2000.0 * 5.0),
+        ("tip.roll (deg)", 90.0),
+        ("tip.vz (mm/s)", 6000.0),
+        ("height (mm)", 0.0),
+        ("height.rate (mm/s)", 6000.0),
+        ("height.acceleration (mm/s²)", 10_000.0),
+        ("speed (mm/s)", 6000.0),
+        ("speed.rate (mm/s²)", 10_000.0),
+    ] {
+        assert!(
+            (value(name) - expected).abs() < 1e-9,
+            "{name}: {}",
+            value(name)
+        );
+    }
+    assert!(
+        !header
+            .iter()
+            .any(|name| name.starts_with("speed.acceleration"))
+    );
+}
+
 #[test]
 fn tables_have_the_columns_of_space() {
     let mut d = four_bar(0.0);
@@ -113,13 +204,18 @@ fn tables_have_the_columns_of_space() {
     let tip = Marker::new("tip", BodyRef::Body(0), [0.0, 2.0, 0.0]);
     d.observed.markers.push(tip);
     let built = Mechanism::build(&d).expect("builds");
-    let mut table = TrajectoryTable::new(Vec::new(), &built).expect("writes");
+    let mut table = TrajectoryTable::new(
+        Vec::new(),
+        Trajectory::new(&built, MoreColumns::default()),
+        None,
+    )
+    .expect("writes");
     // The rotation is a quarter of a turn about x, with ω = (0, 0, 3) in body axes and (0, −3, 0)
     // in ground axes. The tip is at 2 m along z, and moves along −x.
     let half = 0.5_f64.sqrt();
     let q = [1.0, 2.0, 3.0, half, half, 0.0, 0.0];
     table
-        .row(0.5, &q, &[4.0, 5.0, 6.0, 0.0, 0.0, 3.0])
+        .row(0.5, (&q, &[4.0, 5.0, 6.0, 0.0, 0.0, 3.0]), None)
         .expect("writes");
     let text = String::from_utf8(table.finish().expect("writes")).expect("UTF-8");
     let (header, row) = text.trim_end().split_once('\n').expect("a row");
@@ -161,7 +257,8 @@ fn tables_have_the_columns_of_space() {
 
     let columns = columns_of_reactions(&built, &Selection::All, &[], |_| false);
     let columns = columns.expect("all of them");
-    let mut table = ReactionTable::new("choice.csv", Vec::new(), &built, columns).expect("writes");
+    let mut table =
+        ReactionTable::new("choice.csv", Vec::new(), &built, columns, None).expect("writes");
     let reaction = Reaction::new(SpaceKind::Space3, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], None);
     let none = ChosenValues::new(Vec::new(), Vec::new());
     table

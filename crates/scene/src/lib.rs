@@ -88,7 +88,9 @@ pub use combination::{Combination, CombinationError, CombinationProblem, Term, W
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use language::Units;
 pub use nearest::{ELSEWHERE, nearest};
-pub use reactions::{GroupContent, GroupRequest, Output, WantedBounds, WantedReactions};
+pub use reactions::{
+    GroupContent, GroupRequest, Output, OutputUnits, WantedBounds, WantedReactions,
+};
 pub use read::{read, read_and_build};
 pub use scene::{Inactive, Scene};
 pub use schema::schema;

@@ -22,6 +22,10 @@ pub(crate) struct Names {
     pub(crate) groups: Vec<NameUse>,
     /// The space of the scene, which determines the names of its columns.
     pub(crate) space: SpaceKind,
+    /// Whether there are columns of accelerations and of derivatives of measures.
+    pub(crate) rates: bool,
+    /// Whether there are columns of roll, pitch and yaw.
+    pub(crate) angles: bool,
 }
 
 /// A name and its position in the text.
@@ -39,6 +43,12 @@ impl NameUse {
     }
 }
 
+/// Names of the derivatives of a measure.
+const DERIVATIVES: &[&str] = &["rate", "acceleration"];
+
+/// Names of the angles of an orientation in space.
+const ANGLES: &[&str] = &["roll", "pitch", "yaw"];
+
 /// The name of the time column.
 const TIME: &str = "t";
 
@@ -50,18 +60,26 @@ impl Names {
             elements: Vec::new(),
             groups: Vec::new(),
             space,
+            rates: false,
+            angles: false,
         }
     }
 
     /// Reports measures whose name is also the name of another column of the trajectory.
     fn check_columns(&self, findings: &Findings) {
-        let columns = self.space.columns();
+        let rates = self.space.accelerations().iter().filter(|_| self.rates);
+        let angles = ANGLES.iter().filter(|_| self.angles);
+        let columns = self.space.columns().iter().chain(rates).chain(angles);
+        let columns: Vec<&str> = columns.copied().collect();
+        let of_measures = if self.rates { DERIVATIVES } else { &[] };
         let measures: HashSet<&str> = self.measures.iter().map(|m| m.name.as_str()).collect();
         let places = self.bodies.iter().map(|place| place.name.as_str());
         let places: HashSet<&str> = places.filter(|name| !measures.contains(name)).collect();
         for NameUse { name, span } in &self.measures {
-            let is_column =
-                |(place, column): (&str, &str)| places.contains(place) && columns.contains(&column);
+            let is_column = |(owner, column): (&str, &str)| {
+                places.contains(owner) && columns.contains(&column)
+                    || measures.contains(owner) && of_measures.contains(&column)
+            };
             if name == TIME || name.rsplit_once('.').is_some_and(is_column) {
                 let message =
                     format!("measure `{name}` has the name of another column of `trajectory.csv`");

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use joints::Space3;
 use joints::spec::ConstraintSpec;
 use model::{BodyRef, SpaceKind};
 
@@ -13,7 +14,9 @@ use crate::combination::{self, Combination, Reactions};
 use crate::field::Field;
 use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
-use crate::table::Table;
+use crate::simulate::{Choice, choose};
+use crate::space::SceneSpace;
+use crate::table::{Table, belongs};
 
 /// A combination of reactions for which a uniqueness verdict is requested.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +49,33 @@ pub struct Output {
     pub bounds: Option<WantedBounds>,
     /// Indices of the bodies with a table of all loads, `body_NAME.csv`.
     pub bodies: Vec<usize>,
+    /// Whether `trajectory.csv` contains accelerations and the derivatives of measures.
+    pub accelerations: bool,
+    /// Whether `trajectory.csv` contains orientations in space as roll, pitch and yaw.
+    pub rpy: bool,
+    /// Units of the tables.
+    pub units: OutputUnits,
+}
+
+/// Units of the tables of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OutputUnits {
+    /// Metres and radians; the headers contain no units.
+    #[default]
+    Si,
+    /// The units of lengths and angles that the scene chooses; the headers contain the units.
+    Scene,
+}
+
+impl OutputUnits {
+    const ALL: [Self; 2] = [Self::Si, Self::Scene];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Si => "si",
+            Self::Scene => "scene",
+        }
+    }
 }
 
 /// Requested bounds of the reactions that are not determined.
@@ -67,6 +97,9 @@ impl Default for Output {
             report: true,
             bounds: None,
             bodies: Vec::new(),
+            accelerations: false,
+            rpy: false,
+            units: OutputUnits::Si,
         }
     }
 }
@@ -128,8 +161,37 @@ const BOUNDS: Key = Key::optional(
 const BODIES: Key = Key::optional("bodies", "a list of bodies", Takes::Texts(0))
     .doc("Bodies with a table of all loads, `body_NAME.csv`, for finite elements");
 
+const ACCELERATIONS: Key = Key::optional("accelerations", "true or false", Takes::Flag)
+    .doc("Whether `trajectory.csv` contains accelerations of bodies and markers, and rates of measures")
+    .or(|| Output::default().accelerations.into());
+const RPY: Key = Key::optional("rpy", "true or false", Takes::Flag)
+    .doc("Whether `trajectory.csv` contains the orientations of bodies, and of markers with an `orientation`, as `.roll`, `.pitch` and `.yaw` too: rotations about the fixed axes x, then y, then z; in space")
+    .or(|| Output::default().rpy.into());
+const UNITS: Key = Key::optional(
+    "units",
+    "\"si\" or \"scene\"",
+    Takes::OneOf(|| OutputUnits::ALL.map(OutputUnits::name).to_vec()),
+)
+.doc("Units of the tables: `si`, or those that the scene chooses for lengths and angles, which the headers then contain, as in `crank.x (mm)`")
+.or(|| OutputUnits::default().name().into());
+
+const OUTPUT_UNITS: Choice<OutputUnits> = Choice {
+    key: UNITS,
+    available: &OutputUnits::ALL,
+    name: OutputUnits::name,
+};
+
 /// Keys of `[output]`.
-pub(crate) const OUTPUT_KEYS: [Key; 5] = [TRAJECTORY, REACTIONS, REPORT, BOUNDS, BODIES];
+pub(crate) const OUTPUT_KEYS: [Key; 8] = [
+    TRAJECTORY,
+    ACCELERATIONS,
+    RPY,
+    REACTIONS,
+    REPORT,
+    BOUNDS,
+    UNITS,
+    BODIES,
+];
 
 /// Components that can be requested: force and torque, even if they are identically zero, and the
 /// component named by the definition.
@@ -177,13 +239,26 @@ pub(crate) fn group(mut table: Table, name: &str, names: &Reactions) -> Option<G
 }
 
 /// Reads the section `[output]`.
-pub(crate) fn output(mut table: Table, names: &Reactions, bodies: &BodyNames) -> Output {
+pub(crate) fn output<S: SceneSpace>(
+    mut table: Table,
+    names: &Reactions,
+    bodies: &BodyNames,
+) -> Output {
     let defaults = Output::default();
     let reactions = table.optional(&REACTIONS);
     let reactions = reactions.and_then(|field| match field.value.get_ref().as_bool() {
         Some(true) => Some(WantedReactions::All),
         Some(false) => Some(WantedReactions::None),
         None => members(&field, names).map(WantedReactions::Of),
+    });
+    let rpy = table.optional(&RPY).is_some_and(|field| {
+        let is_wanted = field.boolean() == Some(true);
+        if is_wanted && S::KIND != SpaceKind::Space3 {
+            let message = format!(": {}", belongs("rpy = true", Space3::NAME));
+            let label = "in the plane, an orientation is the column `.angle`";
+            field.error(Mistake::UnknownChoice, message, label);
+        }
+        is_wanted
     });
     let output = Output {
         trajectory: table.flag(&TRAJECTORY).unwrap_or(defaults.trajectory),
@@ -195,6 +270,9 @@ pub(crate) fn output(mut table: Table, names: &Reactions, bodies: &BodyNames) ->
         bodies: table
             .optional(&BODIES)
             .map_or_else(Vec::new, |field| loaded(&field, bodies)),
+        accelerations: table.flag(&ACCELERATIONS).unwrap_or_default(),
+        rpy,
+        units: choose(&mut table, &OUTPUT_UNITS).unwrap_or_default(),
     };
     table.close();
     output

@@ -155,7 +155,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
     let start = section(&mut root, &section::START, &mut sections)
         .map(|table| start::read::<S>(table, &parts.bodies.names));
     let output = section(&mut root, &section::OUTPUT, &mut sections).map(|table| {
-        reactions::output(
+        reactions::output::<S>(
             table,
             &parts.reactions(Participation::Active),
             &parts.bodies.names,
@@ -215,6 +215,10 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
         groups: group_entries,
         sections,
     };
+    if let Some(output) = &output {
+        parts.names.rates = output.accelerations;
+        parts.names.angles = output.rpy;
+    }
     parts.names.check(&source, findings);
     Scene {
         description,

@@ -17,11 +17,11 @@ use crate::nearest::{did_you_mean, list};
 use crate::plausible;
 use crate::table::Table;
 
-/// The values of a key, each with the value of an enum of `dynamics`.
-struct Choice<T: 'static> {
-    key: Key,
-    available: &'static [T],
-    name: fn(T) -> &'static str,
+/// The values of a key, each with the value of an enum.
+pub(crate) struct Choice<T: 'static> {
+    pub(crate) key: Key,
+    pub(crate) available: &'static [T],
+    pub(crate) name: fn(T) -> &'static str,
 }
 
 const METHODS: Choice<Method> = Choice {
@@ -214,7 +214,8 @@ fn max_steps(table: &mut Table) -> Option<u64> {
     steps
 }
 
-fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T> {
+/// Reads the name of a value; an unknown name is reported.
+pub(crate) fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>) -> Option<T> {
     let field = table.optional(&choice.key)?;
     let names = || choice.available.iter().map(|value| (choice.name)(*value));
     let value = field.text(&format!("one of {}", list(names())))?;

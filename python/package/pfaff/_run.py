@@ -109,6 +109,16 @@ class BodyMotion(_Columns):
         """Angular velocities (rad/s): one value per time in the plane, 3 columns in space."""
         return self["omega"] if "omega" in self._numbers else self._of(("wx", "wy", "wz"))
 
+    @property
+    def acceleration(self) -> Array:
+        """Accelerations (m/s²), 2 or 3 columns; ``[output]`` needs ``accelerations = true``."""
+        return self._of(("ax", "ay", "az"))
+
+    @property
+    def angular_acceleration(self) -> Array:
+        """Angular accelerations (rad/s²), as for velocities; needs ``accelerations = true``."""
+        return self["alpha"] if "alpha" in self._numbers else self._of(("alphax", "alphay", "alphaz"))
+
 
 class Reaction(_Columns):
     """The reaction of a joint or drive, on its first body and in ground axes.
@@ -301,10 +311,14 @@ class Run:
         """Returns the motion of a marker."""
         return _named("marker", name, self._markers)
 
-    def measure(self, name: str) -> Array:
-        """Returns a joint coordinate, or the force or torque (N, N·m) of a drive law."""
+    def measure(self, name: str, number: str = "") -> Array:
+        """Returns a joint coordinate, or the force or torque (N, N·m) of a drive law.
+
+        With ``accelerations = true`` in ``[output]``, ``number`` may be ``"rate"`` or
+        ``"acceleration"``, the derivatives of a measure.
+        """
         of = _named("measure", name, self._others)
-        return of[of.columns[0]]
+        return of[number or of.columns[0]]
 
     def reaction(self, name: str) -> Reaction:
         """Returns the reaction of a joint or drive."""

@@ -305,3 +305,25 @@ fn directions_are_checked() {
     assert!(plane(MeasureKind::Inclination([X, Y])) && plane(MeasureKind::Along(Z)));
     assert!(!plane(angle([X, Y], None)) && !plane(MeasureKind::Along(Y)));
 }
+
+#[test]
+fn roll_pitch_and_yaw_are_rotations_about_fixed_axes() {
+    let angles = |rotation: UnitQuaternion<f64>| {
+        let hub = hub(rotation, MeasureKind::Distance).expect("builds");
+        let (q, v) = hub.described_state();
+        hub.frames().marker(0, &q, &v).roll_pitch_yaw()
+    };
+    for [roll, pitch, yaw] in [[0.3, -1.2, 2.9], [-3.0, 0.01, -0.5], [1.0, 1.5, 3.1]] {
+        let found = angles(turned(Z, yaw) * turned(Y, pitch) * turned(X, roll));
+        for (found, expected) in found.into_iter().zip([roll, pitch, yaw]) {
+            assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+        }
+    }
+    // At a pitch of a quarter turn only the difference of roll and yaw is defined.
+    let [roll, pitch, yaw] = angles(turned(Z, 0.7) * turned(Y, FRAC_PI_2) * turned(X, 0.2));
+    assert_eq!(roll, 0.0);
+    assert!((pitch - FRAC_PI_2).abs() < 1e-7 && (yaw - 0.5).abs() < 1e-7);
+    let [roll, pitch, yaw] = angles(turned(Z, 0.7) * turned(Y, -FRAC_PI_2) * turned(X, 0.2));
+    assert_eq!(roll, 0.0);
+    assert!((pitch + FRAC_PI_2).abs() < 1e-7 && (yaw - 0.9).abs() < 1e-7);
+}

@@ -15,7 +15,7 @@ pub fn loads_at(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> LoadsDoc
     let space = mechanism.space();
     let each = loads.forces().zip(&found).map(|((name, measure), load)| {
         let columns = load_columns(space, name, measure);
-        let names = columns.map(|(column, _)| column.number.to_owned());
+        let names = columns.map(|column| column.number.to_owned());
         let numbers = names.zip(load_numbers(space, load));
         (name.to_owned(), ByName(numbers.collect()))
     });

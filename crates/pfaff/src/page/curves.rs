@@ -102,7 +102,7 @@ fn loads<'p>(page: &'p RunPage<'_>) -> impl Iterator<Item = Chart> + 'p {
     let forces = loads.forces().take(LOADS_MAX).enumerate();
     forces.flat_map(move |(k, (name, measure))| {
         let mut charts: Vec<Chart> = Vec::new();
-        for (at, (column, unit)) in load_columns(space, name, measure).enumerate() {
+        for (at, column) in load_columns(space, name, measure).enumerate() {
             let number = |row: &Vec<Load>| load_numbers(space, &row[k]).nth(at);
             let values = rows.iter().map(|row| number(row).unwrap_or(f64::NAN));
             let values: Vec<f64> = values.collect();
@@ -111,11 +111,11 @@ fn loads<'p>(page: &'p RunPage<'_>) -> impl Iterator<Item = Chart> + 'p {
             }
             let curve = (column.number.to_owned(), Channel::new(values.into_iter()));
             match charts.last_mut() {
-                Some(chart) if chart.unit == unit => chart.curves.push(curve),
+                Some(chart) if chart.unit == column.unit => chart.curves.push(curve),
                 _ => charts.push(Chart {
                     place: "load-curves",
                     title: name.to_owned(),
-                    unit,
+                    unit: column.unit,
                     curves: vec![curve],
                 }),
             }

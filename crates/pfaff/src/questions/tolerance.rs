@@ -19,7 +19,7 @@ use crate::tolerance::{
     SAMPLES, ToleranceError, ToleranceOptions, ToleranceResult, ToleranceStudy, Variation,
     VariedText,
 };
-use crate::words::{Block, SceneUnits};
+use crate::words::{Block, SceneUnits, scene_units};
 
 /// Run a Monte-Carlo analysis of the tolerances
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -106,7 +106,7 @@ impl Question for Tolerance {
             e => Refusal::stopped(e.to_string()).coded(e.code()),
         };
         let assembled = of.assembled(control)?;
-        let units = SceneUnits::of(&assembled.scene);
+        let units = scene_units(&assembled.scene);
         let (within, compliance) = (self.within, self.compliance.as_deref());
         let wanted = requested(self.bounds, &self.rigid, within, compliance)?;
         let (scene, mechanism) = (&assembled.scene, &assembled.mechanism);

@@ -5,10 +5,12 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use dynamics::{SceneCode, Stop};
-use report::{OutputDirectory, TrajectoryTable};
+use report::{OutputDirectory, Trajectory, TrajectoryTable};
 
 use super::SweepError;
 use super::run::{MadeRun, PreparedRun};
+use crate::study::{more_columns, table_units};
+use crate::tables_of_run::acceleration;
 
 /// Output of runs in addition to their rows.
 #[derive(Clone, Copy, Debug)]
@@ -72,24 +74,29 @@ impl Job {
         if stop() {
             return Ok(None);
         }
-        let mechanism = &self.begun.study.prepared.mechanism;
+        let study = &self.begun.study;
         let mut table = match &self.folder {
             Some(folder) => {
                 let file = folder.file("trajectory.csv")?;
-                Some(TrajectoryTable::new(file, mechanism)?)
+                let more = more_columns(&study.scene.output);
+                let trajectory = Trajectory::new(&study.prepared.mechanism, more);
+                let units = table_units(&study.scene);
+                Some(TrajectoryTable::new(file, trajectory, units)?)
             }
             None => None,
         };
         let mut unwritten = None;
         let ended = self.begun.go(evaluator, stop, |sample| {
             if let Some(table) = &mut table {
-                unwritten = table.row(sample.t, sample.q, sample.v).err();
+                let a = acceleration(table, sample)?;
+                let written = table.row(sample.t, (sample.q, sample.v), a.as_deref());
+                unwritten = written.err();
             }
-            if unwritten.is_some() {
+            Ok(if unwritten.is_some() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
-            }
+            })
         });
         if let Some(error) = unwritten {
             return Err(error.into());

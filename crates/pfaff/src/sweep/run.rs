@@ -96,7 +96,7 @@ impl PreparedRun {
         &self,
         evaluator: Option<&dyn SceneCode>,
         stop: &Stop<'_>,
-        mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>,
+        mut each: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> MadeRun {
         let mut watch = Watch::new(self);
         // Without redundant rows all reactions are unique.
@@ -104,7 +104,7 @@ impl PreparedRun {
         let elastic = self.study.bounds.as_ref().filter(|_| is_redundant);
         let wanted = OutputRequest {
             rows: Rows::Every,
-            accelerations: false,
+            accelerations: self.study.scene.output.accelerations,
             reactions: match elastic {
                 // The bounds of one reaction depend on the loads of all.
                 Some(_) => Reactions::All,
@@ -135,7 +135,7 @@ impl PreparedRun {
                 if let Some(bounds) = &mut bounds {
                     bounds.see(sample)?;
                 }
-                Ok(each(sample))
+                each(sample)
             };
             match evaluator {
                 Some(evaluator) => plan.simulate_evaluated(evaluator, stop, row),

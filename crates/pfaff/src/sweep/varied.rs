@@ -258,7 +258,7 @@ impl<'r> Sweep<'r> {
         match self.begin(run) {
             Ok(begun) => self.row_of(
                 run,
-                begun.go(None, &|| false, |_| ControlFlow::Continue(())),
+                begun.go(None, &|| false, |_| Ok(ControlFlow::Continue(()))),
             ),
             Err(error) => self.refused(run, &error),
         }

@@ -1,6 +1,7 @@
 //! Tables of answers: cells with texts and quantities, units of columns, and the layout as text.
 
 use model::words::{Prefix, short};
+use report::SceneUnits;
 use scene::{Scene, Units, WithUnit};
 
 /// Numbers below this fraction of the largest number of their column and unit are rounding errors
@@ -35,41 +36,17 @@ impl<T: Into<String>> From<T> for Cell {
     }
 }
 
-/// Units of lengths and angles that a scene chooses, with their values in metres and radians;
-/// `None` for SI units.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SceneUnits {
-    /// Unit of lengths.
-    pub length: Option<(&'static str, f64)>,
-    /// Unit of angles.
-    pub angle: Option<(&'static str, f64)>,
-}
-
-impl SceneUnits {
-    /// Returns the units of a scene.
-    #[must_use]
-    pub fn of(scene: &Scene) -> Self {
-        let value = |unit: &'static str, si: &str| {
-            let text = format!("1 {unit}");
-            let of = WithUnit::read(&text).filter(|_| unit != si)?;
-            Some((unit, of.in_si(1.0)))
-        };
-        Self {
-            length: value(scene.units.length, Units::SI.length),
-            angle: value(scene.units.angle, Units::SI.angle),
-        }
-    }
-
-    /// Returns the unit of the scene for an SI unit, and its value in the SI unit.
-    #[must_use]
-    pub fn unit(&self, si: &str) -> Option<(String, f64)> {
-        let (base, rest) = si.split_at(si.find('/').unwrap_or(si.len()));
-        let (name, value) = match base {
-            "m" => self.length?,
-            "rad" => self.angle?,
-            _ => return None,
-        };
-        Some((format!("{name}{rest}"), value))
+/// Returns the units that a scene chooses.
+#[must_use]
+pub fn scene_units(scene: &Scene) -> SceneUnits {
+    let value = |unit: &'static str, si: &str| {
+        let text = format!("1 {unit}");
+        let of = WithUnit::read(&text).filter(|_| unit != si)?;
+        Some((unit, of.in_si(1.0)))
+    };
+    SceneUnits {
+        length: value(scene.units.length, Units::SI.length),
+        angle: value(scene.units.angle, Units::SI.angle),
     }
 }
 

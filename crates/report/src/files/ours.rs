@@ -71,7 +71,7 @@ fn is_table(header: &str) -> bool {
     let mut names = header.split(',');
     match names.next() {
         // Measures at the end of a header have arbitrary names.
-        Some("t") => names.next().is_none_or(|name| name.contains('.')),
+        Some("t" | "t (s)") => names.next().is_none_or(|name| name.contains('.')),
         Some("sample") => names.next() == Some("status"),
         Some("run") => names.any(|name| name == "status"),
         // Matrices of a linearised motion, with the names of their columns.

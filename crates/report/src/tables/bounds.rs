@@ -7,6 +7,7 @@ use std::io::{self, BufRead, Write};
 use solvability::{Stretches, VerdictTrack};
 
 use super::{ReactionColumn, Table, TableError};
+use crate::units::SceneUnits;
 
 /// Name of the table.
 const NAME: &str = "bounds.csv";
@@ -23,15 +24,18 @@ impl<W: Write> BoundsTable<W> {
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
-    pub fn new(out: W, columns: &[ReactionColumn]) -> Result<Self, TableError> {
-        let names = columns.iter().flat_map(|column| {
+    pub fn new(
+        out: W,
+        columns: &[ReactionColumn],
+        units: Option<SceneUnits>,
+    ) -> Result<Self, TableError> {
+        let columns = columns.iter().flat_map(|column| {
             let name = column.name();
-            ["lowest", "highest"].map(|end| format!("{name}.{end}"))
+            ["lowest", "highest"].map(|end| (format!("{name}.{end}"), column.column.unit))
         });
-        let header: Vec<String> = std::iter::once("t".to_owned()).chain(names).collect();
         Ok(Self {
-            table: Table::new(NAME, out, &header)?,
-            values: Vec::with_capacity(header.len()),
+            table: Table::over_time(NAME, out, columns, units)?,
+            values: Vec::new(),
         })
     }
 

@@ -5,6 +5,7 @@ use std::io::Write;
 use model::{ForceMeasure, Load, Loads, SpaceKind};
 
 use super::{Column, Table, TableError};
+use crate::units::SceneUnits;
 
 /// Name of the table.
 const NAME: &str = "loads.csv";
@@ -14,19 +15,16 @@ pub fn load_columns(
     space: SpaceKind,
     name: &str,
     measure: Option<ForceMeasure>,
-) -> impl Iterator<Item = (Column, &'static str)> {
+) -> impl Iterator<Item = Column> {
     let components = space.components().iter();
     let components = components.map(move |own| (*own, space.load_unit(own).unwrap_or_default()));
     let measured = measure.map(|of| of.names().into_iter().zip(of.units()));
     let owner = name.to_owned();
-    let column = move |(number, unit)| {
-        let owner = owner.clone();
-        let column = Column {
-            owner,
-            kind: "force",
-            number,
-        };
-        (column, unit)
+    let column = move |(number, unit)| Column {
+        owner: owner.clone(),
+        kind: "force",
+        number,
+        unit,
     };
     let all = components.chain(measured.into_iter().flatten());
     all.map(column)
@@ -53,15 +51,19 @@ impl<W: Write> LoadTable<W> {
     ///
     /// # Errors
     /// - [`TableError::Write`]: the writer failed.
-    pub fn new(out: W, space: SpaceKind, loads: &Loads<'_>) -> Result<Self, TableError> {
+    pub fn new(
+        out: W,
+        space: SpaceKind,
+        loads: &Loads<'_>,
+        units: Option<SceneUnits>,
+    ) -> Result<Self, TableError> {
         let all = loads.forces();
         let columns = all.flat_map(|(name, measure)| load_columns(space, name, measure));
-        let names = columns.map(|(column, _)| column.to_string());
-        let header: Vec<String> = std::iter::once("t".to_owned()).chain(names).collect();
+        let columns = columns.map(|column| (column.to_string(), column.unit));
         Ok(Self {
-            table: Table::new(NAME, out, &header)?,
+            table: Table::over_time(NAME, out, columns, units)?,
             space,
-            values: Vec::with_capacity(header.len()),
+            values: Vec::new(),
         })
     }
 

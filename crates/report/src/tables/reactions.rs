@@ -9,6 +9,7 @@ use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
 use solvability::{ChosenValues, Group, Stretches, Value, VerdictTrack};
 
 use super::{Column, Table, TableError};
+use crate::units::SceneUnits;
 
 /// The joints and drives that are written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -55,6 +56,7 @@ pub fn reaction_columns(mechanism: &Mechanism, place: usize) -> Vec<Column> {
             owner: group.name.clone(),
             kind: "reaction",
             number,
+            unit: mechanism.layout().load_unit(ConstraintId(place), number),
         })
         .collect()
 }
@@ -151,6 +153,10 @@ pub fn columns_of_reactions(
                 owner: name.clone(),
                 kind: "group",
                 number,
+                unit: match mechanism.space().load_unit(number) {
+                    Some(unit) => unit,
+                    None => group.unit(mechanism.layout()).unwrap_or_default(),
+                },
             };
             (Quantity::Group(k, number), column)
         }));
@@ -186,13 +192,15 @@ impl<W: Write> ReactionTable<W> {
         out: W,
         mechanism: &Mechanism,
         columns: Vec<ReactionColumn>,
+        units: Option<SceneUnits>,
     ) -> Result<Self, TableError> {
-        let header = header(&columns);
+        let named = columns.iter();
+        let named = named.map(|column| (column.name(), column.column.unit));
         Ok(Self {
-            table: Table::new(name, out, &header)?,
+            table: Table::over_time(name, out, named, units)?,
             n_reactions: mechanism.layout().groups.len(),
             space: mechanism.space(),
-            values: Vec::with_capacity(header.len()),
+            values: Vec::with_capacity(columns.len() + 1),
             columns,
         })
     }
@@ -248,11 +256,6 @@ fn component(reaction: &Reaction, space: SpaceKind, name: &str) -> f64 {
         Some(k) => reaction.components(space).nth(k).unwrap_or(f64::NAN),
         None => reaction.component.unwrap_or(f64::NAN),
     }
-}
-
-fn header(columns: &[ReactionColumn]) -> Vec<String> {
-    let names = columns.iter().map(ReactionColumn::name);
-    std::iter::once("t".to_owned()).chain(names).collect()
 }
 
 /// Copies a table of all values. Values that are not determined on their interval, and values that

@@ -9,8 +9,8 @@ use model::{
 use solvability::{ChosenValues, Group, Stretches, Term, Verdict, VerdictStretch, VerdictTrack};
 
 use super::{
-    Quantity, ReactionTable, Selection, TableError, TrajectoryTable, columns_of_reactions,
-    write_chosen, write_determined,
+    MoreColumns, Quantity, ReactionTable, Selection, TableError, Trajectory, TrajectoryTable,
+    columns_of_reactions, write_chosen, write_determined,
 };
 
 /// A driven wheel carrier with a knife edge, and names that need quotes.
@@ -49,7 +49,7 @@ fn carrier() -> Mechanism {
 /// A table of all values of these reactions.
 fn table(mechanism: &Mechanism, selection: &Selection) -> ReactionTable<Vec<u8>> {
     let columns = columns_of_reactions(mechanism, selection, &[], |_| false).expect("exist");
-    ReactionTable::new("choice.csv", Vec::new(), mechanism, columns).expect("writes")
+    ReactionTable::new("choice.csv", Vec::new(), mechanism, columns, None).expect("writes")
 }
 
 /// The written text of a row without groups.
@@ -67,9 +67,14 @@ fn text(bytes: Vec<u8>) -> String {
 #[test]
 fn trajectory_has_the_header_of_the_contract() {
     let carrier = carrier();
-    let mut table = TrajectoryTable::new(Vec::new(), &carrier).expect("writes");
+    let mut table = TrajectoryTable::new(
+        Vec::new(),
+        Trajectory::new(&carrier, MoreColumns::default()),
+        None,
+    )
+    .expect("writes");
     let (q, v) = ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [0.5; 6]);
-    table.row(0.1, &q, &v).expect("writes");
+    table.row(0.1, (&q, &v), None).expect("writes");
     let expected = "t,base.x,base.y,base.angle,base.vx,base.vy,base.omega,\
                     \"arm, left.x\",\"arm, left.y\",\"arm, left.angle\",\
                     \"arm, left.vx\",\"arm, left.vy\",\"arm, left.omega\"\n\
@@ -116,7 +121,7 @@ fn cells_are_empty_where_nothing_is_determined() {
     };
     let columns = columns_of_reactions(&carrier, &only, &groups, is_fragile).expect("exist");
     let mut table =
-        ReactionTable::new("choice.csv", Vec::new(), &carrier, columns).expect("writes");
+        ReactionTable::new("choice.csv", Vec::new(), &carrier, columns, None).expect("writes");
     let row = ChosenValues::new(reactions().to_vec(), vec![1]);
     for (t, sum) in [(0.0, 16.0), (1.0, f64::NAN), (2.0, 17.0)] {
         let sum = ChosenValues::new(vec![sum], vec![1]);
@@ -139,8 +144,8 @@ fn cells_are_empty_where_nothing_is_determined() {
     assert_eq!(text(determined), expected);
     // In the table of one solution for the multipliers, the cells that are not determined have the
     // values of this solution. All other cells are unchanged.
-    let mut table =
-        ReactionTable::new("choice.csv", Vec::new(), &carrier, columns.clone()).expect("writes");
+    let mut table = ReactionTable::new("choice.csv", Vec::new(), &carrier, columns.clone(), None)
+        .expect("writes");
     let row = ChosenValues::new(
         reactions()
             .map(|r| Reaction {
@@ -181,8 +186,15 @@ fn unknown_names_and_foreign_rows_are_refused() {
         "no joint or drive is called `wheel`; there are: pin, motor, blade"
     );
     let carrier = carrier();
-    let mut table = TrajectoryTable::new(Vec::new(), &carrier).expect("writes");
-    let error = table.row(2.5, &[0.0; 3], &[0.0; 6]).expect_err("too few");
+    let mut table = TrajectoryTable::new(
+        Vec::new(),
+        Trajectory::new(&carrier, MoreColumns::default()),
+        None,
+    )
+    .expect("writes");
+    let error = table
+        .row(2.5, (&[0.0; 3], &[0.0; 6]), None)
+        .expect_err("too few");
     assert_eq!(
         error.to_string(),
         "trajectory.csv: 3 coordinates at t = 2.5 s, the mechanism has 6"
@@ -208,8 +220,15 @@ fn numbers_read_back_to_the_same_bits() {
         1e22,
     ];
     let carrier = carrier();
-    let mut table = TrajectoryTable::new(Vec::new(), &carrier).expect("writes");
-    table.row(9.0, &values[..6], &values[6..]).expect("writes");
+    let mut table = TrajectoryTable::new(
+        Vec::new(),
+        Trajectory::new(&carrier, MoreColumns::default()),
+        None,
+    )
+    .expect("writes");
+    table
+        .row(9.0, (&values[..6], &values[6..]), None)
+        .expect("writes");
     let written = text(table.finish().expect("writes"));
     let mut reader = csv::Reader::from_reader(written.as_bytes());
     let row: Vec<f64> = reader
@@ -231,8 +250,15 @@ fn numbers_read_back_to_the_same_bits() {
 #[test]
 fn what_does_not_exist_is_nan() {
     let carrier = carrier();
-    let mut table = TrajectoryTable::new(Vec::new(), &carrier).expect("writes");
-    table.row(0.0, &[f64::NAN; 6], &[0.0; 6]).expect("writes");
+    let mut table = TrajectoryTable::new(
+        Vec::new(),
+        Trajectory::new(&carrier, MoreColumns::default()),
+        None,
+    )
+    .expect("writes");
+    table
+        .row(0.0, (&[f64::NAN; 6], &[0.0; 6]), None)
+        .expect("writes");
     let written = text(table.finish().expect("writes"));
     let row = written.lines().nth(1).expect("one row");
     assert!(row.starts_with("0.0,NaN,NaN,NaN,0.0,"), "{row}");
@@ -253,10 +279,15 @@ impl std::io::Write for Full {
 #[test]
 fn a_full_disk_is_an_error_of_the_table() {
     let carrier = carrier();
-    let mut table = TrajectoryTable::new(Full, &carrier).expect("still in the buffer");
+    let mut table = TrajectoryTable::new(
+        Full,
+        Trajectory::new(&carrier, MoreColumns::default()),
+        None,
+    )
+    .expect("still in the buffer");
     let mut written = Ok(());
     for k in 0..10_000 {
-        written = table.row(f64::from(k), &[0.1; 6], &[0.1; 6]);
+        written = table.row(f64::from(k), (&[0.1; 6], &[0.1; 6]), None);
         if written.is_err() {
             break;
         }

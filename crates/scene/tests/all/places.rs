@@ -1,7 +1,8 @@
 //! Tests frames away from the centre of mass, markers and joint coordinates, with their values and
 //! their errors.
 
-use model::{BodyRef, MeasureKind, ToleranceScope};
+use model::{AnyDescription, BodyRef, MeasureKind, ToleranceScope};
+use pfaff_scene::OutputUnits;
 
 use crate::diagnostics::check_in;
 use crate::{assert_close, read};
@@ -150,6 +151,156 @@ fn markers_and_measures_are_read() {
             (MeasureKind::ANGLE, [None, Some(1)])
         ]
     );
+}
+
+/// A wheel on a hub in space, with the angles of its axis y.
+const HUB: &str = r#"[scene]
+name = "hub"
+space = "spatial"
+
+[[body]]
+name = "hub"
+mass = 1.0
+inertia = [0.1, 0.1, 0.1]
+
+[[marker]]
+name = "wheel"
+body = "hub"
+point = [0.0, 0.0, 0.0]
+
+[[measure]]
+name = "toe"
+type = "angle"
+markers = ["wheel"]
+axes = ["y", "y"]
+about = "z"
+
+[[measure]]
+name = "camber"
+type = "inclination"
+markers = ["wheel"]
+axes = ["z", [0, 2, 0.5]]
+
+[[measure]]
+name = "bend"
+type = "angle"
+markers = ["ground", "wheel"]
+axes = [[1, 0, 0], "z"]
+
+[[measure]]
+name = "track"
+type = "along"
+markers = ["wheel"]
+axis = [3, 4, 0]
+
+[simulate]
+t_end = 1.0
+
+[output]
+accelerations = true
+rpy = true
+units = "scene"
+"#;
+
+#[test]
+fn measures_have_directions() {
+    let scene = read(HUB).expect("a scene");
+    let AnyDescription::Space3(spatial) = &scene.description else {
+        panic!("a spatial scene");
+    };
+    let observed = &spatial.observed;
+    let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let angle = |directions, about| MeasureKind::Angle { directions, about };
+    let kinds: Vec<_> = observed.measures.iter().map(|m| m.kind).collect();
+    assert_eq!(
+        kinds,
+        [
+            angle([y, y], Some(z)),
+            MeasureKind::Inclination([z, [0.0, 2.0, 0.5]]),
+            angle([x, z], None),
+            MeasureKind::Along([3.0, 4.0, 0.0]),
+        ]
+    );
+    let output = &scene.output;
+    assert!(output.accelerations && output.rpy && output.units == OutputUnits::Scene);
+    // In the plane the directions have two components, and `along` and `angle` take them.
+    let planar = SCENE
+        .replace(
+            "type = \"distance\"\nmarkers",
+            "type = \"along\"\naxis = [0.6, -0.8]\nmarkers",
+        )
+        .replace(
+            "markers = [\"tip\"]",
+            "markers = [\"tip\"]\naxes = [[0, 1], \"x\"]",
+        );
+    let scene = read(&planar).expect("a scene");
+    let observed = &scene.description.plane().expect("a planar scene").observed;
+    let kinds: Vec<_> = observed.measures.iter().map(|m| m.kind).collect();
+    let along = MeasureKind::Along([0.6, -0.8, 0.0]);
+    assert_eq!(kinds, [along, angle([y, x], None)]);
+}
+
+#[test]
+fn directions_of_measures_that_make_no_sense_are_refused() {
+    check_in(
+        HUB,
+        &[
+            (
+                "type = \"along\"\nmarkers = [\"wheel\"]\naxis = [3, 4, 0]",
+                "type = \"along\"\nmarkers = [\"wheel\"]\naxis = «[0, 0, 0]»",
+                "measure `track`: a direction needs finite components that are not all zero",
+                "no such measure",
+            ),
+            (
+                "axes = [\"y\", \"y\"]",
+                "axes = «[\"z\", \"y\"]»",
+                "measure `toe`: its first direction must not be parallel to `about`",
+                "no such measure",
+            ),
+            (
+                "axes = [\"y\", \"y\"]",
+                "axes = [\"y\", «\"w\"»]",
+                "measure `toe`: `axes` names the unknown axis `w`",
+                "no such axis",
+            ),
+            (
+                "axes = [\"y\", \"y\"]",
+                "axes = «[\"y\"]»",
+                "measure `toe`: `axes` must be two directions [\"x\", \"y\"], each an axis or a vector, found a list of 1 value",
+                "expected two directions [\"x\", \"y\"], each an axis or a vector",
+            ),
+            (
+                "about = \"z\"",
+                "about = «3»",
+                "measure `toe`: `about` must be an axis \"x\" or a vector, found the number 3",
+                "expected an axis \"x\" or a vector",
+            ),
+            (
+                "axis = [3, 4, 0]",
+                "axis = «[3, 4]»",
+                "measure `track`: `axis` must be an axis \"x\" or a vector, found a list of 2 values",
+                "expected an axis \"x\" or a vector",
+            ),
+            (
+                "units = \"scene\"",
+                "units = «\"mm\"»",
+                "`[output]`: `units` `mm` is unknown",
+                "no such choice",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn names_of_derivatives_are_reserved_if_they_are_written() {
+    let taken = HUB.replace("\"camber\"", "\"toe.rate\"");
+    assert!(read(&taken).is_err());
+    assert!(read(&taken.replace("accelerations = true", "")).is_ok());
+    assert!(read(&format!("{SCENE}\n[output]\nrpy = true\n")).is_err());
+    assert!(read(&format!("{SCENE}\n[output]\nrpy = false\n")).is_ok());
+    let taken = HUB.replace("\"camber\"", "\"hub.yaw\"");
+    assert!(read(&taken).is_err());
+    assert!(read(&taken.replace("rpy = true", "")).is_ok());
 }
 
 /// The tolerance of a marker applies to its points. It takes precedence over the tolerances of body

@@ -120,7 +120,7 @@ combine = "W3.N + 2*W4.N - steering.drive"
             reactions: pfaff_scene::WantedReactions::Of(vec!["steering".into(), "W3".into()]),
             report: false,
             bounds: None,
-            bodies: Vec::new(),
+            ..Output::default()
         }
     );
     assert_eq!(

@@ -7,7 +7,9 @@ use pfaff::Study;
 use pfaff::dynamics::{Misfit, Sample, Stabilisation};
 use pfaff::model::start::scene_size;
 use pfaff::model::{Mechanism, Scratch, System};
-use pfaff::report::{ReactionTable, Selection, TrajectoryTable, columns_of_reactions};
+use pfaff::report::{
+    MoreColumns, ReactionTable, Selection, Trajectory, TrajectoryTable, columns_of_reactions,
+};
 use pfaff::solvability::ChosenValues;
 
 use super::reach::{ROWS, Reach, STEPS, named};
@@ -40,11 +42,15 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
         }
     };
     let mechanism = &study.prepared.mechanism;
-    let mut trajectory =
-        TrajectoryTable::new(Vec::new(), mechanism).expect("a vector takes everything");
+    let mut trajectory = TrajectoryTable::new(
+        Vec::new(),
+        Trajectory::new(mechanism, MoreColumns::default()),
+        None,
+    )
+    .expect("a vector takes everything");
     let columns = columns_of_reactions(mechanism, &Selection::All, &[], |_| false);
     let columns = columns.expect("all of them");
-    let mut reactions = ReactionTable::new("choice.csv", Vec::new(), mechanism, columns)
+    let mut reactions = ReactionTable::new("choice.csv", Vec::new(), mechanism, columns, None)
         .expect("a vector takes everything");
     let no_groups = ChosenValues::new(Vec::new(), Vec::new());
     let mut checked = Rows {
@@ -70,7 +76,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
         rows += 1;
         checked.row(sample);
         trajectory
-            .row(sample.t, sample.q, sample.v)
+            .row(sample.t, (sample.q, sample.v), None)
             .expect("a vector takes everything");
         let forces = sample.reactions()?;
         reactions

@@ -9,7 +9,7 @@ use serde::Serialize;
 use solvability::{ReactionValues, ReactionVerdict, Sensitivities, Value};
 
 use crate::study::Study;
-use crate::words::SceneUnits;
+use crate::words::{SceneUnits, scene_units};
 
 /// An equilibrium of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -153,7 +153,7 @@ impl EquilibriumAnswer {
             loads: loads_at(mechanism, x.time, &x.q, &vec![0.0; mechanism.layout().n_v]),
             file: None,
             text_at_rest: String::new(),
-            units: SceneUnits::of(&study.scene),
+            units: scene_units(&study.scene),
         }
     }
 }
