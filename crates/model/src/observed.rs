@@ -183,7 +183,7 @@ impl MeasureKind {
             Self::X => "x",
             Self::Y => "y",
             Self::Z => "z",
-            Self::Along(_) => "along",
+            Self::Along(_) => "component",
             Self::Speed => "speed",
             Self::AngularVelocity => "angular-velocity",
         }

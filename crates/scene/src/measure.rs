@@ -16,9 +16,9 @@ use crate::space::SceneSpace;
 use crate::table::Table;
 
 const KIND: Key = Key::required(TYPE, "what is measured", Takes::OneOf(in_plane))
-    .doc("What is measured, of the second marker relative to the first: `distance` (m); `angle` between their axes, not reduced to one revolution (rad); `x` and `y` in the axes of the first, and `along` a direction (m); `speed` as seen from the first (m/s); `angular-velocity` (rad/s)");
+    .doc("What is measured, of the second marker relative to the first: `distance` (m); `angle` between their axes, not reduced to one revolution (rad); `x` and `y` in the axes of the first, and the `component` along an axis (m); `speed` as seen from the first (m/s); `angular-velocity` (rad/s)");
 const SPATIAL_KIND: Key = Key::required(TYPE, "what is measured", Takes::OneOf(in_space))
-    .doc("What is measured, of the second marker relative to the first: `distance` (m); `angle` between directions, `inclination` of a direction to a plane (rad); `x`, `y` and `z` in the axes of the first, and `along` a direction (m); `speed` as seen from the first (m/s); `angular-velocity`, its size (rad/s)");
+    .doc("What is measured, of the second marker relative to the first: `distance` (m); `angle` between directions, `inclination` of a direction to a plane (rad); `x`, `y` and `z` in the axes of the first, and the `component` along an axis (m); `speed` as seen from the first (m/s); `angular-velocity`, its size (rad/s)");
 const MARKERS: Key = Key::required(
     "markers",
     "one or two markers [\"a\", \"b\"]",
@@ -36,7 +36,7 @@ const DIRECTIONS: &str = "two directions [\"x\", \"y\"], each an axis or a vecto
 pub(crate) fn keys(space: SpaceKind) -> Vec<Key> {
     let n = space.n_translations();
     let axis = Key::optional(AXIS, DIRECTION, Takes::Direction(n))
-        .doc("Direction of the measure `along`, in the axes of the first marker");
+        .doc("Direction of a `component`, in the axes of the first marker");
     let axes = Key::optional(AXES, DIRECTIONS, Takes::Directions(n));
     match space {
         SpaceKind::Space3 => vec![
@@ -96,9 +96,9 @@ pub(crate) fn read<S: SceneSpace>(
 
 /// Reads the directions of a measure of this kind.
 fn directed<S: SceneSpace>(table: &mut Table, kind: MeasureKind) -> Option<MeasureKind> {
-    let along = MeasureKind::Along([1.0; 3]).name();
+    let component = MeasureKind::Along([1.0; 3]).name();
     match kind {
-        MeasureKind::Along(_) if kind.name() == along => {
+        MeasureKind::Along(_) if kind.name() == component => {
             let axis = table.needed(AXIS, DIRECTION)?;
             direction::<S>(&axis).map(MeasureKind::Along)
         }

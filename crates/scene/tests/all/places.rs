@@ -189,7 +189,7 @@ axes = [[1, 0, 0], "z"]
 
 [[measure]]
 name = "track"
-type = "along"
+type = "component"
 markers = ["wheel"]
 axis = [3, 4, 0]
 
@@ -223,11 +223,11 @@ fn measures_have_directions() {
     );
     let output = &scene.output;
     assert!(output.accelerations && output.rpy && output.units == OutputUnits::Scene);
-    // In the plane the directions have two components, and `along` and `angle` take them.
+    // In the plane the directions have two components, and `component` and `angle` take them.
     let planar = SCENE
         .replace(
             "type = \"distance\"\nmarkers",
-            "type = \"along\"\naxis = [0.6, -0.8]\nmarkers",
+            "type = \"component\"\naxis = [0.6, -0.8]\nmarkers",
         )
         .replace(
             "markers = [\"tip\"]",
@@ -246,8 +246,8 @@ fn directions_of_measures_that_make_no_sense_are_refused() {
         HUB,
         &[
             (
-                "type = \"along\"\nmarkers = [\"wheel\"]\naxis = [3, 4, 0]",
-                "type = \"along\"\nmarkers = [\"wheel\"]\naxis = «[0, 0, 0]»",
+                "type = \"component\"\nmarkers = [\"wheel\"]\naxis = [3, 4, 0]",
+                "type = \"component\"\nmarkers = [\"wheel\"]\naxis = «[0, 0, 0]»",
                 "measure `track`: a direction needs finite components that are not all zero",
                 "no such measure",
             ),
