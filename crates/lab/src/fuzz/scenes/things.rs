@@ -66,10 +66,38 @@ pub(super) fn marker(draft: &mut Draft, values: &mut Values<'_>) {
 /// Adds the table `[[measure]]` between markers.
 pub(super) fn measure(draft: &mut Draft, values: &mut Values<'_>) {
     let kinds = match draft.space {
-        Space::Plane => ["distance", "x", "y", "speed", "angle", "angular-velocity"],
-        Space::Space => ["distance", "x", "y", "speed", "z", "angular-velocity"],
+        Space::Plane => [
+            "distance",
+            "x",
+            "component",
+            "speed",
+            "angle",
+            "angular-velocity",
+        ],
+        Space::Space => [
+            "distance",
+            "inclination",
+            "component",
+            "speed",
+            "angle",
+            "z",
+        ],
     };
     let kind = values.one(&kinds);
+    let directions = match (kind, draft.space) {
+        ("component", _) => format!("\naxis = {}", values.direction()),
+        ("angle", Space::Plane) => String::new(),
+        ("angle" | "inclination", _) => {
+            let (first, second) = (values.direction(), values.direction());
+            let about = if kind == "angle" && values.numbers.once_in(2) {
+                format!("\nabout = {}", values.direction())
+            } else {
+                String::new()
+            };
+            format!("\naxes = [{first}, {second}]{about}")
+        }
+        _ => String::new(),
+    };
     let k = draft.text.len();
     let name = values.name("q", k);
     let count = draft.markers.len();
@@ -88,7 +116,7 @@ pub(super) fn measure(draft: &mut Draft, values: &mut Values<'_>) {
         format!("{first}, {second}")
     };
     draft.line(&format!(
-        "[[measure]]\nname = {name}\ntype = \"{kind}\"\nmarkers = [{markers}]"
+        "[[measure]]\nname = {name}\ntype = \"{kind}\"\nmarkers = [{markers}]{directions}"
     ));
 }
 
@@ -186,7 +214,7 @@ pub(super) fn wishes(draft: &mut Draft, values: &mut Values<'_>) {
     }
     if values.numbers.once_in(6) {
         draft.line(&format!(
-            "[output]\nreactions = {}\ntrajectory = {}",
+            "[output]\nreactions = {}\naccelerations = true\ntrajectory = {}",
             values.one(&["true", "false"]),
             values.one(&["true", "false"])
         ));

@@ -7,10 +7,9 @@ use pfaff::Study;
 use pfaff::dynamics::{Misfit, Sample, Stabilisation};
 use pfaff::model::start::scene_size;
 use pfaff::model::{Mechanism, Scratch, System};
-use pfaff::report::{
-    MoreColumns, ReactionTable, Selection, Trajectory, TrajectoryTable, columns_of_reactions,
-};
+use pfaff::report::{ReactionTable, Selection, Trajectory, TrajectoryTable, columns_of_reactions};
 use pfaff::solvability::ChosenValues;
+use pfaff::study::more_columns;
 
 use super::reach::{ROWS, Reach, STEPS, named};
 
@@ -44,7 +43,7 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
     let mechanism = &study.prepared.mechanism;
     let mut trajectory = TrajectoryTable::new(
         Vec::new(),
-        Trajectory::new(mechanism, MoreColumns::default()),
+        Trajectory::new(mechanism, more_columns(&study.scene.output)),
         None,
     )
     .expect("a vector takes everything");
@@ -75,8 +74,12 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
     let outcome = plan.simulate_watched(&watch, &|| false, |sample| {
         rows += 1;
         checked.row(sample);
+        let has_accelerations = trajectory.has_accelerations();
+        let a = has_accelerations
+            .then(|| sample.acceleration())
+            .transpose()?;
         trajectory
-            .row(sample.t, (sample.q, sample.v), None)
+            .row(sample.t, (sample.q, sample.v), a.as_deref())
             .expect("a vector takes everything");
         let forces = sample.reactions()?;
         reactions
