@@ -15,8 +15,8 @@ use crate::observed::{Marker, Measure, MeasureKind, Observables, are_parallel, u
 use crate::space::{SpaceKind, cross, difference, dot, norm, normalised, quaternion_product};
 use crate::system::System;
 
-/// Position, velocity and acceleration, in ground axes, of a point of a body or of the origin of its
-/// frame.
+/// Position, velocity and acceleration, in ground axes, of a point of a body or of the origin of
+/// its frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrameState {
     /// The space of the mechanism.
