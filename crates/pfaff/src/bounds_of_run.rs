@@ -28,8 +28,7 @@ use crate::elasticity::{assumption, centres};
 use crate::error::StudyError;
 use crate::page::Band;
 use crate::rows::{RowFault, RowSink};
-use crate::study::table_units;
-use crate::tables_of_run::{TableRows, finished};
+use crate::tables_of_run::{TableRows, finished, table_units};
 use crate::words::{Block, Cell, count};
 
 /// File name of the table.

@@ -22,10 +22,10 @@ use model::{
     StartError, StartPose, System,
 };
 use report::{
-    Family, MoreColumns, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, SceneUnits,
-    Selection, TableError, Trajectory, TrajectoryTable, columns_of_reactions, write_json,
+    Family, MoreColumns, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, Selection,
+    TableError, Trajectory, TrajectoryTable, columns_of_reactions, write_json,
 };
-use scene::{KeyError, Output, OutputUnits, Scene, WantedReactions};
+use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
     Choice, ChosenValues, Contradiction, Elasticity, Freedoms, Group, GroupNumbers,
     GroupSensitivities, NamedChoice, ReactionVerdict, Sensitivities, Sensitivity, State, Stretches,
@@ -44,10 +44,9 @@ use crate::rows::{Calling, RowFault, RowSink, RunEnd, run_into};
 use crate::run_options::RunOptions;
 use crate::spread::Path;
 use crate::tables_of_run::{
-    ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of,
+    ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of, table_units,
 };
 use crate::within::missed;
-use crate::words::scene_units;
 
 /// Largest number of rows of a mechanism for which an animation has additional rows between those
 /// of the tables.
@@ -1174,14 +1173,6 @@ pub fn more_columns(output: &Output) -> MoreColumns {
     MoreColumns {
         accelerations: output.accelerations,
         angles: output.rpy,
-    }
-}
-
-/// Returns the units of the tables of a run; `None` for SI units.
-pub(crate) fn table_units(scene: &Scene) -> Option<SceneUnits> {
-    match scene.output.units {
-        OutputUnits::Si => None,
-        OutputUnits::Scene => Some(scene_units(scene)),
     }
 }
 

@@ -18,10 +18,12 @@ use report::{
     FileError, OutputDirectory, OutputFile, Peak, PeakRecorder, ReactionColumn, ReactionTable,
     SceneUnits, TableError, TrajectoryTable, write_chosen, write_determined,
 };
+use scene::{OutputUnits, Scene};
 use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
 
 use crate::error::StudyError;
 use crate::rows::{RowFault, RowSink};
+use crate::words::scene_units;
 
 /// Selects the rows of a run that belong to its tables: an animation may need more rows.
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +48,14 @@ impl TableRows {
         let is_one = self.seen.is_multiple_of(self.between) || t >= self.t_end;
         self.seen += 1;
         is_one
+    }
+}
+
+/// Returns the units of the tables of a run; `None` for SI units.
+pub(crate) fn table_units(scene: &Scene) -> Option<SceneUnits> {
+    match scene.output.units {
+        OutputUnits::Si => None,
+        OutputUnits::Scene => Some(scene_units(scene)),
     }
 }
 

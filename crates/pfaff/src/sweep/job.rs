@@ -9,8 +9,9 @@ use report::{OutputDirectory, Trajectory, TrajectoryTable};
 
 use super::SweepError;
 use super::run::{MadeRun, PreparedRun};
-use crate::study::{more_columns, table_units};
+use crate::study::more_columns;
 use crate::tables_of_run::acceleration;
+use crate::tables_of_run::table_units;
 
 /// Output of runs in addition to their rows.
 #[derive(Clone, Copy, Debug)]
