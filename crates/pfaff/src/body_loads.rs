@@ -206,7 +206,7 @@ impl RowSink for BodyLoads<'_> {
             let t = line.split(',').next().and_then(|t| t.parse().ok());
             t.is_none_or(|t: f64| tracks.iter().all(|track| track.at(t).is_unique()))
         };
-        let mut out = self.directory.file(&body_file(self.mechanism, self.body))?;
+        let mut out = self.directory.file(body_file(self.mechanism, self.body))?;
         let write = |source| TableError::Write {
             table: NAME,
             source,
