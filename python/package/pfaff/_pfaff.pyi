@@ -59,6 +59,10 @@ class Scene:
         Answers a question, given by its name, about this scene and further scenes, with its options
         as a JSON object; returns the document, and the files if they are requested.
         """
+    def case(self, /, name: str) -> Scene:
+        """
+        Returns the scene with the values of one of its load cases.
+        """
     @staticmethod
     def from_file(path: str | PathLike[str]) -> Scene:
         """
