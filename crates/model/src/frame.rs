@@ -111,6 +111,9 @@ impl FrameState {
         numbers.into_iter().take(count)
     }
 
+    /// Names of the columns of [`Self::roll_pitch_yaw`].
+    pub const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
+
     /// Returns roll, pitch and yaw (rad) of the axes in space: the rotations about the axes x, then
     /// y, then z of the ground that turn them into this orientation. Pitch is between −π/2 and π/2.
     /// At its ends only the sum or the difference of roll and yaw is defined, and roll is zero.

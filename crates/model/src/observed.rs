@@ -122,6 +122,10 @@ impl MeasureKind {
         about: None,
     };
 
+    /// Names of the columns of a measure and of its derivatives; the column of the value has only
+    /// the name of the measure.
+    pub const COLUMNS: [&str; 3] = ["", "rate", "acceleration"];
+
     /// One kind for each name; the directions are examples.
     pub const ALL: [Self; 9] = [
         Self::Distance,

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
 
-use model::{BuildError, SpaceKind};
+use model::{BuildError, FrameState, MeasureKind, SpaceKind};
 
 use crate::body::GROUND;
 use crate::findings::Findings;
@@ -43,12 +43,6 @@ impl NameUse {
     }
 }
 
-/// Names of the derivatives of a measure.
-const DERIVATIVES: &[&str] = &["rate", "acceleration"];
-
-/// Names of the angles of an orientation in space.
-const ANGLES: &[&str] = &["roll", "pitch", "yaw"];
-
 /// The name of the time column.
 const TIME: &str = "t";
 
@@ -68,10 +62,11 @@ impl Names {
     /// Reports measures whose name is also the name of another column of the trajectory.
     fn check_columns(&self, findings: &Findings) {
         let rates = self.space.accelerations().iter().filter(|_| self.rates);
-        let angles = ANGLES.iter().filter(|_| self.angles);
+        let angles = FrameState::ANGLES.iter().filter(|_| self.angles);
         let columns = self.space.columns().iter().chain(rates).chain(angles);
         let columns: Vec<&str> = columns.copied().collect();
-        let of_measures = if self.rates { DERIVATIVES } else { &[] };
+        let of_measures = MeasureKind::COLUMNS.iter().skip(1);
+        let of_measures: Vec<&str> = of_measures.filter(|_| self.rates).copied().collect();
         let measures: HashSet<&str> = self.measures.iter().map(|m| m.name.as_str()).collect();
         let places = self.bodies.iter().map(|place| place.name.as_str());
         let places: HashSet<&str> = places.filter(|name| !measures.contains(name)).collect();

@@ -4,7 +4,7 @@
 use std::fmt;
 use std::io::Write;
 
-use model::{FrameState, Marker, Mechanism, Scratch, SpaceKind, System};
+use model::{FrameState, Marker, MeasureKind, Mechanism, Scratch, SpaceKind, System};
 
 use super::{Table, TableError};
 use crate::units::SceneUnits;
@@ -46,9 +46,6 @@ impl MoreColumns {
         self.angles && space == SpaceKind::Space3
     }
 }
-
-/// Names of the angles of an orientation in space.
-const ANGLES: [&str; 3] = ["roll", "pitch", "yaw"];
 
 /// The values of a trajectory of a mechanism at one time. For each body:
 /// `<body>.x, .y, .angle, .vx, .vy, .omega` of the origin of its frame (m, rad, m/s, rad/s), in
@@ -98,7 +95,7 @@ impl<'m> Trajectory<'m> {
             columns.extend(own);
         }
         for measure in &observed.measures {
-            let units = measure.kind.units().into_iter().zip(DERIVATIVES);
+            let units = measure.kind.units().into_iter().zip(MeasureKind::COLUMNS);
             let own = units.take(derivatives(more));
             let own = own
                 .filter_map(|(unit, number)| Some(column("measure", &measure.name, number, unit?)));
@@ -243,13 +240,10 @@ impl<'m, W: Write> TrajectoryTable<'m, W> {
     }
 }
 
-/// Names of the numbers of a measure: its value and its derivatives.
-const DERIVATIVES: [&str; 3] = ["", "rate", "acceleration"];
-
-/// Returns the number of these numbers that are written.
+/// Returns the number of values of a measure that are written.
 fn derivatives(more: MoreColumns) -> usize {
     if more.accelerations {
-        DERIVATIVES.len()
+        MeasureKind::COLUMNS.len()
     } else {
         1
     }
@@ -258,7 +252,9 @@ fn derivatives(more: MoreColumns) -> usize {
 /// Names of the numbers of a frame.
 fn numbers(mechanism: &Mechanism, more: MoreColumns) -> impl Iterator<Item = &'static str> {
     let space = mechanism.space();
-    let angles = ANGLES.iter().filter(move |_| more.has_angles(space));
+    let angles = FrameState::ANGLES
+        .iter()
+        .filter(move |_| more.has_angles(space));
     let rates = space
         .accelerations()
         .iter()
@@ -275,7 +271,7 @@ fn is_written(marker: &Marker) -> bool {
 /// a point.
 fn has_column(marker: &Marker, column: &str) -> bool {
     marker.angle.is_some()
-        || marker.orientation.is_some() && ANGLES.contains(&column)
+        || marker.orientation.is_some() && FrameState::ANGLES.contains(&column)
         || matches!(
             column,
             "x" | "y" | "z" | "vx" | "vy" | "vz" | "ax" | "ay" | "az"
