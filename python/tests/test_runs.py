@@ -65,6 +65,30 @@ def test_a_body_in_space_turns() -> None:
     np.testing.assert_allclose(body.angular_velocity, [[0.0, 0.0, 2.0]] * len(run), atol=1e-9)
 
 
+def test_accelerations_and_rates_of_measures_are_columns() -> None:
+    """A pendulum: the pen at its radius r has r·ω² inwards and r·α across."""
+    pendulum = (
+        pfaff.Scene.from_string(PENDULUM)
+        .add("marker", name="pen", body="bob", point=[0.0, 0.0])
+        .measure("height", type="component", markers=["pen"], axis=[0.0, 1.0])
+        .set("output", accelerations=True)
+    )
+    run = pendulum.simulate(rtol=1e-10)
+    bob, pen = run.body("bob"), run.marker("pen")
+    angle, omega, alpha = bob.angle, bob.angular_velocity, bob.angular_acceleration
+    np.testing.assert_allclose(alpha, -9.81 * np.cos(angle) / 1.1, atol=1e-8)
+    radial = np.column_stack((np.cos(angle), np.sin(angle)))
+    across = np.column_stack((-np.sin(angle), np.cos(angle)))
+    expected = across * alpha[:, None] - radial * omega[:, None] ** 2
+    np.testing.assert_allclose(pen.acceleration, expected, atol=1e-7)
+    np.testing.assert_allclose(run.measure("height"), np.sin(angle), atol=1e-8)
+    np.testing.assert_allclose(run.measure("height", "rate"), np.cos(angle) * omega, atol=1e-8)
+    np.testing.assert_allclose(run.measure("height", "acceleration"), expected[:, 1], atol=1e-7)
+    without = pfaff.Scene.from_string(PENDULUM).simulate().body("bob")
+    with pytest.raises(pfaff.InputError, match="`ax`"):
+        without.acceleration  # noqa: B018
+
+
 def test_what_is_not_unique_is_not_a_number() -> None:
     scene = pfaff.Scene.from_string(SLEIGH)
     run = scene.simulate()
