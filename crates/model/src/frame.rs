@@ -403,7 +403,7 @@ impl<'m> Frames<'m> {
     /// let mut d = Description::new("top");
     /// let body = d.body(Body::new("top", 1.0, 1.0));
     /// d.observed.markers.push(Marker::new("rim", body, [2.0, 0.0, 0.0]));
-    /// for kind in [MeasureKind::Y, MeasureKind::Speed, MeasureKind::Angle] {
+    /// for kind in [MeasureKind::Y, MeasureKind::Speed, MeasureKind::ANGLE] {
     ///     let (name, between) = (kind.name().into(), [None, Some(0)]);
     ///     d.observed.measures.push(Measure { name, kind, between });
     /// }
