@@ -77,12 +77,13 @@ impl Mechanism {
     /// Returns the loads of the applied forces; see [`Loads`]. The function allocates memory.
     ///
     /// ```
-    /// use pfaff_joints::plane::Vector;
+    /// use joints::SpringDamper;
     /// use pfaff_model::{Body, BodyRef, Description, Mechanism};
-    /// use pfaff_joints::SpringDamper;
     /// let mut d = Description::new("hanging");
     /// let bob = d.body(Body::new("bob", 1.0, 1.0));
-    /// d.force("spring", SpringDamper::new([0.0, 1.0], [0.0; 2], 50.0, 0.0, Some(0.8)), &[BodyRef::Ground, bob]);
+    /// let mut spring = SpringDamper::new([0.0, 1.0], [0.0; 2], 50.0, 0.0);
+    /// spring.free_length = Some(0.8);
+    /// d.force("spring", &[BodyRef::Ground, bob], spring);
     /// let mechanism = Mechanism::build(&d).unwrap();
     /// let load = mechanism.loads().at(0.0, &[0.0; 3], &[0.0; 3])[0];
     /// // The spring pulls the ground down.
