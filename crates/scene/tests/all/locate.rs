@@ -213,7 +213,7 @@ fn diagnostics_are_data() {
         "message": "the scene has no key `x`",
         "primary": { "span": { "start": 0, "end": 1 }, "line": 1, "column": 1, "text": "unknown key" },
         "secondary": [],
-        "help": "its keys are `scene`, `parameters`, `body`, `marker`, `measure`, `joint`, `drive`, `force`, `group`, `start`, `output`, `simulate`",
+        "help": "its keys are `scene`, `parameters`, `body`, `marker`, `measure`, `joint`, `drive`, `force`, `group`, `case`, `start`, `output`, `simulate`",
     });
     assert!(
         problems
