@@ -289,9 +289,8 @@ impl Directory {
         } else {
             directory.exclusive()?
         };
-        if !force {
-            directory.check_ours(output.family)?;
-        }
+        let directory = if force { directory.forced() } else { directory };
+        directory.check_ours(output.family)?;
         Ok(Self {
             path: path.to_owned(),
             output,

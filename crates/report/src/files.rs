@@ -136,6 +136,33 @@ fn paths_of(paths: &[PathBuf]) -> String {
     names.join("`, `")
 }
 
+/// Returns names of files for these names, which differ also on systems that ignore the case of
+/// letters. Characters that file names may not have are replaced, and the number of the name, from
+/// 1, follows.
+///
+/// ```
+/// let stems = pfaff_report::file_stems(["arm", "a/b", "Arm"].into_iter());
+/// assert_eq!(stems, ["arm", "a_b.2", "Arm.3"]);
+/// ```
+#[must_use]
+pub fn file_stems<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
+    let is_plain = |c: char| c.is_alphanumeric() || "-_. ".contains(c);
+    let mut known: Vec<String> = Vec::new();
+    let stem = |(k, name): (usize, &str)| {
+        let plain = name.replace(|c| !is_plain(c), "_");
+        let has_edges = plain.trim_matches(['.', ' ']) == plain;
+        let folded = plain.to_lowercase();
+        let stem = if plain == name && has_edges && !known.contains(&folded) {
+            plain
+        } else {
+            format!("{}.{}", plain.trim_matches(['.', ' ']), k + 1)
+        };
+        known.push(folded);
+        stem
+    };
+    names.enumerate().map(stem).collect()
+}
+
 /// A directory for results.
 #[derive(Clone, Debug)]
 pub struct OutputDirectory {
@@ -143,6 +170,10 @@ pub struct OutputDirectory {
     parts: Parts,
     unfinished: FailurePolicy,
     written: Arc<Mutex<WrittenFiles>>,
+    /// The path of this directory in the one for which `written` was created.
+    inner: PathBuf,
+    /// Whether files that pfaff has not written may be replaced.
+    is_forced: bool,
     /// Excludes other processes until the last clone of the directory is dropped.
     _lock: Option<Arc<File>>,
     /// The directories that were created for the output directory.
@@ -224,6 +255,8 @@ impl OutputDirectory {
             parts: Parts::Plain,
             unfinished: FailurePolicy::Kept,
             written: Arc::default(),
+            inner: PathBuf::new(),
+            is_forced: false,
             _lock: None,
             has_failed: Arc::default(),
         })
@@ -304,17 +337,48 @@ impl OutputDirectory {
         })
     }
 
+    /// Allows files that pfaff has not written to be replaced: [`Self::check_ours`] then returns no
+    /// error.
+    #[must_use]
+    pub fn forced(mut self) -> Self {
+        self.is_forced = true;
+        self
+    }
+
+    /// Opens a directory inside this one, and creates it if it does not exist. Both end together:
+    /// see [`Self::abandon`].
+    ///
+    /// # Errors
+    /// - [`FileError::Name`]: the name is empty or contains a directory.
+    /// - [`FileError::Refused`]: the directory cannot be created.
+    pub fn within(&self, name: &str) -> Result<Self, FileError> {
+        self.check_name(name.as_ref())?;
+        let path = self.path.join(name);
+        let made = NewDirectories::all_of(&path)
+            .map_err(FileError::refused("make the directory", &path))?;
+        Ok(Self {
+            made: Arc::new(made),
+            inner: self.inner.join(name),
+            path,
+            ..self.clone()
+        })
+    }
+
     /// Path of the directory.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Returns an error if a file with a name of this family was not written by pfaff.
+    /// Returns an error if a file with a name of this family was not written by pfaff, unless the
+    /// directory is [`Self::forced`].
     ///
     /// # Errors
     /// - [`FileError::Foreign`]
     pub fn check_ours(&self, family: Family) -> Result<(), FileError> {
+        if self.is_forced {
+            return Ok(());
+        }
         let names = self.names().into_iter().filter(|name| family.has(name));
         let paths = names.map(|name| self.path.join(name));
         let paths: Vec<PathBuf> = paths.filter(|path| !is_ours(path)).collect();
@@ -353,7 +417,7 @@ impl OutputDirectory {
         let mut written = self.written();
         let file = self.begin(name)?;
         let content = Arc::downgrade(&file.content);
-        written.begun.push((name.to_owned(), content));
+        written.begun.push((self.inner.join(name).into(), content));
         Ok(file)
     }
 
@@ -373,7 +437,7 @@ impl OutputDirectory {
     pub fn write(&self, name: &str, content: &[u8]) -> Result<PathBuf, FileError> {
         let mut written = self.written();
         let path = self.put(name, content)?;
-        written.finished.push(name.into());
+        written.finished.push(self.inner.join(name).into());
         Ok(path)
     }
 
@@ -484,19 +548,25 @@ impl OutputDirectory {
         self.written.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Creates the file with the name `.part`.
-    fn begin(&self, name: &OsStr) -> Result<OutputFile, FileError> {
+    /// Returns an error unless this is the name of a file in the directory.
+    fn check_name(&self, name: &OsStr) -> Result<(), FileError> {
         let mut parts = Path::new(name).components();
         let plain = matches!(
             (parts.next(), parts.next()),
             (Some(Component::Normal(part)), None) if part == name
         );
-        if !plain {
-            return Err(FileError::Name {
-                name: name.to_string_lossy().into_owned(),
-                directory: self.path.clone(),
-            });
+        if plain {
+            return Ok(());
         }
+        Err(FileError::Name {
+            name: name.to_string_lossy().into_owned(),
+            directory: self.path.clone(),
+        })
+    }
+
+    /// Creates the file with the name `.part`.
+    fn begin(&self, name: &OsStr) -> Result<OutputFile, FileError> {
+        self.check_name(name)?;
         let path = self.path.join(name);
         let part = match self.parts {
             Parts::Plain => {

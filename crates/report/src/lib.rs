@@ -25,7 +25,9 @@ mod units;
 pub mod work_precision;
 
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Png, PngError, Series, Style};
-pub use files::{Family, FileError, OutputDirectory, OutputFile, PROVENANCE, Replaces, is_ours};
+pub use files::{
+    Family, FileError, OutputDirectory, OutputFile, PROVENANCE, Replaces, file_stems, is_ours,
+};
 pub use json::{ByName, part_as_json, read_json, write_json};
 pub use peaks::{Peak, PeakRecorder};
 pub use recording::{Frame, Recording};

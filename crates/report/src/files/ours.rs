@@ -78,6 +78,7 @@ fn is_table(header: &str) -> bool {
         Some("A" | "B" | "M" | "D" | "K") => names.all(|name| name.contains('.')),
         Some("mode") => header.starts_with("mode,real,imaginary,"),
         Some("scene") => header.starts_with("scene,formulation,method,"),
+        Some("case") => header.starts_with("case,rank,redundancy,"),
         _ => false,
     }
 }
