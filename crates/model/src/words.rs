@@ -4,6 +4,9 @@
 /// and a count.
 pub const LISTED: usize = 12;
 
+/// What lets a vehicle move whose wheels prevent every motion, as an imperative.
+pub const ROLL_TOGETHER: &str = "turn the wheels so that their axles meet in one point, or let a wheel slip (in the plane, a `tyre` instead of its joint)";
+
 /// Number of names that represent a longer list.
 const FIRST: usize = 3;
 

@@ -175,6 +175,7 @@ impl AssembledScene {
             choices: Vec::new(),
             bounds: None,
             remedies: Vec::new(),
+            case: None,
         })
     }
 

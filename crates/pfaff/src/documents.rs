@@ -46,8 +46,8 @@ pub use plan::decision_key;
 pub use report::ByName;
 pub use report::figures::RangeDocument;
 pub use run::{
-    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, LoadOfRunDocument, Run,
-    RunDocument, choice_file,
+    BodyOfRunDocument, ChoiceDocument, ComponentRunDocument, Ending, EventDocument,
+    LoadOfRunDocument, Run, RunDocument, choice_file,
 };
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{
@@ -56,8 +56,8 @@ pub use tolerance::{
     ReactionRangeDocument, RowMisfitDocument, ToleranceDocument, VariedDocument, VerdictCounts,
 };
 pub use verdicts::{
-    PeakDocument, RunGroupDocument, RunNumberDocument, RunReactionDocument, RunVerdicts,
-    SpecialDocument, TrackDocument,
+    MagnitudePeakDocument, PeakDocument, RunGroupDocument, RunNumberDocument, RunReactionDocument,
+    RunVerdicts, SpecialDocument, TrackDocument,
 };
 
 /// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` if it is

@@ -56,6 +56,16 @@ pub enum StudyError {
         /// Joints and drives whose reactions are not unique.
         joints: Vec<String>,
     },
+    /// A joint or force has the name of another load in a table of the loads on a body.
+    #[error(
+        "the table of the loads on `{body}` has columns `{name}.Fx` … of its own: give the joint or force `{name}` another name, or remove the body from [output] bodies"
+    )]
+    LoadName {
+        /// Name of the body.
+        body: String,
+        /// The name.
+        name: String,
+    },
     /// A combination cannot be parsed.
     #[error("`{text}`: {error}")]
     Combination {
@@ -154,6 +164,7 @@ impl StudyError {
             Self::NoReactions => const { Code::new(312) },
             Self::Bounds(_) => const { Code::new(1) },
             Self::OpenLoads { .. } => const { Code::new(318) },
+            Self::LoadName { .. } => const { Code::new(319) },
             Self::Combination { .. } => const { Code::new(311) },
             Self::UnknownReaction { .. } | Self::UnknownRow { .. } => const { Code::new(310) },
             Self::InactiveReaction { .. } => const { Code::new(317) },
@@ -223,6 +234,7 @@ impl StudyError {
             | Self::NoReactions
             | Self::Bounds(_)
             | Self::OpenLoads { .. }
+            | Self::LoadName { .. }
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }
             | Self::InactiveReaction { .. }

@@ -47,6 +47,7 @@ pub mod forked;
 mod loads_of_run;
 pub mod memory;
 pub mod page;
+mod peaks_of_run;
 pub mod prelude;
 pub mod question;
 pub mod questions;

@@ -22,6 +22,8 @@ pub struct Start<'r> {
     pub name: String,
     /// Text of the scene.
     pub text: String,
+    /// The load case whose values the text has.
+    pub case: Option<String>,
     /// Tolerance that takes precedence over the tolerance that the scene states.
     pub tolerance: Tolerance,
     /// The joints and forces that the scene may use.
@@ -40,6 +42,7 @@ impl<'r> Start<'r> {
         Self {
             name,
             text,
+            case: None,
             tolerance: Tolerance::default(),
             registry,
             budget,
@@ -96,7 +99,11 @@ impl<'r> Start<'r> {
     ) -> Result<Study, StudyError> {
         let stage = "assembling and choosing rows";
         (control.progress)(Progress::Stage(stage, self.text.len()));
-        assembled.prepare(with)
+        let study = assembled.prepare(with)?;
+        Ok(Study {
+            case: self.case.clone(),
+            ..study
+        })
     }
 
     /// Analyses the start, also if no motion can begin there, with redundant rows that may differ

@@ -22,8 +22,8 @@ use model::{
     StartError, StartPose, System,
 };
 use report::{
-    Family, MoreColumns, OutputDirectory, Peak, PeakRecorder, Quantity, ReactionColumn, Selection,
-    TableError, Trajectory, TrajectoryTable, columns_of_reactions, write_json,
+    ByName, Family, MoreColumns, OutputDirectory, Quantity, ReactionColumn, Selection, TableError,
+    Trajectory, TrajectoryTable, columns_of_reactions, write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
@@ -33,11 +33,12 @@ use solvability::{
 };
 
 use crate::assembled::{AssembledScene, refused};
-use crate::body_loads::{BodyLoads, body_file, joints_of};
+use crate::body_loads::{BodyLoads, joints_of};
 use crate::bounds_of_run::{self, BOUNDS, BoundsOfRun};
 use crate::configuration::{AskedRows, ConfigurationAnalysis, requests};
 use crate::error::StudyError;
 use crate::loads_of_run::{self, LOADS, LoadsOfRun};
+use crate::peaks_of_run::{FoundPeaks, PeaksOfRun};
 use crate::questions::analyze::remedies::RemedyDocument;
 use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, RowFault, RowSink, RunEnd, run_into};
@@ -79,6 +80,8 @@ pub struct Study {
     pub bounds: Option<Elasticity>,
     /// Joints of other types that make reactions unique, for the report.
     pub remedies: Vec<RemedyDocument>,
+    /// The load case whose values the scene has.
+    pub case: Option<String>,
 }
 
 /// A run that has ended.
@@ -313,6 +316,7 @@ impl Study {
             choices: self.choices.clone(),
             bounds: self.bounds.clone(),
             remedies: self.remedies.clone(),
+            case: self.case.clone(),
         }
     }
 
@@ -672,7 +676,7 @@ impl Study {
         let (mechanism, q) = (&self.prepared.mechanism, &self.prepared.q);
         let mut groups = GroupNumbers::new(mechanism, q, &plan.groups);
         let (columns, space) = (begun.columns(&Selection::All)?, mechanism.space());
-        let mut peaks = PeakRecorder::new(columns.len(), &mechanism.layout().break_times);
+        let mut peaks = PeaksOfRun::new(mechanism, columns.clone());
         let every = TableRows::new(1, plan.options().t_end);
         let mut loads = LoadsOfRun::begin(None, mechanism, every)?;
         let mut caller = Calling(|sample: &mut Sample<'_, '_>| {
@@ -689,7 +693,7 @@ impl Study {
             let values: Vec<f64> = own
                 .chain(numbers.groups.as_chosen().iter().copied())
                 .collect();
-            peaks.row(sample.t, &values);
+            peaks.row(sample.t, &values, numbers.reactions.as_chosen());
             rows += 1;
             Ok(row(sample, &numbers))
         });
@@ -712,16 +716,16 @@ impl Study {
             bounds.end(ended.summary.verdicts.as_ref(), &ended.ending())?;
         }
         let found = ended.summary.verdicts.as_ref();
-        let peaks = found.map_or_else(Vec::new, |found| peaks.finish(&columns, found));
+        let peaks = found.map_or_else(FoundPeaks::default, |found| peaks.finish(found));
         let written = WrittenRun {
             spread: path.spread_of(&plan, &ended, stop),
             rows,
-            columns: &columns,
             peaks: &peaks,
+            files: &[],
             gaps: &gaps,
-            ..WrittenRun::default()
         };
         let mut document = begun.document(&plan, &ended, written);
+        document.case.clone_from(&self.case);
         document.loads = loads_of_run::documents(loads.as_ref());
         if let Some(elasticity) = elasticity {
             let found = bounds.as_ref().map(BoundsOfRun::found);
@@ -960,8 +964,8 @@ impl Study {
             sink.end(ended.summary.verdicts.as_ref(), &ended.ending())?;
         }
         drop(sinks);
-        let none = (&[][..], &[][..]);
-        let (columns, peaks) = reactions.as_ref().map_or(none, ReactionFiles::peaks);
+        let none = FoundPeaks::default();
+        let peaks = reactions.as_ref().map_or(&none, |tables| &tables.found);
         let (choice_files, gaps): (&[String], &[Option<Gap>]) = match &reactions {
             Some(tables) => (&tables.choice_files, &tables.gaps),
             None => (&[], &[]),
@@ -970,8 +974,13 @@ impl Study {
         let has_bounds = found.is_some_and(|(_, found)| found.has_table);
         let others = [(LOADS, loads.is_some()), (BOUNDS, has_bounds)];
         let mut files = files_of(output, choice_files, others);
-        let bodies = output.bodies.iter();
-        files.extend(bodies.map(|&body| body_file(mechanism, body)));
+        let bodies = output.bodies.iter().zip(&of_bodies);
+        let bodies = bodies.map(|(&body, table)| {
+            let name = mechanism.bodies()[body].name.clone();
+            (name, table.found.clone())
+        });
+        let bodies: Vec<_> = bodies.collect();
+        files.extend(bodies.iter().map(|(_, table)| table.file.clone()));
         let mut document = begun.document(
             &plan,
             &ended,
@@ -980,11 +989,12 @@ impl Study {
                 rows: written_rows,
                 files: &files,
                 gaps,
-                columns,
                 peaks,
             },
         );
+        document.case.clone_from(&self.case);
         document.loads = loads_of_run::documents(loads.as_ref());
+        document.bodies = ByName(bodies);
         if let Some(elasticity) = elasticity {
             bounds_of_run::add_to(&mut document, mechanism, elasticity, found);
         }
@@ -1033,14 +1043,12 @@ struct RunPreparation<'s> {
 }
 
 /// Output of a run.
-#[derive(Default)]
 struct WrittenRun<'w> {
     spread: Option<SpreadDocument>,
     rows: usize,
     files: &'w [String],
     gaps: &'w [Option<Gap>],
-    columns: &'w [ReactionColumn],
-    peaks: &'w [Option<Peak>],
+    peaks: &'w FoundPeaks,
 }
 
 impl RunPreparation<'_> {
@@ -1102,7 +1110,6 @@ impl RunPreparation<'_> {
             verdicts: verdicts.map(|stretches| RunVerdicts {
                 stretches,
                 groups: &self.group_sensitivities,
-                columns: written.columns,
                 peaks: written.peaks,
             }),
             summary: &ended.summary,
@@ -1124,8 +1131,9 @@ pub const FAMILY: Family = Family(&[
     "bounds.csv",
     "bounds_*.csv",
     "loads.csv",
-    "body_*.csv",
-    "all_body_*.csv",
+    "body_<name>.csv",
+    "choice_body_<name>.csv",
+    "all_body_<name>.csv",
     "summary.json",
     "report.html",
 ]);

@@ -13,15 +13,16 @@ use std::path::PathBuf;
 use crate::documents::Ending;
 use crate::documents::{Gap, choice_file};
 use dynamics::{MotionFault, Plan, Sample};
-use model::{Mechanism, System};
+use model::Mechanism;
 use report::{
-    FileError, OutputDirectory, OutputFile, Peak, PeakRecorder, ReactionColumn, ReactionTable,
-    SceneUnits, TableError, TrajectoryTable, write_chosen, write_determined,
+    FileError, OutputDirectory, OutputFile, ReactionColumn, ReactionTable, SceneUnits, TableError,
+    TrajectoryTable, write_chosen, write_determined,
 };
 use scene::{OutputUnits, Scene};
 use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
 
 use crate::error::StudyError;
+use crate::peaks_of_run::{FoundPeaks, PeaksOfRun};
 use crate::rows::{RowFault, RowSink};
 use crate::words::scene_units;
 
@@ -123,10 +124,10 @@ pub(crate) struct ReactionFiles<'m> {
     is_plain: bool,
     rows: TableRows,
     numbers: GroupNumbers<'m>,
-    peaks: PeakRecorder,
+    peaks: PeaksOfRun,
     columns: Vec<ReactionColumn>,
-    /// The peaks of the columns, available after the end.
-    found: Vec<Option<Peak>>,
+    /// The peaks, available after the end.
+    pub(crate) found: FoundPeaks,
     /// The tables of choices, available after the end; empty if no cell is empty.
     pub(crate) choice_files: Vec<String>,
     /// The rows at which each choice selects no solution, available after the end.
@@ -161,7 +162,6 @@ impl<'m> ReactionFiles<'m> {
             let file = directory.file(choice_file(k))?;
             Ok::<_, StudyError>((table(CHOICE, file)?, None))
         });
-        let cuts = &mechanism.layout().break_times;
         Ok(Self {
             directory,
             mechanism,
@@ -170,17 +170,12 @@ impl<'m> ReactionFiles<'m> {
             is_plain,
             rows,
             numbers: GroupNumbers::new(mechanism, q, &plan.groups),
-            peaks: PeakRecorder::new(columns.len(), cuts),
+            peaks: PeaksOfRun::new(mechanism, columns.clone()),
             columns,
-            found: Vec::new(),
+            found: FoundPeaks::default(),
             choice_files: Vec::new(),
             gaps: Vec::new(),
         })
-    }
-
-    /// Returns the columns of the tables and their peaks, after the end.
-    pub(crate) fn peaks(&self) -> (&[ReactionColumn], &[Option<Peak>]) {
-        (&self.columns, &self.found)
     }
 
     /// Writes `reactions.csv` from all values of the run. If a cell is empty, it also writes the
@@ -237,7 +232,7 @@ impl RowSink for ReactionFiles<'_> {
         let reactions = sample.reactions()?;
         let groups = group_numbers(&mut self.numbers, sample)?;
         let values = table.row(sample.t, &reactions, &groups)?;
-        self.peaks.row(sample.t, values);
+        self.peaks.row(sample.t, values, reactions.as_chosen());
         if self.chosen.is_empty() {
             return Ok(ControlFlow::Continue(()));
         }
@@ -261,7 +256,7 @@ impl RowSink for ReactionFiles<'_> {
             nothing = Stretches::unique(self.mechanism, [0.0; 2], self.numbers.groups());
             &nothing
         };
-        self.found = self.peaks.finish(&self.columns, stretches);
+        self.found = self.peaks.finish(stretches);
         let (file, columns) = table.finish()?;
         if !self.chosen.is_empty() {
             return self.end_of_choices(file, stretches, ending);

@@ -2,9 +2,7 @@
 //! count. These cells are known only after the run, so a peak is stored for each interval between
 //! two boundaries.
 
-use solvability::{Stretches, Value};
-
-use crate::tables::ReactionColumn;
+use solvability::{Value, VerdictTrack};
 
 /// The largest value of a column over its determined cells.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,12 +68,18 @@ impl PeakRecorder {
         }
     }
 
-    /// The peak of each column; `None` if no cell is determined.
+    /// The peak of each column; `None` if no cell is determined. The verdicts on a column are
+    /// `None` if it is determined on the whole run, which has this extent (s).
     #[must_use]
-    pub fn finish(&self, columns: &[ReactionColumn], stretches: &Stretches) -> Vec<Option<Peak>> {
-        let of = |(column, peaks): (&ReactionColumn, &Vec<[f64; 2]>)| {
-            let track = column.quantity.verdicts(stretches);
-            let value = |number: f64, t: f64| column.quantity.value(stretches, t, number);
+    pub fn finish(
+        &self,
+        verdicts: &[Option<&VerdictTrack>],
+        extent: [f64; 2],
+    ) -> Vec<Option<Peak>> {
+        let of = |(track, peaks): (&Option<&VerdictTrack>, &Vec<[f64; 2]>)| {
+            let value = |number: f64, t: f64| {
+                track.map_or_else(|| Value::unique(number), |track| track.value(t, number))
+            };
             let determined = |&[number, t]: &[f64; 2]| {
                 let number = value(number, t).determined();
                 Some([number.filter(|number| number.is_finite())?, t])
@@ -91,54 +95,33 @@ impl PeakRecorder {
             largest.map(|[number, time]| Peak {
                 value: value(number, time),
                 time,
-                over: track.map_or_else(|| vec![stretches.extent], |track| track.determined()),
+                over: track.map_or_else(|| vec![extent], VerdictTrack::determined),
             })
         };
-        columns.iter().zip(&self.columns).map(of).collect()
+        verdicts.iter().zip(&self.columns).map(of).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use model::ConstraintId;
-    use solvability::{Verdict, VerdictTrack};
+    use solvability::{Verdict, VerdictStretch};
 
     use super::*;
-    use crate::tables::{Column, Quantity};
 
     /// The largest value may be in an interval in which the value depends on the selected solution
     /// for the multipliers. The peak is the largest value in the determined interval.
     #[test]
     fn a_peak_is_one_of_determined_cells() {
-        let column = ReactionColumn {
-            column: Column {
-                owner: "hinge".into(),
-                kind: "reaction",
-                number: "Fx",
-                unit: "N",
-            },
-            quantity: Quantity::Component(ConstraintId(0), "Fx"),
-            fragile: false,
-        };
         let mut peaks = PeakRecorder::new(1, &[1.0]);
         for (t, value) in [(0.0, 2.0), (0.5, -5.0), (1.0, 90.0), (2.0, 100.0)] {
             peaks.row(t, &[value]);
         }
-        let stretch = |from, to, verdict| solvability::VerdictStretch { from, to, verdict };
+        let stretch = |from, to, verdict| VerdictStretch { from, to, verdict };
         let track = VerdictTrack::of([
             stretch(0.0, 1.0, Verdict::Unique),
             stretch(1.0, 2.0, Verdict::NotUnique),
         ]);
-        let stretches = Stretches {
-            extent: [0.0, 2.0],
-            reactions: vec![solvability::ReactionStretches {
-                id: ConstraintId(0),
-                whole: track.clone(),
-                components: vec![("Fx", track)],
-            }],
-            groups: Vec::new(),
-        };
-        let found = peaks.finish(&[column], &stretches);
+        let found = peaks.finish(&[Some(&track)], [0.0, 2.0]);
         let peak = Peak {
             value: Value::unique(-5.0),
             time: 0.5,

@@ -18,7 +18,7 @@ mod movement;
 mod ranks;
 mod words;
 
-use model::{Mechanism, System};
+use model::{ConstraintId, Mechanism, System};
 
 use crate::analysis::Analysis;
 use crate::limits::ROWS_MAX;
@@ -53,6 +53,9 @@ pub struct Freedoms {
     /// second order excludes every free velocity while the drives do not move. `None` if this is
     /// not decided.
     pub cannot_move: Option<bool>,
+    /// Joints with nonholonomic rows, such as wheels, if these rows prevent every motion: without
+    /// them a velocity would be free.
+    pub prevented_by: Vec<ConstraintId>,
 }
 
 /// The possible motions if the drives are removed.
@@ -100,6 +103,9 @@ impl Analysis {
         });
         let is_decided = self.decision.is_decided();
         let mut found = Freedoms::of(mechanism, self.time, q, is_decided, decided.collect())?;
+        if found.cannot_move == Some(true) && self.rank_holonomic < mechanism.layout().n_v {
+            found.prevented_by = rolling(mechanism);
+        }
         if found.cannot_move == Some(true) || !is_decided {
             return Ok(found);
         }
@@ -225,8 +231,16 @@ impl Freedoms {
             undecided: Vec::new(),
             without_drives,
             cannot_move: (is_decided && least == 0 && !moves_joints).then_some(true),
+            prevented_by: Vec::new(),
         })
     }
+}
+
+/// Returns the joints with nonholonomic rows.
+fn rolling(mechanism: &Mechanism) -> Vec<ConstraintId> {
+    let layout = mechanism.layout();
+    let rolls = |id: &ConstraintId| layout.groups[id.0].rows.iter().any(|row| row >= layout.m);
+    layout.constraint_ids().filter(rolls).collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use joints::spec::{ForceSpec, Shape, Unit};
 
-use super::Mechanism;
+use super::{Mechanism, gyroscopic};
 use crate::body::BodyRef;
 use crate::element::PlacedForce;
 use crate::reaction::Reaction;
@@ -113,14 +113,22 @@ impl<'m> Loads<'m> {
     /// # Panics
     /// Panics if q or v has the wrong length.
     pub fn at(&mut self, t: f64, q: &[f64], v: &[f64]) -> Vec<Load> {
-        self.mechanism.pose(t, q, &mut self.s);
-        self.mechanism.twist(v, &mut self.s);
+        self.set(t, q, v);
         let mut block = std::mem::take(&mut self.block);
         let forces = self.mechanism.elements.forces.iter();
         let loads = forces.map(|force| self.of(force, (q, v), &mut block));
         let loads = loads.collect();
         self.block = block;
         loads
+    }
+
+    /// Sets the state of [`Loads::on_body`] and [`Loads::of_mass`].
+    ///
+    /// # Panics
+    /// Panics if q or v has the wrong length.
+    pub fn set(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        self.mechanism.pose(t, q, &mut self.s);
+        self.mechanism.twist(v, &mut self.s);
     }
 
     fn of(&self, force: &PlacedForce, (q, v): (&[f64], &[f64]), block: &mut [f64]) -> Load {
@@ -152,12 +160,24 @@ impl<'m> Loads<'m> {
 
     /// Returns the part of Q (the values in `block`) on one body as a wrench about a point.
     fn wrench(&self, force: &PlacedForce, block: &[f64], body: usize, about: [f64; 3]) -> Reaction {
+        let space = self.mechanism.space();
+        let entries = force.columns.iter().zip(block);
+        let entries = entries.filter_map(|(column, &value)| Some(((*column)?, value)));
+        let own = entries.filter(|(column, _)| space.body_of(*column) == body);
+        self.of_entries(body, about, own)
+    }
+
+    /// Returns entries of a vector of generalised forces, each with its column, as a wrench on a
+    /// body about a point.
+    fn of_entries(
+        &self,
+        body: usize,
+        about: [f64; 3],
+        entries: impl Iterator<Item = (usize, f64)>,
+    ) -> Reaction {
         let (s, space) = (&self.s, self.mechanism.space());
         let mut wrench = Reaction::default();
-        for (column, &value) in force.columns.iter().zip(block) {
-            let Some(column) = column.filter(|column| space.body_of(*column) == body) else {
-                continue;
-            };
+        for (column, value) in entries {
             let dof = space.dof_of(column);
             let torque = if space.forces().contains(&dof) {
                 let mut pushed = [0.0; 3];
@@ -176,8 +196,34 @@ impl<'m> Loads<'m> {
         wrench
     }
 
+    /// Returns the weight of a body, and the load of its inertia, −m·a and −(J·α + ω × J·ω), about
+    /// its centre of mass in ground axes, at the state of the last [`Loads::set`] with the
+    /// accelerations v̇.
+    ///
+    /// # Panics
+    /// Panics if the body does not exist, or if v̇ has the wrong length.
+    pub fn of_mass(&self, body: usize, acceleration: &[f64]) -> [Reaction; 2] {
+        let (mechanism, space) = (self.mechanism, self.mechanism.space());
+        let columns = space.columns_of(body);
+        let mass = &mechanism.mass()[columns.clone()];
+        let a = &acceleration[columns.clone()];
+        let mut inertia: Vec<f64> = mass.iter().zip(a).map(|(m, a)| -m * a).collect();
+        if let Some(&omega) = self.s.spins.get(body) {
+            let own = space.rotations_of(body).start - columns.start;
+            let turning = gyroscopic([0, 1, 2].map(|k| mass[own + k]), omega);
+            for (x, torque) in inertia[own..].iter_mut().zip(turning) {
+                *x += torque;
+            }
+        }
+        let centre = self.s.bodies.origin(body);
+        let weight = &mechanism.weight()[columns.clone()];
+        [weight, &inertia].map(|entries| {
+            self.of_entries(body, centre, columns.clone().zip(entries.iter().copied()))
+        })
+    }
+
     /// Returns the loads on one body about its centre of mass, in ground axes, with the indices of
-    /// the forces that act on it, at the state of the last [`Loads::at`].
+    /// the forces that act on it, at the state of the last [`Loads::set`].
     ///
     /// # Panics
     /// Panics if the body does not exist.

@@ -116,10 +116,13 @@ impl Start<'_> {
         let bodies = columns
             .iter()
             .map(|&j| &mechanism.bodies()[space.body_of(j)].name);
-        let joints = rows.iter().map(|&i| &mechanism.layout().labels[i].joint);
+        let layout = mechanism.layout();
+        let joints = |rows: &[usize]| each_once(rows.iter().map(|&i| &layout.labels[i].joint));
+        let rolling: Vec<usize> = rows.iter().copied().filter(|&i| i >= layout.m).collect();
         Some(LockedBodies {
             bodies: each_once(bodies),
-            joints: each_once(joints),
+            joints: joints(rows),
+            wheels: joints(&rolling),
         })
     }
 

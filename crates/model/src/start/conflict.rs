@@ -1,7 +1,7 @@
 //! Description of impossible given velocities.
 
 use crate::system::RowLabel;
-use crate::words::rough;
+use crate::words::{ROLL_TOGETHER, rough};
 
 /// Given velocities that contradict the constraints or prescribed motions.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,6 +47,8 @@ pub struct LockedBodies {
     pub bodies: Vec<String>,
     /// The joints and drives of the rows.
     pub joints: Vec<String>,
+    /// The joints of nonholonomic rows among these, such as wheels.
+    pub wheels: Vec<String>,
 }
 
 /// The entry of a scene that prescribes an initial velocity.
@@ -133,7 +135,7 @@ impl VelocityConflict {
             (plain, _) => plain,
         };
         let fact = format!("`{coordinate}` of body `{body}` is {held} {given_as}");
-        if let Some(LockedBodies { bodies, joints }) = &self.locked {
+        if let Some(LockedBodies { bodies, joints, .. }) = &self.locked {
             let names = |all: &[String]| {
                 let quoted = all.iter().map(|name| format!("`{name}`"));
                 named(&quoted.collect::<Vec<_>>())
@@ -179,14 +181,18 @@ impl VelocityConflict {
     fn advice(&self) -> String {
         let out: Vec<String> = self.leave_out.iter().map(HeldVelocity::to_string).collect();
         let mut ways = Vec::new();
-        if self.locked.is_some() {
+        if let Some(LockedBodies { wheels, .. }) = &self.locked {
             let given = match out.as_slice() {
                 [] => "the given velocities".to_owned(),
                 [only] => only.clone(),
                 [first @ .., last] => format!("{} and {last}", first.join(", ")),
             };
+            let release = match wheels.as_slice() {
+                [] => "release one of these joints",
+                _ => ROLL_TOGETHER,
+            };
             return format!(
-                "leave out {given}, so that they stay at rest; or release one of these joints, if they are to move"
+                "leave out {given}, so that they stay at rest; or {release}, if they are to move"
             );
         }
         match out.as_slice() {
@@ -207,7 +213,17 @@ impl VelocityConflict {
             ways.push(format!("or change what `{first}` prescribes"));
         }
         if self.can_be_corrected {
-            ways.push("or set `allow_correction = true` in `[start]`, which takes the nearest ones that fit".to_owned());
+            let kept = match (self.is_kept, self.with_others) {
+                (true, _) => ", with those in `keep` unchanged".to_owned(),
+                (false, true) => format!(
+                    "; with `keep = [\"{}.{}\"]` this one does not change",
+                    self.body, self.coordinate
+                ),
+                (false, false) => String::new(),
+            };
+            ways.push(format!(
+                "or set `allow_correction = true` in `[start]`, which takes the nearest ones that fit{kept}"
+            ));
         }
         ways.join("; ")
     }

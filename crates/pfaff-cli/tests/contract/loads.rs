@@ -171,7 +171,14 @@ fn loads_that_are_not_determined_need_a_choice() {
         &door,
     );
     assert!(chosen.status.success(), "{}", super::stderr(&chosen));
-    for row in rows(&folder, "body_leaf.csv") {
+    assert!(!folder.0.join("body_leaf.csv").exists());
+    let summary = std::fs::read_to_string(folder.0.join("summary.json")).expect("written");
+    let summary: Value = serde_json::from_str(&summary).expect("JSON");
+    assert_eq!(
+        summary["bodies"]["leaf"],
+        serde_json::json!({ "file": "choice_body_leaf.csv", "choice": true, "rows_left_out": 0 })
+    );
+    for row in rows(&folder, "choice_body_leaf.csv") {
         for component in ["Fx", "Fy", "T"] {
             let parts = ["lower", "upper", "gravity", "inertia"];
             let sum: f64 = parts

@@ -1,6 +1,7 @@
 //! The possible motions, with the drives and without them.
 
-use model::Mechanism;
+use model::words::{ROLL_TOGETHER, listed};
+use model::{Mechanism, System};
 use serde::Serialize;
 use solvability::{FreeMotion, Freedoms, LeftOut};
 
@@ -27,6 +28,9 @@ pub struct FreedomsDocument {
     pub freedoms_undecided: Vec<FreeMotionDocument>,
     /// Whether no motion is possible; `null` if this is not decided.
     pub cannot_move: Option<bool>,
+    /// Joints with nonholonomic rows, such as wheels, if these rows prevent every motion.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub prevented_by: Vec<String>,
 }
 
 /// The mechanism without its drives.
@@ -79,6 +83,8 @@ impl FreedomsDocument {
     #[must_use]
     pub fn new(freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         let without_drives = freedoms.without_drives.as_ref();
+        let groups = &mechanism.layout().groups;
+        let wheels = freedoms.prevented_by.iter();
         Self {
             without_drives: without_drives.map(|without| WithoutDrivesDocument {
                 drives: without.drives,
@@ -93,7 +99,16 @@ impl FreedomsDocument {
             freedoms_blocked: documents(&freedoms.blocked, mechanism),
             freedoms_undecided: documents(&freedoms.undecided, mechanism),
             cannot_move: freedoms.cannot_move,
+            prevented_by: wheels.map(|id| groups[id.0].name.clone()).collect(),
         }
+    }
+
+    /// States that wheels prevent every motion, and what lets the vehicle move.
+    #[must_use]
+    pub fn prevented(&self) -> Option<String> {
+        let names = listed(&self.prevented_by);
+        let is_prevented = !self.prevented_by.is_empty();
+        is_prevented.then(|| format!("{names} prevent every motion: {ROLL_TOGETHER}"))
     }
 
     /// Returns the mobility as a phrase: "mobility 0 with its drive, 1 without", or "mobility 1" if

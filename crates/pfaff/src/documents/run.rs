@@ -61,6 +61,9 @@ pub enum Ending<'a> {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[non_exhaustive]
 pub struct RunDocument {
+    /// The load case whose values the scene has, if it has those of one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub case: Option<String>,
     /// Integrator; `auto` if components have different ones.
     pub method: &'static str,
     /// Treatment of redundancy.
@@ -102,6 +105,10 @@ pub struct RunDocument {
     pub start_correction: f64,
     /// Largest change of a velocity at the start (m/s or rad/s).
     pub start_velocity_correction: f64,
+    /// Rank of C at the start.
+    pub rank: usize,
+    /// Degree of redundancy at the start, number of rows − rank.
+    pub redundancy: usize,
     /// Degrees of freedom at the start, n_v − r.
     pub mobility: usize,
     /// The possible motions at the start, with the drives and without them.
@@ -123,6 +130,9 @@ pub struct RunDocument {
     /// Extreme values of the loads of force elements, by name.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub loads: ByName<LoadOfRunDocument>,
+    /// The tables of all loads on bodies, by the names of the bodies.
+    #[serde(skip_serializing_if = "ByName::is_empty")]
+    pub bodies: ByName<BodyOfRunDocument>,
     /// The assumptions of the bounds, if bounds were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bounds: Option<RunBoundsDocument>,
@@ -202,6 +212,20 @@ pub struct LoadOfRunDocument {
     /// The smallest and the largest value of each component on the first body (N, N·m), of the
     /// `length` (m) or `angle` (rad), and of its `rate`.
     pub components: ByName<RangeOfRunDocument>,
+}
+
+/// The table of all loads on a body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct BodyOfRunDocument {
+    /// Name of the file.
+    pub file: String,
+    /// Whether the loads are those of the first choice, because the model does not determine them
+    /// during the whole run.
+    pub choice: bool,
+    /// Number of rows that the table leaves out, because a reaction is not determined there.
+    pub rows_left_out: usize,
 }
 
 /// The choice that determines the numbers of a table, on an interval of time.
@@ -322,6 +346,7 @@ impl RunDocument {
         let groups = verdicts.map_or_else(|| ByName(Vec::new()), |v| v.groups(mechanism.layout()));
         let has_choice = verdicts.is_some_and(RunVerdicts::has_choice);
         Self {
+            case: None,
             method: run.summary.method.name(),
             formulation: FORMULATION,
             stabilisation: options.stabilisation.name(),
@@ -342,6 +367,8 @@ impl RunDocument {
             energy_balance: summary.energy_balance,
             start_correction: largest(&prepared.assembly.correction),
             start_velocity_correction: largest(&prepared.velocity_correction),
+            rank: prepared.decision.rank,
+            redundancy: prepared.decision.redundancy,
             mobility: run.freedoms.mobility,
             freedoms: FreedomsDocument::new(run.freedoms, &prepared.mechanism),
             data: run.data,
@@ -353,6 +380,7 @@ impl RunDocument {
             reactions,
             groups,
             loads: ByName(Vec::new()),
+            bodies: ByName(Vec::new()),
             bounds: None,
             special: verdicts.map_or_else(Vec::new, |v| {
                 SpecialDocument::all(v.stretches, v.groups, mechanism.layout())

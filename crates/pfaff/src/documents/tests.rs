@@ -23,6 +23,8 @@ use solvability::{
 use report::peaks::Peak;
 use report::tables::{Selection, columns_of_reactions};
 
+use crate::peaks_of_run::FoundPeaks;
+
 use super::{
     AnalysisDocument, DataDocument, Ending, FreedomsDocument, Run, RunDocument, RunVerdicts,
 };
@@ -402,12 +404,16 @@ fn summary_has_the_keys_of_the_contract() {
         time: 0.25,
         over: vec![[0.0, 2.0]],
     };
+    let found = [None, Some(peak), None, None, None, None];
+    let peaks = FoundPeaks {
+        columns: columns.into_iter().zip(found).collect(),
+        magnitudes: Vec::new(),
+    };
     let run = Run {
         verdicts: Some(RunVerdicts {
             stretches: &stretches,
             groups: &[],
-            columns: &columns,
-            peaks: &[None, Some(peak), None, None, None, None],
+            peaks: &peaks,
         }),
         rows: 3,
         files: &["trajectory.csv", "summary.json"].map(str::to_owned),
@@ -483,6 +489,10 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
     let columns = columns_of_reactions(&prepared.mechanism, &Selection::All, &[], |_| false);
     let columns = columns.expect("all of them");
     let files = ["trajectory.csv", "summary.json"].map(str::to_owned);
+    let peaks = FoundPeaks {
+        columns: columns.into_iter().map(|column| (column, None)).collect(),
+        magnitudes: Vec::new(),
+    };
     let run = |ending, stretches| Run {
         rows: 3,
         files: &files,
@@ -495,8 +505,7 @@ fn a_stopped_run_is_partial_and_says_by_which_rows_its_numbers_are_chosen() {
         verdicts: Some(RunVerdicts {
             stretches,
             groups: &[],
-            columns: &columns,
-            peaks: &[],
+            peaks: &peaks,
         }),
         summary: &summary,
         spread: None,

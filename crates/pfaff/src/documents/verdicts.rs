@@ -2,7 +2,7 @@
 //! time, with the peaks of the determined numbers.
 
 use model::words::rounded;
-use model::{Layout, System};
+use model::{ConstraintId, Layout, System};
 use serde::Serialize;
 use solvability::{
     GroupSensitivities, GroupStretches, ReactionStretches, ReactionVerdict, Sensitivities,
@@ -12,8 +12,9 @@ use solvability::{
 use super::{
     ByName, MagnitudeOfRunDocument, RangeOfRunDocument, SensitivityDocument, VerdictDocument,
 };
+use crate::peaks_of_run::FoundPeaks;
 use report::peaks::Peak;
-use report::tables::{Quantity, ReactionColumn};
+use report::tables::Quantity;
 
 /// The verdict of a number over a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -78,6 +79,9 @@ pub struct RunReactionDocument {
     /// empty if no reactions were requested.
     #[serde(skip_serializing_if = "ByName::is_empty")]
     pub components: ByName<RunNumberDocument>,
+    /// The largest magnitudes over the determined rows of the table; absent if there are none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub peak: Option<MagnitudePeakDocument>,
     /// Upper bounds of the magnitudes over the run, if bounds were requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub magnitude_at_most: Option<MagnitudeOfRunDocument>,
@@ -127,6 +131,19 @@ pub struct PeakDocument {
     pub over: Vec<[f64; 2]>,
 }
 
+/// The peaks of the magnitudes of a reaction over a run. A magnitude is determined if all its
+/// components are.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[non_exhaustive]
+pub struct MagnitudePeakDocument {
+    /// The largest force (N); `null` if the reaction has no force, or none that is determined.
+    pub force: Option<PeakDocument>,
+    /// The largest moment about the reference point (N·m); `null` if the reaction has no moment, or
+    /// none that is determined.
+    pub moment: Option<PeakDocument>,
+}
+
 /// The verdict of a group over a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -173,23 +190,34 @@ pub struct RunVerdicts<'a> {
     /// The groups of the scene by name, and the sensitivities of their numbers to the data at the
     /// start.
     pub groups: &'a [(String, GroupSensitivities)],
-    /// Columns of the table of reactions.
-    pub columns: &'a [ReactionColumn],
-    /// Peaks of the determined numbers, one for each column.
-    pub peaks: &'a [Option<Peak>],
+    /// Peaks of the determined numbers.
+    pub(crate) peaks: &'a FoundPeaks,
 }
 
 impl RunVerdicts<'_> {
     fn peak(&self, quantity: Quantity, known: Option<&Sensitivity>) -> Option<PeakDocument> {
-        let k = self.columns.iter().position(|c| c.quantity == quantity)?;
-        let peak = self.peaks.get(k)?.as_ref()?;
-        let mut value = peak.value.clone();
-        value.add_sensitivity(known.cloned());
-        Some(PeakDocument {
-            value,
-            time: peak.time,
-            over: peak.over.clone(),
-        })
+        let mut columns = self.peaks.columns.iter();
+        let (_, peak) = columns.find(|(column, _)| column.quantity == quantity)?;
+        let mut document = PeakDocument::from(peak.as_ref()?);
+        document.value.add_sensitivity(known.cloned());
+        Some(document)
+    }
+
+    /// Returns the peaks of the magnitudes of a joint or drive, which has this sensitivity.
+    fn magnitude(
+        &self,
+        id: ConstraintId,
+        known: Option<&Sensitivity>,
+    ) -> Option<MagnitudePeakDocument> {
+        let mut all = self.peaks.magnitudes.iter();
+        let (_, found) = all.find(|(own, _)| *own == id)?;
+        let document = |peak: &Option<Peak>| {
+            let mut document = PeakDocument::from(peak.as_ref()?);
+            document.value.add_sensitivity(known.cloned());
+            Some(document)
+        };
+        let [force, moment] = found.each_ref().map(document);
+        (force.is_some() || moment.is_some()).then_some(MagnitudePeakDocument { force, moment })
     }
 
     /// Builds the document of a number; the name is used in sentences. If the number is unique only
@@ -231,8 +259,8 @@ impl RunVerdicts<'_> {
 
     /// Whether a column of the table of reactions contains a number that is not determined.
     pub(super) fn has_choice(&self) -> bool {
-        let tracks = self.columns.iter();
-        let mut tracks = tracks.filter_map(|c| c.quantity.verdicts(self.stretches));
+        let tracks = self.peaks.columns.iter();
+        let mut tracks = tracks.filter_map(|(c, _)| c.quantity.verdicts(self.stretches));
         tracks.any(|track| !track.of_run().is_unique())
     }
 
@@ -324,7 +352,19 @@ impl RunReactionDocument {
                 }
                 _ => ByName(Vec::new()),
             },
+            peak: run
+                .and_then(|run| run.magnitude(at_start.id, sensitivities.reaction(at_start.id))),
             magnitude_at_most: None,
+        }
+    }
+}
+
+impl From<&Peak> for PeakDocument {
+    fn from(peak: &Peak) -> Self {
+        Self {
+            value: peak.value.clone(),
+            time: peak.time,
+            over: peak.over.clone(),
         }
     }
 }

@@ -35,6 +35,8 @@ pub(super) fn of(d: &AnalysisDocument) -> Vec<Block> {
                 .map(|text| Block::after(format!("  {lead}: "), text)),
         );
     }
+    let prevented = d.ranks.freedoms.prevented();
+    blocks.extend(prevented.map(|text| Block::after("  ", text)));
     let continuation = d.answers.continuation.iter();
     blocks.extend(continuation.map(|c| Block::after("  ", &c.text)));
     blocks

@@ -83,7 +83,9 @@ impl CheckAnswer {
     /// Adds the possible motions of the mechanism.
     pub(super) fn moving(self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
         let document = FreedomsDocument::new(freedoms, mechanism);
+        let warnings = self.warnings.iter().cloned();
         Self {
+            warnings: warnings.chain(document.prevented()).collect(),
             mobility: Some(freedoms.mobility),
             mobility_without_drives: document.mobility_without_drives(),
             cannot_move: document.cannot_move,

@@ -1,7 +1,8 @@
 //! Text on a run.
 
 use crate::documents::{
-    ChoiceDocument, MisfitDocument, RunDocument, RunReactionDocument, choice_file,
+    BodyOfRunDocument, ChoiceDocument, MisfitDocument, RunDocument, RunReactionDocument,
+    choice_file,
 };
 use dynamics::INDEPENDENT_ROWS;
 use model::words::{listed, rough, rounded};
@@ -25,8 +26,10 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
     } else {
         format!("done to t = {} s", d.t_end)
     };
+    let case = d.case.as_ref();
+    let case = case.map_or_else(String::new, |case| format!(", load case `{case}`"));
     say(format!(
-        "{}: {ending} with {} ({}, {})",
+        "{}{case}: {ending} with {} ({}, {})",
         answer.scene, d.method, INDEPENDENT_ROWS, d.stabilisation
     ));
     say(format!(
@@ -56,6 +59,9 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
             rough(d.start_velocity_correction)
         ));
     }
+    if let Some(prevented) = d.freedoms.prevented() {
+        say(format!("warning: {prevented}"));
+    }
     if d.partial {
         say(d.kept());
     }
@@ -84,6 +90,23 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
         ));
     }
     out.extend(open(d).into_iter().map(Block::sentence));
+    for (name, table) in &d.bodies.0 {
+        let BodyOfRunDocument {
+            file,
+            choice,
+            rows_left_out,
+        } = table;
+        if *choice {
+            out.push(Block::sentence(format!(
+                "The model does not determine all loads on `{name}`: {file} contains those of one of many solutions."
+            )));
+        } else if *rows_left_out > 0 {
+            let rows = count(*rows_left_out, "row", "rows");
+            out.push(Block::sentence(format!(
+                "{file} leaves out {rows} at which a reaction on `{name}` is not determined."
+            )));
+        }
+    }
     if let Some(bounds) = &d.bounds {
         let most = |(name, r): &'_ (String, RunReactionDocument)| {
             Some((name.clone(), r.magnitude_at_most?))
