@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use pfaff::model::{Registry, Tolerance};
-use pfaff::scene::{KeyError, Setting, nearest};
+use pfaff::scene::{KeyError, Setting};
 use pfaff::source;
 use pfaff::start::Start;
 
@@ -20,6 +20,8 @@ pub use pfaff::source::LARGEST;
 pub(crate) struct Source<'r> {
     pub(crate) name: String,
     pub(crate) text: String,
+    /// The load case whose values the text has.
+    case: Option<String>,
     /// Tolerance that takes precedence over the tolerance that the scene states.
     pub(crate) tolerance: Tolerance,
     /// The joints and forces that the scene may use.
@@ -37,6 +39,7 @@ impl<'r> Source<'r> {
         Ok(Self {
             name,
             text: with_settings(text, settings, console.registry)?,
+            case: settings.case.clone(),
             tolerance: Tolerance::default(),
             registry: console.registry,
         })
@@ -54,7 +57,7 @@ impl<'r> Source<'r> {
     pub(crate) fn start(self, resources: Resources) -> Start<'r> {
         let budget = resources.memory.budget();
         let mut start = Start::new(self.name, self.text, self.registry, budget);
-        start.tolerance = self.tolerance;
+        (start.tolerance, start.case) = (self.tolerance, self.case);
         start
     }
 }
@@ -106,10 +109,5 @@ pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
 /// Builds the error for an unknown name, with the most similar known name and a list of the known
 /// names.
 pub fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
-    let near = nearest(name, known.iter().copied());
-    let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-    Failure::input(format!(
-        "there is no {what} `{name}`; there are: {}{advice}",
-        known.join(", ")
-    ))
+    source::unknown(what, name, known).into()
 }

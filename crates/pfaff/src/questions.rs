@@ -1,6 +1,7 @@
 //! All questions, each in a folder of its own: options, computation, answer and text.
 
 pub mod analyze;
+pub mod cases;
 pub mod check;
 pub mod diff;
 pub mod equilibrium;
@@ -16,6 +17,7 @@ use scene::nearest;
 use serde::Deserialize;
 
 pub use analyze::Analyze;
+pub use cases::Cases;
 pub use check::Check;
 pub use diff::Diff;
 pub use equilibrium::Equilibrium;
@@ -104,6 +106,7 @@ macro_rules! questions {
 questions!(
     Analyze,
     Simulate,
+    Cases,
     Plan,
     Check,
     Equilibrium,

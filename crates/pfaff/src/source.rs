@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use model::Registry;
 use model::codes::Code;
-use scene::{Setting, nearest};
+use scene::{LoadCase, Scene, Setting, nearest};
 
 use crate::refusal::Refusal;
 
@@ -108,22 +108,60 @@ fn end_of(text: &[u8]) -> (usize, usize) {
 /// # Errors
 /// [`Refusal::Input`]: the scene has no such case.
 pub fn with_case(text: String, case: &str, registry: &Registry) -> Result<String, Refusal> {
-    let Ok(scene) = scene::read("", &text, registry) else {
-        return Ok(text);
-    };
-    let names = || scene.cases.iter().map(|case| case.name.as_str());
-    let Some(found) = scene.cases.iter().find(|own| own.name == case) else {
-        let message = if scene.cases.is_empty() {
-            "the scene has no load cases; add `[[case]]` to it".to_owned()
-        } else {
-            let near = nearest(case, names());
-            let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-            let known: Vec<&str> = names().collect();
-            let known = known.join(", ");
-            format!("there is no load case `{case}`; there are: {known}{advice}")
-        };
-        return Err(Refusal::input(message));
-    };
-    let replaced = Setting::replaced(&text, &found.settings);
-    replaced.map_err(|e| Refusal::input(format!("case `{case}`: {e}")).coded(e.code()))
+    match scene::read("", &text, registry) {
+        Ok(scene) => with_values_of(&text, case_of(&scene, case)?),
+        Err(_) => Ok(text),
+    }
+}
+
+/// Returns the load cases of a scene with these names, in the order of the scene; all cases if
+/// there are no names.
+///
+/// # Errors
+/// [`Refusal::Input`]: the scene has no load cases, or not these.
+pub fn cases<'s>(scene: &'s Scene, names: &[String]) -> Result<Vec<&'s LoadCase>, Refusal> {
+    for name in names {
+        case_of(scene, name)?;
+    }
+    if scene.cases.is_empty() {
+        return Err(no_cases());
+    }
+    let is_wanted = |case: &&LoadCase| names.is_empty() || names.contains(&case.name);
+    Ok(scene.cases.iter().filter(is_wanted).collect())
+}
+
+/// Returns the text of a scene with the values of a load case.
+///
+/// # Errors
+/// [`Refusal::Input`]: the values do not fit the text.
+pub fn with_values_of(text: &str, case: &LoadCase) -> Result<String, Refusal> {
+    let replaced = Setting::replaced(text, &case.settings);
+    replaced.map_err(|e| Refusal::input(format!("case `{}`: {e}", case.name)).coded(e.code()))
+}
+
+fn case_of<'s>(scene: &'s Scene, case: &str) -> Result<&'s LoadCase, Refusal> {
+    if let Some(found) = scene.cases.iter().find(|own| own.name == case) {
+        return Ok(found);
+    }
+    if scene.cases.is_empty() {
+        return Err(no_cases());
+    }
+    let names: Vec<&str> = scene.cases.iter().map(|case| case.name.as_str()).collect();
+    Err(unknown("load case", case, &names))
+}
+
+fn no_cases() -> Refusal {
+    Refusal::input("the scene has no load cases; add `[[case]]` to it".to_owned())
+}
+
+/// Builds the error for an unknown name, with the most similar known name and a list of the known
+/// names.
+#[must_use]
+pub fn unknown(what: &str, name: &str, known: &[&str]) -> Refusal {
+    let near = nearest(name, known.iter().copied());
+    let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    Refusal::input(format!(
+        "there is no {what} `{name}`; there are: {}{advice}",
+        known.join(", ")
+    ))
 }

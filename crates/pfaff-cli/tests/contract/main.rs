@@ -7,6 +7,7 @@ mod analyze;
 mod bad_input;
 mod book;
 mod bounds_of_run;
+mod cases;
 mod causes;
 mod chosen;
 mod cold_start;

@@ -99,9 +99,10 @@ const OF_PLACES: [Fault; 1] = [Fault {
 }];
 
 /// The commands with correct arguments, and whether these end with a scene and with a path.
-const COMMANDS: [(&str, &str, bool, bool); 17] = [
+const COMMANDS: [(&str, &str, bool, bool); 18] = [
     ("analyze", "-", true, false),
     ("simulate", "- --out run --t-end 1", true, true),
+    ("cases", "- --out cases", true, true),
     ("plan", "-", true, false),
     (
         "sweep",
@@ -130,7 +131,7 @@ const COMMANDS: [(&str, &str, bool, bool); 17] = [
 ];
 
 /// Further faults of single commands.
-const OF_ONE: [(&str, &str, &str); 31] = [
+const OF_ONE: [(&str, &str, &str); 32] = [
     ("linearise", "- --coordinates leaf.tilt", "P0222"),
     ("linearise", "- --at-time soon", "P0001"),
     ("analyze", "- --drop 0", "P0001"),
@@ -142,6 +143,7 @@ const OF_ONE: [(&str, &str, &str); 31] = [
     ("simulate", "- --out run --method gbs", "P0001"),
     ("simulate", "- --out run --t-end -1", "P0401"),
     ("simulate", "- --out run --t-end 1 --max-memory 1", "P0001"),
+    ("cases", "- --out cases", "P0001"),
     ("sweep", "- --out sweep", "P0001"),
     ("sweep", "- --out sweep --vary body.leaf.mass", "P0001"),
     ("sweep", "--merge . --out sweep", "P0507"),

@@ -6,7 +6,7 @@ mod words;
 
 use serde::Deserialize;
 
-pub use answer::{DiffAnswer, DiffBody, DiffChange, DiffMotion, DiffReaction, DiffSide};
+pub use answer::{DiffAnswer, DiffBody, DiffChange, DiffLoad, DiffMotion, DiffReaction, DiffSide};
 
 use crate::question::{Answer, Control, Question};
 use crate::refusal::Refusal;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::documents::AnalysisDocument;
-use crate::documents::{ComponentDocument, DependencyDocument, ReactionDocument};
+use crate::documents::{ComponentDocument, DependencyDocument, ExtremeDocument, ReactionDocument};
 use serde::Serialize;
 
 use super::comparison::Comparison;
@@ -217,6 +217,43 @@ pub struct DiffMotion {
     pub t_end: f64,
     /// Bodies that both scenes have, in the order of the first scene.
     pub bodies: Vec<DiffBody>,
+    /// The peak loads in both motions, in the order of the first scene.
+    pub loads: Vec<DiffLoad>,
+}
+
+/// The peaks of a load in two motions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct DiffLoad {
+    /// Name of the joint, drive, group or force element.
+    pub name: String,
+    /// `force` and `moment` for the largest magnitudes, or the name of a component.
+    pub load: String,
+    /// Unit of the values.
+    pub unit: &'static str,
+    /// The peak in the first motion; `null` if the first scene has no such load, or if the load is
+    /// not determined during the whole motion.
+    pub a: Option<ExtremeDocument>,
+    /// The same in the second motion.
+    pub b: Option<ExtremeDocument>,
+}
+
+impl DiffLoad {
+    /// Returns how much the peaks differ, as a fraction of the larger one: 1 if only one exists.
+    pub(super) fn change(&self) -> f64 {
+        match (self.a, self.b) {
+            (Some(a), Some(b)) => {
+                let larger = a.value.abs().max(b.value.abs());
+                if larger > 0.0 {
+                    (b.value - a.value).abs() / larger
+                } else {
+                    0.0
+                }
+            }
+            (None, None) => 0.0,
+            _ => 1.0,
+        }
+    }
 }
 
 /// The largest differences of the motions of a body, with their times (s).

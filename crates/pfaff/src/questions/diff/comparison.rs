@@ -4,13 +4,13 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use crate::documents::AnalysisDocument;
-use crate::documents::{DependencyDocument, ReactionDocument};
-use dynamics::{MotionOptions, Sample};
+use crate::documents::{AnalysisDocument, DependencyDocument, ExtremeDocument, ReactionDocument};
+use dynamics::{MotionOptions, OutputRequest, Sample};
 use model::{FrameState, Mechanism};
 
-use super::answer::{DiffBody, DiffMotion};
+use super::answer::{DiffBody, DiffLoad, DiffMotion};
 use crate::error::StudyError;
+use crate::peaks_of_run::LoadPeak;
 use crate::study::Study;
 
 /// Differences between the verdicts at two starts.
@@ -129,7 +129,7 @@ pub(super) fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion
             .frames()
             .body(body, sample.q, sample.v)
     };
-    run(first, a, t_end, |sample| {
+    let loads = run(first, a, t_end, |sample| {
         let own = pairs.iter().map(|[i, _]| frame(first, sample, *i));
         expected.push(own.collect());
     })?;
@@ -142,7 +142,7 @@ pub(super) fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion
         })
         .collect();
     let mut row = 0;
-    run(second, b, t_end, |sample| {
+    let others = run(second, b, t_end, |sample| {
         let Some(states) = expected.get(row) else {
             return;
         };
@@ -158,7 +158,45 @@ pub(super) fn motions(first: &Study, second: &Study) -> Result<Option<DiffMotion
             }
         }
     })?;
-    Ok(Some(DiffMotion { t_end, bodies }))
+    Ok(Some(DiffMotion {
+        t_end,
+        bodies,
+        loads: paired(loads, others),
+    }))
+}
+
+/// Pairs the loads of two motions by their names. Loads that are zero in both are left out.
+fn paired(first: Vec<LoadPeak>, second: Vec<LoadPeak>) -> Vec<DiffLoad> {
+    let mut all: Vec<DiffLoad> = Vec::new();
+    let mut add = |peak: LoadPeak, is_second: bool| {
+        let LoadPeak {
+            name,
+            load,
+            unit,
+            peak,
+        } = peak;
+        let known = all
+            .iter()
+            .position(|own| (&own.name, &own.load) == (&name, &load));
+        let known = known.unwrap_or_else(|| {
+            let (a, b) = (None, None);
+            all.push(DiffLoad {
+                name,
+                load,
+                unit,
+                a,
+                b,
+            });
+            all.len() - 1
+        });
+        let own = &mut all[known];
+        *(if is_second { &mut own.b } else { &mut own.a }) = peak;
+    };
+    first.into_iter().for_each(|peak| add(peak, false));
+    second.into_iter().for_each(|peak| add(peak, true));
+    let is_load = |peak: Option<ExtremeDocument>| peak.is_some_and(|peak| peak.value != 0.0);
+    all.retain(|own| is_load(own.a) || is_load(own.b));
+    all
 }
 
 /// Returns the indices of the bodies that both mechanisms have.
@@ -171,12 +209,13 @@ fn common(first: &Mechanism, second: &Mechanism) -> Vec<[usize; 2]> {
         .collect()
 }
 
+/// Runs a scene to this time, passes its rows to a function, and returns its peak loads.
 fn run(
     study: &Study,
     options: &MotionOptions,
     t_end: f64,
     mut row: impl FnMut(&Sample<'_, '_>),
-) -> Result<(), StudyError> {
+) -> Result<Vec<LoadPeak>, StudyError> {
     let options = MotionOptions {
         t_end,
         output_step: if t_end > 0.0 {
@@ -186,9 +225,13 @@ fn run(
         },
         ..options.clone()
     };
-    let outcome = study.run(&options, |sample| {
+    let wanted = OutputRequest::default();
+    let ended = study.show(&options, &wanted, &|| false, |sample, _| {
         row(sample);
-        Ok(ControlFlow::Continue(()))
-    });
-    outcome.map(drop).map_err(|failure| failure.error.into())
+        ControlFlow::Continue(())
+    })?;
+    match ended.stopped {
+        Some(error) => Err(error.into()),
+        None => Ok(LoadPeak::all(&ended.document, &ended.columns)),
+    }
 }

@@ -2,12 +2,16 @@
 
 use std::cmp::Ordering;
 
-use crate::documents::DependencyDocument;
+use crate::documents::{DependencyDocument, ExtremeDocument};
 
-use super::answer::{DiffAnswer, DiffMotion, DiffReaction};
+use super::answer::{DiffAnswer, DiffLoad, DiffMotion, DiffReaction};
 use crate::words::{Block, Cell};
 
-/// Number of bodies whose motion is listed; the document contains all bodies.
+/// Peaks that differ by less than this fraction of the larger one are not listed: they agree in
+/// four digits, which is what tables show.
+const VISIBLE: f64 = 5e-5;
+
+/// Number of bodies whose motion is listed, and of loads; the document contains all of them.
 const LISTED: usize = 12;
 
 pub(super) fn of(d: &DiffAnswer) -> Vec<Block> {
@@ -31,7 +35,10 @@ pub(super) fn of(d: &DiffAnswer) -> Vec<Block> {
         }
     }
     match (&d.motion, &d.motion_not_compared) {
-        (Some(motion), _) => blocks.extend(moved(motion)),
+        (Some(motion), _) => {
+            blocks.extend(moved(motion));
+            blocks.extend(loaded(motion, [&d.a.file, &d.b.file]));
+        }
         (None, Some(why)) => blocks.extend([
             Block::Gap,
             Block::sentence(format!("motions not compared: {why}")),
@@ -126,6 +133,44 @@ fn moved(motion: &DiffMotion) -> Vec<Block> {
         let more = bodies.len() - LISTED;
         blocks.push(Block::sentence(format!(
             "and {more} more, none farther apart"
+        )));
+    }
+    blocks
+}
+
+/// Lists the loads whose peaks differ, the largest change first.
+fn loaded(motion: &DiffMotion, files: [&str; 2]) -> Vec<Block> {
+    let mut changed: Vec<&DiffLoad> = motion.loads.iter().collect();
+    let all = changed.len();
+    changed.retain(|load| load.change() > VISIBLE);
+    if changed.is_empty() {
+        let text = match all {
+            0 => return Vec::new(),
+            _ => "peak loads: no difference",
+        };
+        return vec![Block::Gap, Block::sentence(text)];
+    }
+    changed.sort_by(|a, b| b.change().total_cmp(&a.change()));
+    let lines = changed.iter().take(LISTED).map(|own| {
+        let value =
+            |peak: Option<ExtremeDocument>| Cell::quantity(peak.map(|peak| peak.value), own.unit);
+        let change = match (own.a, own.b) {
+            (Some(a), Some(b)) if a.value != 0.0 => {
+                format!("{:+.1} %", 100.0 * (b.value / a.value - 1.0)).replace('-', "−")
+            }
+            _ => String::new(),
+        };
+        let [name, load] = [&own.name, &own.load].map(|text| Cell::from(text.as_str()));
+        [name, load, value(own.a), value(own.b), change.into()]
+    });
+    let [a, b] = files;
+    let heading = "peak loads that differ:".to_owned();
+    let table = Block::table(["load", "", a, b, ""], lines);
+    let mut blocks = vec![Block::Heading(heading), table];
+    let more = changed.len().saturating_sub(LISTED);
+    if more > 0 {
+        blocks.push(Block::sentence(format!(
+            "and {more} more, which differ less"
         )));
     }
     blocks
