@@ -491,9 +491,9 @@ impl Scene {
         Ok(Self::of(self.0.name.clone(), text))
     }
 
-    /// Returns the name that the scene states, the names of its bodies, and of its joints and
-    /// drives in the order of the rows.
-    fn names(&self, py: Python<'_>) -> PyResult<(String, Vec<String>, Vec<String>)> {
+    /// Returns the name that the scene states, the names of its bodies, of its joints and drives in
+    /// the order of the rows, and of its load cases.
+    fn names(&self, py: Python<'_>) -> PyResult<(String, [Vec<String>; 3])> {
         let own = Arc::clone(&self.0);
         heard(py, move |_| {
             let judged = own.judged((Tolerance::default(), budget(None)?), None)?;
@@ -501,7 +501,9 @@ impl Scene {
             let bodies = mechanism.bodies().iter().map(|body| body.name.clone());
             let groups = mechanism.layout().groups.iter();
             let groups = groups.map(|group| group.name.clone());
-            Ok((scene.name().to_owned(), bodies.collect(), groups.collect()))
+            let cases = scene.cases.iter().map(|case| case.name.clone());
+            let names = [bodies.collect(), groups.collect(), cases.collect()];
+            Ok((scene.name().to_owned(), names))
         })
     }
 

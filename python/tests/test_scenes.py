@@ -456,6 +456,7 @@ def test_pages_of_the_book(pages: list[Path], tmp_path: Path, monkeypatch: pytes
 def test_a_load_case_replaces_values() -> None:
     scene = pfaff.Scene("stone", gravity=[0.0, -10.0]).body("stone", mass=2.0, inertia=1.0)
     scene = scene.add("case", name="heavy", set=["body.stone.mass = 5"])
+    assert scene.cases == ["heavy"]
     assert "mass = 5" in scene.case("heavy").text
     with pytest.raises(pfaff.InputError, match="did you mean `heavy`"):
         scene.case("heavi")

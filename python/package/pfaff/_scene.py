@@ -156,12 +156,20 @@ class Scene(Questions):
     @property
     def bodies(self) -> list[str]:
         """Names of the bodies."""
-        return self._of.names()[1]
+        return self._of.names()[1][0]
 
     @property
     def joints(self) -> list[str]:
         """Names of joints and drives, in the order of their rows."""
-        return self._of.names()[2]
+        return self._of.names()[1][1]
+
+    @property
+    def cases(self) -> list[str]:
+        """The names of the load cases.
+
+        >>> {name: scene.case(name).simulate() for name in scene.cases}  # doctest: +SKIP
+        """
+        return self._of.names()[1][2]
 
     def __repr__(self) -> str:
         return f"<pfaff.Scene {self.file!r}, {self.text.count(chr(10))} lines>"
