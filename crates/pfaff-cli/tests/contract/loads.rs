@@ -112,7 +112,14 @@ fn rows(folder: &Folder, file: &str) -> Vec<std::collections::HashMap<String, f6
 fn all_loads_on_a_body_balance_in_its_axes() {
     let folder = Folder::new("body-loads");
     let scene = format!("{ARM}output = {{ bodies = [\"arm\"] }}\n");
-    with_scene(&["simulate", "-", "--out", folder.text()], &scene);
+    let run = |scene| {
+        stdout(&with_scene(
+            &["simulate", "-", "--out", folder.text()],
+            scene,
+        ))
+    };
+    let said = run(&scene);
+    assert!(!said.contains("other commands"), "{said}");
     let all = rows(&folder, "body_arm.csv");
     assert_eq!(all.len(), 201);
     for row in &all {
@@ -145,6 +152,10 @@ fn all_loads_on_a_body_balance_in_its_axes() {
     }
     let summary = std::fs::read_to_string(folder.0.join("summary.json")).expect("written");
     assert!(summary.contains("body_arm.csv"));
+    // A later run without this table removes it, because it is not of this run.
+    let said = run(ARM);
+    assert!(!said.contains("other commands"), "{said}");
+    assert!(!folder.0.join("body_arm.csv").exists());
 }
 
 #[test]
