@@ -178,18 +178,40 @@ impl<'a> Reactions<'a> {
     /// Returns the joint or drive with the longest name at the start of a text, if a term may end
     /// after this name.
     fn longest_at(&self, text: &str) -> Option<&ReactionNames<'a>> {
-        let reach = text.floor_char_boundary(self.longest);
-        let end = (reach == text.len()).then_some(reach);
-        // The search includes one more character after the longest name.
-        let ends = text[reach..]
-            .chars()
-            .next()
-            .map_or(reach, |c| reach + c.len_utf8());
-        let ends = text[..ends].char_indices().rev();
-        let ends = ends.filter(|(_, c)| c.is_whitespace() || ['.', '+', '-'].contains(c));
-        let mut ends = end.into_iter().chain(ends.map(|(at, _)| at));
-        ends.find_map(|end| self.find(&text[..end]))
+        starts(text, self.longest).find_map(|start| self.find(start))
     }
+
+    /// Returns the longest name of an inactive joint or drive at the start of a text, if a term may
+    /// end after this name.
+    fn inactive_at<'t>(&self, text: &'t str) -> Option<&'t str> {
+        let longest = self.inactive.iter().map(|name| name.len()).max()?;
+        starts(text, longest).find(|start| self.is_inactive(start))
+    }
+}
+
+/// The starts of a text after which a term may end, up to this length (bytes), the longest first.
+fn starts(text: &str, longest: usize) -> impl Iterator<Item = &str> {
+    let reach = text.floor_char_boundary(longest);
+    let end = (reach == text.len()).then_some(reach);
+    // The search includes one more character after the longest name.
+    let ends = text[reach..]
+        .chars()
+        .next()
+        .map_or(reach, |c| reach + c.len_utf8());
+    let ends = text[..ends].char_indices().rev();
+    let ends = ends.filter(|(_, c)| c.is_whitespace() || ['.', '+', '-'].contains(c));
+    let ends = end.into_iter().chain(ends.map(|(at, _)| at));
+    ends.map(|end| &text[..end])
+}
+
+/// A term up to the next sign, with the blanks in its name. A name may contain a `-` that does not
+/// follow a blank.
+fn whole_term(text: &str) -> &str {
+    let sign = |(at, c): (usize, char)| {
+        c == '+' || (c == '-' && text[..at].ends_with(char::is_whitespace))
+    };
+    let end = text.char_indices().find(|&found| sign(found));
+    text[..end.map_or(text.len(), |(at, _)| at)].trim_end()
 }
 
 /// Reads an expression.
@@ -353,28 +375,23 @@ impl<'a> Scanner<'a> {
     fn unknown(&self, all: &Reactions) -> CombinationError {
         let rest = self.rest();
         let end = |c: char| c.is_whitespace() || c == '+';
-        let token = rest.split(end).next().unwrap_or(rest);
-        let problem = match token {
-            "" => CombinationProblem::NoTerm,
-            _ if let Some((factor, term)) = self.factor_without_times(all) => {
-                CombinationProblem::NoTimes {
-                    factor: factor.to_owned(),
-                    term: term.to_owned(),
-                }
-            }
-            _ => {
-                let name = token.rsplit_once('.').map_or(token, |(name, _)| name);
-                let whole = [token, name].into_iter().find(|name| all.is_inactive(name));
-                match whole {
-                    Some(name) => CombinationProblem::Inactive {
-                        name: name.to_owned(),
-                    },
-                    None => CombinationProblem::UnknownReaction {
-                        name: name.to_owned(),
-                        nearest: nearest(name, all.names()).map(str::to_owned),
-                    },
-                }
-            }
+        let word = rest.split(end).next().unwrap_or(rest);
+        let term = whole_term(rest);
+        let (problem, token) = if word.is_empty() {
+            (CombinationProblem::NoTerm, word)
+        } else if let Some((factor, term)) = self.factor_without_times(all) {
+            let (factor, term) = (factor.to_owned(), term.to_owned());
+            (CombinationProblem::NoTimes { factor, term }, word)
+        } else if let Some(name) = all.inactive_at(rest) {
+            let name = name.to_owned();
+            (CombinationProblem::Inactive { name }, term)
+        } else {
+            let name = term.rsplit_once('.').map_or(term, |(name, _)| name);
+            let unknown = CombinationProblem::UnknownReaction {
+                name: name.to_owned(),
+                nearest: nearest(name, all.names()).map(str::to_owned),
+            };
+            (unknown, term)
         };
         CombinationError {
             problem,
@@ -388,11 +405,12 @@ mod tests {
     use super::*;
 
     fn read(text: &str) -> Result<Vec<(f64, String)>, String> {
-        let names = ["W3", "W4", "W4-left", "a.b"].map(|name| ReactionNames {
+        let names = ["W3", "W4", "W4-left", "a.b", "left wheel"].map(|name| ReactionNames {
             name,
             components: Some(vec!["Fx", "Fy", "N"]),
         });
-        parse(text, &Reactions::new(names.into()))
+        let names = Reactions::new(names.into()).without(["spare wheel"].into_iter());
+        parse(text, &names)
             .map(|c| match c {
                 Combination::Components(terms) => {
                     let term = |t: Term| (t.coefficient, format!("{}|{}", t.reaction, t.component));
@@ -470,6 +488,18 @@ mod tests {
             (
                 "W3.N + W5.N",
                 "7..11: there is no joint or drive `W5`; did you mean `W3`?",
+            ),
+            (
+                "W3.N - left whel.N + W4.N",
+                "7..18: there is no joint or drive `left whel`; did you mean `left wheel`?",
+            ),
+            (
+                "W3 + spare wheel",
+                "5..16: `spare wheel` is not active, so there is no reaction",
+            ),
+            (
+                "spare wheel.N - W3.N",
+                "0..13: `spare wheel` is not active, so there is no reaction",
             ),
             (
                 "W3.M",

@@ -4,6 +4,7 @@
 use joints::spec::Unit;
 use model::codes::Code;
 use model::{Drive, Force, Function, Law};
+use toml::de::DeValue;
 
 use crate::active;
 use crate::dimension::Dimension;
@@ -190,9 +191,12 @@ fn warn_if_held(motion: &Field, function: &Function) {
     if held == 0.0 {
         return;
     }
-    let value = match motion.value.get_ref().as_str() {
-        Some(text) => format!("{text:?}"),
-        None => held.to_string(),
+    // As written, because the advice is in the units of the scene.
+    let value = match motion.value.get_ref() {
+        DeValue::String(text) => format!("{text:?}"),
+        DeValue::Integer(number) => number.as_str().to_owned(),
+        DeValue::Float(number) => number.as_str().to_owned(),
+        _ => held.to_string(),
     };
     motion.findings.warning(
         const { Code::new(191) },
@@ -203,7 +207,7 @@ fn warn_if_held(motion: &Field, function: &Function) {
         ),
         "holds the measure",
         &format!(
-            "for a constant speed write `motion = {{ type = \"constant-rate\", rate = {value} }}`, to hold the measure `motion = 0`"
+            "for a stroke write `motion = {{ type = \"steps\", steps = [{{ from = 0, to = 1, by = {value} }}] }}`, for a constant speed `motion = {{ type = \"constant-rate\", rate = {value} }}`, to hold the measure `motion = 0`"
         ),
     );
 }

@@ -22,7 +22,7 @@ use std::ops::Range;
 
 pub(crate) use problem::{Fault, Problem};
 pub(crate) use quantity::{Bases, Quantity};
-pub(crate) use term::{law, of_time};
+pub(crate) use term::{OF_LAW, OF_TIME, law, of_time};
 use token::{Token, tokens};
 pub(crate) use token::{decimal, is_name};
 pub(crate) use unit::{TIME, in_units_here, names_of};

@@ -165,7 +165,7 @@ impl<'t> Field<'t> {
             }
             Err(problem) => {
                 let span = 0..self.value.get_ref().as_str().unwrap_or_default().len();
-                self.report(Fault { span, problem }, self.language);
+                self.report(Fault { span, problem }, self.language, &[]);
                 None
             }
         }
@@ -175,7 +175,7 @@ impl<'t> Field<'t> {
     /// yet.
     pub(crate) fn quantity(&self, expected: &str, language: &Language) -> Option<Quantity> {
         if let Some(text) = self.value.get_ref().as_str().filter(|_| language.computes) {
-            return self.accept(expression::evaluate(text, language), language);
+            return self.accept(expression::evaluate(text, language), language, &[]);
         }
         let Some(value) = as_number(self.value.get_ref()) else {
             self.mismatch(expected);
@@ -206,7 +206,7 @@ impl<'t> Field<'t> {
             return Law::new(&[Operation::Number(value)]).ok();
         };
         let law = expression::law(text, of, result, self.language);
-        self.accept(law, self.language)
+        self.accept(law, self.language, expression::OF_LAW)
     }
 
     /// Returns whether the value is an expression that contains the time.
@@ -221,21 +221,26 @@ impl<'t> Field<'t> {
     pub(crate) fn of_time(&self, of: Dimension) -> Option<Function> {
         let text = self.value.get_ref().as_str().unwrap_or_default();
         let function = expression::of_time(text, of, self.language);
-        self.accept(function, self.language)
+        self.accept(function, self.language, expression::OF_TIME)
     }
 
-    /// Reports the errors in an expression, or returns its value.
-    fn accept<T>(&self, value: Result<T, Vec<Fault>>, language: &Language) -> Option<T> {
+    /// Reports the errors in an expression of these variables, or returns its value.
+    fn accept<T>(
+        &self,
+        value: Result<T, Vec<Fault>>,
+        language: &Language,
+        variables: &[&str],
+    ) -> Option<T> {
         let report = |faults: Vec<Fault>| {
             faults
                 .into_iter()
-                .for_each(|fault| self.report(fault, language));
+                .for_each(|fault| self.report(fault, language, variables));
         };
         value.map_err(report).ok()
     }
 
     /// Reports an error in an expression, at its position.
-    fn report(&self, fault: Fault, language: &Language) {
+    fn report(&self, fault: Fault, language: &Language, variables: &[&str]) {
         let Fault { span, problem } = fault;
         let text = self.value.get_ref().as_str().unwrap_or_default();
         if language.is_unfit(text, &span) {
@@ -255,7 +260,12 @@ impl<'t> Field<'t> {
             match self.findings.suggest(name, language.names()) {
                 Some(near) => label = format!("did you mean `{near}`?"),
                 None if help.is_some() => {}
-                None => help = nearest::all("parameters", language.own_names()),
+                None => {
+                    let parameters = nearest::all("parameters", language.own_names());
+                    let variables = nearest::all("variables", variables.iter().copied());
+                    let both: Vec<String> = variables.into_iter().chain(parameters).collect();
+                    help = (!both.is_empty()).then(|| both.join(", "));
+                }
             }
         }
         let message = format!("{}: `{}`: {problem}", self.subject, self.key);

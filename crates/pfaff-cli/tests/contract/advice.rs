@@ -158,12 +158,17 @@ type = "angle"
             .collect();
         assert_eq!(
             advised.len(),
-            3,
-            "what was written, a speed, none: {advised:?}"
+            4,
+            "what was written, a stroke, a speed, none: {advised:?}"
         );
         assert_eq!(
-            advised[1],
-            format!("motion = {{ type = \"constant-rate\", rate = {value} }}")
+            advised[1..3],
+            [
+                format!(
+                    "motion = {{ type = \"steps\", steps = [{{ from = 0, to = 1, by = {value} }}] }}"
+                ),
+                format!("motion = {{ type = \"constant-rate\", rate = {value} }}"),
+            ]
         );
         for advised in &advised[1..] {
             let checked = check(advised);

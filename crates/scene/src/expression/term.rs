@@ -14,6 +14,15 @@ use super::unit::TIME;
 use super::{Fault, Problem, Scope, Value, parse, taken};
 use crate::dimension::Dimension;
 
+const MEASURE: &str = "measure";
+const RATE: &str = "rate";
+
+/// The variables of a force law.
+pub(crate) const OF_LAW: &[&str] = &[MEASURE, RATE, TIME];
+
+/// The variables of a function of time.
+pub(crate) const OF_TIME: &[&str] = &[TIME];
+
 #[derive(Clone)]
 pub(super) enum LawTerm {
     /// A value without variables.
@@ -41,8 +50,8 @@ pub(crate) fn law(
     scope: &impl Scope,
 ) -> Result<Law, Vec<Fault>> {
     let variables = [
-        variable("measure", measure, Operation::Measure),
-        variable("rate", measure.times(Dimension::TIME, -1), Operation::Rate),
+        variable(MEASURE, measure, Operation::Measure),
+        variable(RATE, measure.times(Dimension::TIME, -1), Operation::Rate),
         time(),
     ];
     let work = operations(text, &variables, result, scope)?;

@@ -517,7 +517,7 @@ fn faults_of_functions_of_time_have_their_places() {
             [
                 "zeta",
                 "there is no parameter `zeta`",
-                "no such parameter | the parameters are `L`, `m1`, `phi`, `spring`, `tip`",
+                "no such parameter | the variables are `t`, the parameters are `L`, `m1`, `phi`, `spring`, `tip`",
             ],
         ),
         (
