@@ -138,7 +138,7 @@ fn moved(force: [f64; 3], torque: [f64; 3], arm: [f64; 3]) -> [f64; 3] {
 
 /// The largest imbalance of the loads on a body relative to the largest of them: joints and drives
 /// of one solution, force elements on both bodies, weight and inertia.
-fn imbalance(study: &Study, sample: &mut Sample<'_, '_>) -> f64 {
+pub(crate) fn imbalance(study: &Study, sample: &mut Sample<'_, '_>) -> f64 {
     let mechanism: &Mechanism = &study.prepared.mechanism;
     let space = mechanism.space();
     let lambda = sample.multipliers().expect("solved");

@@ -35,6 +35,7 @@ mod limits;
 mod linearise;
 mod loads;
 mod long_runs;
+mod machines;
 mod misfits;
 mod nearly_redundant;
 mod oldest_compiler;
