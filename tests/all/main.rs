@@ -37,6 +37,7 @@ mod loads;
 mod long_runs;
 mod machines;
 mod misfits;
+mod mobile_robots;
 mod nearly_redundant;
 mod oldest_compiler;
 mod parts;

@@ -1,6 +1,7 @@
 joint! { plane Rolling(i, j) {
-    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:
-    /// `(R·d)·v_s − radius·ω_j = 0`.
+    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the
+    /// spinner j: `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the
+    /// rotation of the carrier.
     params {
         /// The point of the carrier whose velocity makes the spinner roll, usually the centre of
         /// the wheel.
@@ -11,6 +12,7 @@ joint! { plane Rolling(i, j) {
         /// direction.
         radius: Length,
     }
+    variant spin = "absolute", default;
     require "the radius is not zero": radius * radius > 0.0;
     rows: [along];
     psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));

@@ -43,6 +43,9 @@ pub use point_on_line::*;
 pub mod rack_and_pinion;
 pub use rack_and_pinion::*;
 #[rustfmt::skip]
+pub mod relative_rolling;
+pub use relative_rolling::*;
+#[rustfmt::skip]
 pub mod revolute;
 pub use revolute::*;
 #[rustfmt::skip]
@@ -80,6 +83,7 @@ pub fn plane_constraints<V: Visitor>(visitor: &mut V) {
     visitor.constraint::<PinInSlot>();
     visitor.constraint::<PointOnLine>();
     visitor.constraint::<RackAndPinion>();
+    visitor.constraint::<RelativeRolling>();
     visitor.constraint::<Revolute>();
     visitor.constraint::<Rolling>();
     visitor.constraint::<Translational>();

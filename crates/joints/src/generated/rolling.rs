@@ -15,8 +15,9 @@ use crate::spec::{
     ConstraintSpec, Datum, DatumShape, Entry, Measure, Parameter, Role, Row, Shape, Spec,
     Unit, Variant,
 };
-/// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:
-/// `(R·d)·v_s − radius·ω_j = 0`.
+/// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the
+/// spinner j: `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the
+/// rotation of the carrier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rolling {
     /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel. Point in the frame of body i (m).
@@ -41,9 +42,13 @@ impl Constraint for Rolling {
             common: Spec {
                 name: "Rolling",
                 scene_type: "rolling",
-                variant: None,
-                doc: "The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j: `(R·d)·v_s − radius·ω_j = 0`.",
-                text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:\n    /// `(R·d)·v_s − radius·ω_j = 0`.\n    params {\n        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of\n        /// the wheel.\n        s: Point in i,\n        /// Direction of rolling.\n        direction: Direction in i,\n        /// Radius of the spinner, not zero; if negative, the spinner rotates in the opposite\n        /// direction.\n        radius: Length,\n    }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
+                variant: Some(Variant {
+                    key: "spin",
+                    value: "absolute",
+                    default: true,
+                }),
+                doc: "The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j: `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the rotation of the carrier.",
+                text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the\n    /// spinner j: `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the\n    /// rotation of the carrier.\n    params {\n        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of\n        /// the wheel.\n        s: Point in i,\n        /// Direction of rolling.\n        direction: Direction in i,\n        /// Radius of the spinner, not zero; if negative, the spinner rotates in the opposite\n        /// direction.\n        radius: Length,\n    }\n    variant spin = \"absolute\", default;\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(

@@ -78,7 +78,7 @@ fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
         }
     }
     if let Some(variant) = spec.variant {
-        let mut value = json!({ "const": variant.value });
+        let mut value = json!({ "const": variant.value, "description": in_one_line(spec.doc) });
         if variant.default {
             value["default"] = variant.value.into();
         } else {

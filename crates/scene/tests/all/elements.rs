@@ -394,6 +394,8 @@ fn the_types_are_those_of_the_contract() {
         .map(|s| s.scene_type)
         .collect();
     joints.sort_unstable();
+    // `spin` selects one of the two definitions of `rolling`.
+    joints.dedup();
     assert_eq!(
         joints,
         [
