@@ -7,6 +7,7 @@ mod bushing;
 mod catalogue;
 mod choices;
 mod drifts;
+mod gearbox;
 mod gears;
 mod motion;
 mod robot;

@@ -10,7 +10,7 @@
 //!                                      [unit, …] · Function<unit> · [Function<unit>, …]; `= expr` makes a
 //!                                      number optional
 //!     points apart;                    the place in a scene is one point for each Point, not a common one
-//!     bearings;                        the first two bodies are borne on the third by joints that a scene names
+//!     bearings;                        the first two bodies turn on the third about axes of joints that a scene names
 //!     let name = expr;
 //!     initial { name: Kind = expr, … } kept from the assembled start
 //!     turns name: angle(a, b);         an angle in space since the assembled start, with its full turns

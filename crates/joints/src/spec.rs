@@ -25,10 +25,10 @@ pub struct Spec {
     /// parameter.
     pub points_apart: bool,
     /// Whether the bodies, points and axes of the definition, except the last point, are taken from
-    /// two joints whose names the scene gives. The first two bodies are wheels; each of the two
-    /// joints supports one of them on the third body, the carrier. On the carrier, the first point
-    /// and the first axes belong to the first joint, the second ones to the second joint. The third
-    /// point is the reference point.
+    /// two joints whose names the scene gives. The first two bodies are wheels; each of them turns
+    /// about the axis of one of the two joints on the third body, the carrier. On the carrier, the
+    /// first point and the first axes belong to the first wheel, the second ones to the second
+    /// wheel. The third point is the reference point.
     pub bearings: bool,
     /// Requirements for the assembled initial configuration, as texts, in the order of
     /// `requirement`.

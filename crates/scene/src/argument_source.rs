@@ -16,9 +16,9 @@ pub(crate) enum ArgumentSource<'a> {
     Text,
     /// Points and directions are taken from two markers.
     Markers(JointMarkers<'a>),
-    /// Points and axes are taken from two joints; only the pitch point and the line of action are
+    /// Points and axes are taken from joints; only the pitch point and the line of action are
     /// in the table.
-    Bearings(Bearings<'a>),
+    Bearings(Bearings),
 }
 
 impl ArgumentSource<'_> {

@@ -14,7 +14,7 @@ use joints::{Argument, Space3};
 use model::BodyRef;
 
 use crate::argument_source::ArgumentSource;
-use crate::bearings::CARRIER;
+use crate::bearings::{self, CARRIER};
 use crate::between::MARKERS;
 use crate::bodies::Bodies;
 use crate::dimension::Dimension;
@@ -185,13 +185,8 @@ impl<'b, S: SceneSpace> Directions<'b, S> {
     /// Returns the axes of the body with the index `slot` that are parallel, in the described
     /// configuration, to given axes of another body.
     pub(crate) fn like(&self, axes: &Argument, [from, slot]: [usize; 2]) -> Argument {
-        let axes = match axes {
-            Argument::Axes(axes) => Some(*axes),
-            Argument::Axis(axis, across) => Axes::new(*axis, *across),
-            _ => None,
-        };
         // An invalid axis is reported for the key in which it is given.
-        let axes = axes.unwrap_or(Axes::FRAME);
+        let axes = bearings::axes(axes).unwrap_or(Axes::FRAME);
         let [from, to] = [from, slot].map(|slot| self.body(slot));
         let carried = axes.map(|d| S::point(S::carried(S::vector(d), from, to)));
         let [u, v, _] = carried.uvw();

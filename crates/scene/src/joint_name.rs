@@ -1,7 +1,10 @@
 //! References to joints and joint coordinates in other tables: one joint, two joints, two joint
 //! coordinates.
 
+use std::cell::OnceCell;
 use std::collections::HashMap;
+
+use model::BodyRef;
 
 use crate::bodies::Bodies;
 use crate::field::{Field, all};
@@ -24,6 +27,8 @@ pub(crate) struct JointNames<'j, 'r, S: SceneSpace> {
     list: &'j [JointRead<'r, S>],
     /// Joints by name; if a name is used twice, the first joint.
     by_name: HashMap<&'j str, &'j JointRead<'r, S>>,
+    /// Joints by body, computed when they are first needed.
+    by_body: OnceCell<HashMap<BodyRef, Vec<&'j JointRead<'r, S>>>>,
 }
 
 impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
@@ -32,7 +37,30 @@ impl<'j, 'r, S: SceneSpace> JointNames<'j, 'r, S> {
         for joint in list {
             by_name.entry(joint.name.as_str()).or_insert(joint);
         }
-        Self { list, by_name }
+        Self {
+            list,
+            by_name,
+            by_body: OnceCell::new(),
+        }
+    }
+
+    /// All joints.
+    pub(crate) fn all(&self) -> &'j [JointRead<'r, S>] {
+        self.list
+    }
+
+    /// The joints of a body that could be read completely.
+    pub(crate) fn of_body(&self, body: BodyRef) -> &[&'j JointRead<'r, S>] {
+        let by_body = self.by_body.get_or_init(|| {
+            let mut by_body: HashMap<_, Vec<_>> = HashMap::new();
+            for joint in self.list {
+                for &body in joint.complete.iter().flat_map(|own| &own.joint.bodies) {
+                    by_body.entry(body).or_default().push(joint);
+                }
+            }
+            by_body
+        });
+        by_body.get(&body).map_or(&[], Vec::as_slice)
     }
 
     /// Returns the joint with the name in this field. An active table must refer to active joints.

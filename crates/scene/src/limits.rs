@@ -15,8 +15,10 @@ pub(crate) const LONGEST_LINE: usize = 4 << 20;
 /// memory of small machines is insufficient. Test: `large_texts_are_refused_at_once`.
 pub(crate) const MOST_SIGNS: usize = 1 << 23;
 
-/// Two axes of wheels are parallel if the sine of the angle between them is below this limit. The
-/// axes meet, and the pitch point is in their plane, if the distance is below this fraction of the
+/// Two axes of wheels are parallel if the sine of the angle between them is below this limit.
+/// Parallel axes of bearings coincide if their distance is at most this fraction of the largest
+/// distance among the points of the bearings and the centres of mass of their bodies. The axes
+/// meet, and the pitch point is in their plane, if the distance is below this fraction of the
 /// largest distance among the bearings, the pitch point and the apex. A line of action meets an
 /// axis, or is parallel to it, if its moment about the axis is below this fraction of its moment
 /// about the bearing. Unit: share. Too small: axes that are given with few digits need a `line`.

@@ -15,7 +15,7 @@ use solvability::Verdict;
 use super::verdicts::Motion;
 use crate::freedoms::are_a_basis;
 
-fn study(text: &str) -> Study {
+pub(super) fn study(text: &str) -> Study {
     let study = Study::read(
         "gears.toml",
         text,
@@ -26,15 +26,15 @@ fn study(text: &str) -> Study {
 }
 
 /// The end of a run: state, reactions in the order of the groups, and recorded values.
-struct End {
-    q: Vec<f64>,
-    v: Vec<f64>,
-    reactions: Vec<Reaction>,
-    summary: Summary,
+pub(super) struct End {
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    pub(super) reactions: Vec<Reaction>,
+    pub(super) summary: Summary,
 }
 
 impl End {
-    fn of(study: &Study, t_end: f64) -> Self {
+    pub(super) fn of(study: &Study, t_end: f64) -> Self {
         let options = MotionOptions {
             rtol: 1e-10,
             atol: 1e-10,
@@ -57,24 +57,24 @@ impl End {
         }
     }
 
-    fn pose(&self, body: usize) -> Pose {
+    pub(super) fn pose(&self, body: usize) -> Pose {
         let q = &self.q[7 * body..];
         Pose::new([q[0], q[1], q[2]], [q[3], q[4], q[5], q[6]])
     }
 
     /// Returns the angular velocity in the axes of a body.
-    fn omega(&self, body: usize) -> [f64; 3] {
+    pub(super) fn omega(&self, body: usize) -> [f64; 3] {
         [3, 4, 5].map(|k| self.v[6 * body + k])
     }
 }
 
 #[track_caller]
-fn close(found: f64, expected: f64, bound: f64) {
+pub(super) fn close(found: f64, expected: f64, bound: f64) {
     assert!((found - expected).abs() <= bound, "{found}, not {expected}");
 }
 
 /// Returns rows, rank, redundancy and mobility.
-fn counts(configuration: &ConfigurationAnalysis) -> [usize; 4] {
+pub(super) fn counts(configuration: &ConfigurationAnalysis) -> [usize; 4] {
     let found = &configuration.analysis;
     let rows = found.holonomic_rows + found.nonholonomic_rows;
     let rank = found.decision.rank;
@@ -270,7 +270,7 @@ fn the_case_of_a_differential_turns_with_the_mean_rate_of_its_side_gears() {
 }
 
 /// Computes the row of a gear mesh for all bodies: n·(v_1(P) − v_2(P)).
-fn row_of_teeth(
+pub(super) fn row_of_teeth(
     end: &End,
     [first, second]: [usize; 2],
     pitch: [f64; 3],
@@ -287,13 +287,13 @@ fn row_of_teeth(
 }
 
 /// Returns pseudo-random values between −1 and 1, one for each velocity.
-fn velocities(n: usize, seed: usize) -> Vec<f64> {
+pub(super) fn velocities(n: usize, seed: usize) -> Vec<f64> {
     let number = |k: usize| (12.9898 * (k * 7 + 1) as f64 + 78.233 * (seed + 1) as f64).sin();
     (0..n).map(number).collect()
 }
 
 /// Returns C·v for a row at the end of a run.
-fn row_of(mechanism: &Mechanism, end: &End, name: &str, v: &[f64]) -> f64 {
+pub(super) fn row_of(mechanism: &Mechanism, end: &End, name: &str, v: &[f64]) -> f64 {
     let mut s = mechanism.scratch();
     mechanism.pose(end.summary.t, &end.q, &mut s);
     mechanism.c(&mut s);
@@ -454,7 +454,7 @@ axis = [0, 0, 1]
 [[joint]]
 name = "sun-bearing"
 type = "revolute"
-bodies = ["carrier", "sun"]
+bodies = ["ground", "sun"]
 at = [0, 0, 0]
 axis = [0, 0, 1]
 [[force]]

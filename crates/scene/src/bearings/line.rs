@@ -1,7 +1,10 @@
 //! Computes the line of action of two wheels that rotate about axes of one carrier, from the pitch
 //! point and the pressure angle.
 
+use std::fmt;
+
 use joints::space3::{Direction, cross, dot};
+use model::words::rounded;
 
 use crate::limits::MEETING;
 
@@ -12,7 +15,42 @@ pub(super) struct Axis {
     pub(super) along: [f64; 3],
 }
 
+/// Position of an axis relative to another one.
+pub(super) struct Offset {
+    /// Distance of the point of the second axis from the first axis (m).
+    pub(super) distance: f64,
+    /// Sine of the angle between both axes.
+    pub(super) sine: f64,
+    /// Whether the axes point in opposite directions.
+    pub(super) is_reversed: bool,
+}
+
+/// Prints the larger part of the offset, between the names of both axes.
+impl fmt::Display for Offset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.sine < MEETING {
+            write!(f, "is {} m away from", rounded(self.distance))
+        } else {
+            write!(
+                f,
+                "is inclined by {} rad to",
+                rounded(self.sine.min(1.0).asin())
+            )
+        }
+    }
+}
+
 impl Axis {
+    /// Returns the offset of another axis from this one.
+    pub(super) fn offset(&self, other: &Self) -> Offset {
+        let apart = minus(other.point, self.point);
+        Offset {
+            distance: length(cross(apart, self.along)),
+            sine: length(cross(self.along, other.along)),
+            is_reversed: dot(self.along, other.along) < 0.0,
+        }
+    }
+
     /// Returns whether a force along a line through a point has a moment about the axis.
     pub(super) fn has_lever(&self, line: [f64; 3], at: [f64; 3]) -> bool {
         let line = Direction::new(line).map(Direction::xyz);
@@ -103,7 +141,7 @@ fn meeting(
     }
 }
 
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(super) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| a[k] - b[k])
 }
 
@@ -112,6 +150,6 @@ fn moved(a: [f64; 3], s: f64, b: [f64; 3]) -> [f64; 3] {
     [0, 1, 2].map(|k| a[k] + s * b[k])
 }
 
-fn length(a: [f64; 3]) -> f64 {
+pub(super) fn length(a: [f64; 3]) -> f64 {
     dot(a, a).sqrt()
 }

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::value::{described, name_in, number, reference, tuple, vector};
 use crate::active::ACTIVE;
-use crate::bearings::{BEARINGS, PRESSURE_ANGLE};
+use crate::bearings::{BEARINGS, CARRIER_KEY, PRESSURE_ANGLE};
 use crate::between::{MARKERS, takes_markers};
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
@@ -58,7 +58,7 @@ fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
 
     if spec.bearings {
         required.push(BEARINGS.name);
-        for key in [&BEARINGS, &PRESSURE_ANGLE] {
+        for key in [&BEARINGS, &CARRIER_KEY, &PRESSURE_ANGLE] {
             properties.insert(key.name.to_owned(), described(key));
         }
     } else {

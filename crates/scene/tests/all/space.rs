@@ -684,7 +684,7 @@ fn bearings_of_teeth() {
     let scene = format!(
         "{BODIES}{SHAFTS}[[joint]]\nname = \"C\"\ntype = \"revolute\"\nbodies = [\"a\", \"c\"]\nat = [0, 1, 0]\naxis = [0, 0, 1]\n\
          [[joint]]\nname = \"D\"\ntype = \"spherical\"\nbodies = [\"ground\", \"c\"]\nat = [0, 0, 2]\n\
-         [[joint]]\nname = \"E\"\ntype = \"revolute\"\nbodies = [\"ground\", \"c\"]\nat = [0, 1, 2]\naxis = [0, 0, 1]\n\
+         [[joint]]\nname = \"E\"\ntype = \"revolute\"\nbodies = [\"ground\", \"c\"]\nat = [0, 2, 2]\naxis = [0, 0, 1]\n\
          [[joint]]\nname = \"M\"\ntype = \"mesh\"\nbearings = [\"A\", \"B\"]\nat = [2, 3, 0]\n"
     );
     let skew =
@@ -708,7 +708,7 @@ fn bearings_of_teeth() {
             (
                 "[\"A\", \"B\"]",
                 "«[\"B\", \"C\"]»",
-                "joint `M`: `B` and `C` connect no common body",
+                "joint `M`: `B` and `C` connect no common body, and there is no body on which both wheels turn; the axis of `E` is 1 m away from the axis of `C`",
                 "both wheels turn on one carrier",
             ),
             (
@@ -786,5 +786,203 @@ fn bearings_of_teeth() {
     assert!(
         message.contains("joint `A`, which is not active"),
         "{message}"
+    );
+}
+
+/// A sun and an arm in the housing, and a planet on the arm. The axes of the sun and of the arm are
+/// opposite, and the frames of the bodies are not parallel.
+const PLANETARY: &str = r#"
+scene = { name = "planetary", space = "spatial" }
+body = [
+  { name = "sun", mass = 1.0, inertia = [1, 1, 1], position = [0, 0, 0.2] },
+  { name = "arm", mass = 1.0, inertia = [1, 1, 1], position = [0.1, 0, 0], orientation = { axis = [0, 0, 1], angle = 1.5707963267948966 } },
+  { name = "planet", mass = 1.0, inertia = [1, 1, 1], position = [0.3, 0, 0] },
+]
+[[joint]]
+name = "sun bearing"
+type = "revolute"
+bodies = ["ground", "sun"]
+at = [0, 0, 0.2]
+axis = [0, 0, 1]
+[[joint]]
+name = "arm bearing"
+type = "revolute"
+bodies = ["arm", "ground"]
+at = [0, 0, -0.2]
+axis = [0, 0, -1]
+[[joint]]
+name = "planet bearing"
+type = "revolute"
+bodies = ["arm", "planet"]
+at = [0.3, 0, 0]
+axis = [0, 0, 1]
+[[joint]]
+name = "M"
+type = "mesh"
+bearings = ["sun bearing", "planet bearing"]
+carrier = "arm"
+at = [0.2, 0, 0]
+"#;
+
+/// The wheels and the carrier are found if `carrier` is given, and if it is not. The axis of the
+/// sun on the arm is that of the bearing of the arm, in the direction of the axis of the sun.
+#[test]
+fn wheels_of_a_housing() {
+    for text in [
+        PLANETARY.to_owned(),
+        PLANETARY.replace("carrier = \"arm\"\n", ""),
+    ] {
+        let joint = described(&text).joints.pop().expect("a joint");
+        assert_eq!(joint.bodies, [0, 2, 1].map(model::BodyRef::Body));
+        assert_close(&value(&joint, "s_i"), &[0.0, 0.0, 0.0]);
+        assert_close(&value(&joint, "p_i"), &[0.0, 0.1, -0.2]);
+        assert_close(&value(&joint, "p_j"), &[0.0, -0.2, 0.0]);
+        assert_close(&value(&joint, "pitch"), &[0.0, -0.1, 0.0]);
+        assert_close(&value(&joint, "line"), &[1.0, 0.0, 0.0]);
+    }
+    // The ring is the housing, or a further body in it.
+    let ring = PLANETARY.replace(
+        "[\"sun bearing\", \"planet bearing\"]",
+        "[\"planet bearing\", \"arm bearing\"]",
+    );
+    let joint = described(&ring).joints.pop().expect("a joint");
+    let bodies = [
+        model::BodyRef::Body(2),
+        model::BodyRef::Ground,
+        model::BodyRef::Body(1),
+    ];
+    assert_eq!(joint.bodies, bodies);
+    // The sun has a second bearing in the housing.
+    let second = "[[joint]]\nname = \"second\"\ntype = \"cylindrical\"\nbodies = [\"sun\", \"ground\"]\nat = [0, 0, 0]\naxis = [0, 0, 1]\n";
+    let joints = described(&format!("{PLANETARY}{second}")).joints;
+    let joint = joints.iter().find(|joint| joint.name == "M");
+    assert_eq!(
+        joint.expect("the mesh").bodies,
+        [0, 2, 1].map(model::BodyRef::Body)
+    );
+}
+
+#[test]
+fn carriers_of_wheels() {
+    const GIVEN: &str = "bearings = [\"sun bearing\", \"planet bearing\"]\ncarrier = \"arm\"";
+    macro_rules! given {
+        ($carrier:literal) => {
+            concat!(
+                "bearings = «[\"sun bearing\", \"planet bearing\"]»\n",
+                $carrier
+            )
+        };
+    }
+    macro_rules! on {
+        ($rest:literal) => {
+            concat!(
+                "joint `M`: no joints about the axis of `sun bearing` connect `ground` and `sun` with the carrier ",
+                $rest
+            )
+        };
+    }
+    let free = "body = [\n  { name = \"free\", mass = 1.0, inertia = [1, 1, 1], position = [0.3, 0, 0] },\n";
+    let planetary = PLANETARY.replace("body = [\n", free);
+    let one = "both wheels turn on one carrier";
+    check_in(
+        &planetary,
+        &[
+            (
+                "carrier = \"arm\"",
+                "carrier = «\"amr\"»",
+                "joint `M` refers to the unknown body `amr`",
+                "no such body; `arm` is defined on line 6",
+            ),
+            (
+                "carrier = \"arm\"",
+                "carrier = «[\"arm\"]»",
+                "joint `M`: `carrier` must be the name of a body, found a list of 1 value",
+                "expected the name of a body",
+            ),
+            (GIVEN, given!("carrier = \"free\""), on!("`free`"), one),
+            (
+                GIVEN,
+                given!("carrier = \"planet\""),
+                on!(
+                    "`planet`; the axis of `planet bearing` is 0.3 m away from the axis of `sun bearing`"
+                ),
+                one,
+            ),
+            (
+                GIVEN,
+                given!("carrier = \"sun\""),
+                "joint `M`: no joints about the axis of `planet bearing` connect `arm` and `planet` with the carrier `sun`",
+                one,
+            ),
+        ],
+    );
+    let refused = |scene: &str, message: &str| {
+        let problems = read(scene).expect_err(message);
+        let [problem] = &problems[..] else {
+            panic!("{problems:#?}");
+        };
+        assert_eq!(problem.message, message);
+    };
+    // The bearing of the arm has another axis, or the arm has no bearing.
+    let turned = |from: &str, to: &str| planetary.replace(from, to);
+    let away = "the axis of `arm bearing` is 0.001 m away from the axis of `sun bearing`";
+    let inclined =
+        "the axis of `arm bearing` is inclined by 0.001 rad to the axis of `sun bearing`";
+    let scenes = [
+        (
+            turned("at = [0, 0, -0.2]", "at = [0, 1e-3, -0.2]"),
+            format!("; {away}"),
+        ),
+        (
+            turned("axis = [0, 0, -1]", "axis = [1e-3, 0, -1]"),
+            format!("; {inclined}"),
+        ),
+        (
+            turned(
+                "name = \"arm bearing\"\n",
+                "name = \"arm bearing\"\nactive = false\n",
+            ),
+            String::new(),
+        ),
+        (
+            turned(
+                "type = \"revolute\"\nbodies = [\"arm\", \"ground\"]",
+                "type = \"spherical\"\nbodies = [\"arm\", \"ground\"]",
+            )
+            .replace("axis = [0, 0, -1]\n", ""),
+            String::new(),
+        ),
+    ];
+    for (scene, miss) in scenes {
+        let alone = "joint `M`: `sun bearing` and `planet bearing` connect no common body, and there is no body on which both wheels turn";
+        let without = scene.replace("carrier = \"arm\"\n", "");
+        for (scene, message) in [
+            (&scene, format!("{}{miss}", on!("`arm`"))),
+            (&without, format!("{alone}{miss}")),
+        ] {
+            refused(scene, &message);
+        }
+    }
+    // A few digits are sufficient.
+    assert!(read(&turned("at = [0, 0, -0.2]", "at = [0, 1e-7, -0.2]")).is_ok());
+    // The arm bears the sun, too: both bodies of its bearing turn on the arm.
+    let helper = "[[joint]]\nname = \"helper\"\ntype = \"revolute\"\nbodies = [\"arm\", \"sun\"]\nat = [0, 0, 0]\naxis = [0, 0, 1]\n";
+    refused(
+        &format!("{planetary}{helper}"),
+        "joint `M`: `sun bearing` connects `ground` and `sun`, which both turn on `arm`: name the joint that connects the wheel with `arm`",
+    );
+    // A body on the axis of the sun that also bears the planet.
+    let other = "[[joint]]\nname = \"free bearing\"\ntype = \"revolute\"\nbodies = [\"ground\", \"free\"]\nat = [0, 0, 0]\naxis = [0, 0, 1]\n\
+         [[joint]]\nname = \"free pin\"\ntype = \"revolute\"\nbodies = [\"free\", \"planet\"]\nat = [0.3, 0, 0]\naxis = [0, 0, 1]\n";
+    let both = format!("{planetary}{other}");
+    assert!(read(&both).is_ok());
+    check_in(
+        &both,
+        &[(
+            GIVEN,
+            given!(""),
+            "joint `M`: both wheels turn on `arm` and `free`: write which one is the `carrier`",
+            "the carrier is not determined",
+        )],
     );
 }
