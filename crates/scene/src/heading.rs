@@ -4,6 +4,7 @@ use joints::{Plane, Space, Space3};
 use model::Tolerance;
 use toml::de::DeTable;
 
+use crate::cover::Cover;
 use crate::key::{Key, Takes};
 use crate::language;
 use crate::mistake::Mistake;
@@ -25,7 +26,7 @@ const NAME: Key = Key::required("name", "the name of the scene", Takes::Text)
 const SPACE: Key = Key::required("space", "\"plane\" or \"spatial\"", Takes::OneOf(spaces))
     .doc("The space of the bodies");
 
-/// Keys of `[scene]`, except the keys for gravity and for tolerances.
+/// Keys of `[scene]`, except the keys for gravity, tolerances and the title of reports.
 pub(crate) const SCENE_KEYS: [Key; 2] = [NAME, SPACE];
 
 /// `[scene]`
@@ -33,6 +34,7 @@ pub(crate) struct Heading<S: SceneSpace> {
     pub(crate) name: String,
     pub(crate) gravity: S::Vector<f64>,
     pub(crate) tolerance: Tolerance,
+    pub(crate) cover: Cover,
 }
 
 impl<S: SceneSpace> Default for Heading<S> {
@@ -41,6 +43,7 @@ impl<S: SceneSpace> Default for Heading<S> {
             name: String::new(),
             gravity: S::vector([0.0; 3]),
             tolerance: Tolerance::default(),
+            cover: Cover::default(),
         }
     }
 }
@@ -82,11 +85,13 @@ impl<S: SceneSpace> Heading<S> {
             table.optional(key);
         }
         silence::read(&mut table);
+        let cover = Cover::read(&mut table);
         table.close();
         Self {
             name: name.unwrap_or_default(),
             gravity: gravity.unwrap_or_else(|| S::vector([0.0; 3])),
             tolerance,
+            cover,
         }
     }
 }

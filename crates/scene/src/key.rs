@@ -67,6 +67,8 @@ pub(crate) enum Takes {
     Texts(usize),
     /// `true` for all items, `false` for no item, or a list of names.
     Names,
+    /// A list of plots: each a list of names, or a table with these keys.
+    Plots(&'static [Key]),
     /// A list of rows (1-based).
     Rows,
     /// A number or a function of time.

@@ -37,6 +37,7 @@ mod case;
 mod combination;
 mod connection;
 mod coupling;
+mod cover;
 mod diagnostic;
 mod dimension;
 mod direction;
@@ -85,11 +86,13 @@ mod units;
 
 pub use case::{LoadCase, Setting};
 pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};
+pub use cover::Cover;
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use language::Units;
 pub use nearest::{ELSEWHERE, nearest};
 pub use reactions::{
-    GroupContent, GroupRequest, Output, OutputUnits, WantedBounds, WantedReactions,
+    GroupContent, GroupRequest, Output, OutputUnits, PlotRequest, PrintStyle, WantedBounds,
+    WantedReactions,
 };
 pub use read::{read, read_and_build};
 pub use scene::{Inactive, Scene};

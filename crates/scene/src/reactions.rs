@@ -11,7 +11,8 @@ use model::{BodyRef, SpaceKind};
 use crate::active;
 use crate::body::BodyNames;
 use crate::combination::{self, Combination, Reactions};
-use crate::field::Field;
+use crate::cover::Cover;
+use crate::field::{Field, all};
 use crate::key::{Interval, Key, Takes};
 use crate::mistake::Mistake;
 use crate::simulate::{Choice, choose};
@@ -55,6 +56,46 @@ pub struct Output {
     pub rpy: bool,
     /// Units of the tables.
     pub units: OutputUnits,
+    /// Style of `report.html`.
+    pub print: PrintStyle,
+    /// Title of `report.html`, which `[scene]` states.
+    pub cover: Cover,
+    /// Plots of `report.html`.
+    pub plots: Vec<PlotRequest>,
+}
+
+/// Style of `report.html`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PrintStyle {
+    /// All results, with their evidence.
+    #[default]
+    Full,
+    /// A short report for readers who use the results: title, verdict, picture, determined peaks
+    /// and curves, and assumptions.
+    Customer,
+}
+
+impl PrintStyle {
+    /// All styles.
+    pub const ALL: &'static [Self] = &[Self::Full, Self::Customer];
+
+    /// Name of the style.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Full => "full",
+            Self::Customer => "customer",
+        }
+    }
+}
+
+/// A plot with several curves.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PlotRequest {
+    /// Title; without it, the names of the curves are the title.
+    pub title: Option<String>,
+    /// The curves: columns of `reactions.csv`, `loads.csv` or `trajectory.csv`.
+    pub curves: Vec<String>,
 }
 
 /// Units of the tables of a run.
@@ -100,6 +141,9 @@ impl Default for Output {
             accelerations: false,
             rpy: false,
             units: OutputUnits::Si,
+            print: PrintStyle::default(),
+            cover: Cover::default(),
+            plots: Vec::new(),
         }
     }
 }
@@ -175,6 +219,34 @@ const UNITS: Key = Key::optional(
 .doc("Units of the tables: `si`, or those that the scene chooses for lengths and angles, which the headers then contain, as in `crank.x (mm)`")
 .or(|| OutputUnits::default().name().into());
 
+const PRINT: Key = Key::optional(
+    "print",
+    "\"full\" or \"customer\"",
+    Takes::OneOf(|| PrintStyle::ALL.iter().copied().map(PrintStyle::name).collect()),
+)
+.doc("Style of `report.html`: `full`, or `customer`, a short report of what is determined and of the assumptions, for print")
+.or(|| PrintStyle::default().name().into());
+const PLOT_TITLE: Key = Key::optional("title", "a text", Takes::Text)
+    .doc("Title of the plot; without it, the names of the curves");
+const CURVES: Key = Key::required("curves", "a list of names of columns", Takes::Texts(1))
+    .doc("Columns of the tables of the run, as `A.Fx`, of one unit");
+
+/// Keys of a plot.
+const PLOT_KEYS: [Key; 2] = [PLOT_TITLE, CURVES];
+
+const PLOTS: Key = Key::optional(
+    "plots",
+    "a list of plots, each a list of names of columns, or a table { title, curves }",
+    Takes::Plots(&PLOT_KEYS),
+)
+.doc("Plots of `report.html` with several curves, each a column of `reactions.csv`, `loads.csv` or `trajectory.csv`");
+
+const PRINT_STYLES: Choice<PrintStyle> = Choice {
+    key: PRINT,
+    available: PrintStyle::ALL,
+    name: PrintStyle::name,
+};
+
 const OUTPUT_UNITS: Choice<OutputUnits> = Choice {
     key: UNITS,
     available: &OutputUnits::ALL,
@@ -182,12 +254,14 @@ const OUTPUT_UNITS: Choice<OutputUnits> = Choice {
 };
 
 /// Keys of `[output]`.
-pub(crate) const OUTPUT_KEYS: [Key; 8] = [
+pub(crate) const OUTPUT_KEYS: [Key; 10] = [
     TRAJECTORY,
     ACCELERATIONS,
     RPY,
     REACTIONS,
     REPORT,
+    PRINT,
+    PLOTS,
     BOUNDS,
     UNITS,
     BODIES,
@@ -273,9 +347,56 @@ pub(crate) fn output<S: SceneSpace>(
         accelerations: table.flag(&ACCELERATIONS).unwrap_or_default(),
         rpy,
         units: choose(&mut table, &OUTPUT_UNITS).unwrap_or_default(),
+        print: choose(&mut table, &PRINT_STYLES).unwrap_or_default(),
+        plots: table
+            .optional(&PLOTS)
+            .and_then(|field| all(&field.items(PLOTS.expected)?, plot))
+            .unwrap_or_default(),
+        cover: defaults.cover,
     };
     table.close();
     output
+}
+
+/// Reads a plot: a list of names, or a table.
+fn plot(field: &Field) -> Option<PlotRequest> {
+    if !field.value.get_ref().is_table() {
+        return Some(PlotRequest {
+            title: None,
+            curves: curves(
+                field,
+                "a list of names of columns, or a table { title, curves }",
+            )?,
+        });
+    }
+    let mut table = field.table(PLOTS.expected)?;
+    let title = table.optional(&PLOT_TITLE);
+    let title = title.and_then(|field| field.text(PLOT_TITLE.expected));
+    let curves = table.required(&CURVES);
+    let curves = curves.and_then(|field| self::curves(&field, CURVES.expected));
+    table.close();
+    Some(PlotRequest {
+        title: title.map(str::to_owned),
+        curves: curves?,
+    })
+}
+
+/// Reads the names of curves, at least one; repetitions are ignored.
+fn curves(field: &Field, expected: &str) -> Option<Vec<String>> {
+    let items = field.items(expected)?;
+    if items.is_empty() {
+        let label = "needs at least one name of a column";
+        field.error(Mistake::EmptyList, ": a plot has no curves", label);
+        return None;
+    }
+    let names = all(&items, |item| item.text("the name of a column"))?;
+    let mut curves: Vec<String> = Vec::new();
+    for name in names {
+        if !curves.iter().any(|known| known == name) {
+            curves.push(name.to_owned());
+        }
+    }
+    Some(curves)
 }
 
 /// Reads a list of bodies without the ground; repetitions are ignored.

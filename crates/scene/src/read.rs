@@ -26,7 +26,7 @@ use crate::mistake::Mistake;
 use crate::names::NameUse;
 use crate::parts::{Participation, Parts};
 use crate::plausible;
-use crate::reactions::{self, GroupRequest};
+use crate::reactions::{self, GroupRequest, Output};
 use crate::scene::Scene;
 use crate::section::{self, section, tables};
 use crate::simulate;
@@ -227,7 +227,10 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
             ..start.unwrap_or_default()
         },
         simulate: simulate.map(|simulate| simulate.options),
-        output: output.unwrap_or_default(),
+        output: Output {
+            cover: heading.cover,
+            ..output.unwrap_or_default()
+        },
         centres,
         groups,
         cases,

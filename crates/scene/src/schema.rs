@@ -26,7 +26,7 @@ use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::section::{self, NAME, Section};
 use crate::silence;
 use crate::space::SceneSpace;
-use crate::{coupling, marker, measure, simulate, spring, start, tolerance};
+use crate::{coupling, cover, marker, measure, simulate, spring, start, tolerance};
 use element::{ElementKind, elements};
 use value::{described, reference};
 
@@ -206,6 +206,7 @@ fn scene_table<S: SceneSpace>() -> Value {
         .chain(tolerance::SCENE_KEYS)
         .chain(language::SCENE_KEYS)
         .chain(silence::SCENE_KEYS)
+        .chain(cover::SCENE_KEYS)
         .collect();
     table("Scene", &keys)
 }

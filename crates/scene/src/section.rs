@@ -139,17 +139,28 @@ pub(crate) fn unfit(name: &str) -> Option<(String, &'static str)> {
     if name.trim().is_empty() {
         return Some(("is empty".to_owned(), "expected a name"));
     }
-    let other = "choose another name";
-    if let Some(c) = name.chars().find(|c| c.is_control()) {
-        let reason = format!("has the control character {c:?}: names are of one line");
-        return Some((reason, other));
-    }
-    if name.len() > LONGEST_NAME && name.chars().count() > LONGEST_NAME {
-        let letters = name.chars().count();
-        let reason = format!("has {letters} letters, more than {LONGEST_NAME}");
-        return Some((reason, other));
+    if let Some(reason) = unfit_line(name, LONGEST_NAME, "names") {
+        return Some((reason, OTHER));
     }
     let sign = name.chars().next().filter(|c| "=+-@".contains(*c))?;
     let reason = format!("begins with `{sign}`: spreadsheets take such names for formulas");
-    Some((reason, other))
+    Some((reason, OTHER))
+}
+
+/// A suggestion for names that are not permitted.
+const OTHER: &str = "choose another name";
+
+/// Returns the reason why a text is not one line of at most `most` characters; `what` names texts of
+/// its kind.
+pub(crate) fn unfit_line(text: &str, most: usize, what: &str) -> Option<String> {
+    if let Some(c) = text.chars().find(|c| c.is_control()) {
+        return Some(format!(
+            "has the control character {c:?}: {what} are of one line"
+        ));
+    }
+    if text.len() > most && text.chars().count() > most {
+        let letters = text.chars().count();
+        return Some(format!("has {letters} letters, more than {most}"));
+    }
+    None
 }

@@ -50,6 +50,10 @@ pub(super) fn described(key: &Key) -> Value {
         }
         Takes::Texts(least) => texts(least),
         Takes::Names => json!({ "oneOf": [{ "type": "boolean" }, texts(0)] }),
+        Takes::Plots(keys) => json!({
+            "type": "array",
+            "items": { "oneOf": [texts(1), table(keys)] },
+        }),
         Takes::Rows => json!({
             "type": "array",
             "items": { "type": "integer", "minimum": 1 },
