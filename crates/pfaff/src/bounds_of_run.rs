@@ -11,7 +11,7 @@ use model::words::rounded;
 use model::{ConfigurationAccuracy, ConstraintId, Mechanism, System};
 use rayon::prelude::*;
 use report::{
-    BoundsTable, Frame, OutputDirectory, OutputFile, Quantity, ReactionColumn, TableError,
+    BoundsTable, OutputDirectory, OutputFile, Quantity, ReactionColumn, TableError,
     write_open_bounds,
 };
 use scene::Scene;
@@ -316,26 +316,31 @@ impl<'m> BoundsOfRun<'m> {
 }
 
 impl FoundBounds {
-    /// Returns the bounds of the components of joints and drives at the frames of the page.
+    /// Returns the bounds of a column at these times (s); NaN without bounds.
+    pub(crate) fn ends(&self, column: usize, times: &[f64]) -> Vec<[f64; 2]> {
+        let ends = times.iter().map(|time| {
+            let at = self.rows.binary_search_by(|(t, _)| t.total_cmp(time));
+            at.map_or([f64::NAN; 2], |row| self.rows[row].1[column])
+        });
+        ends.collect()
+    }
+
+    /// Returns the bounds of the components of joints and drives at the times of the page (s).
     pub(crate) fn bands(
         &self,
         columns: &[ReactionColumn],
         stretches: &Stretches,
-        frames: &[Frame],
+        times: &[f64],
     ) -> Vec<Band> {
         let band = |(k, column): (usize, &ReactionColumn)| {
             let Quantity::Component(id, component) = column.quantity else {
                 return None;
             };
             column.quantity.open(stretches)?;
-            let ends = frames.iter().map(|frame| {
-                let at = self.rows.binary_search_by(|(t, _)| t.total_cmp(&frame.t));
-                at.map_or([f64::NAN; 2], |row| self.rows[row].1[k])
-            });
             Some(Band {
                 id,
                 component,
-                ends: ends.collect(),
+                ends: self.ends(k, times),
             })
         };
         columns.iter().enumerate().filter_map(band).collect()

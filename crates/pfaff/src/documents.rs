@@ -47,7 +47,7 @@ pub use report::ByName;
 pub use report::figures::RangeDocument;
 pub use run::{
     BodyOfRunDocument, ChoiceDocument, ComponentRunDocument, Ending, EventDocument,
-    LoadOfRunDocument, Run, RunDocument, choice_file,
+    LoadOfRunDocument, Run, RunDocument, TRUSTED_BALANCE, choice_file,
 };
 pub use sensitivity::SensitivityDocument;
 pub use tolerance::{

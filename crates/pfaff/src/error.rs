@@ -45,6 +45,10 @@ pub enum StudyError {
     /// The bounds that the scene requests do not fit its mechanism.
     #[error("[output] bounds: {0}")]
     Bounds(String),
+    /// A plot that the scene requests has a column that does not exist, or columns of different
+    /// units.
+    #[error("[output] plots: {0}")]
+    Plots(String),
     /// All loads on a body are requested, but the model does not determine some of them.
     #[error(
         "[output] bodies: the loads of {} on `{body}` are not determined: choose one of the possible solutions with --choose, or make them unique",
@@ -162,7 +166,7 @@ impl StudyError {
             Self::SingularStart { .. } => const { Code::new(211) },
             Self::NoEnd => const { Code::new(214) },
             Self::NoReactions => const { Code::new(312) },
-            Self::Bounds(_) => const { Code::new(1) },
+            Self::Bounds(_) | Self::Plots(_) => const { Code::new(1) },
             Self::OpenLoads { .. } => const { Code::new(318) },
             Self::LoadName { .. } => const { Code::new(319) },
             Self::Combination { .. } => const { Code::new(311) },
@@ -233,6 +237,7 @@ impl StudyError {
             | Self::NoEnd
             | Self::NoReactions
             | Self::Bounds(_)
+            | Self::Plots(_)
             | Self::OpenLoads { .. }
             | Self::LoadName { .. }
             | Self::Combination { .. }

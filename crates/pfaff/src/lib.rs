@@ -48,6 +48,7 @@ mod loads_of_run;
 pub mod memory;
 pub mod page;
 mod peaks_of_run;
+mod plots;
 pub mod prelude;
 pub mod question;
 pub mod questions;

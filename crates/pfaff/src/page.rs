@@ -10,15 +10,21 @@
 //! | --- | --- |
 //! | `comparison` | reactions for several choices |
 //! | `first_order` | free motions and self-stresses at the start |
+//! | `cast`, `values` | the drawn part, and the determined values |
 //! | `data` | bodies, joints and curves as one JSON document, rounded |
-//! | `document`, `motion`, `verdicts`, `peaks`, `inputs` | the sections of the page |
+//! | `document`, `motion`, `verdicts`, `peaks`, `assumptions`, `inputs` | the sections of the page |
 //! | `report.css`, `script/` | style sheet, and scripts |
+//!
+//! A page for a customer ([`scene::PrintStyle::Customer`]) has the same sentences in fewer sections:
+//! title, verdict, picture, determined peaks and curves, assumptions, and annexes on request.
 //!
 //! A page computes no verdict. Its rows are those of the run; it uses additional rows only if the
 //! tables have too few for an animation. A reaction is drawn as determined only if no choice
 //! changes it during the run. Scripts and styles are inserted unchanged, and the page loads no
 //! external file.
 
+mod assumptions;
+mod cast;
 mod comparison;
 mod curves;
 mod data;
@@ -28,12 +34,13 @@ mod inputs;
 mod motion;
 mod peaks;
 mod run_page;
+mod values;
 mod verdicts;
 
 use model::Mechanism;
 
 pub use comparison::{ComparedChoice, Comparison, Freedom};
-pub use run_page::{Band, DriveCurve, Origin, RunPage, Shows, WrittenScene};
+pub use run_page::{Band, DriveCurve, Origin, Plot, PlotCurve, RunPage, Shows, WrittenScene};
 
 /// Returns the number of values in a row of a recording, including those that a page shows.
 #[must_use]

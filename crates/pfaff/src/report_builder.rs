@@ -10,7 +10,7 @@ use crate::documents::{AnalysisDocument, RunDocument};
 use crate::page::{DriveCurve, Origin, RunPage, Shows, WrittenScene, numbers_per_row, run_page};
 use dynamics::plan::Rows;
 use dynamics::{MotionOptions, Plan, PreparedMechanism, Sample};
-use model::{Mechanism, System};
+use model::{AnyDescription, Mechanism, System};
 use rank::Limits;
 use report::{Frame, ReactionColumn, Recording};
 use scene::Scene;
@@ -18,6 +18,8 @@ use solvability::{DeletableRows, Sensitivities, Stretches, Verdict};
 
 use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
+use crate::error::StudyError;
+use crate::plots::PlotRecorder;
 use crate::questions::analyze::remedies::RemedyDocument;
 use crate::rows::{RowFault, RowSink};
 use crate::words::scene_units;
@@ -52,6 +54,7 @@ pub(crate) struct ReportBuilder<'a> {
     /// Whether choices other than the independent rows of the run are requested.
     has_choices: bool,
     ends_only: bool,
+    curves: PlotRecorder<'a>,
 }
 
 impl RowSink for ReportBuilder<'_> {
@@ -71,6 +74,7 @@ impl RowSink for ReportBuilder<'_> {
                 chosen.extend(all.map(|found| found.multipliers.as_chosen().to_vec()));
             }
         }
+        self.curves.row(sample, &reactions)?;
         self.recording.frames.push(Frame {
             t: sample.t,
             q: sample.q.to_vec(),
@@ -90,14 +94,14 @@ impl<'a> ReportBuilder<'a> {
         prepared: &'a PreparedMechanism,
         asked: &'a MotionOptions,
         plan: &Plan<'_>,
-    ) -> Self {
+    ) -> Result<Self, StudyError> {
         let options = plan.options();
         let mechanism = &prepared.mechanism;
         let rows = match plan.rows.value {
             Rows::Every | Rows::Interpolated => options.t_end / options.output_step + 1.0,
             Rows::Ends => 2.0,
         };
-        Self {
+        Ok(Self {
             scene,
             prepared,
             options: asked,
@@ -110,7 +114,8 @@ impl<'a> ReportBuilder<'a> {
             has_reactions: scene.output.reactions != scene::WantedReactions::None,
             compares: prepared.decision.redundancy > 0,
             has_choices: !plan.choices.is_empty(),
-        }
+            curves: PlotRecorder::new(scene, mechanism, &prepared.q)?,
+        })
     }
 
     /// Builds the page.
@@ -150,9 +155,11 @@ impl<'a> ReportBuilder<'a> {
                     .to_owned(),
             );
         }
+        let times = self.recording.frames.iter().map(|frame| frame.t);
+        let times: Vec<f64> = times.collect();
         let bands = bounds.zip(stretches);
         let bands = bands.map_or_else(Vec::new, |((columns, found), stretches)| {
-            found.bands(columns, stretches, &self.recording.frames)
+            found.bands(columns, stretches, &times)
         });
         run_page(&RunPage {
             mechanism,
@@ -163,6 +170,8 @@ impl<'a> ReportBuilder<'a> {
             recording: &self.recording,
             comparisons: &comparisons,
             bands: &bands,
+            groups: &self.curves.groups(stretches, bounds, &times),
+            plots: &self.curves.plots(stretches, &times),
             drives: &self.drives(),
             origin,
             scene: written_scene(self.scene),
@@ -272,6 +281,12 @@ pub fn written_scene(scene: &Scene) -> WrittenScene<'_> {
         text: scene.text(),
         inactive: scene.inactive.iter().map(ToString::to_string).collect(),
         units: scene_units(scene),
+        gravity: match &scene.description {
+            AnyDescription::Plane(d) => d.gravity.to_vec(),
+            AnyDescription::Space3(d) => d.gravity.to_vec(),
+        },
+        cover: scene.output.cover.clone(),
+        print: scene.output.print,
     }
 }
 

@@ -117,7 +117,7 @@ fn stabilisation<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<Stabilisat
 }
 
 /// Returns the value with this name, or an error that lists all names.
-fn named<'d, D: Deserializer<'d>, T: Copy>(
+pub(crate) fn named<'d, D: Deserializer<'d>, T: Copy>(
     reader: D,
     all: &[T],
     name: fn(T) -> &'static str,

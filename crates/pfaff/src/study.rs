@@ -22,8 +22,8 @@ use model::{
     StartError, StartPose, System,
 };
 use report::{
-    ByName, Family, MoreColumns, OutputDirectory, Quantity, ReactionColumn, Selection, TableError,
-    Trajectory, TrajectoryTable, columns_of_reactions, write_json,
+    ByName, Family, OutputDirectory, Quantity, ReactionColumn, Selection, TableError, Trajectory,
+    TrajectoryTable, columns_of_reactions, write_json,
 };
 use scene::{KeyError, Output, Scene, WantedReactions};
 use solvability::{
@@ -44,8 +44,10 @@ use crate::report_builder::{OfRun, ReportBuilder};
 use crate::rows::{Calling, RowFault, RowSink, RunEnd, run_into};
 use crate::run_options::RunOptions;
 use crate::spread::Path;
+pub use crate::tables_of_run::more_columns;
 use crate::tables_of_run::{
-    ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of, table_units,
+    ReactionFiles, TableRows, TrajectoryFile, group_numbers, note_gap, numbers_of, selection,
+    table_units,
 };
 use crate::within::missed;
 
@@ -925,7 +927,7 @@ impl Study {
         };
         let asked = self.options.as_ref().ok_or(StudyError::NoEnd)?;
         let builder = || ReportBuilder::new(&self.scene, &self.prepared, asked, &plan);
-        let mut report_builder = output.report.then(builder);
+        let mut report_builder = output.report.then(builder).transpose()?;
         let progress = Mutex::new(progress);
         let go_on = |t: f64| {
             // A lock is poisoned only by a panic, which continues in its own thread.
@@ -1175,15 +1177,6 @@ fn wanted(output: &Output) -> OutputRequest {
     }
 }
 
-/// Returns the columns of the trajectory that the output requests.
-#[must_use]
-pub fn more_columns(output: &Output) -> MoreColumns {
-    MoreColumns {
-        accelerations: output.accelerations,
-        angles: output.rpy,
-    }
-}
-
 /// Returns the values of a row for each choice. Counts the rows at which a choice selects no
 /// solution.
 fn chosen_numbers(
@@ -1217,12 +1210,3 @@ fn comparison_beside(directory: &OutputDirectory) -> Option<String> {
 
 /// Largest size of a figure that is included in a page (bytes).
 const FIGURE_MOST: u64 = 1 << 20;
-
-/// Returns the reactions in a table; `None` if no table is requested.
-fn selection(wanted: &WantedReactions) -> Option<Selection> {
-    match wanted {
-        WantedReactions::All => Some(Selection::All),
-        WantedReactions::Of(names) => Some(Selection::Names(names.clone())),
-        WantedReactions::None => None,
-    }
-}

@@ -15,10 +15,10 @@ use crate::documents::{Gap, choice_file};
 use dynamics::{MotionFault, Plan, Sample};
 use model::Mechanism;
 use report::{
-    FileError, OutputDirectory, OutputFile, ReactionColumn, ReactionTable, SceneUnits, TableError,
-    TrajectoryTable, write_chosen, write_determined,
+    FileError, MoreColumns, OutputDirectory, OutputFile, ReactionColumn, ReactionTable, SceneUnits,
+    Selection, TableError, TrajectoryTable, write_chosen, write_determined,
 };
-use scene::{OutputUnits, Scene};
+use scene::{Output, OutputUnits, Scene, WantedReactions};
 use solvability::{ChoiceError, ChosenValues, GroupNumbers, Stretches};
 
 use crate::error::StudyError;
@@ -57,6 +57,24 @@ pub(crate) fn table_units(scene: &Scene) -> Option<SceneUnits> {
     match scene.output.units {
         OutputUnits::Si => None,
         OutputUnits::Scene => Some(scene_units(scene)),
+    }
+}
+
+/// Returns the columns of the trajectory that the output requests.
+#[must_use]
+pub fn more_columns(output: &Output) -> MoreColumns {
+    MoreColumns {
+        accelerations: output.accelerations,
+        angles: output.rpy,
+    }
+}
+
+/// Returns the reactions in a table; `None` if no table is requested.
+pub(crate) fn selection(wanted: &WantedReactions) -> Option<Selection> {
+    match wanted {
+        WantedReactions::All => Some(Selection::All),
+        WantedReactions::Of(names) => Some(Selection::Names(names.clone())),
+        WantedReactions::None => None,
     }
 }
 

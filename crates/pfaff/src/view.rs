@@ -111,6 +111,8 @@ fn page(start: &ConfigurationAnalysis<'_>, document: &AnalysisDocument, origin: 
         recording: &recording,
         comparisons: &[],
         bands: &[],
+        groups: &[],
+        plots: &[],
         drives: &[],
         origin,
         scene: crate::written_scene(start.scene),

@@ -21,8 +21,8 @@ use crate::units::SceneUnits;
 pub use bounds::{BoundsTable, write_open_bounds};
 pub use loads::{LoadTable, load_columns, load_numbers};
 pub use reactions::{
-    Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, reaction_columns,
-    write_chosen, write_determined,
+    Quantity, ReactionColumn, ReactionTable, Selection, columns_of_reactions, numbers_of_columns,
+    reaction_columns, reaction_component, write_chosen, write_determined,
 };
 pub use trajectory::{Column, MoreColumns, Trajectory, TrajectoryTable};
 

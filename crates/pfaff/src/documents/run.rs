@@ -4,7 +4,7 @@ use std::fmt;
 
 use dynamics::{ComponentSummary, Event, FORMULATION, MotionError, Plan, ReactionImpulse, Summary};
 use model::codes::Code;
-use model::words::{listed, rounded};
+use model::words::{listed, rough, rounded};
 use model::{Layout, System};
 use serde::Serialize;
 use solvability::{Freedoms, ReactionVerdict, Sensitivities};
@@ -15,6 +15,11 @@ use super::{
     MisfitDocument, RangeOfRunDocument, RunBoundsDocument, RunGroupDocument, RunReactionDocument,
     RunVerdicts, SpecialDocument, SpreadDocument, from_one,
 };
+
+/// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
+/// energy. With the default tolerances the error is below a thousandth of this limit; larger errors
+/// are visible in a plot.
+pub const TRUSTED_BALANCE: f64 = 1e-3;
 
 /// A run and its results.
 #[derive(Clone, Copy)]
@@ -322,6 +327,19 @@ impl RunDocument {
             "kept: {rows}, up to t = {} s; summary.json says that they are partial",
             rounded(self.t_end)
         )
+    }
+
+    /// Warns about an error of the energy balance that is too large.
+    #[must_use]
+    pub fn energy_warning(&self) -> Option<String> {
+        let is_large = self.energy_balance.is_nan() || self.energy_balance > TRUSTED_BALANCE;
+        is_large.then(|| {
+            format!(
+                "the error of the energy balance is {} of the largest kinetic energy: do not trust this run; use tighter \
+                 tolerances",
+                rough(self.energy_balance)
+            )
+        })
     }
 
     /// The document of a run.

@@ -5,22 +5,16 @@ use std::collections::BTreeMap;
 use model::words::Prefix;
 use model::{ConstraintId, Mechanism, SpaceKind, System};
 use serde::Serialize;
-use solvability::Value;
 
+use super::cast::{Cast, DRAWN_MAX};
 use super::comparison::{Comparison, Freedom};
-use super::curves::{Curves, largest};
+use super::curves::Curves;
 use super::first_order::FirstOrder;
 use super::run_page::RunPage;
+use super::values::{determined, noise};
 use crate::documents::{EventDocument, ReactionDocument};
-use report::Frame;
 use report::channel::Channel;
-use report::figures::drawing::{DrawingModel, Stage};
-
-/// Largest number of joints and drives, and of bodies, that are drawn and plotted.
-pub(super) const DRAWN_MAX: usize = 1200;
-
-/// A force below this fraction of the largest force counts as rounding.
-const NOISE: f64 = 1e-12;
+use report::figures::drawing::DrawingModel;
 
 /// All data that the scripts need.
 #[derive(Serialize)]
@@ -36,7 +30,7 @@ pub(super) struct Data<'a> {
     pub(super) first_order: FirstOrder<'a>,
     comparisons: Vec<ComparisonData<'a>>,
     #[serde(flatten)]
-    curves: Curves,
+    pub(super) curves: Curves,
     events: &'a [EventDocument],
     /// Units of the scene for the units of the curves, with the number of scene units in one SI
     /// unit.
@@ -90,8 +84,16 @@ struct Component {
 #[derive(Serialize)]
 struct Reaction {
     wrench: Vec<Channel>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    named: Option<Channel>,
+    #[serde(flatten, skip_serializing_if = "Option::is_none")]
+    named: Option<NamedComponent>,
+}
+
+/// The component that the definition of a joint names.
+#[derive(Serialize)]
+struct NamedComponent {
+    component: &'static str,
+    unit: &'static str,
+    named: Channel,
 }
 
 #[derive(Serialize)]
@@ -116,70 +118,6 @@ struct FreedomData {
     components: Vec<bool>,
     /// Whether the components along the axes of the first body are free at some time.
     in_body: Vec<bool>,
-}
-
-/// A mechanism, or the part of it that is drawn.
-pub(super) struct Cast {
-    part: Option<model::Part>,
-    bodies: Vec<usize>,
-    coordinates: Vec<usize>,
-    joints: Vec<usize>,
-}
-
-impl Cast {
-    /// Selects a small mechanism as a whole; of a large mechanism the first bodies, with the joints
-    /// and drives among them.
-    pub(super) fn of(mechanism: &Mechanism) -> Self {
-        let groups = &mechanism.layout().groups;
-        let bodies = mechanism.bodies().len();
-        if groups.len() <= DRAWN_MAX && bodies <= DRAWN_MAX {
-            return Self {
-                part: None,
-                bodies: (0..bodies).collect(),
-                coordinates: (0..mechanism.layout().n_q).collect(),
-                joints: (0..groups.len()).collect(),
-            };
-        }
-        // A joint is drawn with the last of its bodies.
-        let last = |k: &usize| groups[*k].bodies.iter().filter_map(|b| b.moving()).max();
-        let mut joints: Vec<usize> = (0..groups.len()).collect();
-        joints.sort_by_key(last);
-        joints.truncate(DRAWN_MAX);
-        let complete = joints.last().and_then(last);
-        let all = groups.len();
-        joints.retain(|k| all <= DRAWN_MAX || last(k) < complete || complete.is_none());
-        joints.sort_unstable();
-        let part = mechanism.part_of_groups(&joints);
-        Self {
-            bodies: part.places.bodies.clone(),
-            coordinates: part.places.coordinates.clone(),
-            joints,
-            part: Some(part),
-        }
-    }
-
-    /// Returns the bodies that are drawn, in ascending order.
-    pub(super) fn bodies(&self) -> &[usize] {
-        &self.bodies
-    }
-
-    /// Returns the joints and drives that are drawn, in ascending order.
-    pub(super) fn joints(&self) -> &[usize] {
-        &self.joints
-    }
-
-    pub(super) fn is_whole(&self) -> bool {
-        self.part.is_none()
-    }
-
-    fn stage<'a>(&'a self, whole: &'a Mechanism, frames: &'a [Frame]) -> Stage<'a> {
-        Stage {
-            mechanism: self.part.as_ref().map_or(whole, |p| &p.mechanism),
-            bodies: self.bodies(),
-            coordinates: &self.coordinates,
-            frames,
-        }
-    }
 }
 
 impl<'a> Data<'a> {
@@ -209,7 +147,7 @@ impl<'a> Data<'a> {
                 .iter()
                 .filter_map(|c| comparison(c, cast, page.mechanism.space(), noise))
                 .collect(),
-            curves: Curves::of(page),
+            curves: Curves::of(page, cast),
             units: ["m", "rad", "m/s", "rad/s"]
                 .into_iter()
                 .filter_map(|si| {
@@ -315,37 +253,24 @@ fn reaction(page: &RunPage<'_>, id: ConstraintId, noise: f64) -> Option<Reaction
     if !frames.iter().all(|f| f.reactions.len() > id.0) {
         return None;
     }
-    let own = page.stretches.and_then(|s| s.reactions.get(id.0));
-    let determined = |name: &'static str, number: f64, t: f64| {
-        let value = own.map_or_else(|| Value::unique(number), |own| own.value(name, t, number));
-        value.determined().unwrap_or(f64::NAN)
-    };
-    let all = frames.iter();
-    let wrenches: Vec<Vec<f64>> = all
-        .map(|f| {
-            let names = space.components().iter();
-            let values = names.zip(f.reactions[id.0].components(space));
-            values.map(|(name, x)| determined(name, x, f.t)).collect()
-        })
-        .collect();
+    let names = space.components().iter();
+    let wrench: Vec<Vec<f64>> = names.map(|name| determined(page, id, name)).collect();
     let known = frames.iter().any(|f| {
         let mut values = f.reactions[id.0].components(space);
         values.any(f64::is_finite)
     });
     let named = page.mechanism.layout().groups[id.0].spec.component;
+    let channel = |values: Vec<f64>| Channel::above(noise, values.into_iter());
     known.then(|| Reaction {
-        wrench: (0..space.n_v())
-            .map(|c| Channel::above(noise, wrenches.iter().map(|wrench| wrench[c])))
-            .collect(),
-        named: named.map(|name| {
-            let values = frames.iter().map(|f| {
-                let value = f.reactions[id.0].component.unwrap_or(f64::NAN);
-                determined(name, value, f.t)
-            });
-            Channel::above(noise, values)
+        wrench: wrench.into_iter().map(channel).collect(),
+        named: named.map(|component| NamedComponent {
+            component,
+            unit: page.mechanism.layout().load_unit(id, component),
+            named: channel(determined(page, id, component)),
         }),
     })
 }
+
 /// Converts a comparison to data; `None` if one of its joints is not drawn.
 fn comparison<'a>(
     c: &'a Comparison,
@@ -410,17 +335,6 @@ fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
             last
         })
         .collect()
-}
-
-/// Size of a force that counts as rounding (N); torques about reference points are compared with
-/// the same number.
-pub(super) fn noise(frames: &[Frame]) -> f64 {
-    NOISE * largest_force(frames)
-}
-
-fn largest_force(frames: &[Frame]) -> f64 {
-    let all = frames.iter().flat_map(|f| &f.reactions);
-    largest(all.flat_map(|r| r.force).filter(|x| x.is_finite()))
 }
 
 /// Returns the number of values in a row, weighted so that a recording stays small: the stored

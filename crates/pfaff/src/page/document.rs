@@ -2,11 +2,15 @@
 //! are escaped at insertion.
 
 use model::SpaceKind;
+use model::words::listed;
 
-use super::data::{Cast, Data};
+use super::cast::Cast;
+use super::curves::{Curves, GROUPS, PLOTS, PRINTED};
+use super::data::Data;
 use super::run_page::{RunPage, Shows};
-use super::{inputs, motion, peaks, verdicts};
+use super::{assumptions, inputs, motion, peaks, verdicts};
 use crate::documents::{FreedomsDocument, RunDocument};
+use crate::words::grouped;
 use report::figures::LOOKS;
 use report::page::{add, safe, short};
 
@@ -48,13 +52,29 @@ pub(super) fn document(page: &RunPage<'_>) -> String {
     open(&mut out, page);
     head(&mut out, page);
     motion::section(&mut out, page, &data);
-    if !matches!(page.shows, Shows::Mode(_)) {
-        verdicts::section(&mut out, page);
+    match page.run() {
+        Some(run) if page.is_for_customer() => {
+            peaks::determined(&mut out, page);
+            printed_curves(&mut out, page, &data.curves);
+            assumptions::section(&mut out, page);
+            events(&mut out, run);
+            let omitted = inputs::left_out(page, &cast, &data.curves);
+            out.push_str("<h3>Omitted from this report</h3>\n");
+            verdicts::some(&mut out, &omitted);
+            inputs::origin(&mut out, page);
+            inputs::annexes(&mut out, page);
+        }
+        run => {
+            if !matches!(page.shows, Shows::Mode(_)) {
+                verdicts::section(&mut out, page);
+            }
+            if let Some(run) = run {
+                curves(&mut out, page, run, &data.curves);
+                assumptions::section(&mut out, page);
+            }
+            inputs::section(&mut out, page, &cast, &data.curves);
+        }
     }
-    if let Some(run) = page.run() {
-        curves(&mut out, page, run);
-    }
-    inputs::section(&mut out, page, &cast);
     out.push_str("</main>\n");
     if page.moves() {
         motion::transport(&mut out);
@@ -64,7 +84,12 @@ pub(super) fn document(page: &RunPage<'_>) -> String {
 }
 
 fn open(out: &mut String, page: &RunPage<'_>) {
-    let name = safe(page.mechanism.name());
+    let name = safe(page.title());
+    let class = if page.is_for_customer() {
+        " class=\"customer\""
+    } else {
+        ""
+    };
     add(
         out,
         format_args!(
@@ -72,10 +97,28 @@ fn open(out: &mut String, page: &RunPage<'_>) {
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
              <meta name=\"generator\" content=\"pfaff {}\">\n<title>{name} – pfaff</title>\n\
-             <style>\n{LOOKS}{STYLE}</style>\n</head>\n<body>\n",
-            env!("CARGO_PKG_VERSION")
+             <style>\n{LOOKS}{STYLE}@page {{ @bottom-left {{ content: {} }} }}\n</style>\n</head>\n<body{class}>\n",
+            env!("CARGO_PKG_VERSION"),
+            footer(page)
         ),
     );
+}
+
+/// Returns the title and the project as a string of CSS, for the foot of printed pages.
+fn footer(page: &RunPage<'_>) -> String {
+    let parts = [Some(page.title()), page.scene.cover.project.as_deref()];
+    let parts: Vec<&str> = parts.into_iter().flatten().collect();
+    let mut out = String::from("\"");
+    for letter in parts.join(" · ").chars() {
+        match letter {
+            // Every character may be written as its number. These would end the text or the style.
+            '"' | '\\' | '<' | '&' => add(&mut out, format_args!("\\{:x} ", u32::from(letter))),
+            letter if letter.is_control() => out.push(' '),
+            letter => out.push(letter),
+        }
+    }
+    out.push('"');
+    out
 }
 
 fn head(out: &mut String, page: &RunPage<'_>) {
@@ -89,9 +132,23 @@ fn head(out: &mut String, page: &RunPage<'_>) {
                 Shows::Mode(_) => "Mode of small motions",
                 Shows::Start => "Start configuration",
             },
-            safe(page.mechanism.name())
+            safe(page.title())
         ),
     );
+    let cover = &page.scene.cover;
+    let cover = [
+        ("Project", &cover.project),
+        ("Author", &cover.author),
+        ("Date", &cover.date),
+    ];
+    let lines = cover.into_iter().filter_map(|(what, text)| {
+        let text = safe(text.as_deref()?);
+        Some(format!("<dt>{what}</dt><dd>{text}</dd>\n"))
+    });
+    let lines: String = lines.collect();
+    if !lines.is_empty() {
+        add(out, format_args!("<dl class=\"cover\">\n{lines}</dl>\n"));
+    }
     if let Some(run) = page.run().filter(|run| run.partial) {
         let why = run.error.as_deref().unwrap_or_default();
         add(
@@ -107,6 +164,11 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         out,
         format_args!("<p class=\"answer\">{}</p>\n", answer(page)),
     );
+    if page.is_for_customer() {
+        verdicts::ways(out, page);
+        out.push_str("</header>\n<main>\n");
+        return;
+    }
     if !page.scene.inactive.is_empty() {
         let names = verdicts::marked(&page.scene.inactive.join(", "));
         add(
@@ -137,7 +199,7 @@ fn head(out: &mut String, page: &RunPage<'_>) {
     };
     let of_run = match page.run() {
         Some(_) => {
-            "<a href=\"#reactions\">Reactions</a> <a href=\"#curves\">Curves and checks</a> "
+            "<a href=\"#reactions\">Reactions</a> <a href=\"#curves\">Curves and checks</a> <a href=\"#assumptions\">Assumptions</a> "
         }
         None => "",
     };
@@ -249,6 +311,7 @@ fn answer(page: &RunPage<'_>) -> String {
             format_args!("The verdict is undecided for {}. ", names_in_words(&doubt)),
         );
     }
+    combined(&mut text, page);
     // The text is shorter if no verdict is undecided.
     if doubt.is_empty() {
         text = text.replace(
@@ -257,6 +320,32 @@ fn answer(page: &RunPage<'_>) -> String {
         );
     }
     text.trim_end().to_owned()
+}
+
+/// States the verdicts on groups.
+fn combined(text: &mut String, page: &RunPage<'_>) {
+    let Some(run) = page.run() else {
+        return;
+    };
+    for (word, verdict) in [
+        ("unique", "unique"),
+        ("not_unique", "not unique"),
+        ("undecided", "undecided"),
+    ] {
+        let of_it = run.groups.0.iter();
+        let of_it = of_it.filter(|(_, group)| group.of_run.verdict == word);
+        let names: Vec<&str> = of_it.map(|(name, _)| name.as_str()).collect();
+        let (reactions, are) = match names.len() {
+            0 => continue,
+            1 => ("reaction", "is"),
+            _ => ("reactions", "are"),
+        };
+        let names = names_in_words(&names);
+        add(
+            text,
+            format_args!("The combined {reactions} of {names} {are} {verdict}. "),
+        );
+    }
 }
 
 /// States that some unique reactions are sensitive to the data.
@@ -332,8 +421,26 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</ul>\n");
 }
 
+/// Writes empty elements for the curves of a page for print; scripts add their contents.
+fn printed_curves(out: &mut String, page: &RunPage<'_>, curves: &Curves) {
+    if curves.charts.is_empty() {
+        return;
+    }
+    let title = if page.plots.is_empty() {
+        "Determined curves"
+    } else {
+        "Curves"
+    };
+    add(
+        out,
+        format_args!(
+            "<section aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">{title}</h2>\n<div class=\"curves\" id=\"{PRINTED}\"></div>\n</section>\n"
+        ),
+    );
+}
+
 /// Writes empty elements for the curves; scripts add their contents.
-fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
+fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument, curves: &Curves) {
     out.push_str(
         "<section id=\"reactions\" aria-labelledby=\"reactions-title\">\n<h2 id=\"reactions-title\">Reactions</h2>\n\
          <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select> \
@@ -344,6 +451,26 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
     out.push_str(
         "<details class=\"on-request\" id=\"all-reactions\"><summary>Curves of all reactions</summary>\n\
          <p class=\"grey\">The curves are drawn when this section is opened. They are printed only if it is open.</p>\n<div id=\"all-curves\"></div>\n</details>\n</section>\n",
+    );
+    for (place, title) in [
+        (GROUPS, "Combined reactions (groups)"),
+        (PLOTS, "Requested plots"),
+    ] {
+        if curves.charts.iter().any(|chart| chart.place == place) {
+            add(
+                out,
+                format_args!(
+                    "<section aria-labelledby=\"{place}-title\">\n<h2 id=\"{place}-title\">{title}</h2>\n<div class=\"curves\" id=\"{place}\"></div>\n</section>\n"
+                ),
+            );
+        }
+    }
+    out.push_str(
+        "<section id=\"own-plot\" aria-labelledby=\"own-plot-title\">\n<h2 id=\"own-plot-title\">Several curves in one plot</h2>\n\
+         <div class=\"picker\"><label for=\"own-curve\">Add a curve</label> <select id=\"own-curve\"></select> \
+         <button id=\"own-clear\" type=\"button\">Remove all</button></div>\n\
+         <p class=\"grey screen\">All curves of a plot have one unit. The plot is printed if it has curves. The key <code>plots</code> of <code>[output]</code> keeps plots in the scene.</p>\n\
+         <div id=\"own-chart\"></div>\n</section>\n",
     );
     peaks::table(out, page);
     out.push_str(
@@ -415,19 +542,19 @@ fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
     out.push_str("</section>\n");
 }
 
+/// Lists the events; events with the same text share a line.
 fn events(out: &mut String, run: &RunDocument) {
     if run.events.is_empty() {
         return;
     }
     out.push_str("<h3>Events</h3>\n<ul>\n");
-    for event in run.events.iter().take(verdicts::MOST) {
+    let events = run.events.iter();
+    let events = events.map(|event| (event.text.as_str(), format!("{:.6}", event.time)));
+    for (text, times) in grouped(events).iter().take(verdicts::MOST) {
+        let (times, text) = (listed(times), safe(text));
         add(
             out,
-            format_args!(
-                "<li><b>t = {:.6} s</b> – {}</li>\n",
-                event.time,
-                safe(&event.text)
-            ),
+            format_args!("<li><b>t = {times} s</b> – {text}</li>\n"),
         );
     }
     out.push_str("</ul>\n");

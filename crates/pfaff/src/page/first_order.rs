@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use model::{ConstraintId, Mechanism, System};
 use serde::Serialize;
 
-use super::data::Cast;
+use super::cast::Cast;
 use super::run_page::{RunPage, Shows};
 use crate::documents::DependencyDocument;
 use report::channel::FewDigits;

@@ -4,8 +4,9 @@
 use dynamics::INDEPENDENT_ROWS;
 use model::System;
 
-use super::curves;
-use super::data::{self, Cast};
+use super::cast::Cast;
+use super::curves::{self, Curves};
+use super::data;
 use super::run_page::RunPage;
 use crate::documents::{MisfitDocument, RunDocument};
 use report::page::{add, duration, list, safe, short};
@@ -13,7 +14,7 @@ use report::page::{add, duration, list, safe, short};
 /// Largest size of a scene included in a page (bytes).
 const SCENE_MOST: usize = 200_000;
 
-pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
+pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast, curves: &Curves) {
     out.push_str("<section id=\"inputs\" aria-labelledby=\"inputs-title\">\n<h2 id=\"inputs-title\">Inputs and versions</h2>\n<dl>\n");
     pair(
         out,
@@ -26,20 +27,62 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
     }
     out.push_str("</dl>\n");
     if let Some(run) = page.run() {
-        of_run(out, run);
+        out.push_str("<h3>Statistics of the run</h3>\n<dl>\n");
+        numbers(out, run);
+        out.push_str("</dl>\n<details><summary>Plan of the run</summary>\n");
+        plan(out, run);
+        out.push_str("</details>\n");
     }
     if let Some(text) = page.scene.text {
+        out.push_str("<details><summary>Text of the scene</summary>\n");
         scene(out, text);
+        out.push_str("</details>\n");
     }
     out.push_str("<h3>Omitted from this page</h3>\n");
-    list(out, &left_out(page, cast));
+    list(out, &left_out(page, cast, curves));
     out.push_str("</section>\n");
 }
 
-fn of_run(out: &mut String, run: &RunDocument) {
-    out.push_str("<h3>Statistics of the run</h3>\n<dl>\n");
-    numbers(out, run);
-    out.push_str("</dl>\n<details><summary>Plan of the run</summary>\n<dl>\n");
+/// Writes the text of the scene and the plan as annexes, which are printed only if they are open.
+pub(super) fn annexes(out: &mut String, page: &RunPage<'_>) {
+    out.push_str(
+        "<section id=\"annexes\" aria-labelledby=\"annexes-title\">\n<h2 id=\"annexes-title\" class=\"screen\">Annexes</h2>\n\
+         <p class=\"grey screen\">An annex is printed if it is open.</p>\n",
+    );
+    if let Some(text) = page.scene.text {
+        out.push_str(
+            "<details class=\"on-request annex\"><summary>Annex: text of the scene</summary>\n",
+        );
+        scene(out, text);
+        out.push_str("</details>\n");
+    }
+    if let Some(run) = page.run() {
+        out.push_str("<details class=\"on-request annex\"><summary>Annex: plan and statistics of the run</summary>\n<dl>\n");
+        for (what, value) in page.options {
+            pair(out, &safe(what), &safe(value));
+        }
+        numbers(out, run);
+        out.push_str("</dl>\n");
+        plan(out, run);
+        out.push_str("</details>\n");
+    }
+    out.push_str("</section>\n");
+}
+
+/// Writes the command and the versions that made the page.
+pub(super) fn origin(out: &mut String, page: &RunPage<'_>) {
+    add(
+        out,
+        format_args!(
+            "<p class=\"grey origin\">Made by <code>{}</code> ({}).</p>\n",
+            safe(&page.origin.command),
+            safe(&page.origin.versions)
+        ),
+    );
+}
+
+fn plan(out: &mut String, run: &RunDocument) {
+    out.push_str("<dl>\n");
     for (what, taken) in &run.plan.0 {
         pair(out, &safe(what), &safe(taken));
     }
@@ -52,7 +95,7 @@ fn of_run(out: &mut String, run: &RunDocument) {
             );
         }
     }
-    out.push_str("</dl>\n</details>\n");
+    out.push_str("</dl>\n");
 }
 
 fn numbers(out: &mut String, run: &RunDocument) {
@@ -118,13 +161,13 @@ fn numbers(out: &mut String, run: &RunDocument) {
 
 fn scene(out: &mut String, text: &str) {
     let end = text.floor_char_boundary(SCENE_MOST);
-    out.push_str("<details><summary>Text of the scene</summary>\n<pre>");
+    out.push_str("<pre>");
     // Lines are escaped separately, because escaping replaces line feeds by spaces.
     for line in text[..end].lines() {
         out.push_str(&safe(line));
         out.push('\n');
     }
-    out.push_str("</pre>\n</details>\n");
+    out.push_str("</pre>\n");
     if end < text.len() {
         add(
             out,
@@ -140,8 +183,8 @@ fn pair(out: &mut String, what: &str, value: &str) {
     add(out, format_args!("<dt>{what}</dt><dd>{value}</dd>\n"));
 }
 
-/// Returns sentences on the drawn part of a large mechanism.
-fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
+/// Returns sentences on the omitted parts.
+pub(super) fn left_out(page: &RunPage<'_>, cast: &Cast, curves: &Curves) -> Vec<String> {
     let mut told = Vec::new();
     let groups = page.mechanism.layout().groups.len();
     if !cast.is_whole() {
@@ -161,6 +204,12 @@ fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
         ));
     }
     let measures = page.mechanism.frames().observed().measures.len();
+    if curves.omitted > 0 {
+        told.push(format!(
+            "This page omits {} plots. The key `plots` of `[output]` selects the plots.",
+            curves.omitted
+        ));
+    }
     if measures > curves::MEASURES_MAX {
         told.push(format!(
             "This page plots {} of {measures} measures. The file trajectory.csv contains all of them.",

@@ -88,16 +88,20 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, data: &Data<'_>) {
         out.push_str(OF_RUN);
     }
     out.push_str("</aside>\n</div>\n");
-    first_order(out, &data.first_order);
+    if !page.is_for_customer() {
+        first_order(out, &data.first_order);
+    }
     out.push_str(
         "<p class=\"grey\">The model does not contain the shapes of bodies. Each body is drawn through its centre of mass and the points \
-         at which joints and forces act on it. ",
+         at which joints and forces act on it. <span class=\"screen\">",
     );
     out.push_str(if is_spatial { "Drag to rotate the view. Drag with Shift, the right button or two fingers to move the view. Zoom with Ctrl and the wheel, or with the wheel after a click" } else { "Drag to move the view. Zoom with Ctrl and the wheel, or with the wheel after a click" });
-    if page.run().is_some() {
-        out.push_str(". Click a joint to plot its reaction, or a body to show or hide its trace");
-    }
-    out.push_str(".</p>\n</section>\n");
+    out.push_str(match (page.run(), page.is_for_customer()) {
+        (None, _) => "",
+        (_, false) => ". Click a joint to plot its reaction, or a body to show or hide its trace",
+        (_, true) => ". Click a body to show or hide its trace",
+    });
+    out.push_str(".</span></p>\n</section>\n");
 }
 
 /// Writes the lists of free motions and self-stresses, if there are any.
@@ -156,7 +160,9 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
             );
         }
     }
-    if !page.comparisons.is_empty() {
+    // In space, the directions are drawn only for the joint whose curves are selected.
+    let is_drawn = !(is_spatial && page.is_for_customer());
+    if is_drawn && !page.comparisons.is_empty() {
         row(
             FREE,
             if is_spatial {

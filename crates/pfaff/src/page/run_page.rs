@@ -1,6 +1,7 @@
 //! The data from which a page is made.
 
 use model::{ConstraintId, Mechanism};
+use scene::{Cover, PrintStyle};
 use solvability::Stretches;
 
 use super::comparison::Comparison;
@@ -27,6 +28,11 @@ pub struct RunPage<'a> {
     pub comparisons: &'a [Comparison],
     /// Bounds of components that are not unique, if bounds were requested.
     pub bands: &'a [Band],
+    /// Sums of reactions of groups, each with its bounds if it is not unique and bounds were
+    /// requested.
+    pub groups: &'a [Plot],
+    /// Plots that the scene requests.
+    pub plots: &'a [Plot],
     /// The values that drives prescribe, at the frames.
     pub drives: &'a [DriveCurve],
     /// Information to reproduce the run.
@@ -52,6 +58,37 @@ pub struct Band {
     pub ends: Vec<[f64; 2]>,
 }
 
+/// Curves of one unit in a plot.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    /// Title.
+    pub title: String,
+    /// SI unit.
+    pub unit: &'static str,
+    /// The curves.
+    pub curves: Vec<PlotCurve>,
+}
+
+/// A number of a run at the frames.
+#[derive(Clone, Debug)]
+pub struct PlotCurve {
+    /// Name of its column in the tables.
+    pub name: String,
+    /// The verdict over the run.
+    pub verdict: &'static str,
+    /// The values in the SI unit; NaN where the model does not determine them.
+    pub values: Vec<f64>,
+    /// The smallest and the largest value at each frame, NaN without bounds.
+    pub band: Option<Vec<[f64; 2]>>,
+}
+
+impl PlotCurve {
+    /// Whether the curve has no value.
+    pub(super) fn is_empty(&self) -> bool {
+        self.values.iter().all(|value| value.is_nan())
+    }
+}
+
 /// Kind of a page.
 #[derive(Clone, Copy)]
 pub enum Shows<'a> {
@@ -72,6 +109,12 @@ pub struct WrittenScene<'a> {
     pub inactive: Vec<String>,
     /// Units of the scene.
     pub units: SceneUnits,
+    /// Acceleration due to gravity (m/s²).
+    pub gravity: Vec<f64>,
+    /// Title, author, project and date.
+    pub cover: Cover,
+    /// Style of the page of a run.
+    pub print: PrintStyle,
 }
 
 impl RunPage<'_> {
@@ -81,6 +124,17 @@ impl RunPage<'_> {
             Shows::Run(run) => Some(run),
             Shows::Start | Shows::Mode(_) => None,
         }
+    }
+
+    /// Whether the page is a short report for print. Only a run has such a page.
+    pub(super) fn is_for_customer(&self) -> bool {
+        self.run().is_some() && self.scene.print == PrintStyle::Customer
+    }
+
+    /// Title of the page.
+    pub(super) fn title(&self) -> &str {
+        let title = self.scene.cover.title.as_deref();
+        title.unwrap_or(self.mechanism.name())
     }
 
     /// Whether the picture moves.

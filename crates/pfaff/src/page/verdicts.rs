@@ -174,19 +174,32 @@ fn why(out: &mut String, page: &RunPage<'_>) {
         out.push_str("<h3>Redundant constraints</h3>\n");
         some(out, &reasons);
     }
-    let retyped = analysis.answers.remedies.iter();
+    ways(out, page);
+    let known = notes(page);
+    if !known.is_empty() {
+        out.push_str("<h3>Warnings and notes</h3>\n");
+        some(out, &known);
+    }
+}
+
+/// Lists changes of the mechanism that would make reactions unique, if any are known.
+pub(super) fn ways(out: &mut String, page: &RunPage<'_>) {
+    let retyped = page.analysis.iter().flat_map(|a| &a.answers.remedies);
     let retyped = retyped.map(|remedy| capital(&remedy.text));
     let hints: Vec<String> = retyped.chain(remedies(page.hints)).collect();
     if !hints.is_empty() {
         out.push_str("<h3>Ways to make a reaction unique without changing the motion</h3>\n");
         some(out, &hints);
     }
+}
+
+/// Returns the warnings and notes on the scene.
+pub(super) fn notes(page: &RunPage<'_>) -> Vec<String> {
+    let Some(analysis) = page.analysis else {
+        return Vec::new();
+    };
     let notes = analysis.notes.iter().map(|note| note.text.clone());
-    let known: Vec<String> = analysis.warnings.iter().cloned().chain(notes).collect();
-    if !known.is_empty() {
-        out.push_str("<h3>Warnings and notes</h3>\n");
-        some(out, &known);
-    }
+    analysis.warnings.iter().cloned().chain(notes).collect()
 }
 
 /// Lists deletions that would make reactions unique; reactions with the same deletions share a
@@ -225,7 +238,8 @@ fn remedies(hints: &[MakeUniqueDocument]) -> Vec<String> {
         .collect()
 }
 
-fn some(out: &mut String, sentences: &[String]) {
+/// Writes sentences as a list; names are enclosed in grave accents.
+pub(super) fn some(out: &mut String, sentences: &[String]) {
     let few = &sentences[..sentences.len().min(MOST)];
     out.push_str("<ul>\n");
     for sentence in few {

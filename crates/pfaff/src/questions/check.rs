@@ -11,6 +11,7 @@ pub use answer::CheckAnswer;
 use crate::configuration::{ConfigurationAnalysis, requests};
 use crate::elasticity::elasticity;
 use crate::error::StudyError;
+use crate::plots;
 use crate::question::{Control, Question};
 use crate::refusal::Refusal;
 use crate::start::{JudgedStart, Start};
@@ -40,6 +41,7 @@ impl Question for Check {
                 |name: &str| requests::reaction(scene, mechanism, name).map_err(|e| of.refusal(e));
             elasticity(wanted, mechanism.layout(), &reaction)?;
         }
+        plots::check(scene, mechanism).map_err(|e| of.refusal(e))?;
         let answered = match judged.as_ref() {
             JudgedStart::Moves(study) => study.check_drives().and_then(|()| {
                 let start = of.configuration(&judged, 0.0, control, |_| ())?;

@@ -2,15 +2,14 @@
 
 mod words;
 
-pub use words::TRUSTED_BALANCE;
-
 use std::ops::ControlFlow;
 
 use crate::documents::EndedDocument;
 use crate::documents::RunDocument;
 use model::System;
 use report::OutputDirectory;
-use serde::{Deserialize, Serialize};
+use scene::PrintStyle;
+use serde::{Deserialize, Deserializer, Serialize};
 use solvability::Choice;
 
 use crate::choice::choices;
@@ -21,7 +20,7 @@ use crate::question::{
 };
 use crate::questions::analyze::remedies;
 use crate::refusal::{Refusal, json};
-use crate::run_options::RunOptions;
+use crate::run_options::{RunOptions, named};
 use crate::start::Start;
 use crate::study::FAMILY;
 use crate::words::Block;
@@ -42,6 +41,11 @@ pub struct Simulate {
     /// Write choice.csv (choice_2.csv, …) for a choice, as in analyze; repeatable
     #[cfg_attr(feature = "command", arg(long, value_name = "CHOICE"))]
     pub choose: Vec<String>,
+    /// Style of report.html; customer is a short report for print
+    #[serde(deserialize_with = "print_style")]
+    #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
+    #[cfg_attr(feature = "command", arg(long, value_name = "STYLE", value_parser = crate::command::named(PrintStyle::ALL, PrintStyle::name)))]
+    pub print: Option<PrintStyle>,
     /// Write bounds.csv: bounds of reactions for joints of any stiffness
     #[cfg_attr(feature = "command", arg(long))]
     pub bounds: bool,
@@ -83,6 +87,10 @@ impl Question for Simulate {
             ..self.run.clone()
         };
         let mut study = of.prepared(&run, control)?;
+        if let Some(style) = self.print {
+            let output = &mut study.scene.output;
+            (output.print, output.report) = (style, true);
+        }
         let mechanism = &study.prepared.mechanism;
         let scope = (mechanism.space(), mechanism.layout().rows());
         let reaction = |name: &str| study.reaction(name).map_err(|e| of.refusal(e));
@@ -131,6 +139,10 @@ impl Question for Simulate {
             has_report: study.scene.output.report,
         })
     }
+}
+
+fn print_style<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<PrintStyle>, D::Error> {
+    named(reader, PrintStyle::ALL, PrintStyle::name)
 }
 
 /// Gives the tables of complete rows their final names and writes a summary that states that they

@@ -114,13 +114,19 @@ pub struct ReactionColumn {
 }
 
 impl ReactionColumn {
-    /// Name in tables.
+    /// Name of the quantity.
     #[must_use]
-    pub fn name(&self) -> String {
-        let name = match (&self.quantity, self.column.number) {
+    pub fn plain_name(&self) -> String {
+        match (&self.quantity, self.column.number) {
             (Quantity::Group(..), "sum") => self.column.owner.clone(),
             _ => self.column.to_string(),
-        };
+        }
+    }
+
+    /// Name in tables: the name of the quantity, with a mark if the value is fragile.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let name = self.plain_name();
         if self.fragile {
             format!("{name}.fragile")
         } else {
@@ -229,14 +235,9 @@ impl<W: Write> ReactionTable<W> {
             .check_length(t, "reactions", reactions.len(), self.n_reactions)?;
         self.values.clear();
         self.values.push(t);
-        let mut of_groups = groups.as_chosen().iter();
-        for column in &self.columns {
-            let value = match column.quantity {
-                Quantity::Component(id, name) => component(&reactions[id.0], self.space, name),
-                Quantity::Group(..) => of_groups.next().copied().unwrap_or(f64::NAN),
-            };
-            self.values.push(value);
-        }
+        let groups = groups.as_chosen();
+        let own = numbers_of_columns(&self.columns, self.space, reactions, groups);
+        self.values.extend(own);
         self.table.row_with_gaps(&self.values)?;
         Ok(&self.values[1..])
     }
@@ -250,8 +251,28 @@ impl<W: Write> ReactionTable<W> {
     }
 }
 
-/// A component of a reaction by its name; NaN if the reaction has no component with this name.
-fn component(reaction: &Reaction, space: SpaceKind, name: &str) -> f64 {
+/// The values of columns. `reactions` contains all joints and drives, and `groups` contains all
+/// components of all groups. A value that does not exist is NaN.
+pub fn numbers_of_columns(
+    columns: &[ReactionColumn],
+    space: SpaceKind,
+    reactions: &[Reaction],
+    groups: &[f64],
+) -> impl Iterator<Item = f64> {
+    let mut of_groups = groups.iter();
+    columns.iter().map(move |column| match column.quantity {
+        Quantity::Component(id, name) => {
+            let own = reactions.get(id.0);
+            own.map_or(f64::NAN, |own| reaction_component(own, space, name))
+        }
+        Quantity::Group(..) => of_groups.next().copied().unwrap_or(f64::NAN),
+    })
+}
+
+/// A component of a reaction by its name, or the named component of its definition (N, N·m); NaN if
+/// the reaction has no component with this name.
+#[must_use]
+pub fn reaction_component(reaction: &Reaction, space: SpaceKind, name: &str) -> f64 {
     match space.component(name) {
         Some(k) => reaction.components(space).nth(k).unwrap_or(f64::NAN),
         None => reaction.component.unwrap_or(f64::NAN),

@@ -114,9 +114,8 @@ class Chart {
     return [low - pad, high + pad];
   }
 
-  redraw() {
-    const width = Math.max(this.figure.clientWidth, 240);
-    const height = this.height;
+  /** Draws the chart in a size (px): that on the screen, unless another one is given. */
+  redraw([width, height] = [Math.max(this.figure.clientWidth, 240), this.height]) {
     this.box = {
       x: MARGIN.left, y: MARGIN.top,
       w: width - MARGIN.left - MARGIN.right, h: height - MARGIN.top - MARGIN.bottom,

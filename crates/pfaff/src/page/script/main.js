@@ -185,6 +185,7 @@ function setUpMotion(picture) {
   const panels = (view ? ["x", "y", "z"] : ["x", "angle"]).map((first, k) => {
     const letter = "abc"[k];
     const select = byId(`quantity-${letter}`);
+    if (!select) return () => {};
     for (const [key, [words]] of Object.entries(QUANTITIES)) {
       make(select, "option", { value: key, textContent: words, selected: key === first });
     }
@@ -205,6 +206,7 @@ function setUpMotion(picture) {
 /** Curves of one reaction. What is not unique is a band between choices, never one line. */
 function setUpReactions(picture) {
   const select = byId("joint");
+  if (!select) return () => {};
   const groups = [["not_unique", "Not unique"], ["undecided", "Undecided"], ["unique", "Unique"]];
   const told = joints.filter((j) => j.reaction);
   for (const [verdict, words] of groups) {
@@ -353,12 +355,80 @@ function showComponent(chart, joint, name, k, { large, frame }) {
   chart.show(series, { ...options, band });
 }
 
-/** Measures, loads, drives, energy, residuals. */
-function setUpChecks() {
-  for (const { place, title, unit, curves } of data.charts) {
+/** Sums of reactions, plots, measures, loads, drives. */
+function setUpCharts(picture) {
+  for (const { place, title, unit, curves, badge, band } of data.charts) {
     const chart = new Chart(byId(place), { title, unit, onSeek: seek });
-    chart.show(curves.map(([label, channel], k) => ({ label, values: decode(channel), colour: k % 7, dash: k })));
+    const [low, high] = band?.map(decode) ?? [];
+    const floor = unit.startsWith("N") ? 1e-9 * picture.large.force : 0;
+    chart.show(
+      // Colours and dashes repeat after seven, and both together after forty-nine.
+      curves.map(([label, channel], k) => ({ label, values: decode(channel), colour: k % 7, dash: k + Math.floor(k / 7) })),
+      { badge, floor, band: band ? { low, high, label: "bounds for joints of any stiffness" } : null },
+    );
   }
+}
+
+/** All curves of the page that the model determines: their names, units and values. */
+function* curvesOfPage() {
+  for (const joint of joints.filter((j) => j.reaction)) {
+    const { component, unit: unitOfNamed, named } = joint.reaction;
+    if (named !== undefined) {
+      yield { kind: "Reactions", label: `${joint.name}.${component}`, unit: unitOfNamed, values: () => decode(named) };
+    }
+    for (const { name, unit } of joint.components) {
+      yield { kind: "Reactions", label: `${joint.name}.${name}`, unit, values: () => joint.wrench[COMPONENTS.indexOf(name)] };
+    }
+  }
+  const kinds = { "group-curves": "Groups", "measure-curves": "Measures", "load-curves": "Force elements", "drive-curves": "Drives" };
+  for (const { place, title, unit, curves } of data.charts.filter((chart) => kinds[chart.place])) {
+    for (const [label, channel] of curves) {
+      yield { kind: kinds[place], label: place === "load-curves" ? `${title}.${label}` : label, unit, values: () => decode(channel) };
+    }
+  }
+  for (const track of tracks) {
+    for (const [key, [, unit]] of Object.entries(QUANTITIES)) {
+      yield { kind: "Motion", label: `${track.name}.${key}`, unit, values: () => track[key] };
+    }
+  }
+}
+
+/** A plot of the curves that a reader chooses, all of one unit. */
+function setUpOwnPlot() {
+  const select = byId("own-curve");
+  if (!select) return;
+  const chart = new Chart(byId("own-chart"), { title: "", unit: "", onSeek: seek });
+  const all = [...curvesOfPage()].filter(({ values }) => values().some(Number.isFinite));
+  const chosen = [];
+  const refresh = () => {
+    const left = all.filter((curve) => !chosen.includes(curve) && (!chosen.length || curve.unit === chosen[0].unit));
+    select.replaceChildren(make(null, "option", { value: "", textContent: left.length ? "choose …" : "no other curve of this unit" }));
+    for (const kind of new Set(left.map((curve) => curve.kind))) {
+      const group = make(select, "optgroup", { label: kind });
+      for (const curve of left.filter((c) => c.kind === kind)) make(group, "option", { value: all.indexOf(curve), textContent: curve.label });
+    }
+    byId("own-plot").classList.toggle("filled", chosen.length > 0);
+    chart.figure.hidden = chosen.length === 0;
+    if (!chosen.length) return;
+    chart.show(
+      chosen.map(({ label, values }, k) => ({ label, values: values(), colour: k % 7, dash: k + Math.floor(k / 7) })),
+      { title: chosen.map(({ label }) => label).join(", "), unit: chosen[0].unit },
+    );
+  };
+  select.addEventListener("change", () => {
+    if (select.value !== "") chosen.push(all[Number(select.value)]);
+    refresh();
+  });
+  byId("own-clear").addEventListener("click", () => {
+    chosen.length = 0;
+    refresh();
+  });
+  refresh();
+}
+
+/** Energy and residuals. */
+function setUpChecks() {
+  if (!byId("energy-curves")) return;
   const energy = new Chart(byId("energy-curves"), { title: "Energy", unit: "J", onSeek: seek });
   const [kinetic, potential, work] = [data.energy.kinetic, data.energy.potential, data.energy.work].map(decode);
   const parts = [
@@ -379,6 +449,8 @@ function setUpChecks() {
 
 /** Size of the picture on paper in pixels of the page, that of A4 without its margins, and pixels of paper for one of these. */
 const PAPER = [688, 359, 3];
+/** Size of a chart on paper in pixels of the page: of one that stands alone, and of one of two. */
+const PAPER_CHART = { alone: [688, 190], ofTwo: [335, 150] };
 
 /** Paper has no folded parts and no second frame, and is light. */
 function setUpPrint() {
@@ -392,6 +464,7 @@ function setUpPrint() {
     theme = document.documentElement.dataset.theme;
     document.documentElement.dataset.theme = "light";
     picture()?.printTo(...PAPER);
+    charts.forEach((chart) => chart.redraw(chart.figure.closest(".curves") ? PAPER_CHART.ofTwo : PAPER_CHART.alone));
   });
   addEventListener("afterprint", () => {
     folded.forEach((d) => { d.open = false; });
@@ -399,6 +472,7 @@ function setUpPrint() {
     else document.documentElement.dataset.theme = theme;
     picture()?.brush.looks.refresh();
     picture()?.resize();
+    charts.forEach((chart) => chart.redraw());
   });
 }
 
@@ -437,6 +511,8 @@ function setUpRun(picture, handlers) {
   handlers.joint = setUpReactions(picture);
   setUpAllReactions(picture);
   setUpArrows(picture);
+  setUpCharts(picture);
+  setUpOwnPlot();
   setUpChecks();
   setUpKeys();
 }

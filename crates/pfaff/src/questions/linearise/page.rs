@@ -91,6 +91,8 @@ fn page(
         recording: &recording,
         comparisons: &[],
         bands: &[],
+        groups: &[],
+        plots: &[],
         drives: &[],
         origin,
         scene: written_scene(&study.scene),

@@ -11,11 +11,6 @@ use super::SimulateAnswer;
 use crate::bounds_of_run::largest_loads;
 use crate::words::{Block, count};
 
-/// Largest error of the energy balance without a warning, as a fraction of the largest kinetic
-/// energy. With the default tolerances the error is below a thousandth of this limit; larger errors
-/// are visible in a plot.
-pub const TRUSTED_BALANCE: f64 = 1e-3;
-
 pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
     let d = &answer.document;
     let mut out = Vec::new();
@@ -45,12 +40,8 @@ pub(super) fn of(answer: &SimulateAnswer) -> Vec<Block> {
         rough(d.max_velocity_residual),
         rough(d.energy_balance)
     ));
-    if d.energy_balance.is_nan() || d.energy_balance > TRUSTED_BALANCE {
-        say(format!(
-            "warning: the error of the energy balance is {} of the largest kinetic energy: do not trust this run; use \
-             tighter tolerances",
-            rough(d.energy_balance)
-        ));
+    if let Some(warning) = d.energy_warning() {
+        say(format!("warning: {warning}"));
     }
     if d.start_correction > 0.0 || d.start_velocity_correction > 0.0 {
         say(format!(

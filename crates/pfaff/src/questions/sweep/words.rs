@@ -5,7 +5,7 @@ use report::SweepDocument;
 use report::sweep::Runs;
 
 use super::{SweepAnswer, SweepEnd};
-use crate::questions::simulate::TRUSTED_BALANCE;
+use crate::documents::TRUSTED_BALANCE;
 use crate::sweep::Shard;
 use crate::words::{Block, count};
 
