@@ -1,7 +1,8 @@
 // Opens reports in headless Chromium and looks whether they live: no errors, a picture that moves and, in space, turns and hides what is
 // behind, curves with content, a dark page, a phone, paper, and files of the picture and of a chart. Run by `cargo xtask browser`, or as
 //   node tests/browser/report.mjs CHROMIUM PICTURES NAME=report.html ...
-// The pages named `crossing` and `crowd` are those of xtask/src/browser.rs: two bars that cross, and a thousand bodies.
+// The pages named `crossing`, `crowd` and `customer` are those of xtask/src/browser.rs: two bars that cross, a thousand bodies, and a report
+// for a customer with plots and sums.
 
 import assert from "node:assert/strict";
 import { createHash } from "node:crypto";
@@ -102,7 +103,7 @@ async function movesAndScrubs(page) {
   assert.ok(Math.abs((await at(page)) - quarter) <= 0.002 * 4 * quarter, "the slider sets the time");
 }
 
-async function curvesHaveContent(page) {
+async function curvesHaveContent(page, least = 5) {
   const charts = await page.value(`[...document.querySelectorAll(".chart:not([hidden])")].map((chart) => ({
     title: chart.querySelector(".title").textContent,
     curves: [...chart.querySelectorAll(".plot > path.curve")].map((p) => p.getAttribute("d").length),
@@ -111,7 +112,7 @@ async function curvesHaveContent(page) {
     bands: chart.querySelectorAll(".plot > path.band").length,
     open: chart.querySelector(".badge.not_unique") !== null,
   }))`);
-  assert.ok(charts.length >= 5, `${charts.length} charts`);
+  assert.ok(charts.length >= least, `${charts.length} charts`);
   for (const chart of charts) {
     assert.ok(chart.curves.length > 0, `${chart.title}: no curve`);
     assert.ok(chart.labels.includes("t (s)") && chart.labels.length > 4, `${chart.title}: no labels`);
@@ -495,20 +496,80 @@ async function refusesUnknownMembers(page, folder) {
   assert.equal(readdirSync(folder).length, before, "nothing is saved");
 }
 
-/** Files of a chart: what is seen of it is in the SVG, with title and legend, and the PNG shows the same. */
-async function savesChart(page, folder, name) {
-  const chart = `document.querySelector("#energy-curves .chart")`;
+/** Files of a chart: what is seen of it is in the SVG, with title, units and legend, and the PNG shows the same. */
+async function savesChart(page, folder, chart, stem) {
   const buttonOf = (kind) => `[...${chart}.querySelectorAll(".save button")].find((b) => b.textContent === "${kind}")`;
   const [svg, png] = await savedFiles(page, null, folder, buttonOf);
-  assert.deepEqual([svg.name, png.name], [`${name}-Energy-J.svg`, `${name}-Energy-J.png`], "names of scene and chart");
+  assert.deepEqual([svg.name, png.name], [`${stem}.svg`, `${stem}.png`], "names of scene and chart");
   assert.ok(png.otherWidth >= 2 * png.width, "the PNG has twice its pixels");
   assert.ok(png.share < DIFFER.png, `${png.share} of the PNG differ`);
   const words = await page.value(`[...${chart}.querySelectorAll(".title, .entry, .plot text")].map((e) => e.textContent)`);
   const text = svg.bytes.toString();
-  for (const word of words) assert.ok(text.includes(`>${word}<`), `the SVG lacks ${word}`);
+  for (const word of words) assert.ok(text.includes(`>${word.replaceAll("&", "&amp;").replaceAll("<", "&lt;")}<`), `the SVG lacks ${word}`);
+  assert.ok(words.some((word) => /\(.+\)$/.test(word) && word !== "t (s)"), "the title has a unit");
   const curves = await page.value(`[...${chart}.querySelectorAll(".plot > path.curve")].map((e) => e.getAttribute("d"))`);
   for (const d of curves) assert.ok(text.includes(d), "the SVG lacks a curve");
-  assert.ok(!/class=|var\(/.test(text), "the SVG depends on the page");
+  assert.ok(!/class=|var\(|url\(/.test(text), "the SVG depends on the page");
+  assert.ok(text.split("<text ").slice(1).every((t) => t.includes("font-family=") && t.includes("fill=")), "text without a font or a colour");
+}
+
+/** Every chart can be saved. */
+async function chartsHaveButtons(page) {
+  const lacking = await page.value(`[...document.querySelectorAll(".chart")].filter((c) => c.querySelectorAll(".save button").length !== 2).length`);
+  assert.equal(lacking, 0, "charts that cannot be saved");
+}
+
+/** A reader puts several curves of one unit into one plot; what the model does not determine is not offered. */
+async function plotsSeveral(page) {
+  const add = () => page.value(`(() => {
+    const select = document.getElementById("own-curve");
+    const [first] = [...select.options].filter((o) => o.value !== "");
+    if (!first) return null;
+    select.value = first.value;
+    select.dispatchEvent(new Event("change"));
+    return first.text;
+  })()`);
+  const shown = () => page.value(`[...document.querySelectorAll("#own-chart .chart:not([hidden]) .plot > path.curve")].length`);
+  assert.equal(await shown(), 0, "no curve at first");
+  const names = [await add(), await add()];
+  assert.equal(await shown(), names.filter(Boolean).length, "the chosen curves are drawn");
+  const title = await page.value(`document.querySelector("#own-chart .title").textContent`);
+  assert.ok(title.startsWith(names.filter(Boolean).join(", ")), title);
+  const empty = await page.value(`pfaffReport.charts.find((c) => c.figure.closest("#own-chart")).series.filter((s) => !s.values.some(Number.isFinite)).length`);
+  assert.equal(empty, 0, "curves without values are offered");
+  await page.value(`document.getElementById("own-clear").click()`);
+  assert.equal(await shown(), 0, "all are removed");
+}
+
+/** Largest number of pages of a report for a customer. */
+const PAPER_PAGES = 5;
+
+const pagesOf = (pdf) => pdf.toString("latin1").match(/\/Type\s*\/Page\b(?!s)/g)?.length ?? 0;
+
+/** A report for a customer: few pages, all curves determined, annexes only on request, and plots that stand alone. */
+async function checkCustomer(browser, file) {
+  const page = await opened(browser, file);
+  await curvesHaveContent(page, 2);
+  await chartsHaveButtons(page);
+  assert.equal(await page.value(`document.querySelectorAll(".badge.not_unique, .plot > path.band").length`), 0, "only determined curves");
+  assert.match(await page.value(`document.getElementById("assumptions").textContent`), /All bodies are rigid/);
+  const paper = await page.paper();
+  writeFileSync(join(pictures, "customer-paper.pdf"), paper);
+  const count = pagesOf(paper);
+  assert.ok(count > 0 && count <= PAPER_PAGES, `${count} pages`);
+  await page.value(`document.querySelectorAll("details.annex").forEach((d) => { d.open = true; })`);
+  assert.ok(pagesOf(await page.paper()) > count, "open annexes are printed");
+  const folder = emptyFolder("customer");
+  await browser.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+  await savesChart(page, folder, `document.querySelector("#printed-curves .chart")`, "customer-Loads-kN");
+  assertQuiet(page);
+  const dark = await opened(browser, file, { prefers: { "prefers-color-scheme": "dark" } });
+  writeFileSync(join(pictures, "customer-dark.png"), await dark.picture());
+  assertQuiet(dark);
+  const phone = await opened(browser, file, { width: 390, height: 844, mobile: true });
+  assert.equal(await isTooWide(phone), false, "the page fits a phone");
+  assertQuiet(phone);
+  for (const each of [page, dark, phone]) await browser.send("Target.closeTarget", { targetId: each.target });
 }
 
 /** A thousand bodies: the page opens at once and shows this many pictures a second by its own counter. */
@@ -542,6 +603,8 @@ async function check(browser, name, file) {
   await curvesHaveContent(light);
   await axesEndAtRounding(light);
   await noBareLines(light);
+  await chartsHaveButtons(light);
+  await plotsSeveral(light);
   await turnsAndZooms(light);
   await clicksChoose(light);
   await namesStandApart(light);
@@ -566,7 +629,7 @@ async function check(browser, name, file) {
   save("dark.png", await dark.picture());
   const files = emptyFolder(`${name}-dark`);
   await savesPicture(browser, dark, files, name);
-  await savesChart(dark, files, name);
+  await savesChart(dark, files, `document.querySelector("#energy-curves .chart")`, `${name}-Energy-J`);
   await refusesUnknownMembers(dark, files);
   assertQuiet(dark);
 
@@ -599,6 +662,11 @@ async function look(browser, name, file) {
   try {
     if (name === "crowd") {
       console.log(`${name}: ${await crowdMoves(browser, file)}`);
+      return;
+    }
+    if (name === "customer") {
+      await checkCustomer(browser, file);
+      console.log(`${name}: right`);
       return;
     }
     await check(browser, name, file);

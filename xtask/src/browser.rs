@@ -39,6 +39,54 @@ force = [
 simulate = { t_end = 0.5, output_step = 0.01 }
 "#;
 
+/// A beam on two pins that share loads, with a pendulum, as a report for a customer: a plot with several
+/// curves, a determined sum, and an undetermined curve.
+const CUSTOMER: &str = r#"
+[scene]
+name = "customer"
+space = "plane"
+gravity = [0, -9.81]
+title = "Beam & <pendulum>"
+author = "A. Author"
+project = "P-12"
+date = "2026-03-02"
+[[body]]
+name = "beam"
+mass = 2000.0
+inertia = 300.0
+position = [1, 0]
+[[body]]
+name = "bob"
+mass = 500.0
+inertia = 0.1
+position = [1, -3]
+velocity = [2, 0]
+angular_velocity = 2
+[[joint]]
+name = "left"
+type = "revolute"
+bodies = ["ground", "beam"]
+at = [0, 0]
+[[joint]]
+name = "right"
+type = "revolute"
+bodies = ["ground", "beam"]
+at = [2, 0]
+[[joint]]
+name = "pivot"
+type = "revolute"
+bodies = ["beam", "bob"]
+at = [1, -2]
+[[group]]
+name = "both"
+combine = "left.Fy + right.Fy"
+[simulate]
+t_end = 4.0
+[output]
+print = "customer"
+plots = [{ title = "Loads", curves = ["left.Fy", "right.Fy", "both", "left.Fx"] }, ["bob.x", "bob.y"]]
+"#;
+
 /// Half the number of bodies of a large scene: double pendulums in rows.
 const PENDULUMS: usize = 500;
 
@@ -110,7 +158,11 @@ pub(crate) fn check(program: Program) -> Result<String, String> {
     let mut scenes = SCENES
         .map(|(name, scene)| (name, scene.to_owned()))
         .to_vec();
-    for (name, text) in [("crossing", CROSSING.to_owned()), ("crowd", crowd())] {
+    for (name, text) in [
+        ("crossing", CROSSING.to_owned()),
+        ("crowd", crowd()),
+        ("customer", CUSTOMER.to_owned()),
+    ] {
         let path = out.join(format!("{name}.toml"));
         fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
         scenes.push((name, path.display().to_string()));

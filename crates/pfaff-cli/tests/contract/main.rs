@@ -13,6 +13,7 @@ mod chosen;
 mod cold_start;
 mod console;
 mod couplings;
+mod customer;
 mod diff;
 mod directory;
 mod documents;

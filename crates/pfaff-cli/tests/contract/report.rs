@@ -19,7 +19,7 @@ fn page(folder: &Folder, scene: &str) -> String {
 
 /// Returns the document that scripts can read.
 #[track_caller]
-fn data(page: &str) -> Value {
+pub(crate) fn data(page: &str) -> Value {
     let begin = "<script id=\"data\" type=\"application/json\">";
     let after = page.split_once(begin).expect("the page has data").1;
     let text = after.split_once("</script>").expect("the data end").0;
@@ -27,7 +27,7 @@ fn data(page: &str) -> Value {
 }
 
 /// Removes the run time, the only number that differs between runs.
-fn without_time(page: &str) -> String {
+pub(crate) fn without_time(page: &str) -> String {
     let (before, after) = page
         .split_once("<dt>Run time of the integration</dt>")
         .expect("the page contains the time");
