@@ -106,7 +106,12 @@ fn open(out: &mut String, page: &RunPage<'_>) {
 
 /// Returns the title and the project as a string of CSS, for the foot of printed pages.
 fn footer(page: &RunPage<'_>) -> String {
-    let parts = [Some(page.title()), page.scene.cover.project.as_deref()];
+    let case = page.run().and_then(|run| run.case.as_deref());
+    let parts = [
+        Some(page.title()),
+        case,
+        page.scene.cover.project.as_deref(),
+    ];
     let parts: Vec<&str> = parts.into_iter().flatten().collect();
     let mut out = String::from("\"");
     for letter in parts.join(" · ").chars() {
@@ -136,7 +141,9 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         ),
     );
     let cover = &page.scene.cover;
+    let case = page.run().and_then(|run| run.case.clone());
     let cover = [
+        ("Load case", &case),
         ("Project", &cover.project),
         ("Author", &cover.author),
         ("Date", &cover.date),

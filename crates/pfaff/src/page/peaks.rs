@@ -3,7 +3,7 @@
 //! bound of joints of any stiffness, or it is left out.
 
 use model::words::short;
-use model::{ConstraintId, Mechanism, Reaction, System};
+use model::{Mechanism, System};
 
 use super::run_page::RunPage;
 use super::{values, verdicts};
@@ -12,7 +12,6 @@ use crate::documents::{
     TrackDocument,
 };
 use crate::words::{Scale, UnitSystem};
-use report::Frame;
 use report::page::{add, safe};
 
 /// Largest number of lines of the table.
@@ -38,37 +37,6 @@ impl Peak {
     }
 }
 
-/// The peaks of a joint or drive; `None` if no finite value is known.
-struct Peaks {
-    force: Option<Peak>,
-    moment: Option<Peak>,
-    /// Peak of the named component, with its sign. Values not larger than `noise` count as zero.
-    named: Option<Peak>,
-}
-
-impl Peaks {
-    fn of(frames: &[Frame], id: ConstraintId, noise: f64) -> Self {
-        let of = |value: &dyn Fn(&Reaction) -> Option<f64>| {
-            let known = frames.iter().filter_map(|frame| {
-                let value = value(frame.reactions.get(id.0)?)?;
-                let peak = Peak { value, t: frame.t };
-                value.is_finite().then(|| peak.above(noise))
-            });
-            // Of equal values the first one is used.
-            known.fold(None, |best: Option<Peak>, peak| match best {
-                Some(best) if best.value.abs() >= peak.value.abs() => Some(best),
-                _ => Some(peak),
-            })
-        };
-        let size = |v: [f64; 3]| Some(model::space::norm(&v));
-        Self {
-            force: of(&|r| size(r.force)),
-            moment: of(&|r| size(r.torque)),
-            named: of(&|r| r.component),
-        }
-    }
-}
-
 /// Writes the table, if the run has reactions.
 pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
     let lines = lines(page);
@@ -90,7 +58,7 @@ pub(super) fn table(out: &mut String, page: &RunPage<'_>) {
         line.write(out, &scale);
     }
     out.push_str("</tbody>\n</table></div>\n");
-    notes(out, page.mechanism, page.recording.stride);
+    notes(out, page.mechanism);
     out.push_str("</section>\n");
 }
 
@@ -154,7 +122,7 @@ pub(super) fn determined(out: &mut String, page: &RunPage<'_>) {
         add(out, format_args!("<p>{}</p>\n", verdicts::marked(&text)));
     }
     if !numbers.is_empty() {
-        notes(out, page.mechanism, page.recording.stride);
+        notes(out, page.mechanism);
     }
     out.push_str("</section>\n");
 }
@@ -217,17 +185,22 @@ fn lines<'p>(page: &'p RunPage<'p>) -> Vec<PeakLine<'p>> {
     let lines = told.map(|id| {
         let (name, document) = &run.reactions.0[id.0];
         if document.verdict() == "unique" {
-            let peaks = Peaks::of(frames, id, noise);
+            let magnitudes = document.peak.as_ref();
+            let of = |peak: Option<&PeakDocument>| determined_peak(peak?, noise);
             let component = layout.groups[id.0].spec.component;
+            let named = component.and_then(|name| document.components.get(name));
+            let named = named.and_then(|number| of(number.peak.as_ref()));
             let unit = layout.load_unit(id, component.unwrap_or_default());
-            let named = peaks.named.map(|peak| (component, unit, peak));
             return PeakLine {
                 name,
                 is_unique: true,
                 is_bound: false,
-                force: peaks.force,
-                moment: peaks.moment,
-                components: named.into_iter().collect(),
+                force: of(magnitudes.and_then(|peak| peak.force.as_ref())),
+                moment: of(magnitudes.and_then(|peak| peak.moment.as_ref())),
+                components: named
+                    .map(|peak| (component, unit, peak))
+                    .into_iter()
+                    .collect(),
                 tracks: None,
                 holds: "every choice (unique reaction)".to_owned(),
             };
@@ -541,7 +514,7 @@ impl<'a> PeakLine<'a> {
     }
 }
 
-fn notes(out: &mut String, mechanism: &Mechanism, stride: usize) {
+fn notes(out: &mut String, mechanism: &Mechanism) {
     let groups = mechanism.layout().groups.len();
     if groups > LINES {
         add(
@@ -552,50 +525,8 @@ fn notes(out: &mut String, mechanism: &Mechanism, stride: usize) {
             ),
         );
     }
-    let rows = match stride {
-        0 | 1 => "output rows".to_owned(),
-        n => format!("output rows on this page (one in {n})"),
-    };
-    add(
-        out,
-        format_args!(
-            "<p class=\"grey\">Each peak is the largest value in the {rows}. Between these rows, a reaction may be larger. Forces and \
-             moments act on the first body. Moments are about the reference point of the joint, or about the point of the force on this body.</p>\n"
-        ),
+    out.push_str(
+        "<p class=\"grey\">Each peak is the largest value in the rows of the tables. Between these rows, a reaction may be larger. Forces and \
+         moments act on the first body. Moments are about the reference point of the joint, or about the point of the force on this body.</p>\n",
     );
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn frame(t: f64, force: [f64; 3], component: f64) -> Frame {
-        Frame {
-            reactions: vec![Reaction {
-                force,
-                torque: [0.0, 0.0, f64::NAN],
-                component: Some(component),
-            }],
-            ..Frame::at_rest(t, &[], 0)
-        }
-    }
-
-    #[test]
-    fn a_peak_is_the_first_largest_and_keeps_its_sign() {
-        let frames = [
-            frame(0.0, [3.0, 0.0, 4.0], 1.0),
-            frame(0.5, [0.0, -13.0, 0.0], -7.0),
-            frame(1.0, [5.0, 12.0, 0.0], 7.0),
-            frame(1.5, [f64::NAN, 100.0, 0.0], 2.0),
-        ];
-        let peaks = Peaks::of(&frames, ConstraintId(0), 1e-9);
-        let at = |value, t| Some(Peak { value, t });
-        assert_eq!(peaks.force, at(13.0, 0.5));
-        assert_eq!(peaks.named, at(-7.0, 0.5));
-        assert_eq!(peaks.moment, None);
-        assert_eq!(
-            Peaks::of(&frames[..1], ConstraintId(0), 2.0).named,
-            at(0.0, 0.0)
-        );
-    }
 }
