@@ -32,8 +32,8 @@ fn advanced([x, y, z]: Vector, by: Jet) -> [Jet; 3] {
 
 /// The slide only translates. Both bushings together carry all loads across the rails, and the
 /// screw, whose force is on the line of rail A, the rest. Bushings that may turn about their rails
-/// leave the moment about rail A to the vertical force of rail B. Of the eight loads of the bushings
-/// the other six have three determined sums.
+/// leave the moment about rail A to the vertical force of rail B, so both vertical forces are
+/// determined. The other six loads of the bushings have three determined sums.
 #[test]
 fn slider() {
     let machine = |t: f64| {
