@@ -70,7 +70,7 @@ fn plots_are_lists_of_names_or_tables() {
         ("plots = [{ curves = [\"bob.x\"], titel = \"x\" }]", "titel"),
         ("plots = [\"bob.x\"]", "a list of names of columns"),
         ("plots = [[1]]", "the name of a column"),
-        ("print = \"custom\"", "did you mean `customer`?"),
+        ("print = \"custom\"", "`print` `custom` is unknown"),
     ] {
         let refused = scene("", &format!("[output]\n{value}")).expect_err(value);
         assert!(refused.contains(words), "{refused}");
