@@ -4,11 +4,12 @@ use model::{BodyRef, ConstraintId, Layout, Mechanism, Reaction, Scratch, System}
 use rank::Circuit;
 
 use super::FreeDirection;
-use crate::limits::TELLABLE;
+use crate::limits::{TELLABLE, VISIBLE};
 use crate::loads::LoadDescription;
 use crate::matrices::Solvability;
 use crate::verdict::Verdict;
 use crate::words::{list, names};
+use model::space::{dot, norm};
 use model::words::short;
 
 /// Describes a self-stress in terms of joints and bodies if its geometry allows it, otherwise in
@@ -30,6 +31,10 @@ pub(super) fn of_stress(
         .map(|d| moving(mechanism, &d.bodies))
         .collect();
     if let (Some(told), false, [_, _, ..]) = (told, drives, ids.as_slice()) {
+        if let (LoadDescription::Each(load), Some(sides)) = (&told, sides(directions)) {
+            let [these, those] = sides.map(|ids| list(&names(layout, &ids)));
+            return format!("{these} can load {those} with {load}, without external load");
+        }
         let names = list(&names(layout, &ids));
         let (how, load) = match told {
             LoadDescription::Common(load) => ("load each other with", load),
@@ -74,6 +79,23 @@ pub(super) fn of_stress(
         ),
         _ => describe(mechanism, circuit),
     }
+}
+
+/// Returns the joints whose forces on one body have the sense of the first force, and those with
+/// the opposite sense. Returns `None` if the forces have other directions or act on several bodies.
+fn sides(directions: &[FreeDirection]) -> Option<[Vec<ConstraintId>; 2]> {
+    let first = directions.first()?;
+    let mut sides = [Vec::new(), Vec::new()];
+    for load in directions {
+        let along = dot(load.force, first.force);
+        let size = norm(&load.force) * norm(&first.force);
+        if load.bodies.first() != first.bodies.first() || along.abs() < (1.0 - VISIBLE) * size {
+            return None;
+        }
+        sides[usize::from(along < 0.0)].push(load.joint);
+    }
+    let are_both = sides.iter().all(|ids| !ids.is_empty());
+    are_both.then_some(sides)
 }
 
 /// Returns the names of the bodies that are not the ground, in order.

@@ -17,6 +17,9 @@ pub struct ComponentDocument {
     /// Verdict on the component.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
+    /// Whether the component is zero at this configuration under any load. It is then unique.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub zero: bool,
     /// The verdict at nearly all configurations, as for the reaction; absent for components in
     /// other frames, components of moments and components of sums.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -52,6 +55,7 @@ impl From<&ComponentVerdict> for ComponentDocument {
         Self {
             name: component.name,
             verdict: (&component.judgement).into(),
+            zero: false,
             generic_verdict: None,
             bounds: None,
             reached_at_least: None,

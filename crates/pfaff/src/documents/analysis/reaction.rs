@@ -310,6 +310,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
             components: (r.components.iter())
                 .map(|component| ComponentDocument {
                     generic_verdict: Some(None),
+                    zero: r.zero_components.contains(&component.name),
                     ..component.into()
                 })
                 .collect(),

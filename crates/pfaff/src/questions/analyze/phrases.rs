@@ -27,16 +27,20 @@ fn within(v: &VerdictDocument) -> String {
     }
 }
 
-/// Lists components by their verdicts, such as `Fy not unique; Fx, T unique`.
+/// Lists components by their verdicts, such as `Fy not unique; Fx, T unique`. Components that are
+/// zero under any load come last.
 pub(super) fn each(components: &[ComponentDocument]) -> String {
     let verdicts = components.iter().map(|c| {
-        let spoken = spoken(c.verdict.verdict);
+        let spoken = match c.zero {
+            true => "zero".to_owned(),
+            false => spoken(c.verdict.verdict),
+        };
         let (within, fragile) = (within(&c.verdict), hanging(&c.data));
         (format!("{spoken}{within}{fragile}"), c.name)
     });
     let mut verdicts = grouped(verdicts);
     // Unique components are what remains.
-    verdicts.sort_by_key(|(verdict, _)| verdict.starts_with("unique"));
+    verdicts.sort_by_key(|(verdict, _)| (verdict == "zero", verdict.starts_with("unique")));
     let words = verdicts.iter();
     let words = words.map(|(verdict, names)| format!("{} {verdict}", names.join(", ")));
     words.collect::<Vec<_>>().join("; ")
