@@ -48,7 +48,7 @@ pub(crate) struct Bearings {
     /// Position of the two joint names in the text.
     pub(crate) span: Range<usize>,
     /// Two wheels on one carrier; `None` if there are no such wheels, which has been reported.
-    wheels: Option<Wheels>,
+    wheels: Option<Box<Wheels>>,
 }
 
 /// Two wheels and their carrier.
@@ -77,7 +77,7 @@ impl Bearings {
                 Some(known) => Some(known?),
                 None => None,
             };
-            Wheels::of(field, named, carrier, references)
+            Wheels::of(field, named, carrier, references).map(Box::new)
         });
         Self {
             span: table.span_of(BEARINGS.name),

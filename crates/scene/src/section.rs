@@ -150,8 +150,8 @@ pub(crate) fn unfit(name: &str) -> Option<(String, &'static str)> {
 /// A suggestion for names that are not permitted.
 const OTHER: &str = "choose another name";
 
-/// Returns the reason why a text is not one line of at most `most` characters; `what` names texts of
-/// its kind.
+/// Returns the reason why a text is not one line of at most `most` characters; `what` names texts
+/// of its kind.
 pub(crate) fn unfit_line(text: &str, most: usize, what: &str) -> Option<String> {
     if let Some(c) = text.chars().find(|c| c.is_control()) {
         return Some(format!(

@@ -8,7 +8,8 @@ use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
 /// All warnings about a scene. They are never errors, and each of them can be suppressed.
-const WARNINGS: [Code; 12] = [
+const WARNINGS: [Code; 13] = [
+    Code::new(187),
     Code::new(188),
     Code::new(189),
     Code::new(190),

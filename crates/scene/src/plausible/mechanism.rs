@@ -1,10 +1,12 @@
 //! Checks that need the whole mechanism: moments of inertia that contradict mass and size, bodies
-//! without a joint, and distant joints.
+//! without a joint, distant joints, and wheels that turn on another body than the carrier of their
+//! mesh.
 
 use model::codes::Code;
+use model::reaction::ConstraintGroup;
 use model::space::norm;
 use model::words::rounded;
-use model::{BodyRecord, BodyRef, ConstraintId, DescribedBody, Mechanism, System};
+use model::{BodyRecord, BodyRef, ConstraintId, DescribedBody, Mechanism, SpaceKind, System};
 
 use crate::findings::Findings;
 use crate::language::LengthUnit;
@@ -37,6 +39,10 @@ const STEEL: f64 = 7850.0;
 /// longest parts of a machine are about ten times as long as the median.
 const FARTHEST: f64 = 100.0;
 
+/// Points of a body at a distance below this fraction of the size are one place. Coordinates with
+/// six digits differ by 1e-6; centres of wheels are at least a tooth apart.
+const AT_ONE_PLACE: f64 = 1e-4;
+
 /// Warns about implausible values of a mechanism.
 pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, findings: &Findings) {
     let records = mechanism.bodies();
@@ -45,13 +51,13 @@ pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, fi
     let size = size(records, &bodies);
     unheld(records, &bodies, map, findings);
     far(records, &joints, map, size, unit, findings);
+    carriers(records, &joints, map, size, findings);
     inertia(records, &bodies, map, size, unit, findings);
 }
 
 /// A joint with its points; a drive has the points of its joint.
 struct JointPoints<'m> {
-    name: &'m str,
-    bodies: &'m [BodyRef],
+    group: &'m ConstraintGroup,
     points: Vec<(BodyRef, [f64; 3])>,
 }
 
@@ -60,8 +66,7 @@ fn joints(mechanism: &Mechanism) -> Vec<JointPoints<'_>> {
     let joints = groups.filter(|(_, group)| !group.is_drive());
     joints
         .map(|(k, group)| JointPoints {
-            name: &group.name,
-            bodies: &group.bodies,
+            group,
             points: mechanism.points(ConstraintId(k)),
         })
         .collect()
@@ -75,6 +80,19 @@ struct BodyShape {
     is_held: bool,
     /// Number of forces that act on the body.
     forces: usize,
+}
+
+impl JointPoints<'_> {
+    /// Whether this is a planar joint of this type.
+    fn is_planar(&self, kind: &str) -> bool {
+        self.group.space == SpaceKind::Plane && self.group.spec.common.name == kind
+    }
+
+    /// Returns the table of the joint.
+    fn entry<'s>(&self, map: &'s SourceMap) -> Option<&'s Entry> {
+        let mut entries = map.joints.iter();
+        entries.find(|entry| entry.is_active && entry.name == self.group.name)
+    }
 }
 
 impl BodyShape {
@@ -104,7 +122,7 @@ fn bodies(mechanism: &Mechanism, joints: &[JointPoints]) -> Vec<BodyShape> {
     }
     let forces: Vec<_> = mechanism.applied_forces().iter().collect();
     forces.iter().for_each(|force| add(&force.points));
-    let held = joints.iter().flat_map(|joint| joint.bodies);
+    let held = joints.iter().flat_map(|joint| &joint.group.bodies);
     for body in held.filter_map(|body| body.moving()) {
         bodies[body].is_held = true;
     }
@@ -170,7 +188,10 @@ fn far(
     findings: &Findings,
 ) {
     let Some(size) = size else { return };
-    for (joint, entry) in joints.iter().zip(&map.joints) {
+    for joint in joints {
+        let Some(entry) = joint.entry(map) else {
+            continue;
+        };
         let arm = |(body, point): &(BodyRef, [f64; 3])| Some((body.moving()?, norm(point)));
         let arms = joint.points.iter().filter_map(arm);
         let Some((body, arm)) = arms.max_by(|a, b| a.1.total_cmp(&b.1)) else {
@@ -185,7 +206,7 @@ fn far(
             entry.first_of(&keys),
             format!(
                 "joint `{}` is {} m from the centre of mass of body `{}`, {} times the size of this mechanism, {} m",
-                joint.name,
+                joint.group.name,
                 rounded(arm),
                 records[body].name,
                 rounded(arm / size),
@@ -198,6 +219,75 @@ fn far(
             ),
         );
     }
+}
+
+/// Warns about a planar mesh with a wheel that turns on other bodies than the carrier of the mesh.
+fn carriers(
+    records: &[BodyRecord],
+    joints: &[JointPoints],
+    map: &SourceMap,
+    size: Option<f64>,
+    findings: &Findings,
+) {
+    let Some(near) = size.map(|size| AT_ONE_PLACE * size) else {
+        return;
+    };
+    let name = |body: BodyRef| match body {
+        BodyRef::Ground => "ground",
+        BodyRef::Body(k) => &records[k].name,
+    };
+    for mesh in joints.iter().filter(|joint| joint.is_planar("mesh")) {
+        let (Some(&carrier), Some(entry)) = (mesh.group.bodies.get(2), mesh.entry(map)) else {
+            continue;
+        };
+        let points = mesh.points.iter();
+        let borne: Vec<_> = points
+            .map(|&from| (from.0, borne(from, joints, near)))
+            .collect();
+        let is_wrong = |(wheel, borne): &&(BodyRef, Vec<BodyRef>)| {
+            *wheel != carrier && !borne.is_empty() && !borne.contains(&carrier)
+        };
+        let Some((wheel, own)) = borne.iter().find(is_wrong) else {
+            continue;
+        };
+        let is_common = |body: &&BodyRef| borne.iter().all(|(_, borne)| borne.contains(body));
+        let Some(&meant) = own.iter().find(is_common).or(own.first()) else {
+            continue;
+        };
+        let [wheel, carrier, meant] = [*wheel, carrier, meant].map(name);
+        findings.warning(
+            const { Code::new(187) },
+            entry.first_of(&["carrier", "bodies"]),
+            format!(
+                "mesh `{}` measures the angles of its wheels from `{carrier}`, but `{wheel}` turns on `{meant}`",
+                mesh.group.name
+            ),
+            "on another body?",
+            &format!("write `carrier = \"{meant}\"`, the body on which both wheels turn"),
+        );
+    }
+}
+
+/// Returns the bodies that pins connect with a body at one of its points.
+fn borne(from: (BodyRef, [f64; 3]), joints: &[JointPoints], near: f64) -> Vec<BodyRef> {
+    let mut known = vec![from];
+    let mut next = 0;
+    while let Some(&(body, point)) = known.get(next) {
+        next += 1;
+        for pin in joints.iter().filter(|joint| joint.is_planar("revolute")) {
+            let [a, b] = pin.points.as_slice() else {
+                continue;
+            };
+            for (own, other) in [(a, b), (b, a)] {
+                let apart = [0, 1, 2].map(|k| own.1[k] - point[k]);
+                let is_new = known.iter().all(|(body, _)| *body != other.0);
+                if own.0 == body && norm(&apart) <= near && is_new {
+                    known.push(*other);
+                }
+            }
+        }
+    }
+    known.into_iter().skip(1).map(|(body, _)| body).collect()
 }
 
 /// Warns about moments of inertia that contradict the mass and the size of the body.

@@ -520,6 +520,46 @@ fn a_spring_of_ten_free_lengths_is_reported() {
 }
 
 /// Finds the files below a folder whose names have this ending.
+/// A planet between a sun in the housing and a ring that is the housing.
+const PLANET: &str = r#"
+scene = { name = "planet", space = "plane" }
+body = [
+    { name = "sun", mass = 1.0, inertia = 0.01 },
+    { name = "arm", mass = 1.0, inertia = 0.1 },
+    { name = "planet", mass = 1.0, inertia = 0.01, position = [0.2, 0.0] },
+]
+joint = [
+    { name = "input", type = "revolute", bodies = ["ground", "sun"], at = [0.0, 0.0] },
+    { name = "output", type = "revolute", bodies = ["ground", "arm"], at = [0.0, 0.0] },
+    { name = "pin", type = "revolute", bodies = ["planet", "arm"], at = [0.2, 0.0] },
+    { name = "inner", type = "mesh", bodies = ["sun", "planet"], carrier = "arm", at = [[0.0, 0.0], [0.2, 0.0]], ratio = -1.0 },
+    { name = "outer", type = "mesh", bodies = ["planet", "ground"], carrier = "arm", at = [[0.2, 0.0], [0.0, 0.0]], ratio = 0.3333 },
+]
+"#;
+
+#[test]
+fn the_carrier_of_a_mesh_is_where_its_wheels_turn() {
+    assert_eq!(warned(PLANET), []);
+    let ground = PLANET.replacen("carrier = \"arm\", ", "", 1);
+    let expected = [("P0187".to_owned(), "[\"sun\", \"planet\"]".to_owned())];
+    assert_eq!(warned(&ground), expected);
+    let scene = read(&ground).expect("a scene");
+    assert_eq!(
+        scene.warnings[0].message,
+        "mesh `inner` measures the angles of its wheels from `ground`, but `planet` turns on `arm`"
+    );
+    // The wheel may turn about a shaft that turns on the carrier.
+    let sun = PLANET.replacen("carrier = \"arm\", ", "carrier = \"sun\", ", 1);
+    assert_eq!(warned(&sun).len(), 1, "the planet does not turn on the sun");
+    // A centre that no pin holds may move.
+    let free = ground.replacen(
+        "name = \"pin\", type = \"revolute\"",
+        "name = \"pin\", type = \"fixed\"",
+        1,
+    );
+    assert_eq!(warned(&free), []);
+}
+
 fn files(folder: &Path, end: &str, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
