@@ -39,8 +39,8 @@ force = [
 simulate = { t_end = 0.5, output_step = 0.01 }
 "#;
 
-/// A beam on two pins that share loads, with a pendulum, as a report for a customer: a plot with several
-/// curves, a determined sum, and an undetermined curve.
+/// A beam on two pins that share loads, with a pendulum, as a report for a customer: a plot with
+/// several curves, a determined sum, and an undetermined curve.
 const CUSTOMER: &str = r#"
 [scene]
 name = "customer"

@@ -15,8 +15,9 @@
 //! | `document`, `motion`, `verdicts`, `peaks`, `assumptions`, `inputs` | the sections of the page |
 //! | `report.css`, `script/` | style sheet, and scripts |
 //!
-//! A page for a customer ([`scene::PrintStyle::Customer`]) has the same sentences in fewer sections:
-//! title, verdict, picture, determined peaks and curves, assumptions, and annexes on request.
+//! A page for a customer ([`scene::PrintStyle::Customer`]) has the same sentences in fewer
+//! sections: title, verdict, picture, determined peaks and curves, assumptions, and annexes on
+//! request.
 //!
 //! A page computes no verdict. Its rows are those of the run; it uses additional rows only if the
 //! tables have too few for an animation. A reaction is drawn as determined only if no choice

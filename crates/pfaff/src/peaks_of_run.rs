@@ -3,19 +3,8 @@
 
 use model::space::norm;
 use model::{ConstraintId, Mechanism, Reaction, SpaceKind, System};
-use report::{Column, Peak, PeakRecorder, Quantity, ReactionColumn};
+use report::{Peak, PeakRecorder, Quantity, ReactionColumn};
 use solvability::{ReactionStretches, Stretches, VerdictTrack};
-
-use crate::documents::{
-    ExtremeDocument, LoadOfRunDocument, MagnitudeOfRunDocument, PeakDocument, RunDocument,
-};
-use crate::words::load_unit;
-
-/// Unit of forces.
-const FORCE: &str = "N";
-
-/// Unit of moments.
-const MOMENT: &str = "N·m";
 
 /// Recorder of the peaks while rows are added.
 pub(crate) struct PeaksOfRun {
@@ -101,101 +90,4 @@ fn together(found: &ReactionStretches, names: &[&str]) -> Option<VerdictTrack> {
     let tracks = names.iter().filter_map(|name| found.component(name));
     let tracks: Vec<&VerdictTrack> = tracks.collect();
     (!tracks.is_empty()).then(|| VerdictTrack::together(&tracks))
-}
-
-/// A load with its peak during a run.
-pub(crate) struct LoadPeak {
-    /// Name of the joint, drive, group or force element.
-    pub(crate) name: String,
-    /// `force` and `moment` for the largest magnitudes, `force at most` and `moment at most` for
-    /// their upper bounds, or the name of a component.
-    pub(crate) load: String,
-    /// Unit of the peak.
-    pub(crate) unit: &'static str,
-    /// The peak; `None` if the load is not determined during the whole run.
-    pub(crate) peak: Option<ExtremeDocument>,
-}
-
-impl LoadPeak {
-    /// Returns the peaks of all loads of a run. Its reactions and groups have these columns.
-    pub(crate) fn all(run: &RunDocument, columns: &[ReactionColumn]) -> Vec<Self> {
-        let mut all = Vec::new();
-        let mut add = |name: &str, load: &str, unit, peak| {
-            all.push(Self {
-                name: name.to_owned(),
-                load: load.to_owned(),
-                unit,
-                peak,
-            });
-        };
-        let throughout = |peak: &Option<PeakDocument>| {
-            let peak = peak.as_ref()?;
-            let value = peak.value.determined()?;
-            let is_whole = matches!(peak.over.as_slice(), [[_, to]] if *to >= run.t_end);
-            is_whole.then(|| ExtremeDocument::new(value, peak.time))
-        };
-        for (name, reaction) in &run.reactions.0 {
-            let has = |letter| {
-                reaction
-                    .components
-                    .0
-                    .iter()
-                    .any(|(own, _)| own.starts_with(letter))
-            };
-            let peak = reaction.peak.as_ref();
-            if has('F') {
-                add(
-                    name,
-                    "force",
-                    FORCE,
-                    peak.and_then(|peak| throughout(&peak.force)),
-                );
-            }
-            if has('T') {
-                add(
-                    name,
-                    "moment",
-                    MOMENT,
-                    peak.and_then(|peak| throughout(&peak.moment)),
-                );
-            }
-            let of_definition = columns.iter().find(|column| {
-                let Column { owner, number, .. } = &column.column;
-                matches!(column.quantity, Quantity::Component(..))
-                    && owner == name
-                    && load_unit(number).is_empty()
-            });
-            if let Some(ReactionColumn { column, .. }) = of_definition {
-                let own = reaction.components.get(column.number);
-                let peak = own.and_then(|own| throughout(&own.peak));
-                add(name, column.number, column.unit, peak);
-            }
-            if let Some(MagnitudeOfRunDocument { force, moment }) = reaction.magnitude_at_most {
-                add(name, "force at most", FORCE, force);
-                add(name, "moment at most", MOMENT, moment);
-            }
-        }
-        for ReactionColumn {
-            column, quantity, ..
-        } in columns
-        {
-            let (Quantity::Group(..), Some(group)) = (quantity, run.groups.get(&column.owner))
-            else {
-                continue;
-            };
-            let peak = match group.components.get(column.number) {
-                Some(number) => &number.peak,
-                None => &group.peak,
-            };
-            add(&column.owner, column.number, column.unit, throughout(peak));
-        }
-        // A load without a peak is zero, because the state determines loads of force elements.
-        let peak_of =
-            |peak: Option<ExtremeDocument>| Some(peak.unwrap_or(ExtremeDocument::new(0.0, 0.0)));
-        for (name, LoadOfRunDocument { peak, .. }) in &run.loads.0 {
-            add(name, "force", FORCE, peak_of(peak.force));
-            add(name, "moment", MOMENT, peak_of(peak.moment));
-        }
-        all
-    }
 }

@@ -433,7 +433,7 @@ fn summary_has_the_keys_of_the_contract() {
         "t_end": 2.0, "rows": 3, "files": ["trajectory.csv", "summary.json"], "steps": 10, "rejected": 1, "evaluations": 70, "projections": 10,
         "normalisations": 0, "wall_seconds": 0.125, "max_position_residual": 0.0, "max_velocity_residual": null,
         "energy_balance": 0.0, "start_correction": 0.0, "start_velocity_correction": 0.0,
-        "mobility": 0, "without_drives": null, "free_motions": [], "cannot_move": true,
+        "rank": 3, "redundancy": 1, "mobility": 0, "without_drives": null, "free_motions": [], "cannot_move": true,
         "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_from_angle": null, "lower_rank_here": null },
         "misfits": [], "spread": null, "events": [],
         "reactions": {

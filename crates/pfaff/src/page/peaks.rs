@@ -282,8 +282,8 @@ fn holds(components: &ByName<RunNumberDocument>) -> String {
     }
 }
 
-/// Returns the intervals on which a number is determined, such as ` on 0 … 1 s`: an empty text if it
-/// is determined throughout, and `None` if it is not determined.
+/// Returns the intervals on which a number is determined, such as ` on 0 … 1 s`: an empty text if
+/// it is determined throughout, and `None` if it is not determined.
 fn determined_on(of_run: &TrackDocument) -> Option<String> {
     if of_run.verdict == "unique" {
         return Some(String::new());

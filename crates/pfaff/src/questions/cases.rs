@@ -4,14 +4,12 @@ mod answer;
 mod words;
 
 use model::codes::Code;
-use report::{
-    Family, OutputDirectory, ReactionColumn, Selection, columns_of_reactions, file_stems,
-    write_json,
-};
+use report::{Family, OutputDirectory, Selection, columns_of_reactions, file_stems, write_json};
 use scene::LoadCase;
 use serde::Deserialize;
 
 pub use answer::{CaseDocument, CasePeaks, CaseSet, CasesAnswer, PeakOfCase};
+use answer::{SimulatedCase, TABLE};
 
 use crate::assembled::AssembledScene;
 use crate::configuration::requests;
@@ -19,7 +17,7 @@ use crate::documents::EndedDocument;
 use crate::question::{
     Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Progress, Question, Writing,
 };
-use crate::questions::simulate::{Simulate, SimulateAnswer};
+use crate::questions::simulate::Simulate;
 use crate::refusal::{Refusal, json};
 use crate::run_options::RunOptions;
 use crate::source;
@@ -30,7 +28,6 @@ use crate::words::{Block, SceneUnits, scene_units};
 /// The files next to the directories of the cases.
 const FAMILY: Family = Family(&[TABLE, SUMMARY]);
 
-const TABLE: &str = "cases.csv";
 const SUMMARY: &str = "summary.json";
 
 /// Code of an answer with cases that did not reach their end.
@@ -135,12 +132,6 @@ impl Cases {
         let columns = columns_of_reactions(&mechanism, &Selection::All, &groups, |_| false)?;
         Ok(SimulatedCase { run, columns })
     }
-}
-
-/// The run of a case, with the columns of its reactions and groups.
-struct SimulatedCase {
-    run: SimulateAnswer,
-    columns: Vec<ReactionColumn>,
 }
 
 /// Gives the tables of complete rows their final names and writes a summary that states that they

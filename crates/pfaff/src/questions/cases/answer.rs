@@ -6,13 +6,14 @@ use report::{ByName, ReactionColumn, Table, TableError};
 use scene::LoadCase;
 use serde::Serialize;
 
-use super::{SimulatedCase, TABLE};
-use crate::documents::{ExtremeDocument, RunDocument};
-use crate::peaks_of_run::LoadPeak;
+use crate::documents::{ExtremeDocument, LoadPeak, RunDocument};
 use crate::question::Answer;
 use crate::questions::simulate::SimulateAnswer;
 use crate::refusal::Refusal;
 use crate::words::{Block, SceneUnits};
+
+/// File name of the table of all peaks.
+pub(super) const TABLE: &str = "cases.csv";
 
 /// Columns of the table.
 const COLUMNS: [&str; 9] = [
@@ -26,6 +27,12 @@ const COLUMNS: [&str; 9] = [
     "peak",
     "time",
 ];
+
+/// The run of a case, with the columns of its reactions and groups.
+pub(super) struct SimulatedCase {
+    pub(super) run: SimulateAnswer,
+    pub(super) columns: Vec<ReactionColumn>,
+}
 
 /// The load cases of a scene with their peak loads.
 #[derive(Clone, Debug, Default, Serialize)]

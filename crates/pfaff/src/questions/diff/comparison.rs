@@ -4,13 +4,14 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use crate::documents::{AnalysisDocument, DependencyDocument, ExtremeDocument, ReactionDocument};
+use crate::documents::{
+    AnalysisDocument, DependencyDocument, ExtremeDocument, LoadPeak, ReactionDocument,
+};
 use dynamics::{MotionOptions, OutputRequest, Sample};
 use model::{FrameState, Mechanism};
 
 use super::answer::{DiffBody, DiffLoad, DiffMotion};
 use crate::error::StudyError;
-use crate::peaks_of_run::LoadPeak;
 use crate::study::Study;
 
 /// Differences between the verdicts at two starts.
