@@ -85,7 +85,7 @@ struct BodyShape {
 impl JointPoints<'_> {
     /// Whether this is a planar joint of this type.
     fn is_planar(&self, kind: &str) -> bool {
-        self.group.space == SpaceKind::Plane && self.group.spec.common.name == kind
+        self.group.space == SpaceKind::Plane && self.group.spec.common.scene_type == kind
     }
 
     /// Returns the table of the joint.
