@@ -13,12 +13,9 @@ use answer::{SimulatedCase, TABLE};
 
 use crate::assembled::AssembledScene;
 use crate::configuration::requests;
-use crate::documents::EndedDocument;
-use crate::question::{
-    Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Progress, Question, Writing,
-};
-use crate::questions::simulate::Simulate;
-use crate::refusal::{Refusal, json};
+use crate::question::{Answer, Control, Ending, Output, Progress, Question, Writing};
+use crate::questions::simulate::{SUMMARY, Simulate, cut_tables};
+use crate::refusal::Refusal;
 use crate::run_options::RunOptions;
 use crate::source;
 use crate::start::Start;
@@ -27,8 +24,6 @@ use crate::words::{Block, SceneUnits, scene_units};
 
 /// The files next to the directories of the cases.
 const FAMILY: Family = Family(&[TABLE, SUMMARY]);
-
-const SUMMARY: &str = "summary.json";
 
 /// Code of an answer with cases that did not reach their end.
 const NOT_DONE: Code = Code::new(514);
@@ -134,25 +129,9 @@ impl Cases {
     }
 }
 
-/// Gives the tables of complete rows their final names and writes a summary that states that they
-/// are partial.
 fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
-    let Some(scene) = begun else {
-        return NOTHING_WRITTEN.to_owned();
-    };
-    let document = json(&EndedDocument {
-        scene: scene.to_owned(),
-        partial: true,
-        code: INTERRUPTED,
-        error: "interrupted",
-    });
-    let document = document.unwrap_or_default();
-    let place = directory.path().display();
-    if directory.abandon_as(SUMMARY, document.as_bytes(), FAMILY) {
-        format!("interrupted; kept: the directories of the cases that have begun in `{place}`")
-    } else {
-        format!("interrupted; nothing was written into `{place}`")
-    }
+    let kept = "the directories of the cases that have begun in `{}`";
+    cut_tables(directory, begun, FAMILY, kept)
 }
 
 impl Answer for CasesAnswer {

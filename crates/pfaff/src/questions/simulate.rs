@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use crate::documents::EndedDocument;
 use crate::documents::RunDocument;
 use model::System;
-use report::OutputDirectory;
+use report::{Family, OutputDirectory};
 use scene::PrintStyle;
 use serde::{Deserialize, Deserializer, Serialize};
 use solvability::Choice;
@@ -26,7 +26,7 @@ use crate::study::FAMILY;
 use crate::words::Block;
 
 /// The file that states whether the other files are complete.
-const SUMMARY: &str = "summary.json";
+pub(super) const SUMMARY: &str = "summary.json";
 
 /// Simulate the motion; write tables and a report for the browser
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
@@ -145,9 +145,19 @@ fn print_style<'d, D: Deserializer<'d>>(reader: D) -> Result<Option<PrintStyle>,
     named(reader, PrintStyle::ALL, PrintStyle::name)
 }
 
-/// Gives the tables of complete rows their final names and writes a summary that states that they
-/// are partial.
 fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
+    let kept = format!("whole rows of the tables in `{{}}`; {SUMMARY} says that they are partial");
+    cut_tables(directory, begun, FAMILY, &kept)
+}
+
+/// Gives the tables of complete rows their final names and writes a summary that states that they
+/// are partial. `kept` describes what is kept in the directory `{}`.
+pub(super) fn cut_tables(
+    directory: &OutputDirectory,
+    begun: Option<&str>,
+    family: Family,
+    kept: &str,
+) -> String {
     let Some(scene) = begun else {
         return NOTHING_WRITTEN.to_owned();
     };
@@ -158,11 +168,9 @@ fn cut(directory: &OutputDirectory, begun: Option<&str>) -> String {
         error: "interrupted",
     });
     let document = document.unwrap_or_default();
-    let place = directory.path().display();
-    if directory.abandon_as(SUMMARY, document.as_bytes(), FAMILY) {
-        format!(
-            "interrupted; kept: whole rows of the tables in `{place}`; {SUMMARY} says that they are partial"
-        )
+    let place = directory.path().display().to_string();
+    if directory.abandon_as(SUMMARY, document.as_bytes(), family) {
+        format!("interrupted; kept: {}", kept.replace("{}", &place))
     } else {
         format!("interrupted; nothing was written into `{place}`")
     }
