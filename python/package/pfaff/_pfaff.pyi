@@ -81,10 +81,10 @@ class Scene:
         """
     @property
     def name(self, /) -> str: ...
-    def names(self, /) -> tuple[str, list[str], list[str]]:
+    def names(self, /) -> tuple[str, list[list[str]]]:
         """
-        Returns the name that the scene states, the names of its bodies, and of its joints and
-        drives in the order of the rows.
+        Returns the name that the scene states, the names of its bodies, of its joints and drives in
+        the order of the rows, and of its load cases.
         """
     @staticmethod
     def of_template(name: str) -> Scene:

@@ -2,6 +2,8 @@
 //! without a joint, distant joints, and wheels that turn on another body than the carrier of their
 //! mesh.
 
+use std::collections::HashMap;
+
 use model::codes::Code;
 use model::reaction::ConstraintGroup;
 use model::space::norm;
@@ -46,27 +48,32 @@ const AT_ONE_PLACE: f64 = 1e-4;
 /// Warns about implausible values of a mechanism.
 pub(crate) fn check(mechanism: &Mechanism, map: &SourceMap, unit: LengthUnit, findings: &Findings) {
     let records = mechanism.bodies();
-    let joints = joints(mechanism);
+    let joints = joints(mechanism, map);
     let bodies = bodies(mechanism, &joints);
     let size = size(records, &bodies);
     unheld(records, &bodies, map, findings);
-    far(records, &joints, map, size, unit, findings);
-    carriers(records, &joints, map, size, findings);
+    far(records, &joints, size, unit, findings);
+    carriers(records, &joints, size, findings);
     inertia(records, &bodies, map, size, unit, findings);
 }
 
 /// A joint with its points; a drive has the points of its joint.
 struct JointPoints<'m> {
     group: &'m ConstraintGroup,
+    /// The table of the joint.
+    entry: Option<&'m Entry>,
     points: Vec<(BodyRef, [f64; 3])>,
 }
 
-fn joints(mechanism: &Mechanism) -> Vec<JointPoints<'_>> {
+fn joints<'m>(mechanism: &'m Mechanism, map: &'m SourceMap) -> Vec<JointPoints<'m>> {
+    let entries = map.joints.iter().filter(|entry| entry.is_active);
+    let entries: HashMap<&str, &Entry> = entries.map(|e| (e.name.as_str(), e)).collect();
     let groups = mechanism.layout().groups.iter().enumerate();
     let joints = groups.filter(|(_, group)| !group.is_drive());
     joints
         .map(|(k, group)| JointPoints {
             group,
+            entry: entries.get(group.name.as_str()).copied(),
             points: mechanism.points(ConstraintId(k)),
         })
         .collect()
@@ -86,12 +93,6 @@ impl JointPoints<'_> {
     /// Whether this is a planar joint of this type.
     fn is_planar(&self, kind: &str) -> bool {
         self.group.space == SpaceKind::Plane && self.group.spec.common.scene_type == kind
-    }
-
-    /// Returns the table of the joint.
-    fn entry<'s>(&self, map: &'s SourceMap) -> Option<&'s Entry> {
-        let mut entries = map.joints.iter();
-        entries.find(|entry| entry.is_active && entry.name == self.group.name)
     }
 }
 
@@ -182,24 +183,20 @@ fn unheld(records: &[BodyRecord], bodies: &[BodyShape], map: &SourceMap, finding
 fn far(
     records: &[BodyRecord],
     joints: &[JointPoints],
-    map: &SourceMap,
     size: Option<f64>,
     unit: LengthUnit,
     findings: &Findings,
 ) {
     let Some(size) = size else { return };
     for joint in joints {
-        let Some(entry) = joint.entry(map) else {
-            continue;
-        };
         let arm = |(body, point): &(BodyRef, [f64; 3])| Some((body.moving()?, norm(point)));
         let arms = joint.points.iter().filter_map(arm);
         let Some((body, arm)) = arms.max_by(|a, b| a.1.total_cmp(&b.1)) else {
             continue;
         };
-        if arm <= FARTHEST * size {
+        let Some(entry) = joint.entry.filter(|_| arm > FARTHEST * size) else {
             continue;
-        }
+        };
         let keys = [&PLACE_KEYS[..], &BODY_KEYS[..]].concat();
         findings.warning(
             const { Code::new(196) },
@@ -225,7 +222,6 @@ fn far(
 fn carriers(
     records: &[BodyRecord],
     joints: &[JointPoints],
-    map: &SourceMap,
     size: Option<f64>,
     findings: &Findings,
 ) {
@@ -236,13 +232,28 @@ fn carriers(
         BodyRef::Ground => "ground",
         BodyRef::Body(k) => &records[k].name,
     };
-    for mesh in joints.iter().filter(|joint| joint.is_planar("mesh")) {
-        let (Some(&carrier), Some(entry)) = (mesh.group.bodies.get(2), mesh.entry(map)) else {
+    let meshes: Vec<_> = joints
+        .iter()
+        .filter(|joint| joint.is_planar("mesh"))
+        .collect();
+    if meshes.is_empty() {
+        return;
+    }
+    let mut pins = Pins::new();
+    for pin in joints.iter().filter(|joint| joint.is_planar("revolute")) {
+        let [a, b] = pin.points.as_slice() else {
+            continue;
+        };
+        pins.entry(a.0).or_default().push([a, b]);
+        pins.entry(b.0).or_default().push([b, a]);
+    }
+    for mesh in meshes {
+        let (Some(&carrier), Some(entry)) = (mesh.group.bodies.get(2), mesh.entry) else {
             continue;
         };
         let points = mesh.points.iter();
         let borne: Vec<_> = points
-            .map(|&from| (from.0, borne(from, joints, near)))
+            .map(|&from| (from.0, borne(from, &pins, near)))
             .collect();
         let is_wrong = |(wheel, borne): &&(BodyRef, Vec<BodyRef>)| {
             *wheel != carrier && !borne.is_empty() && !borne.contains(&carrier)
@@ -268,22 +279,20 @@ fn carriers(
     }
 }
 
+/// The pins of each body: the point on this body, and the point on the other body.
+type Pins<'p> = HashMap<BodyRef, Vec<[&'p (BodyRef, [f64; 3]); 2]>>;
+
 /// Returns the bodies that pins connect with a body at one of its points.
-fn borne(from: (BodyRef, [f64; 3]), joints: &[JointPoints], near: f64) -> Vec<BodyRef> {
+fn borne(from: (BodyRef, [f64; 3]), pins: &Pins<'_>, near: f64) -> Vec<BodyRef> {
     let mut known = vec![from];
     let mut next = 0;
     while let Some(&(body, point)) = known.get(next) {
         next += 1;
-        for pin in joints.iter().filter(|joint| joint.is_planar("revolute")) {
-            let [a, b] = pin.points.as_slice() else {
-                continue;
-            };
-            for (own, other) in [(a, b), (b, a)] {
-                let apart = [0, 1, 2].map(|k| own.1[k] - point[k]);
-                let is_new = known.iter().all(|(body, _)| *body != other.0);
-                if own.0 == body && norm(&apart) <= near && is_new {
-                    known.push(*other);
-                }
+        for [own, other] in pins.get(&body).into_iter().flatten() {
+            let apart = [0, 1, 2].map(|k| own.1[k] - point[k]);
+            let is_new = known.iter().all(|(body, _)| *body != other.0);
+            if norm(&apart) <= near && is_new {
+                known.push(**other);
             }
         }
     }
