@@ -293,12 +293,13 @@ impl Block {
         (least + best, order)
     }
 
-    /// Returns whether the average with these points is that of some compliances.
-    fn is_reached(&self, tied: &[usize]) -> bool {
+    /// Returns the point among these with equal values that some compliances reach.
+    fn reached(&self, tied: &[usize]) -> Option<usize> {
+        let mut tied = tied.iter().copied();
         match self.weights {
-            Weights::Monomials => tied.iter().any(|&k| self.is_vertex(k)),
-            Weights::Corners | Weights::Samples => true,
-            Weights::UpTo(_) => false,
+            Weights::Monomials => tied.find(|&k| self.is_vertex(k)),
+            Weights::Corners | Weights::Samples => tied.next(),
+            Weights::UpTo(_) => None,
         }
     }
 }
@@ -507,12 +508,14 @@ impl Hull {
                 let values = block.points.iter().map(|point| sign * dot(&own, &point.y));
                 let (least, points) = block.least(&values.collect::<Vec<f64>>());
                 value += sign * least;
-                chosen.push((block, points));
+                let reached = block.reached(&points);
+                let point = reached.or(points.first().copied());
+                chosen.push((block, point, reached.is_some()));
             }
             let soft = chosen
                 .iter()
-                .filter_map(|(block, points)| match block.weights {
-                    Weights::Monomials | Weights::Corners => Some(&block.points[*points.first()?]),
+                .filter_map(|(block, point, _)| match block.weights {
+                    Weights::Monomials | Weights::Corners => Some(&block.points[(*point)?]),
                     Weights::UpTo(_) | Weights::Samples => None,
                 });
             let monomials = soft.flat_map(|point| &point.monomial);
@@ -520,20 +523,17 @@ impl Hull {
             groups.sort_unstable();
             groups.dedup();
             // Blocks that were not merged may have a common load.
-            let mut loads: Vec<usize> = chosen.iter().flat_map(|(b, _)| b.loads()).collect();
+            let mut loads: Vec<usize> = chosen.iter().flat_map(|(b, ..)| b.loads()).collect();
             let all = loads.len();
             loads.sort_unstable();
             loads.dedup();
-            let is_reached = loads.len() == all
-                && chosen
-                    .iter()
-                    .all(|(block, points)| block.is_reached(points));
-            let is_sampled = |(block, _): &(&Block, Vec<usize>)| block.weights == Weights::Samples;
+            let is_reached = loads.len() == all && chosen.iter().all(|(.., reached)| *reached);
+            let mut blocks = chosen.iter().map(|(block, ..)| block);
             RangeEnd {
                 value,
                 groups,
                 is_reached,
-                is_bound: !chosen.iter().any(is_sampled),
+                is_bound: !blocks.any(|block| block.weights == Weights::Samples),
             }
         }))
     }

@@ -74,6 +74,24 @@ fn the_middle_of_two_joints_is_not_reached() {
     assert!(middles > 10 && squares > 100, "{middles} {squares}");
 }
 
+/// Loads A, B and C of two components each: (1 + x, y − 3), (−2x − 2y − 3, 2x + 1) and
+/// (x + 2, y − 1). The smallest x is −2, with all of C zero and in the mean of the sets of one
+/// component of A and one of B. Only C reaches it, because A alone gives −1 and B alone −1/2.
+#[test]
+fn the_soft_loads_of_an_end_are_those_that_reach_it() {
+    let elements = vec![
+        element(0, &[1.0, 0.0], 1.0),
+        element(0, &[0.0, 1.0], -3.0),
+        element(1, &[-2.0, -2.0], -3.0),
+        element(1, &[2.0, 0.0], 1.0),
+        element(2, &[1.0, 0.0], 2.0),
+        element(2, &[0.0, 1.0], -1.0),
+    ];
+    let [lowest, _] = hull(elements, 2).ends(&[1.0, 0.0]).expect("determined");
+    assert!((lowest.value + 2.0).abs() < 1e-12 && lowest.is_reached);
+    assert_eq!(lowest.groups, [2]);
+}
+
 /// One free component and loads with two components: load X is (a + z·y), shortest at
 /// y = −(z·a)/|z|². The largest magnitude is found by trying these values.
 #[test]
