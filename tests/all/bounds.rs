@@ -3,8 +3,10 @@
 
 mod assumption;
 mod ends;
+mod equilibrium;
 mod hull;
 mod invariance;
+mod parts;
 mod within;
 
 use model::ConstraintId;
