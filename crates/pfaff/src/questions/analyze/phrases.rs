@@ -31,9 +31,10 @@ fn within(v: &VerdictDocument) -> String {
 /// zero under any load come last.
 pub(super) fn each(components: &[ComponentDocument]) -> String {
     let verdicts = components.iter().map(|c| {
-        let spoken = match c.zero {
-            true => "zero".to_owned(),
-            false => spoken(c.verdict.verdict),
+        let spoken = if c.zero {
+            "zero".to_owned()
+        } else {
+            spoken(c.verdict.verdict)
         };
         let (within, fragile) = (within(&c.verdict), hanging(&c.data));
         (format!("{spoken}{within}{fragile}"), c.name)
