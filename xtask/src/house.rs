@@ -33,11 +33,11 @@ use crate::tree::root;
 // feature may increase a size limit, in a separate commit.
 
 /// Largest number of lines of code of all groups except tests and developers' tools.
-const TOTAL_MOST: usize = 148_740;
+const TOTAL_MOST: usize = 151_500;
 /// Largest number of lines of code of the product.
-const PRODUCT_MOST: usize = 113_145;
+const PRODUCT_MOST: usize = 115_900;
 /// Largest number of tokens of the product; with this limit, longer lines do not help.
-const TOKENS_MOST: usize = 1_075_300;
+const TOKENS_MOST: usize = 1_100_800;
 /// Largest number of lines of code of `dynamics`.
 const DYNAMICS_MOST: usize = 11_250;
 /// Largest number of stateful types above the bounds.
