@@ -3,6 +3,7 @@
 use model::reaction::ConstraintGroup;
 use model::{BodyRef, ConstraintId, Layout, Mechanism, System};
 use scene::{CentreOfStiffness, Scene, WantedBounds};
+use serde::Deserialize;
 use solvability::{Centres, ComplianceRange, Elasticity, NominalCompliance};
 
 use crate::choice::{FindReaction, compliances};
@@ -11,58 +12,77 @@ use crate::refusal::Refusal;
 /// Name of all drives in the list of rigid joints.
 const DRIVES: &str = "drives";
 
-/// Combines the options of bounds with the request of the scene; `None` if no bounds are requested.
-///
-/// # Errors
-/// Names the option that needs another one.
-pub(crate) fn combined(
-    of_scene: Option<&WantedBounds>,
-    bounds: bool,
-    rigid: &[String],
-    within: Option<f64>,
-    compliance: Option<&str>,
-) -> Result<Option<WantedBounds>, Refusal> {
-    let Some(of_scene) = of_scene else {
-        return requested(bounds, rigid, within, compliance);
-    };
-    Ok(Some(WantedBounds {
-        rigid: match rigid {
-            [] => of_scene.rigid.clone(),
-            own => own.to_vec(),
-        },
-        within: within.or(of_scene.within),
-        compliance: compliance
-            .map(str::to_owned)
-            .or_else(|| of_scene.compliance.clone()),
-    }))
+/// The request of bounds.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(default, deny_unknown_fields)]
+#[cfg_attr(feature = "command", derive(clap::Args))]
+pub struct BoundsOptions {
+    /// Also bound reactions for joints of any stiffness
+    #[cfg_attr(feature = "command", arg(long))]
+    pub bounds: bool,
+    /// Joints and drives that do not give way in --bounds; `drives` names all drives
+    #[cfg_attr(
+        feature = "command",
+        arg(long, value_name = "NAMES", value_delimiter = ',')
+    )]
+    pub rigid: Vec<String>,
+    /// Limit the compliances in --bounds to a range from the nominal ones to K times these
+    #[cfg_attr(
+        feature = "command",
+        arg(long, value_name = "K", allow_hyphen_values = true)
+    )]
+    pub within: Option<f64>,
+    /// Nominal compliances for --within, as W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)); others
+    /// do not give way. Default: all equal
+    #[cfg_attr(feature = "command", arg(long, value_name = "LIST"))]
+    pub compliance: Option<String>,
 }
 
-/// Combines the options of bounds; `None` if no bounds are requested.
-///
-/// # Errors
-/// Names the option that needs another one.
-pub(crate) fn requested(
-    bounds: bool,
-    rigid: &[String],
-    within: Option<f64>,
-    compliance: Option<&str>,
-) -> Result<Option<WantedBounds>, Refusal> {
-    let needed = match (rigid, within, compliance) {
-        _ if bounds => None,
-        ([_, ..], ..) => Some("--rigid selects joints for --bounds: add --bounds"),
-        (_, Some(_), _) => Some("--within limits compliances for --bounds: add --bounds"),
-        (_, _, Some(_)) => {
-            Some("--compliance states nominal compliances for --bounds: add --bounds --within K")
+impl BoundsOptions {
+    /// Returns the request with that of the scene; `None` if no bounds are requested.
+    ///
+    /// # Errors
+    /// Names the option that needs another one.
+    pub(crate) fn combined(
+        &self,
+        of_scene: Option<&WantedBounds>,
+    ) -> Result<Option<WantedBounds>, Refusal> {
+        let Some(of_scene) = of_scene else {
+            return self.requested();
+        };
+        Ok(Some(WantedBounds {
+            rigid: match self.rigid.as_slice() {
+                [] => of_scene.rigid.clone(),
+                own => own.to_vec(),
+            },
+            within: self.within.or(of_scene.within),
+            compliance: (self.compliance.clone()).or_else(|| of_scene.compliance.clone()),
+        }))
+    }
+
+    /// Returns the request; `None` if no bounds are requested.
+    ///
+    /// # Errors
+    /// Names the option that needs another one.
+    pub(crate) fn requested(&self) -> Result<Option<WantedBounds>, Refusal> {
+        let needed = match (self.rigid.as_slice(), self.within, &self.compliance) {
+            _ if self.bounds => None,
+            ([_, ..], ..) => Some("--rigid selects joints for --bounds: add --bounds"),
+            (_, Some(_), _) => Some("--within limits compliances for --bounds: add --bounds"),
+            (_, _, Some(_)) => Some(
+                "--compliance states nominal compliances for --bounds: add --bounds --within K",
+            ),
+            _ => None,
+        };
+        match needed {
+            Some(words) => Err(Refusal::input(words.to_owned())),
+            None => Ok(self.bounds.then(|| WantedBounds {
+                rigid: self.rigid.clone(),
+                within: self.within,
+                compliance: self.compliance.clone(),
+            })),
         }
-        _ => None,
-    };
-    match needed {
-        Some(words) => Err(Refusal::input(words.to_owned())),
-        None => Ok(bounds.then(|| WantedBounds {
-            rigid: rigid.to_vec(),
-            within,
-            compliance: compliance.map(str::to_owned),
-        })),
     }
 }
 

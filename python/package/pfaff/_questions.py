@@ -101,10 +101,11 @@ class Questions:
             "frames": arguments.flag("frames", frames),
             "about": arguments.maybe(arguments.text, "about", about),
             "remedies": arguments.flag("remedies", remedies),
-            "bounds": arguments.flag("bounds", bounds),
-            "rigid": arguments.texts("rigid", rigid),
-            "within": arguments.maybe(arguments.finite, "within", within),
-            "compliance": arguments.maybe(arguments.text, "compliance", compliance),
+            "elastic": {
+                "bounds": arguments.flag("bounds", bounds),
+                "rigid": arguments.texts("rigid", rigid),
+                "within": arguments.maybe(arguments.finite, "within", within),
+                "compliance": arguments.maybe(arguments.text, "compliance", compliance),
             "matrices": arguments.flag("matrices", matrices),
             "along": arguments.maybe(arguments.finite_or_word, "along", along),
             "choose": arguments.texts("choose", choose),
@@ -257,21 +258,25 @@ class Questions:
         - ``vary``: Also vary a parameter or number: KEY=±VALUE or KEY=±P%
         - ``seed``: Random seed
         - ``at_time``: Analyse the samples at this time (s)
-        - ``bounds``: Also bound reactions that are not unique, for joints of any stiffness
+        - ``bounds``: Also bound reactions for joints of any stiffness
         - ``rigid``: Joints and drives that do not give way in ``bounds``; ``drives`` names all
           drives
-        - ``within``: Limit the compliances in ``bounds``, as in analyze
-        - ``compliance``: Nominal compliances for ``within``, as in analyze
+        - ``within``: Limit the compliances in ``bounds`` to a range from the nominal ones to K
+          times these
+        - ``compliance``: Nominal compliances for ``within``, as W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds
+          rad/(N·m)); others do not give way. Default: all equal
         """
         options: dict[str, Any] = {
             "runs": arguments.count("runs", runs),
             "vary": arguments.settings("vary", vary),
             "seed": arguments.count("seed", seed),
             "at_time": arguments.finite("at_time", at_time),
-            "bounds": arguments.flag("bounds", bounds),
-            "rigid": arguments.texts("rigid", rigid),
-            "within": arguments.maybe(arguments.finite, "within", within),
-            "compliance": arguments.maybe(arguments.text, "compliance", compliance),
+            "elastic": {
+                "bounds": arguments.flag("bounds", bounds),
+                "rigid": arguments.texts("rigid", rigid),
+                "within": arguments.maybe(arguments.finite, "within", within),
+                "compliance": arguments.maybe(arguments.text, "compliance", compliance),
+            },
         }
         common = Common(tolerance, angle_tolerance, threads, max_memory, out)
         answer = self._asked("tolerance", options, common, files=True)

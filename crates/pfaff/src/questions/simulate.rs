@@ -13,7 +13,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use solvability::Choice;
 
 use crate::choice::choices;
-use crate::elasticity::{combined, elasticity};
+use crate::elasticity::{BoundsOptions, elasticity};
 use crate::error::StudyError;
 use crate::question::{
     Answer, Control, Ending, INTERRUPTED, NOTHING_WRITTEN, Output, Progress, Question, Writing,
@@ -46,24 +46,9 @@ pub struct Simulate {
     #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
     #[cfg_attr(feature = "command", arg(long, value_name = "STYLE", value_parser = crate::command::named(PrintStyle::ALL, PrintStyle::name)))]
     pub print: Option<PrintStyle>,
-    /// Write bounds.csv: bounds of reactions for joints of any stiffness
-    #[cfg_attr(feature = "command", arg(long))]
-    pub bounds: bool,
-    /// Joints and drives that do not give way in --bounds; `drives` names all drives
-    #[cfg_attr(
-        feature = "command",
-        arg(long, value_name = "NAMES", value_delimiter = ',')
-    )]
-    pub rigid: Vec<String>,
-    /// Limit the compliances in --bounds, as in analyze
-    #[cfg_attr(
-        feature = "command",
-        arg(long, value_name = "K", allow_hyphen_values = true)
-    )]
-    pub within: Option<f64>,
-    /// Nominal compliances for --within, as in analyze
-    #[cfg_attr(feature = "command", arg(long, value_name = "LIST"))]
-    pub compliance: Option<String>,
+    /// The bounds
+    #[cfg_attr(feature = "command", command(flatten))]
+    pub elastic: BoundsOptions,
 }
 
 impl Question for Simulate {
@@ -109,9 +94,7 @@ impl Question for Simulate {
             );
             return Err(Refusal::input(message));
         }
-        let (within, compliance) = (self.within, self.compliance.as_deref());
-        let of_scene = study.scene.output.bounds.as_ref();
-        let wanted = combined(of_scene, self.bounds, &self.rigid, within, compliance)?;
+        let wanted = self.elastic.combined(study.scene.output.bounds.as_ref())?;
         let bounds = wanted.map(|wanted| elasticity(&wanted, mechanism.layout(), &reaction));
         let bounds = bounds.transpose()?;
         (study.choices, study.bounds) = (choices, bounds);

@@ -11,7 +11,7 @@ use report::{Family, Table};
 use serde::{Deserialize, Serialize};
 
 use crate::configuration::requests;
-use crate::elasticity::{elasticity, requested};
+use crate::elasticity::{BoundsOptions, elasticity};
 use crate::question::{Answer, Control, Ending, Output, Place, Progress, Question, Writing};
 use crate::refusal::{Refusal, json};
 use crate::start::Start;
@@ -49,24 +49,9 @@ pub struct Tolerance {
         )
     )]
     pub at_time: f64,
-    /// Also bound reactions that are not unique, for joints of any stiffness
-    #[cfg_attr(feature = "command", arg(long))]
-    pub bounds: bool,
-    /// Joints and drives that do not give way in --bounds; `drives` names all drives
-    #[cfg_attr(
-        feature = "command",
-        arg(long, value_name = "NAMES", value_delimiter = ',')
-    )]
-    pub rigid: Vec<String>,
-    /// Limit the compliances in --bounds, as in analyze
-    #[cfg_attr(
-        feature = "command",
-        arg(long, value_name = "K", allow_hyphen_values = true)
-    )]
-    pub within: Option<f64>,
-    /// Nominal compliances for --within, as in analyze
-    #[cfg_attr(feature = "command", arg(long, value_name = "LIST"))]
-    pub compliance: Option<String>,
+    /// The bounds
+    #[cfg_attr(feature = "command", command(flatten))]
+    pub elastic: BoundsOptions,
 }
 
 impl Default for Tolerance {
@@ -76,10 +61,7 @@ impl Default for Tolerance {
             vary: Vec::new(),
             seed: 1,
             at_time: 0.0,
-            bounds: false,
-            rigid: Vec::new(),
-            within: None,
-            compliance: None,
+            elastic: BoundsOptions::default(),
         }
     }
 }
@@ -107,8 +89,7 @@ impl Question for Tolerance {
         };
         let assembled = of.assembled(control)?;
         let units = scene_units(&assembled.scene);
-        let (within, compliance) = (self.within, self.compliance.as_deref());
-        let wanted = requested(self.bounds, &self.rigid, within, compliance)?;
+        let wanted = self.elastic.requested()?;
         let (scene, mechanism) = (&assembled.scene, &assembled.mechanism);
         let reaction = |name: &str| {
             let found = requests::reaction(scene, mechanism, name);

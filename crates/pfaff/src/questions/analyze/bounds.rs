@@ -16,7 +16,6 @@ use super::phrases::LINES;
 use crate::configuration::ConfigurationAnalysis;
 use crate::documents::analysis::components;
 use crate::documents::{AnalysisDocument, ComponentDocument};
-use crate::elasticity::requested;
 use crate::error::StudyError;
 use crate::refusal::Refusal;
 use crate::words::{Block, Cell, grouped, load_unit, marked};
@@ -267,8 +266,7 @@ pub(super) fn elasticity(
     asked: &Analyze,
     of: &ConfigurationAnalysis<'_>,
 ) -> Result<Option<Elasticity>, Refusal> {
-    let (within, compliance) = (asked.within, asked.compliance.as_deref());
-    let Some(wanted) = requested(asked.bounds, &asked.rigid, within, compliance)? else {
+    let Some(wanted) = asked.elastic.requested()? else {
         return Ok(None);
     };
     let named = |name: &str| {

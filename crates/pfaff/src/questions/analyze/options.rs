@@ -4,6 +4,8 @@ use std::str::FromStr;
 
 use serde::Deserialize;
 
+use crate::elasticity::BoundsOptions;
+
 /// Compute rank, redundancy and a verdict for every reaction
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -60,25 +62,9 @@ pub struct Analyze {
     /// always does so for small mechanisms
     #[cfg_attr(feature = "command", arg(long))]
     pub remedies: bool,
-    /// Also bound reactions for joints of any stiffness
-    #[cfg_attr(feature = "command", arg(long))]
-    pub bounds: bool,
-    /// Joints and drives that do not give way in --bounds; `drives` names all drives
-    #[cfg_attr(
-        feature = "command",
-        arg(long, value_name = "NAMES", value_delimiter = ',')
-    )]
-    pub rigid: Vec<String>,
-    /// Limit the compliances in --bounds to a range from the nominal ones to K times these
-    #[cfg_attr(
-        feature = "command",
-        arg(long, value_name = "K", allow_hyphen_values = true)
-    )]
-    pub within: Option<f64>,
-    /// Nominal compliances for --within, as W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)); others
-    /// do not give way. Default: all equal
-    #[cfg_attr(feature = "command", arg(long, value_name = "LIST"))]
-    pub compliance: Option<String>,
+    /// The bounds
+    #[cfg_attr(feature = "command", command(flatten))]
+    pub elastic: BoundsOptions,
     /// Print Φq, Ψ and Γ with names of rows and columns; --out writes them as CSV
     #[cfg_attr(feature = "command", arg(long))]
     pub matrices: bool,
