@@ -106,6 +106,7 @@ class Questions:
                 "rigid": arguments.texts("rigid", rigid),
                 "within": arguments.maybe(arguments.finite, "within", within),
                 "compliance": arguments.maybe(arguments.text, "compliance", compliance),
+            },
             "matrices": arguments.flag("matrices", matrices),
             "along": arguments.maybe(arguments.finite_or_word, "along", along),
             "choose": arguments.texts("choose", choose),

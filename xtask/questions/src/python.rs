@@ -118,6 +118,9 @@ fn method(question: &Question) -> String {
     let mut inside = None;
     for option in &question.options {
         if option.inside != inside {
+            if inside.is_some() {
+                text.push_str("            },\n");
+            }
             if let Some(inside) = &option.inside {
                 text.push_str(&format!("            \"{inside}\": {{\n"));
             }
