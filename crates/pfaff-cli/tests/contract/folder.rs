@@ -11,12 +11,18 @@ pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).expect("UTF-8")
 }
 
-/// A directory of one test, removed at its end.
+/// A directory of one test, removed at its end. Its path starts at this package where it can: messages are wrapped, and
+/// where they break must not depend on where the checkout is.
 pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
     pub(crate) fn new(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let temporary = Path::new(env!("CARGO_TARGET_TMPDIR"));
+        let path = match temporary.strip_prefix(root.canonicalize().expect("the workspace")) {
+            Ok(inside) => Path::new("../..").join(inside).join(name),
+            Err(_) => temporary.join(name),
+        };
         let _ = std::fs::remove_dir_all(&path);
         Self(path)
     }
