@@ -11,8 +11,8 @@ pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).expect("UTF-8")
 }
 
-/// A directory of one test, removed at its end. Its path starts at this package where it can: messages are wrapped, and
-/// where they break must not depend on where the checkout is.
+/// A directory of one test, removed at its end. Its path starts at this package where it can:
+/// messages are wrapped, and where they break must not depend on where the checkout is.
 pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
