@@ -13,6 +13,7 @@ use crate::data::{derivations, of_measure, of_turn, stored};
 use crate::derive::{self, Component, ConstraintKernels, Sparse};
 use crate::elaborate::{Body, ConstraintBody, Counted, Measure, Model};
 use crate::kernel::{Kernel, kernel, rows};
+use crate::names::camel_case;
 use crate::parse::Definition;
 use crate::space::Space;
 use data::Stored;
@@ -42,7 +43,7 @@ pub(crate) fn constraint(
         derive::constraint(&mut model, &body, &component).map_err(|row| idle(&body.at, row))?;
     let drive = |(name, measure): &(Ident, Measure)| parts::Drive {
         measure: name.clone(),
-        name: format_ident!("{}{}Drive", d.name, parts::camel(name)),
+        name: format_ident!("{}{}Drive", d.name, camel_case(&name.to_string())),
         by: match measure {
             Measure::Of(_) => Driven::Measure,
             Measure::Angle { .. } => Driven::Turn,

@@ -5,7 +5,7 @@
 //! | module | step |
 //! | --- | --- |
 //! | [`invocation`](Invocation) | tokens of a macro call → runtime path, definition, text |
-//! | [`parse`] | tokens → [`parse::Definition`] |
+//! | [`parse`] | tokens → [`parse::Definition`], one for each form |
 //! | [`Space`] | sizes, and the fields of a body that kernels read |
 //! | `vector` | vectors as sums of parts in frames: products of parts in the same frame need no rotation |
 //! | `defined` | rotated vectors and products of vectors in space, differentiated as a whole |
@@ -15,7 +15,7 @@
 //! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods; force laws → Q and its derivatives |
 //! | `kernel` | a list of expressions → one function with its operation count |
 //! | `emit` | kernels and facts → the text of a module |
-//! | `names` | conversion of type names into names of modules and scene types |
+//! | `names` | conversion of type names into names of modules and scene types, and of words into type names |
 //! | `nearest` | hints for misspelt names |
 
 mod data;
@@ -54,8 +54,9 @@ pub struct Expansion {
     pub items: TokenStream,
 }
 
-/// Expands the body of one `joint!` or `force!`. `runtime` is the path of the crate `joints` in the
-/// expanded code, `text` the definition as written by its author.
+/// Expands the body of one `joint!` or `force!`. Returns an expansion for each form of the
+/// definition; the first has the name of the definition. `runtime` is the path of the crate
+/// `joints` in the expanded code, `text` the definition as written by its author.
 ///
 /// # Errors
 /// Returns an error at the wrong token: an unknown name, a wrong shape, a Ψ that is not linear in
@@ -65,19 +66,22 @@ pub fn expand(
     body: TokenStream,
     runtime: &TokenStream,
     text: &str,
-) -> syn::Result<Expansion> {
-    let definition = parse::definition(kind, body)?;
-    let model = elaborate::elaborate(&definition)?;
-    let items = match kind {
-        Kind::Constraint => emit::constraint(&definition, model, runtime, text)?,
-        Kind::Force => emit::force(&definition, model, runtime, text)?,
-    };
-    Ok(Expansion {
-        name: definition.name.to_string(),
-        kind,
-        space: definition.space,
-        items,
-    })
+) -> syn::Result<Vec<Expansion>> {
+    let definitions = parse::definition(kind, body)?.into_iter();
+    let expansions = definitions.map(|definition| {
+        let model = elaborate::elaborate(&definition)?;
+        let items = match kind {
+            Kind::Constraint => emit::constraint(&definition, model, runtime, text)?,
+            Kind::Force => emit::force(&definition, model, runtime, text)?,
+        };
+        Ok(Expansion {
+            name: definition.name.to_string(),
+            kind,
+            space: definition.space,
+            items,
+        })
+    });
+    expansions.collect()
 }
 
 /// Expands a file that contains one `joint! { … }` or `force! { … }`.
@@ -85,7 +89,7 @@ pub fn expand(
 /// # Errors
 /// Returns an error if the file is not valid Rust, contains something else, or its definition is
 /// wrong.
-pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Expansion> {
+pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Vec<Expansion>> {
     let file = syn::parse_file(source)?;
     let [syn::Item::Macro(item)] = file.items.as_slice() else {
         return Err(syn::Error::new(
@@ -107,9 +111,13 @@ pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Expansion
     expand(kind, item.mac.tokens.clone(), runtime, source.trim_end())
 }
 
-/// The module around the items of an expansion in a user's crate.
+/// The modules around the items of expansions in a user's crate.
 #[must_use]
-pub fn in_module(expansion: &Expansion) -> TokenStream {
+pub fn in_modules(expansions: &[Expansion]) -> TokenStream {
+    expansions.iter().map(in_module).collect()
+}
+
+fn in_module(expansion: &Expansion) -> TokenStream {
     let module = quote::format_ident!("__{}", snake_case(&expansion.name));
     let items = &expansion.items;
     // All tokens have the position of the call, which has several lines. Because of this, Clippy

@@ -1,4 +1,4 @@
-//! Conversion of type names into names of modules and scene types.
+//! Conversion of type names into names of modules and scene types, and of words into type names.
 
 /// `PinInSlot` → `pin_in_slot`
 #[must_use]
@@ -10,6 +10,17 @@ pub fn snake_case(name: &str) -> String {
 #[must_use]
 pub fn kebab_case(name: &str) -> String {
     separated(name, '-')
+}
+
+/// `in-slot`, `in_slot` → `InSlot`
+pub(crate) fn camel_case(name: &str) -> String {
+    let mut out = String::new();
+    for word in name.split(['_', '-']) {
+        let mut letters = word.chars();
+        out.extend(letters.next().map(|c| c.to_ascii_uppercase()));
+        out.push_str(letters.as_str());
+    }
+    out
 }
 
 fn separated(name: &str, separator: char) -> String {

@@ -1,11 +1,12 @@
 //! Definitions for tests, and values for their expressions.
 
+use proc_macro2::TokenStream;
 use symbolic::Expr;
 
 use crate::Kind;
 use crate::derive::{self, Component, ConstraintKernels, ForceKernels};
 use crate::elaborate::{Body, ConstraintBody, Model, Source, elaborate};
-use crate::parse::definition;
+use crate::parse::{self, Definition};
 
 pub(crate) const REVOLUTE: &str = "plane Revolute(i, j) {
     /// Two points coincide.
@@ -31,6 +32,12 @@ pub(crate) const VELOCITY: &str = "plane Velocity(i) {
     psi: dot(direction(i, normal), velocity(point(i, s))) - rate;
     place: point(i, s);
 }";
+
+/// A definition with one form.
+fn definition(kind: Kind, tokens: TokenStream) -> syn::Result<Definition> {
+    let mut forms = parse::definition(kind, tokens)?;
+    Ok(forms.remove(0))
+}
 
 /// The definition in mathematical form.
 pub(crate) fn model(kind: Kind, text: &str) -> syn::Result<Model> {

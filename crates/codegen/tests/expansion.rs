@@ -1,6 +1,6 @@
 //! Tests the complete translation, from tokens to the text of a module.
 
-use pfaff_codegen::{Kind, expand, expand_file, in_module, kebab_case, snake_case};
+use pfaff_codegen::{Expansion, Kind, expand, expand_file, in_modules, kebab_case, snake_case};
 use quote::quote;
 
 const KNIFE_EDGE: &str = "joint! { plane KnifeEdge(i) {
@@ -12,9 +12,15 @@ const KNIFE_EDGE: &str = "joint! { plane KnifeEdge(i) {
     place: point(i, s);
 } }";
 
+fn expansions(source: &str) -> Vec<Expansion> {
+    expand_file(source, &quote!(::joints)).unwrap_or_else(|e| panic!("{e}"))
+}
+
 fn printed(source: &str) -> String {
-    let expansion = expand_file(source, &quote!(::joints)).unwrap_or_else(|e| panic!("{e}"));
-    let file = syn::parse2(expansion.items).unwrap_or_else(|e| panic!("{e}"));
+    let [expansion] = &expansions(source)[..] else {
+        panic!("several forms")
+    };
+    let file = syn::parse2(expansion.items.clone()).unwrap_or_else(|e| panic!("{e}"));
     prettyplease::unparse(&file)
 }
 
@@ -50,7 +56,7 @@ fn kernels_read_as_one_would_write_them() {
 #[test]
 fn a_file_holds_one_definition() {
     let error = |source: &str| match expand_file(source, &quote!(crate)) {
-        Ok(e) => format!("expanded `{}`", e.name),
+        Ok(all) => format!("expanded `{}`", all[0].name),
         Err(e) => e.to_string(),
     };
     assert_eq!(error(KNIFE_EDGE), "expanded `KnifeEdge`");
@@ -62,18 +68,49 @@ fn a_file_holds_one_definition() {
 
 #[test]
 fn the_author_text_travels() {
-    let expansion = expand_file(KNIFE_EDGE, &quote!(crate)).unwrap_or_else(|e| panic!("{e}"));
     let literal = proc_macro2::Literal::string(KNIFE_EDGE).to_string();
-    assert!(expansion.items.to_string().contains(&literal));
+    let items = expansions(KNIFE_EDGE)[0].items.to_string();
+    assert!(items.contains(&literal));
 }
 
 #[test]
 fn a_module_is_named_after_its_definition() {
-    let expansion = expand_file(KNIFE_EDGE, &quote!(crate)).unwrap_or_else(|e| panic!("{e}"));
-    let module = in_module(&expansion).to_string();
+    let module = in_modules(&expansions(KNIFE_EDGE)).to_string();
     assert!(module.contains("mod __knife_edge {"), "{module}");
     assert_eq!(snake_case("PinInSlot"), "pin_in_slot");
     assert_eq!(kebab_case("PinInSlot"), "pin-in-slot");
+}
+
+/// Each form is a type with its own rows; the types have the same text.
+#[test]
+fn every_form_is_a_type() {
+    let source = KNIFE_EDGE
+        .replace("rows:", "variant along { \"no\": 0.0, \"yes\": 2.0 } rows:")
+        .replace(
+            ";\n    component",
+            " - along * rate(angle(i));\n    component",
+        );
+    let all = expansions(&source);
+    let names: Vec<&str> = all.iter().map(|e| e.name.as_str()).collect();
+    assert_eq!(names, ["KnifeEdge", "YesKnifeEdge"]);
+    let literal = proc_macro2::Literal::string(&source).to_string();
+    let texts: Vec<String> = all.iter().map(|e| e.items.to_string()).collect();
+    for (text, [value, wrench]) in texts.iter().zip([
+        ["value : \"no\" , default : true", "[[0 , 0] , [1 , 0]]"],
+        [
+            "value : \"yes\" , default : false",
+            "[[0 , 0] , [1 , 0] , [2 , 0]]",
+        ],
+    ]) {
+        assert!(text.contains("scene_type : \"knife-edge\""), "{text}");
+        assert!(
+            text.contains(value) && text.contains(&format!("wrench : & {wrench}")),
+            "{text}"
+        );
+        assert!(text.contains(&literal), "{text}");
+    }
+    let modules = in_modules(&all).to_string();
+    assert!(modules.contains("mod __yes_knife_edge {"), "{modules}");
 }
 
 /// The condition `(A || B) && C` is not `A || (B && C)`.
@@ -85,10 +122,8 @@ fn conditions_keep_their_parentheses() {
         force: k on angle(i);
     }";
     let body = body.parse().expect("tokens");
-    let text = expand(Kind::Force, body, &quote!(crate), "")
-        .unwrap_or_else(|e| panic!("{e}"))
-        .items
-        .to_string();
+    let all = expand(Kind::Force, body, &quote!(crate), "").unwrap_or_else(|e| panic!("{e}"));
+    let text = all[0].items.to_string();
     let expected = quote!((k > 1.0 || k < 0.0) && k != 5.0).to_string();
     assert!(text.contains(&expected), "{text}");
 }

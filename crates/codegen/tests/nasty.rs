@@ -18,7 +18,10 @@ fn expand_any(text: &str) {
     };
     for kind in [Kind::Constraint, Kind::Force] {
         match expand(kind, body.clone(), &quote!(::joints), text) {
-            Ok(e) => assert!(syn::parse2::<syn::File>(e.items).is_ok(), "{text}"),
+            Ok(all) => {
+                let mut files = all.into_iter().map(|e| syn::parse2::<syn::File>(e.items));
+                assert!(files.all(|file| file.is_ok()), "{text}");
+            }
             Err(e) => assert!(!e.to_string().is_empty(), "{text}"),
         }
     }
@@ -95,6 +98,10 @@ fn inputs_from_bad_dreams() {
             joint("initial { out: Length = angle(i) } phi: angle(j) - out;"),
             joint("params { reader: Length } phi: reader * angle(i);"),
             joint("phi: angle(i); measure _a: angle(i); measure a: angle(i);"),
+            joint("variant a {} phi: a;"),
+            joint("variant a { \"\": 1, \"b c\": angle(i) } phi: a;"),
+            joint("variant angle { \"b\": angle(i), \"b--c-\": angle(j) } phi: angle;"),
+            joint("variant i { \"b\": angle(i), \"c\": angle(j) } phi: i;"),
         ];
         for text in &texts {
             expand_any(text);
@@ -201,8 +208,7 @@ const SHIPPED: [&str; 4] = [
     "plane SpringDamper(i, j) {
         /// A spring.
         params { s_i: Point in i, s_j: Point in j, k: [Stiffness, Damping], l0: Length = norm(point(j, s_j) - point(i, s_i)) }
-        variant key = \"value\", default;
-        let l = norm(point(j, s_j) - point(i, s_i));
+        variant l { \"far\": norm(point(j, s_j) - point(i, s_i)), \"near\": angle(i) }
         force: -(k[0] * (l - l0) + k[1] * rate(l)) on l;
     }",
 ];

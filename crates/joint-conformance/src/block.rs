@@ -1,4 +1,4 @@
-//! A dense matrix of kernel results, for comparisons. It is not used for other calculations.
+//! A dense matrix of kernel results, for comparisons. The matrix is used only for comparisons.
 
 use joints::Ring;
 
@@ -31,7 +31,7 @@ impl<T: Copy> Block<T> {
         }
     }
 
-    /// Returns a block that contains these blocks side by side; all of them must have the same
+    /// Returns a block whose columns are the columns of these blocks; all blocks must have the same
     /// number of rows.
     ///
     /// # Panics
@@ -41,7 +41,7 @@ impl<T: Copy> Block<T> {
         let rows = blocks.first().map_or(0, |b| b.rows);
         assert!(
             blocks.iter().all(|b| b.rows == rows),
-            "blocks side by side need equal heights"
+            "blocks next to each other need equal heights"
         );
         let columns = blocks.iter().map(|b| b.columns).sum();
         let entries = (0..rows)

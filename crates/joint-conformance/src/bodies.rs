@@ -1,5 +1,5 @@
-//! Operations on the bodies of a space. They generate random poses, apply rigid motions, and
-//! compute the forces on bodies. In this module, a velocity is the list of its components.
+//! Operations on the bodies of a space. The operations generate random poses, apply rigid motions,
+//! and compute the forces on bodies. In this module, a velocity is the list of its components.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 

@@ -45,7 +45,7 @@ pub(crate) fn check<S: Subject>(of: S, seed: u64) -> Result<(), Failure> {
         S::see(&check, &mut seen);
     }
     if f64::from(undefined) > MOST_UNDEFINED * f64::from(cases) {
-        let entry = format!("at {undefined} of {cases} poses there is none");
+        let entry = format!("it is undefined at {undefined} of {cases} poses");
         let facts = [0.0, 1.0];
         return Err(fact(name, Property::Defined, entry, facts, None));
     }
@@ -92,7 +92,10 @@ fn assembled<S: Subject>(
         }
         case = case.with_another_start(attempt);
     }
-    let entry = format!("none of {STARTS} starts meets {:?}", spec.requirements);
+    let entry = format!(
+        "{STARTS} random starts do not satisfy {:?}",
+        spec.requirements
+    );
     Err(fail(Property::Requirements, entry))
 }
 
@@ -126,7 +129,7 @@ impl<S: Subject> Check<'_, S> {
         self.of.final_kernel(self.made, kernel, &state)
     }
 
-    /// Returns the blocks of all motions side by side.
+    /// Returns a block whose columns are the columns of all motions.
     pub(crate) fn each(&self, block: impl Fn(&Motion) -> Block) -> Block {
         Block::beside(&self.case.motions.iter().map(block).collect::<Vec<_>>())
     }
@@ -291,7 +294,8 @@ pub(crate) fn n_dof<S: Subject>() -> usize {
     <S::Space as Space>::N_DOF
 }
 
-/// Returns a description of an entry of a property; blocks of several motions are side by side.
+/// Returns a description of an entry of a property; blocks of several motions are joined column by
+/// column.
 pub(crate) fn entry<S: Subject>(of: S, property: Property, row: usize, column: usize) -> String {
     let n = of.columns();
     let row_name = |row: usize| match of.rows().get(row) {

@@ -79,11 +79,11 @@ impl fmt::Display for Property {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Arguments => "parameters drawn from the spec are accepted",
-            Self::Requirements => "the requirements hold at some start",
+            Self::Requirements => "some start satisfies the requirements",
             Self::Pattern => {
                 "the pattern names each entry that does not vanish, once, and no other"
             }
-            Self::Writes => "kernels write exactly the entries that are theirs",
+            Self::Writes => "kernels write exactly their own entries",
             Self::C => "C = ∂Φ/∂x",
             Self::B => "b = −∂Φ/∂t",
             Self::Velocity => "C·v − b = dΦ/dt",
@@ -97,17 +97,17 @@ impl fmt::Display for Property {
             Self::Data => {
                 "`data` gives the numbers that the facts name, and `set_data` puts numbers back"
             }
-            Self::DPhiDp => "the slopes by the data are ∂(λᵀ·Φ)/∂p",
-            Self::DResidualDp => "the slopes by the data are ∂(λᵀ·(C·a − Γ))/∂p",
-            Self::Programs => "the programs of the rows compute what the kernels compute",
-            Self::Wrench => "the wrench is −C of the first body, moved to the place",
+            Self::DPhiDp => "the derivatives with respect to the data are ∂(λᵀ·Φ)/∂p",
+            Self::DResidualDp => "the derivatives with respect to the data are ∂(λᵀ·(C·a − Γ))/∂p",
+            Self::Programs => "the programs of the rows return the same values as the kernels",
+            Self::Wrench => "the wrench is −C of the first body, about the reference point",
             Self::Defined => "the law has a value at most poses",
-            Self::Place => "the place is fixed in its body",
+            Self::Place => "the reference point is fixed in its body",
             Self::Component => "the named component is not larger than the reaction",
             Self::Power => "the component of a drive times the rate of its motion is b",
             Self::Balance => "forces and moments on all bodies add up to zero",
             Self::RigidMotion => "moving all bodies as one leaves the norm of each block unchanged",
-            Self::Start => "rows that keep the start, and only these, are zero there",
+            Self::Start => "exactly the rows that lock a joint at its start are zero at the start",
             Self::DqDx => "dq_dx = ∂Q/∂x",
             Self::DqDv => "dq_dv = ∂Q/∂v",
             Self::Dissipation => "velocity terms never add energy",

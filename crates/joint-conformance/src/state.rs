@@ -5,7 +5,7 @@ use crate::bodies::Bodies;
 use crate::case::{Case, Motion};
 use crate::number::Number;
 
-/// The curve through a state along which a derivative is computed.
+/// A derivative is computed along this curve through a state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Along {
     /// The pose varies along one column of the block; all other arguments are constant.

@@ -122,8 +122,8 @@ pub(crate) struct Derivative<K> {
 }
 
 impl<K> Derivative<K> {
-    /// Claims `kernel = sign · d of / d by` in the rows of `of`; if it is false, the definition
-    /// violates the property.
+    /// States that `kernel = sign · d of / d by` in the rows of `of`; if the statement is false,
+    /// the definition violates the property.
     pub(crate) const fn new(property: Property, kernel: K, sign: f64, of: K, by: By) -> Self {
         Self {
             property,
@@ -138,9 +138,9 @@ impl<K> Derivative<K> {
 /// Variable of a derivative.
 #[derive(Clone, Copy)]
 pub(crate) enum By {
-    /// Each velocity component of the poses, side by side.
+    /// Velocity components of all poses, one column for each component.
     Poses,
-    /// Each velocity component of the twists, side by side.
+    /// Velocity components of all twists, one column for each component.
     Twists,
     /// Time, with constant poses.
     Time,

@@ -1,6 +1,6 @@
 #![doc = include_str!("../README.md")]
 
-use codegen::{Invocation, Kind, expand, in_module};
+use codegen::{Invocation, Kind, expand, in_modules};
 use proc_macro::TokenStream;
 
 /// Defines a constraint: its type, its specification and its kernels, as an implementation of
@@ -25,6 +25,6 @@ pub fn force(call: TokenStream) -> TokenStream {
 fn items(kind: Kind, call: TokenStream) -> TokenStream {
     Invocation::parse(kind, call.into())
         .and_then(|call| expand(kind, call.body, &call.runtime, &call.text))
-        .map_or_else(|error| error.into_compile_error(), |e| in_module(&e))
+        .map_or_else(|error| error.into_compile_error(), |e| in_modules(&e))
         .into()
 }

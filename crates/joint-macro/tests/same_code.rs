@@ -19,8 +19,8 @@ macro_rules! own {
 }
 
 own! {
-    angle body_point_force bushing damper distance fixed gear knife_edge mesh pin_in_slot point_force point_on_line
-    rack_and_pinion relative_rolling revolute rolling spring_damper torque torque_between torsion_spring_damper
+    angle bushing damper distance fixed gear knife_edge mesh pin_in_slot point_force point_on_line
+    rack_and_pinion revolute rolling spring_damper torque torque_between torsion_spring_damper
     translational tyre velocity
 }
 
@@ -34,7 +34,7 @@ fn own_constraints<V: Visitor>(visitor: &mut V) {
     visitor.constraint::<pin_in_slot::PinInSlot>();
     visitor.constraint::<point_on_line::PointOnLine>();
     visitor.constraint::<rack_and_pinion::RackAndPinion>();
-    visitor.constraint::<relative_rolling::RelativeRolling>();
+    visitor.constraint::<rolling::RelativeRolling>();
     visitor.constraint::<revolute::Revolute>();
     visitor.constraint::<rolling::Rolling>();
     visitor.constraint::<translational::Translational>();
@@ -42,7 +42,7 @@ fn own_constraints<V: Visitor>(visitor: &mut V) {
 }
 
 fn own_forces<V: Visitor>(visitor: &mut V) {
-    visitor.force::<body_point_force::BodyPointForce>();
+    visitor.force::<point_force::BodyPointForce>();
     visitor.force::<bushing::Bushing>();
     visitor.force::<damper::Damper>();
     visitor.force::<point_force::PointForce>();

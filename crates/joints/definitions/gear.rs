@@ -10,6 +10,5 @@ joint! { plane Gear(i, j, carrier) {
     rows: [mesh];
     phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;
     place: origin(i);
-    note "the reaction of a gear is a couple, without the force of teeth or belt; the reactions of the wheels' bearings \
-          are without it, too";
+    note "the reaction of a gear is a couple, without the force of teeth or belt; the reactions of the wheels' bearings do not contain this force, either";
 } }

@@ -13,7 +13,7 @@ joint! { plane Mesh(i, j, carrier) {
         /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.
         ratio: Ratio,
         /// Angle of the line of action from the perpendicular of the centre line; 0 if it is not
-        /// given. Its sign selects the tooth flanks that touch.
+        /// given. The sign of this angle selects the tooth flanks that touch.
         pressure_angle: Angle = 0.0,
     }
     points apart;

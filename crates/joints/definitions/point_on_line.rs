@@ -6,7 +6,7 @@ joint! { plane PointOnLine(i) {
         /// The line.
         line: GroundLine,
     }
-    rows: [normal];
+    rows: [gap normal];
     phi: dot(perp(along(line)), point(i, s) - start(line));
     place: point(i, s);
 } }

@@ -18,6 +18,5 @@ joint! { plane RackAndPinion(i, j) {
     rows: [mesh];
     phi: dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)) - phase;
     place: origin(i) + vector(i, centre);
-    note "the reaction of a rack and its pinion is the force of the teeth along the rack, without the force that pushes the \
-          two apart; the reactions of bearing and guide are without it, too";
+    note "the reaction of a rack and its pinion is the force of the teeth along the rack, without the separating force of the teeth; the reactions of bearing and guide do not contain this force, either";
 } }

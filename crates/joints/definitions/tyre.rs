@@ -2,8 +2,9 @@ force! { plane Tyre(i) {
     /// Side force of a tyre at point `s` of the body, `−C·v_n/√(v_t² + v_0²)` along `normal`, with
     /// the velocities v_n of the point along `normal` and v_t across it. This is the linear tyre,
     /// with a side force C·α for a small slip angle α ≈ v_n/|v_t| (H. B. Pacejka, Tire and Vehicle
-    /// Dynamics, 2012, chapter 1). It is made regular at standstill, where it is a damper C/v_0. At
-    /// the speed v_t the force is smaller than C·α by the share (v_0/v_t)²/2.
+    /// Dynamics, 2012, chapter 1). At standstill, a damper C/v_0 replaces the law, so that the
+    /// force remains finite. At the speed v_t the force is smaller than C·α by the share
+    /// (v_0/v_t)²/2.
     params {
         /// The contact point.
         s: Point in i,

@@ -1,6 +1,6 @@
-//! Values for the parameters of a definition. They are checked against the list of [`Parameter`]s
-//! in one place, so that a kernel never receives a direction of length zero or a negative
-//! stiffness.
+//! Values for the parameters of a definition. The values are checked against the list of
+//! [`Parameter`]s in one place, so that a kernel never receives a direction of length zero or a
+//! negative stiffness.
 
 use std::fmt;
 

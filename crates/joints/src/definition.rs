@@ -20,9 +20,9 @@ pub trait Definition<S: Space = Plane>: Send + Sync {
         [1.0, 0.0, 0.0]
     }
 
-    /// Returns the points at which the definition acts, each in the frame of its body. They are the
-    /// parameters that are points, in the order of the parameters. The list is empty if no
-    /// parameter is a point.
+    /// Returns the points at which the definition acts, each in the frame of its body. The list
+    /// contains the parameters that are points, in the order of the parameters. The list is empty
+    /// if no parameter is a point.
     fn points(&self) -> Vec<S::Vector<f64>> {
         Vec::new()
     }

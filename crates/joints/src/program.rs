@@ -1,5 +1,5 @@
 //! The rows of a constraint as programs, which are lists of additions and multiplications that run
-//! in any number type. They are recorded once for each kind of constraint.
+//! in any number type. The programs are recorded once for each kind of constraint.
 //!
 //! For the motion, the kernels compiled for `f64` are used. All other calculations need the rows
 //! only once for each configuration: in double-double precision, with the sizes of their terms,
@@ -67,7 +67,9 @@ impl Program {
                 | Operation::Sqrt(_)
                 | Operation::RecipOrZero(_)
                 | Operation::AngleOverSine(..) => {
-                    unreachable!("rows are polynomials: their number types have no more")
+                    unreachable!(
+                        "rows are polynomials: their number types support no other functions"
+                    )
                 }
             };
             places.push(place_of(given + steps.len()));

@@ -331,6 +331,37 @@ impl ConstraintSpec {
         self.common.functions().count() + usize::from(self.turning) + 3 * self.turns
     }
 
+    /// Returns whether a joint may be one-sided: its only holonomic row is the gap of a contact.
+    #[must_use]
+    pub const fn has_gap(&self) -> bool {
+        matches!(self.rows, [first, ..] if first.is_gap)
+    }
+
+    /// Returns whether the gap is measured from a line: the order of its two points decides on
+    /// which side the gap is positive.
+    #[must_use]
+    pub fn is_gap_of_line(&self) -> bool {
+        let mut parameters = self.common.parameters.iter();
+        self.has_gap() && parameters.any(|p| p.shape == Shape::GroundLine)
+    }
+
+    /// Returns whether the joint is a contact with a surface: its gap is measured from the surface
+    /// along the normal that its parameters state, and is positive outside. A line has no such
+    /// normal, and a gap that is zero at every start, as that of a constant distance, has no
+    /// surface.
+    #[must_use]
+    pub fn has_surface(&self) -> bool {
+        let restricts = matches!(self.rows, [first, ..] if first.restricts_start);
+        self.has_gap() && restricts && !self.is_gap_of_line()
+    }
+
+    /// Returns whether a contact of this type slips if a force is too large: it has nonholonomic
+    /// rows, and these do not prescribe a motion.
+    #[must_use]
+    pub const fn can_slip(&self) -> bool {
+        self.nonholonomic() > 0 && !self.rheonomic
+    }
+
     /// Returns the number of nonholonomic rows, which come after the holonomic ones.
     #[must_use]
     pub const fn nonholonomic(&self) -> usize {
@@ -427,6 +458,9 @@ pub struct Row {
     /// Whether the row restricts the initial configuration. A row that stores an initial value does
     /// not, because every initial configuration satisfies it.
     pub restricts_start: bool,
+    /// Whether the row is the gap of a contact, positive where the contact is open. A joint may be
+    /// one-sided in this row.
+    pub is_gap: bool,
 }
 
 impl Row {
@@ -436,6 +470,7 @@ impl Row {
         Self {
             name,
             restricts_start: true,
+            is_gap: false,
         }
     }
 
@@ -445,6 +480,16 @@ impl Row {
         Self {
             name,
             restricts_start: false,
+            is_gap: false,
+        }
+    }
+
+    /// Returns the same row as the gap of a contact.
+    #[must_use]
+    pub const fn gap(self) -> Self {
+        Self {
+            is_gap: true,
+            ..self
         }
     }
 }

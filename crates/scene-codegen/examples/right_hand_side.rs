@@ -1,7 +1,7 @@
 //! Times of right-hand sides (q̇ and v̇) of scenes, interpreted and on generated code, one state at
 //! a time and in lanes, with the size of the code and the time of its compilation: `cargo run
-//! --release -p pfaff-scene-codegen --example right_hand_side -- examples/hexapod.toml`. States are
-//! those of the run that a scene asks for; times are the least of several rounds.
+//! --release -p pfaff-scene-codegen --example right_hand_side -- examples/hexapod.toml`. The states
+//! belong to the run that the scene defines; each time is the smallest of several rounds.
 
 use std::fmt::Write as _;
 use std::hint::black_box;
@@ -17,8 +17,8 @@ use pfaff_scene_codegen::{Choices, Subject, generate};
 
 type Failure = Box<dyn std::error::Error>;
 
-/// Rounds over all states, of which the fastest counts: each is shorter than what a scheduler gives
-/// to a program at once.
+/// Rounds over all states, of which the fastest counts: each round is shorter than a time slice of
+/// the scheduler.
 const ROUNDS: usize = 1000;
 
 /// The program that is compiled with the module `code`: it prints nanoseconds for one state, single
@@ -64,7 +64,7 @@ fn main() {
 }
 ";
 
-#[expect(clippy::print_stdout, reason = "a program says what it measured")]
+#[expect(clippy::print_stdout, reason = "a program prints its measurements")]
 fn main() -> Result<(), Failure> {
     println!(
         "| scene | bodies | operations | interpreted | generated | 4 lanes, each | 8 lanes, each | lines | bytes | compiled in |"

@@ -12,7 +12,7 @@ pub enum CodeError {
     #[error("{}", lines(.0))]
     Scene(Vec<Diagnostic>),
     /// The motion cannot be sampled.
-    #[error("the motion that the code is made for stops: {0}")]
+    #[error("the motion for which the code is generated stops: {0}")]
     Motion(#[from] Box<dynamics::Failure>),
     /// The equations have no solution at a prepared state.
     #[error(transparent)]
@@ -22,7 +22,7 @@ pub enum CodeError {
     MotionFault(#[from] MotionFault),
     /// No order of elimination is suitable for the whole motion.
     #[error(
-        "no fixed order of elimination serves the whole motion: with {left} rows left the best pivot falls to {share:.1e} of its row or column \
+        "no fixed order of elimination is accurate during the whole motion: with {left} rows left the best pivot falls to {share:.1e} of its row or column \
          (at least 1e-3 is needed); run this scene interpreted, or generate code for a shorter motion"
     )]
     NoPivot {
@@ -34,7 +34,7 @@ pub enum CodeError {
     /// A drive has a force law. If a force law has no value, a run must stop, which is not possible
     /// in generated code.
     #[error(
-        "drive `{drive}` has a law, which generated code cannot stop by name; run this scene interpreted"
+        "drive `{drive}` has a law, for which generated code cannot report errors; run this scene interpreted"
     )]
     Law {
         /// Name of the drive.
@@ -50,24 +50,24 @@ pub enum CodeError {
         element: String,
     },
     /// A force uses a callback, which cannot be recorded.
-    #[error("{0}, and no code; run this scene interpreted")]
+    #[error("{0}, which generated code does not support; run this scene interpreted")]
     Called(CalledForce),
     /// The coordinates of bodies are neither angles (plane) nor quaternions (space); generated code
     /// supports only these.
     #[error(
-        "generated code is for bodies that turn by an angle or by a quaternion only; run this scene interpreted"
+        "generated code supports only bodies whose orientation is an angle or a quaternion; run this scene interpreted"
     )]
     Coordinates,
     /// A joint or force needs full revolutions, which are counted from the poses between calls of
     /// kernels.
     #[error(
-        "joints and forces that count the turns of angles are not in generated code; run this scene interpreted"
+        "generated code does not support joints and forces that count the turns of angles; run this scene interpreted"
     )]
     Turns,
-    /// A force depends on a rotation vector, which is undefined near half a revolution. A run stops
-    /// there, but generated code cannot.
+    /// A force depends on a rotation vector, which is undefined near half a revolution. The
+    /// interpreter stops a run at such a rotation, but generated code cannot.
     #[error(
-        "forces along a rotation vector have no value near half a turn, where generated code cannot stop by name; run this scene interpreted"
+        "forces along a rotation vector have no value near half a turn, and generated code cannot report this error; run this scene interpreted"
     )]
     RotationVector,
     /// A free motion has no mass.
@@ -95,7 +95,7 @@ pub enum CodeError {
     },
     /// Inputs can only be found in the text of a scene, but there is no text.
     #[error(
-        "inputs are keys of the text of a scene, and a subject has none; call `scene_text` with them"
+        "inputs are keys of the text of a scene, but a mechanism built in Rust has no text; call `scene_text` with them"
     )]
     NoText,
     /// The code would be too long to compile.
@@ -118,7 +118,7 @@ pub enum CodeError {
     },
     /// Only some components of a vector are independent rows, so the equations cannot be rotated to
     /// the frame of a body.
-    #[error("the kept rows have one component of a vector without the other")]
+    #[error("the kept rows contain only some components of a vector")]
     NoView,
     /// The given text is not the path of a crate.
     #[error(
@@ -177,9 +177,7 @@ pub enum NotAnInput {
     BreakTimes,
     /// With other values of the number, the independent rows, which are fixed in a module, become
     /// dependent.
-    #[error(
-        "with it the rows that are kept depend on each other; say which rows to drop, with `--drop`"
-    )]
+    #[error("with it the kept rows depend on each other; choose the rows to drop with `--drop`")]
     Rows,
     /// The number does not occur in the equations.
     #[error(

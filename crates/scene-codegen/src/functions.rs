@@ -59,7 +59,7 @@ const ACCELERATION: Signature = Signature {
 
 const MULTIPLIERS: Signature = Signature {
     name: "multipliers",
-    doc: "Their multipliers λ of all rows, 0 for dropped ones.",
+    doc: "Multipliers λ of all rows for these accelerations; 0 for dropped rows.",
     arguments: &[("q", "N_Q"), ("v", "N_V")],
     out: ("lambda", "ROWS"),
     divides: true,
@@ -396,7 +396,7 @@ mod tests {
         let refused = recordable(&blown).expect_err("it cannot be recorded");
         assert_eq!(
             refused.to_string(),
-            "force `wind` calls a function, which has no derivatives, and no code; run this scene interpreted"
+            "force `wind` calls a function, which has no derivatives, which generated code does not support; run this scene interpreted"
         );
     }
 }

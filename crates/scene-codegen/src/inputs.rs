@@ -9,8 +9,8 @@
 //! Choices that are not values of the equations cannot be inputs: the independent rows, the
 //! structure, break times. A key that changes them is rejected with an error.
 //!
-//! Indices identify inputs uniquely, even if values are equal by chance. They also identify values
-//! that are computed before the recording, for example principal axes and the weight.
+//! Indices identify inputs uniquely, even if values are equal by chance. Indices also identify
+//! values that are computed before the recording, for example principal axes and the weight.
 
 use std::collections::HashMap;
 

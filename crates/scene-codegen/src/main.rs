@@ -38,14 +38,14 @@ struct Arguments {
 fn main() -> ExitCode {
     match run(&Arguments::parse()) {
         Ok(said) => {
-            #[expect(clippy::print_stdout, reason = "a program says what it did")]
+            #[expect(clippy::print_stdout, reason = "a program prints its actions")]
             {
                 println!("{said}");
             }
             ExitCode::SUCCESS
         }
         Err(e) => {
-            #[expect(clippy::print_stderr, reason = "a program says what it did not do")]
+            #[expect(clippy::print_stderr, reason = "a program prints its actions not do")]
             {
                 eprintln!("error: {e}");
             }

@@ -412,7 +412,7 @@ fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     let many_shared = prepare(quote!(jets_of(t #numbers)), quote!(rotations_of(q)));
     let doc = signature.doc;
     let counts = format!("Operations: {}.", f.program.counts());
-    let many_doc = "The same for L states at once, state by state in the last index.";
+    let many_doc = "The same for L states at the same time; the last index is the state.";
     let read_one = quote!(#(|k| #readers[k],)*);
     let read_many = quote!(#(|k| #readers[k][l],)*);
     let core_arguments =
@@ -521,8 +521,7 @@ fn face(functions: &Functions, path: &syn::Path, shape: &Shape) -> TokenStream {
     });
     let (code, inputs) = if shape.takes_numbers {
         let code = quote! {
-            /// The mechanism as a run takes it, with its numbers; the run takes these from its
-            /// mechanism.
+            /// The mechanism of a run; a run reads the values of the inputs from its mechanism.
             #[derive(Clone, Copy, Debug)]
             pub struct Code(pub [f64; N_P]);
         };

@@ -1,7 +1,7 @@
 //! The same code without a compiler: lists of instructions that are executed for one state, or for
 //! several states at once. These states may belong to runs with different values of the inputs.
-//! They are used for scenes that are read at run time, for sweeps, and for tests of runs with
-//! generated code.
+//! Operation lists are used for scenes that are read at run time, for sweeps, and for tests of runs
+//! with generated code.
 
 mod list;
 
@@ -58,7 +58,7 @@ pub struct Tape {
 }
 
 /// A call of a function of an operation list for one of several runs, with the values of its
-/// inputs. The next call uses the same arrays.
+/// inputs. The next call overwrites the arrays.
 pub struct TapeCall {
     /// The operation list.
     pub tape: Tape,

@@ -202,8 +202,8 @@ impl Program {
         }
     }
 
-    /// Returns the values of the outputs if each input has the value `input(symbol)`. They equal
-    /// the results of the printed code bit for bit.
+    /// Returns the values of the outputs if each input has the value `input(symbol)`. The values
+    /// equal the results of the printed code bit for bit.
     #[must_use]
     pub fn run(&self, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.ops().len());

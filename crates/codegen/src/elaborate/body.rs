@@ -40,6 +40,12 @@ impl<'a> Scope<'a> {
         }
         check_row_count(d, counts)?;
         let [holonomic, _] = counts;
+        if d.has_gap && holonomic != 1 {
+            return Err(syn::Error::new_spanned(
+                &d.rows[0],
+                format!("a gap is the only row of `phi`, which has {holonomic}"),
+            ));
+        }
         for (k, &(row, at)) in rows.iter().enumerate() {
             if k < holonomic {
                 self.refuse_all(at, check::PHI)?;

@@ -28,17 +28,19 @@ pub(super) fn constraint_spec(
         quote!(Role::Joint)
     };
     let holonomic = index(body.holonomic);
-    let rows = t
-        .rows
-        .iter()
-        .zip(&k.restricts_start)
-        .map(|(name, restricts)| {
-            if *restricts {
-                quote!(Row::restricting_start(#name))
-            } else {
-                quote!(Row::keeping_start(#name))
-            }
-        });
+    let named = t.rows.iter().zip(&k.restricts_start);
+    let rows = named.enumerate().map(|(i, (name, restricts))| {
+        let row = if *restricts {
+            quote!(Row::restricting_start(#name))
+        } else {
+            quote!(Row::keeping_start(#name))
+        };
+        if d.has_gap && i == 0 && t.driven.is_none() {
+            quote!(#row.gap())
+        } else {
+            row
+        }
+    });
     let c = k.c.iter().map(|e| {
         let [row, slot, dof] = [e.row, e.column / n_dof, e.column % n_dof].map(index);
         if e.constant {
@@ -159,8 +161,8 @@ fn common(
 ) -> TokenStream {
     let driven = motion.is_some();
     let variant = match &d.variant {
-        Some((key, value, default)) if !driven => {
-            let key = key.to_string();
+        Some(variant) if !driven => {
+            let (key, value, default) = (variant.key.to_string(), &variant.value, variant.default);
             quote!(Some(Variant { key: #key, value: #value, default: #default }))
         }
         _ => quote!(None),

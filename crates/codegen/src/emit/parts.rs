@@ -49,18 +49,6 @@ pub(super) enum Driven {
     Rows,
 }
 
-/// `displacement` → `Displacement`
-pub(super) fn camel(name: &Ident) -> String {
-    let name = name.to_string();
-    let mut out = String::new();
-    for word in name.split('_') {
-        let mut letters = word.chars();
-        out.extend(letters.next().map(|c| c.to_ascii_uppercase()));
-        out.push_str(letters.as_str());
-    }
-    out
-}
-
 pub(super) fn scene_type(d: &Definition) -> String {
     match &d.scene {
         Some(name) => name.value(),

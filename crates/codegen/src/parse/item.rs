@@ -7,12 +7,13 @@ use syn::{Attribute, Ident, LitStr, Token, braced, bracketed, parenthesized};
 
 use super::kind::{Initial, doc_lines};
 use super::tree::{Binding, Definition, Kept, Kind, Param, name};
+use super::variant::Forms;
 use crate::nearest::hint;
 use crate::space::Space;
 
 mod kw {
     syn::custom_keyword!(apart);
-    syn::custom_keyword!(default);
+    syn::custom_keyword!(gap);
     syn::custom_keyword!(kept);
     syn::custom_keyword!(on);
     syn::custom_keyword!(plane);
@@ -37,7 +38,7 @@ const CONSTRAINT: [&str; 9] = [
 const FORCE: [&str; 1] = ["force"];
 
 /// `plane Name(slot, …) { … }` or `space Name(slot, …) { … }`
-pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Definition> {
+pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Vec<Definition>> {
     let space = if input.parse::<Option<kw::plane>>()?.is_some() {
         Space::Plane
     } else if input.parse::<Option<kw::space>>()?.is_some() {
@@ -75,6 +76,7 @@ pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Defi
         bindings: Vec::new(),
         requirements: Vec::new(),
         rows: Vec::new(),
+        has_gap: false,
         phi: None,
         psi: None,
         measures: Vec::new(),
@@ -85,13 +87,17 @@ pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Defi
         scene: None,
         variant: None,
     };
+    let mut forms = None;
     while !items.is_empty() {
-        item(kind, &items, &mut d)?;
+        item(kind, &items, &mut d, &mut forms)?;
     }
     check_presence(kind, &d)?;
     let params: Vec<Ident> = d.params.iter().map(|p| p.name.clone()).collect();
     distinct(&params, "parameter")?;
-    Ok(d)
+    Ok(match forms {
+        Some(forms) => forms.of(&d),
+        None => vec![d],
+    })
 }
 
 fn check_presence(kind: Kind, d: &Definition) -> syn::Result<()> {
@@ -119,7 +125,12 @@ fn check_presence(kind: Kind, d: &Definition) -> syn::Result<()> {
     }
 }
 
-fn item(kind: Kind, input: ParseStream<'_>, d: &mut Definition) -> syn::Result<()> {
+fn item(
+    kind: Kind,
+    input: ParseStream<'_>,
+    d: &mut Definition,
+    forms: &mut Option<Forms>,
+) -> syn::Result<()> {
     let word = input.call(Ident::parse_any)?;
     match (kind, word.to_string().as_str()) {
         (_, "params") => {
@@ -157,14 +168,8 @@ fn item(kind: Kind, input: ParseStream<'_>, d: &mut Definition) -> syn::Result<(
         }
         (_, "scene") => once(&word, d.scene.replace(input.parse()?))?,
         (_, "variant") => {
-            let key = name(input)?;
-            input.parse::<Token![=]>()?;
-            let value = input.parse()?;
-            let default = input.parse::<Option<Token![,]>>()?.is_some();
-            if default {
-                input.parse::<kw::default>()?;
-            }
-            once(&word, d.variant.replace((key, value, default)))?;
+            let found = Forms::parse(input, d.bindings.len())?;
+            return once(&word, forms.replace(found));
         }
         (Kind::Force, "force") => {
             input.parse::<Token![:]>()?;
@@ -204,6 +209,10 @@ fn constraint_item(word: &Ident, input: ParseStream<'_>, d: &mut Definition) -> 
             let list;
             bracketed!(list in input);
             once(word, (!d.rows.is_empty()).then_some(()))?;
+            if list.peek(kw::gap) && list.peek2(Ident) {
+                list.parse::<kw::gap>()?;
+                d.has_gap = true;
+            }
             d.rows = names(&list)?;
             distinct(&d.rows, "row")?;
         }

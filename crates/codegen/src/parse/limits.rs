@@ -14,6 +14,9 @@ const DEPTH: usize = 32;
 /// Maximum number of consecutive operators, as in `- - x`.
 const OPERATORS: usize = 4;
 
+/// Maximum number of forms of a definition, each of which is expanded.
+pub(super) const FORMS: usize = 8;
+
 /// The keywords of Rust that are also words of this language.
 const KEYWORDS: [&str; 2] = ["let", "in"];
 

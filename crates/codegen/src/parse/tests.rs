@@ -3,8 +3,10 @@
 
 use super::{Definition, Kept, Kind, ParamKind, definition};
 
+/// The definition, or its first form.
 fn parse(kind: Kind, text: &str) -> syn::Result<Definition> {
-    definition(kind, text.parse()?)
+    let mut forms = definition(kind, text.parse()?)?;
+    Ok(forms.remove(0))
 }
 
 fn error(kind: Kind, text: &str) -> String {
@@ -41,8 +43,7 @@ fn every_item_arrives() {
              component N: z;
              note \"what a reader \\
                    must know\";
-             scene \"type\";
-             variant key = \"value\", default;",
+             scene \"type\";",
         ),
     )
     .unwrap_or_else(|e| panic!("{e}"));
@@ -92,9 +93,41 @@ fn every_item_arrives() {
         Some("what a reader must know".to_owned())
     );
     assert_eq!(d.scene.map(|s| s.value()), Some("type".to_owned()));
-    assert!(d.variant.is_some_and(|(key, value, default)| {
-        key == "key" && value.value() == "value" && default
-    }));
+    assert!(d.variant.is_none());
+}
+
+/// Each form has a name, a description and an expression of its own.
+#[test]
+fn a_definition_has_several_forms() {
+    let text = joint(
+        "let a = 1.0;
+         variant key { /// First.
+            \"one\": a, \"two-three\": 2.0 * a }
+         let b = key;
+         rows: [x]; phi: b; place: origin(i);",
+    );
+    let forms = definition(Kind::Constraint, text.parse().expect("tokens"));
+    let forms = forms.unwrap_or_else(|e| panic!("{e}"));
+    let of = |d: &Definition| {
+        let variant = d.variant.as_ref().expect("a form");
+        let bindings = d.bindings.iter().map(|b| b.name.to_string());
+        assert_eq!(bindings.collect::<Vec<_>>(), ["a", "key", "b"]);
+        assert_eq!(
+            d.scene.as_ref().map(syn::LitStr::value).as_deref(),
+            Some("a")
+        );
+        assert_eq!(variant.key, "key");
+        let value = variant.value.value();
+        (d.name.to_string(), d.doc.join(" "), value, variant.default)
+    };
+    let [one, two] = &forms[..] else {
+        panic!("{} forms", forms.len())
+    };
+    let expected = |name: &str, doc: &str, value: &str, default| {
+        (name.to_owned(), doc.to_owned(), value.to_owned(), default)
+    };
+    assert_eq!(of(one), expected("A", "Doc. First.", "one", true));
+    assert_eq!(of(two), expected("TwoThreeA", "Doc.", "two-three", false));
 }
 
 fn kind_name(kind: &ParamKind) -> &'static str {
@@ -178,7 +211,16 @@ fn what_is_wrong_is_named() {
         ("params { a: [Point in i] }", "a list holds units"),
         ("params { a: Point }", "expected `in`"),
         ("initial { a: Vectr in i = b }", "did you mean `Vector`?"),
-        ("variant a = \"b\", standard;", "expected `default`"),
+        ("variant a { \"b\": 1 }", "`a` has 1 values: write 2 to 8"),
+        ("variant a { \"B\": 1 }", "lower-case letters and hyphens"),
+        (
+            "variant a { \"b\": 1, \"b\": 2 }",
+            "two variants have this value",
+        ),
+        (
+            "variant a { \"b\": 1, \"c\": 2 } variant d { \"b\": 1, \"c\": 2 }",
+            "`variant` is given twice",
+        ),
         ("note \" \";", "`note` has no words"),
         ("note \"a\"; note \"b\";", "`note` is given twice"),
     ];

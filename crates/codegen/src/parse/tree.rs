@@ -15,6 +15,7 @@ pub enum Kind {
 }
 
 /// One definition, as written by its author.
+#[derive(Clone)]
 pub struct Definition {
     /// The space of its bodies.
     pub space: Space,
@@ -38,6 +39,8 @@ pub struct Definition {
     pub requirements: Vec<(LitStr, Expr)>,
     /// Names of the rows, of `phi` and then of `psi`.
     pub rows: Vec<Ident>,
+    /// Whether the only row of position level is the gap of a contact, positive where it is open.
+    pub has_gap: bool,
     /// The rows of position level, whose names come first.
     pub phi: Option<Expr>,
     /// The rows of velocity level.
@@ -55,11 +58,23 @@ pub struct Definition {
     pub forces: Vec<(Expr, Expr)>,
     /// Scene type, if it differs from the name.
     pub scene: Option<LitStr>,
-    /// Key, value, and whether it is the default.
-    pub variant: Option<(Ident, LitStr, bool)>,
+    /// The form of the definition, if it has several.
+    pub variant: Option<Variant>,
+}
+
+/// One of several forms of a definition, which have the same scene type.
+#[derive(Clone)]
+pub struct Variant {
+    /// Key that selects the form in a scene.
+    pub key: Ident,
+    /// Value of the key for this form.
+    pub value: LitStr,
+    /// Whether this form is selected if the key is not given.
+    pub default: bool,
 }
 
 /// One parameter.
+#[derive(Clone)]
 pub struct Param {
     /// Name of the parameter.
     pub name: Ident,
@@ -72,6 +87,7 @@ pub struct Param {
 }
 
 /// The kind of a parameter.
+#[derive(Clone)]
 pub enum ParamKind {
     /// A point of the body in a slot.
     Point(Ident),
@@ -102,6 +118,7 @@ pub enum ParamKind {
 }
 
 /// `let`, `turns` or one entry of `initial`.
+#[derive(Clone)]
 pub struct Binding {
     /// Name of the binding.
     pub name: Ident,

@@ -100,7 +100,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
     fn data_put_back(&self, numbers: &[f64]) -> Result<(), Failure> {
         let same = self.with_data(numbers, bits);
         let changed = bits(self) != same;
-        self.data_fact("kernels after `set_data` of the same numbers", changed)?;
+        self.data_fact("kernels after `set_data` with unchanged values", changed)?;
         // For axes, and for angles stored by cosine and sine, `set_data` applies the values as
         // changes; it does not store them.
         let is_change = |k: usize| {
@@ -118,7 +118,7 @@ impl<S: Bodies> Check<'_, OfConstraint<S>> {
                 (check.numbers(), check.with_data(numbers, bits))
             });
             self.data_fact(&format!("number {k}, set and read"), told != other)?;
-            self.data_fact(&format!("number {k}, changed and put back"), back != same)?;
+            self.data_fact(&format!("number {k}, changed and restored"), back != same)?;
         }
         Ok(())
     }

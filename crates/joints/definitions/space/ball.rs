@@ -17,7 +17,7 @@ joint! { space Ball(i) {
     let centre = point(i, s);
     let slip = velocity(centre) - cross(spin(i), n) * radius;
     require "the radius is not zero": radius > 0.0;
-    rows: [contact, longitudinal, lateral];
+    rows: [gap contact, longitudinal, lateral];
     phi: dot(n, centre - start(plane)) - radius;
     psi: [dot(track, slip), dot(cross(n, track), slip)];
     component N: n;

@@ -25,7 +25,7 @@ joint! { space ConstantVelocity(i, j) {
     // Cosine and sine of the angle from u_j to the given direction across the axis of body j: the
     // smallest rotation has even = 1 + k and odd = 0.
     initial { cosine: Ratio = even / (1.0 + k), sine: Ratio = odd / (1.0 + k) }
-    require "its axes do not point against each other": 1.0 + k > 0.000001;
+    require "its axes do not point in opposite directions": 1.0 + k > 0.000001;
     rows: [x, y, z, turn];
     phi: [point(i, s_i) - point(j, s_j), cosine * odd - sine * even];
     place: point(i, s_i);

@@ -11,7 +11,7 @@ joint! { space Distance(i, j) {
     let d = point(j, s_j) - point(i, s_i);
     initial { length: Length = norm(d), half_inverse: PerLength = 0.5 / length }
     require "the two points are apart (L > 0)": length > 0.0;
-    rows: [distance];
+    rows: [gap distance];
     phi: (dot(d, d) - length * length) * half_inverse;
     measure length, kept;
     place: point(i, s_i);

@@ -1,13 +1,18 @@
 force! { space PointForce(i) {
-    /// A force with given global components at point `s` of the body.
+    /// A force at point `s` of the body, with given components
     params {
         /// Point of application.
         s: Point in i,
-        /// Global components [Fx, Fy, Fz].
+        /// Components [Fx, Fy, Fz] along the axes that the key `frame` selects.
         force: [Function<Force>, Function<Force>, Function<Force>],
     }
-    variant frame = "global", default;
-    force: force[0] on point(i, s)[0];
-    force: force[1] on point(i, s)[1];
-    force: force[2] on point(i, s)[2];
+    variant frame {
+        /// along the axes of the ground.
+        "global": [force[0], force[1], force[2]],
+        /// along the axes of the body.
+        "body": vector(i, [force[0], force[1], force[2]]),
+    }
+    force: frame[0] on point(i, s)[0];
+    force: frame[1] on point(i, s)[1];
+    force: frame[2] on point(i, s)[2];
 } }

@@ -8,7 +8,7 @@ joint! { space PointOnPlane(i, j) {
         /// The normal of the plane in body i.
         normal: Direction in i,
     }
-    rows: [normal];
+    rows: [gap normal];
     phi: dot(direction(i, normal), point(j, s_j) - point(i, s_i));
     place: point(i, s_i);
 } }

@@ -30,9 +30,9 @@ joint! { space Wheel(i) {
     initial { inverse: PerLength = 1.0 / radius }
     let turned = cross(spin(i), (a * k - n) * (radius * radius) - n * (h * tube));
     require "the radius is not zero": radius > 0.0;
-    require "the wheel does not lie flat": steep > 0.000001;
-    require "the wheel is on the side of the normal of its plane, its centre farther off than `tube`": h > 0.0;
-    rows: [contact, longitudinal, lateral];
+    require "the wheel is not parallel to the ground": steep > 0.000001;
+    require "the wheel is on the side of the normal of its plane, and the distance of its centre is larger than `tube`": h > 0.0;
+    rows: [gap contact, longitudinal, lateral];
     phi: (h * h - radius * radius * steep) * (inverse * 0.5);
     psi: [
         (h * dot(along, velocity(centre)) + dot(along, turned)) * inverse,

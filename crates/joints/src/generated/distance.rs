@@ -69,7 +69,7 @@ impl Constraint for Distance {
                 scene_type: "distance",
                 variant: None,
                 doc: "The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form `(d·d − L²)/(2L) = 0`, whose multiplier is a force.",
-                text: "joint! { plane Distance(i, j) {\n    /// The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form\n    /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j.\n        s_j: Point in j,\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    initial { length: Length = norm(d), half_inverse: PerLength = 0.5 / length }\n    require \"the two points are apart (L > 0)\": length > 0.0;\n    rows: [distance];\n    phi: (dot(d, d) - length * length) * half_inverse;\n    measure length, kept;\n    place: point(i, s_i);\n} }",
+                text: "joint! { plane Distance(i, j) {\n    /// The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form\n    /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j.\n        s_j: Point in j,\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    initial { length: Length = norm(d), half_inverse: PerLength = 0.5 / length }\n    require \"the two points are apart (L > 0)\": length > 0.0;\n    rows: [gap distance];\n    phi: (dot(d, d) - length * length) * half_inverse;\n    measure length, kept;\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
@@ -88,7 +88,7 @@ impl Constraint for Distance {
                 requirements: &["the two points are apart (L > 0)"],
             },
             role: Role::Joint,
-            rows: &[Row::keeping_start("distance")],
+            rows: &[Row::keeping_start("distance").gap()],
             holonomic: 1,
             c: &[
                 Entry::varying(0, 0, 0),

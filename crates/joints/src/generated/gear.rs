@@ -40,7 +40,7 @@ impl Constraint for Gear {
                 scene_type: "gear",
                 variant: None,
                 doc: "Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The ratio of an external mesh is negative.",
-                text: "joint! { plane Gear(i, j, carrier) {\n    /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The\n    /// ratio of an external mesh is negative.\n    params {\n        /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.\n        ratio: Ratio,\n    }\n    require \"the ratio is not zero\": ratio * ratio > 0.0;\n    initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }\n    rows: [mesh];\n    phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;\n    place: origin(i);\n    note \"the reaction of a gear is a couple, without the force of teeth or belt; the reactions of the wheels' bearings \\\n          are without it, too\";\n} }",
+                text: "joint! { plane Gear(i, j, carrier) {\n    /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The\n    /// ratio of an external mesh is negative.\n    params {\n        /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.\n        ratio: Ratio,\n    }\n    require \"the ratio is not zero\": ratio * ratio > 0.0;\n    initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }\n    rows: [mesh];\n    phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;\n    place: origin(i);\n    note \"the reaction of a gear is a couple, without the force of teeth or belt; the reactions of the wheels' bearings do not contain this force, either\";\n} }",
                 slots: &["i", "j", "carrier"],
                 parameters: &[
                     Parameter::required(
@@ -65,7 +65,7 @@ impl Constraint for Gear {
             wrench: &[[2, 0]],
             component: None,
             note: Some(
-                "the reaction of a gear is a couple, without the force of teeth or belt; the reactions of the wheels' bearings are without it, too",
+                "the reaction of a gear is a couple, without the force of teeth or belt; the reactions of the wheels' bearings do not contain this force, either",
             ),
             measures: &[],
             turning: false,

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
-/// A force with given global components at point `s` of the body.
+/// A force at point `s` of the body, with given components
+/// along the axes of the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointForce {
     /// Point of application. Point in the frame of the body (m).
@@ -31,8 +32,8 @@ impl Force for PointForce {
                 value: "global",
                 default: true,
             }),
-            doc: "A force with given global components at point `s` of the body.",
-            text: "force! { plane PointForce(i) {\n    /// A force with given global components at point `s` of the body.\n    params {\n        /// Point of application.\n        s: Point in i,\n        /// Global components [Fx, Fy].\n        force: [Function<Force>, Function<Force>],\n    }\n    variant frame = \"global\", default;\n    force: force[0] on point(i, s)[0];\n    force: force[1] on point(i, s)[1];\n} }",
+            doc: "A force at point `s` of the body, with given components along the axes of the ground.",
+            text: "force! { plane PointForce(i) {\n    /// A force at point `s` of the body, with given components\n    params {\n        /// Point of application.\n        s: Point in i,\n        /// Components [Fx, Fy] along the axes that the key `frame` selects.\n        force: [Function<Force>, Function<Force>],\n    }\n    variant frame {\n        /// along the axes of the ground.\n        \"global\": [force[0], force[1]],\n        /// along the axes of the body.\n        \"body\": vector(i, [force[0], force[1]]),\n    }\n    force: frame[0] on point(i, s)[0];\n    force: frame[1] on point(i, s)[1];\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
@@ -43,7 +44,7 @@ impl Force for PointForce {
                 Parameter::required(
                     "force",
                     Shape::Functions(&[Unit::Force, Unit::Force]),
-                    "Global components [Fx, Fy].",
+                    "Components [Fx, Fy] along the axes that the key `frame` selects.",
                 ),
             ],
             points_apart: false,

@@ -40,7 +40,7 @@ impl Constraint for PointOnLine {
                 scene_type: "point-on-line",
                 variant: None,
                 doc: "Point `s` of the body stays on a straight line of the ground.",
-                text: "joint! { plane PointOnLine(i) {\n    /// Point `s` of the body stays on a straight line of the ground.\n    params {\n        /// The point that stays on the line.\n        s: Point in i,\n        /// The line.\n        line: GroundLine,\n    }\n    rows: [normal];\n    phi: dot(perp(along(line)), point(i, s) - start(line));\n    place: point(i, s);\n} }",
+                text: "joint! { plane PointOnLine(i) {\n    /// Point `s` of the body stays on a straight line of the ground.\n    params {\n        /// The point that stays on the line.\n        s: Point in i,\n        /// The line.\n        line: GroundLine,\n    }\n    rows: [gap normal];\n    phi: dot(perp(along(line)), point(i, s) - start(line));\n    place: point(i, s);\n} }",
                 slots: &["i"],
                 parameters: &[
                     Parameter::required(
@@ -55,7 +55,7 @@ impl Constraint for PointOnLine {
                 requirements: &[],
             },
             role: Role::Joint,
-            rows: &[Row::restricting_start("normal")],
+            rows: &[Row::restricting_start("normal").gap()],
             holonomic: 1,
             c: &[
                 Entry::constant(0, 0, 0),

@@ -16,8 +16,9 @@ use crate::spec::{
     Unit, Variant,
 };
 /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the
-/// spinner j: `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the
-/// rotation of the carrier.
+/// spinner j:
+/// `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the rotation of
+/// the carrier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rolling {
     /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel. Point in the frame of body i (m).
@@ -48,7 +49,7 @@ impl Constraint for Rolling {
                     default: true,
                 }),
                 doc: "The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j: `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the rotation of the carrier.",
-                text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the\n    /// spinner j: `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the\n    /// rotation of the carrier.\n    params {\n        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of\n        /// the wheel.\n        s: Point in i,\n        /// Direction of rolling.\n        direction: Direction in i,\n        /// Radius of the spinner, not zero; if negative, the spinner rotates in the opposite\n        /// direction.\n        radius: Length,\n    }\n    variant spin = \"absolute\", default;\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
+                text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the\n    /// spinner j:\n    params {\n        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of\n        /// the wheel.\n        s: Point in i,\n        /// Direction of rolling.\n        direction: Direction in i,\n        /// Radius of the spinner, not zero; if negative, the spinner rotates in the opposite\n        /// direction.\n        radius: Length,\n    }\n    variant spin {\n        /// `(R·d)·v_s − radius·ω_j = 0`. The spin ω_j is absolute, so it contains the rotation of\n        /// the carrier.\n        \"absolute\": angle(j),\n        /// `(R·d)·v_s − radius·(ω_j − ω_i) = 0`. The spin ω_j − ω_i is relative to the carrier, like\n        /// that of a motor on the carrier, so a rotation of both bodies together is not rolling.\n        \"relative\": angle(j) - angle(i),\n    }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(spin);\n    place: point(i, s);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(

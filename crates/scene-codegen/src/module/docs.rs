@@ -50,13 +50,13 @@ pub(super) fn of(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
         String::new(),
         "Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that"
             .to_owned(),
-        "divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the"
+        "divide return a health: the smallest divisor relative to its value at the states for which the code was generated, with its sign. Near 0 the"
             .to_owned(),
-        "order of elimination has worn out, below 0 a divisor has passed zero.".to_owned(),
+        "order of elimination is no longer accurate, below 0 a divisor has passed through zero.".to_owned(),
         match functions.unhealthy {
             0 => format!("At all {} states that it was made for the health is above {LEAVE}.", subject.states.len()),
             n => format!(
-                "At {n} of the {} states that it was made for the health is below {LEAVE}: the motion comes near where a divisor vanishes, and needs other code there.",
+                "At {n} of the {} states that it was made for the health is below {LEAVE}: the motion comes near a configuration at which a divisor vanishes, and needs other code there.",
                 subject.states.len()
             ),
         },
@@ -71,7 +71,7 @@ pub(super) fn of(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
                 subject.inputs.list.len(),
                 one_line(&subject.inputs.keys.join(", "))
             ),
-            "The health is that of the given numbers: it is the one of the states above, of which some are of motions with other numbers."
+            "The health belongs to the given values of the inputs: it is the smallest one of the states above, which include motions with other values."
                 .to_owned(),
         ]);
     }

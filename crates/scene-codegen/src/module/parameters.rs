@@ -28,7 +28,7 @@ pub(super) fn parameters(inputs: &Inputs) -> TokenStream {
         /// What each of them is, with the keys of the scene that change it, and its value in the
         /// scene.
         pub const PARAMETERS: [(&str, f64); N_P] = [#(#of),*];
-        /// Their values in the scene.
+        /// Values of the inputs in the scene.
         pub const DESCRIBED: [f64; N_P] = [#(#described),*];
     }
 }

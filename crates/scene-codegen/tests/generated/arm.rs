@@ -5,14 +5,14 @@
 //! Solved with angular velocities along the axes of the ground.
 //!
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
-//! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the
-//! order of elimination has worn out, below 0 a divisor has passed zero.
+//! divide return a health: the smallest divisor relative to its value at the states for which the code was generated, with its sign. Near 0 the
+//! order of elimination is no longer accurate, below 0 a divisor has passed through zero.
 //! At all 147 states that it was made for the health is above 0.1.
 //! Coordinates of a body: its mass centre, then the quaternion (w, x, y, z) of its principal axes, of any length; velocities: that of the
 //! mass centre along the axes of the ground, then the angular velocity along the principal axes. `dq` is a displacement along velocities: a
 //! translation and a rotation vector.
 //! Functions take 49 numbers of the scene as `p`, see `PARAMETERS`; these keys of the scene are varied: Jxx, Jxy, Jyz, body.arm.mass, scene.gravity, joint.elbow.at, joint.shoulder.axis[0], force.spring.stiffness, force.push.force[1], drive.motor.motion.amplitude.
-//! The health is that of the given numbers: it is the one of the states above, of which some are of motions with other numbers.
+//! The health belongs to the given values of the inputs: it is the smallest one of the states above, which include motions with other values.
 //!
 //! | function | operations |
 //! | --- | --- |
@@ -132,7 +132,7 @@ pub const PARAMETERS: [(&str, f64); N_P] = [
     ),
     ("number of function of time 4 (force.push.force[1])", 0.5f64),
 ];
-/// Their values in the scene.
+/// Values of the inputs in the scene.
 pub const DESCRIBED: [f64; N_P] = [
     0f64,
     1.2000000000000002f64,
@@ -794,7 +794,7 @@ pub fn acceleration(
         |k, value| a[k] = value,
     )
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn acceleration_of<const L: usize>(
     t: &[f64; L],
@@ -1329,7 +1329,7 @@ fn multipliers_core(
         2.0 * (t233 / t227),
     )
 }
-///Their multipliers λ of all rows, 0 for dropped ones.
+///Multipliers λ of all rows for these accelerations; 0 for dropped rows.
 ///
 ///Operations: 797 mul, 580 add, 2 neg, 11 div, 2 call.
 pub fn multipliers(
@@ -1350,7 +1350,7 @@ pub fn multipliers(
         |k, value| lambda[k] = value,
     )
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn multipliers_of<const L: usize>(
     t: &[f64; L],
@@ -1493,7 +1493,7 @@ pub fn phi(t: f64, q: &[f64; N_Q], p: &[f64; N_P], values: &mut [f64; M]) {
     let x = rotations(q);
     phi_core(|k| f[k], |k| p[k], |k| q[k], |k| x[k], |k, value| values[k] = value);
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn phi_of<const L: usize>(
     t: &[f64; L],
@@ -1709,7 +1709,7 @@ pub fn velocity_residual(
         |k, value| values[k] = value,
     );
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn velocity_residual_of<const L: usize>(
     t: &[f64; L],
@@ -1989,7 +1989,7 @@ pub fn position_correction(
         |k, value| dq[k] = value,
     )
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn position_correction_of<const L: usize>(
     t: &[f64; L],
@@ -2271,7 +2271,7 @@ pub fn velocity_correction(
         |k, value| dv[k] = value,
     )
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn velocity_correction_of<const L: usize>(
     t: &[f64; L],
@@ -2364,7 +2364,7 @@ pub fn rate(
 ) {
     rate_core(|k| q[k], |k| v[k], |k, value| qd[k] = value);
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn rate_of<const L: usize>(
     t: &[f64; L],
@@ -2377,8 +2377,7 @@ pub fn rate_of<const L: usize>(
         rate_core(|k| q[k][l], |k| v[k][l], |k, value| qd[k][l] = value);
     }
 }
-/// The mechanism as a run takes it, with its numbers; the run takes these from its
-/// mechanism.
+/// The mechanism of a run; a run reads the values of the inputs from its mechanism.
 #[derive(Clone, Copy, Debug)]
 pub struct Code(pub [f64; N_P]);
 static SPEC: dynamics::code::CodeSpec = dynamics::code::CodeSpec {

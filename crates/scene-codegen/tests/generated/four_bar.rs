@@ -5,11 +5,11 @@
 //! Solved in the frame of the ground.
 //!
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
-//! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the
-//! order of elimination has worn out, below 0 a divisor has passed zero.
+//! divide return a health: the smallest divisor relative to its value at the states for which the code was generated, with its sign. Near 0 the
+//! order of elimination is no longer accurate, below 0 a divisor has passed through zero.
 //! At all 147 states that it was made for the health is above 0.1.
 //! Functions take 14 numbers of the scene as `p`, see `PARAMETERS`; these keys of the scene are varied: body.coupler.mass, body.crank.inertia, scene.gravity[1], joint.B.at, force.spring.stiffness, force.spring.damping, force.spring.points.coupler[0], force.motor.torque.amplitude.
-//! The health is that of the given numbers: it is the one of the states above, of which some are of motions with other numbers.
+//! The health belongs to the given values of the inputs: it is the smallest one of the states above, which include motions with other values.
 //!
 //! | function | operations |
 //! | --- | --- |
@@ -67,7 +67,7 @@ pub const PARAMETERS: [(&str, f64); N_P] = [
     ("mass of `coupler` (body.coupler.mass)", 2f64),
     ("number of function of time 1 (force.motor.torque.amplitude)", 0.8f64),
 ];
-/// Their values in the scene.
+/// Values of the inputs in the scene.
 pub const DESCRIBED: [f64; N_P] = [
     -9.81f64,
     -19.62f64,
@@ -272,7 +272,7 @@ pub fn acceleration(
         |k, value| a[k] = value,
     )
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn acceleration_of<const L: usize>(
     t: &[f64; L],
@@ -411,7 +411,7 @@ fn multipliers_core(
     out(7usize, t53 - t57);
     least(least(f64::INFINITY, -(2.0 * t32)), 2.0 * t35)
 }
-///Their multipliers λ of all rows, 0 for dropped ones.
+///Multipliers λ of all rows for these accelerations; 0 for dropped rows.
 ///
 ///Operations: 119 mul, 98 add, 1 neg, 3 div, 2 call.
 pub fn multipliers(
@@ -432,7 +432,7 @@ pub fn multipliers(
         |k, value| lambda[k] = value,
     )
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn multipliers_of<const L: usize>(
     t: &[f64; L],
@@ -497,7 +497,7 @@ pub fn phi(t: f64, q: &[f64; N_Q], p: &[f64; N_P], values: &mut [f64; M]) {
     let x = rotations(q);
     phi_core(|k| p[k], |k| q[k], |k| x[k], |k, value| values[k] = value);
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn phi_of<const L: usize>(
     t: &[f64; L],
@@ -560,7 +560,7 @@ pub fn velocity_residual(
     let x = rotations(q);
     velocity_residual_core(|k| p[k], |k| v[k], |k| x[k], |k, value| values[k] = value);
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn velocity_residual_of<const L: usize>(
     t: &[f64; L],
@@ -667,7 +667,7 @@ pub fn position_correction(
     let x = rotations(q);
     position_correction_core(|k| p[k], |k| r[k], |k| x[k], |k, value| dq[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn position_correction_of<const L: usize>(
     t: &[f64; L],
@@ -776,7 +776,7 @@ pub fn velocity_correction(
     let x = rotations(q);
     velocity_correction_core(|k| p[k], |k| r[k], |k| x[k], |k, value| dv[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn velocity_correction_of<const L: usize>(
     t: &[f64; L],
@@ -797,8 +797,7 @@ pub fn velocity_correction_of<const L: usize>(
     }
     health
 }
-/// The mechanism as a run takes it, with its numbers; the run takes these from its
-/// mechanism.
+/// The mechanism of a run; a run reads the values of the inputs from its mechanism.
 #[derive(Clone, Copy, Debug)]
 pub struct Code(pub [f64; N_P]);
 static SPEC: dynamics::code::CodeSpec = dynamics::code::CodeSpec {

@@ -5,8 +5,8 @@
 //! Solved with angular velocities along the axes of the ground.
 //!
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
-//! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the
-//! order of elimination has worn out, below 0 a divisor has passed zero.
+//! divide return a health: the smallest divisor relative to its value at the states for which the code was generated, with its sign. Near 0 the
+//! order of elimination is no longer accurate, below 0 a divisor has passed through zero.
 //! At all 49 states that it was made for the health is above 0.1.
 //! Coordinates of a body: its mass centre, then the quaternion (w, x, y, z) of its principal axes, of any length; velocities: that of the
 //! mass centre along the axes of the ground, then the angular velocity along the principal axes. `dq` is a displacement along velocities: a
@@ -486,7 +486,7 @@ pub fn acceleration(t: f64, q: &[f64; N_Q], v: &[f64; N_V], a: &mut [f64; N_V]) 
     let x = rotations(q);
     acceleration_core(|k| f[k], |k| v[k], |k| x[k], |k, value| a[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn acceleration_of<const L: usize>(
     t: &[f64; L],
@@ -888,7 +888,7 @@ fn multipliers_core(
         t184 - t181,
     )
 }
-///Their multipliers λ of all rows, 0 for dropped ones.
+///Multipliers λ of all rows for these accelerations; 0 for dropped rows.
 ///
 ///Operations: 530 mul, 417 add, 4 neg, 9 div.
 pub fn multipliers(
@@ -901,7 +901,7 @@ pub fn multipliers(
     let x = rotations(q);
     multipliers_core(|k| f[k], |k| v[k], |k| x[k], |k, value| lambda[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn multipliers_of<const L: usize>(
     t: &[f64; L],
@@ -1011,7 +1011,7 @@ pub fn phi(t: f64, q: &[f64; N_Q], values: &mut [f64; M]) {
     let x = rotations(q);
     phi_core(|k| f[k], |k| q[k], |k| x[k], |k, value| values[k] = value);
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn phi_of<const L: usize>(
     t: &[f64; L],
@@ -1192,7 +1192,7 @@ pub fn velocity_residual(
     let x = rotations(q);
     velocity_residual_core(|k| f[k], |k| v[k], |k| x[k], |k, value| values[k] = value);
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn velocity_residual_of<const L: usize>(
     t: &[f64; L],
@@ -1435,7 +1435,7 @@ pub fn position_correction(
     let x = rotations(q);
     position_correction_core(|k| f[k], |k| r[k], |k| x[k], |k, value| dq[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn position_correction_of<const L: usize>(
     t: &[f64; L],
@@ -1680,7 +1680,7 @@ pub fn velocity_correction(
     let x = rotations(q);
     velocity_correction_core(|k| f[k], |k| r[k], |k| x[k], |k, value| dv[k] = value)
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn velocity_correction_of<const L: usize>(
     t: &[f64; L],
@@ -1765,7 +1765,7 @@ fn rate_core(
 pub fn rate(t: f64, q: &[f64; N_Q], v: &[f64; N_V], qd: &mut [f64; N_Q]) {
     rate_core(|k| q[k], |k| v[k], |k, value| qd[k] = value);
 }
-///The same for L states at once, state by state in the last index.
+///The same for L states at the same time; the last index is the state.
 #[inline]
 pub fn rate_of<const L: usize>(
     t: &[f64; L],

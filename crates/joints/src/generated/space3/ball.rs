@@ -54,7 +54,7 @@ impl Constraint<Space3> for Ball {
                 scene_type: "ball",
                 variant: None,
                 doc: "A ball rolls without slip on a plane of the ground: the lowest point of the sphere of `radius` about point `s` is in the plane and has no velocity along a fixed direction of the plane or across it.",
-                text: "joint! { space Ball(i) {\n    /// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of\n    /// `radius` about point `s` is in the plane and has no velocity along a fixed direction of the\n    /// plane or across it.\n    params {\n        /// The centre of the ball.\n        s: Point in i,\n        /// Radius of the ball.\n        radius: Radius,\n        /// The plane, with its normal towards the ball. Longitudinal is the coordinate axis with\n        /// the smallest component along the normal, made orthogonal to it, and lateral = normal ×\n        /// longitudinal: x and y on the plane z = 0.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let track = along(plane);\n    let centre = point(i, s);\n    let slip = velocity(centre) - cross(spin(i), n) * radius;\n    require \"the radius is not zero\": radius > 0.0;\n    rows: [contact, longitudinal, lateral];\n    phi: dot(n, centre - start(plane)) - radius;\n    psi: [dot(track, slip), dot(cross(n, track), slip)];\n    component N: n;\n    place: centre - n * radius;\n} }",
+                text: "joint! { space Ball(i) {\n    /// A ball rolls without slip on a plane of the ground: the lowest point of the sphere of\n    /// `radius` about point `s` is in the plane and has no velocity along a fixed direction of the\n    /// plane or across it.\n    params {\n        /// The centre of the ball.\n        s: Point in i,\n        /// Radius of the ball.\n        radius: Radius,\n        /// The plane, with its normal towards the ball. Longitudinal is the coordinate axis with\n        /// the smallest component along the normal, made orthogonal to it, and lateral = normal ×\n        /// longitudinal: x and y on the plane z = 0.\n        plane: GroundPlane,\n    }\n    let n = normal(plane);\n    let track = along(plane);\n    let centre = point(i, s);\n    let slip = velocity(centre) - cross(spin(i), n) * radius;\n    require \"the radius is not zero\": radius > 0.0;\n    rows: [gap contact, longitudinal, lateral];\n    phi: dot(n, centre - start(plane)) - radius;\n    psi: [dot(track, slip), dot(cross(n, track), slip)];\n    component N: n;\n    place: centre - n * radius;\n} }",
                 slots: &["i"],
                 parameters: &[
                     Parameter::required(
@@ -79,7 +79,7 @@ impl Constraint<Space3> for Ball {
             },
             role: Role::Joint,
             rows: &[
-                Row::restricting_start("contact"),
+                Row::restricting_start("contact").gap(),
                 Row::restricting_start("longitudinal"),
                 Row::restricting_start("lateral"),
             ],

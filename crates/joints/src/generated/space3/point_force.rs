@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::space3::{Axes, Direction, GroundPlane, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
-/// A force with given global components at point `s` of the body.
+/// A force at point `s` of the body, with given components
+/// along the axes of the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointForce {
     /// Point of application. Point in the frame of the body (m).
@@ -31,8 +32,8 @@ impl Force<Space3> for PointForce {
                 value: "global",
                 default: true,
             }),
-            doc: "A force with given global components at point `s` of the body.",
-            text: "force! { space PointForce(i) {\n    /// A force with given global components at point `s` of the body.\n    params {\n        /// Point of application.\n        s: Point in i,\n        /// Global components [Fx, Fy, Fz].\n        force: [Function<Force>, Function<Force>, Function<Force>],\n    }\n    variant frame = \"global\", default;\n    force: force[0] on point(i, s)[0];\n    force: force[1] on point(i, s)[1];\n    force: force[2] on point(i, s)[2];\n} }",
+            doc: "A force at point `s` of the body, with given components along the axes of the ground.",
+            text: "force! { space PointForce(i) {\n    /// A force at point `s` of the body, with given components\n    params {\n        /// Point of application.\n        s: Point in i,\n        /// Components [Fx, Fy, Fz] along the axes that the key `frame` selects.\n        force: [Function<Force>, Function<Force>, Function<Force>],\n    }\n    variant frame {\n        /// along the axes of the ground.\n        \"global\": [force[0], force[1], force[2]],\n        /// along the axes of the body.\n        \"body\": vector(i, [force[0], force[1], force[2]]),\n    }\n    force: frame[0] on point(i, s)[0];\n    force: frame[1] on point(i, s)[1];\n    force: frame[2] on point(i, s)[2];\n} }",
             slots: &["i"],
             parameters: &[
                 Parameter::required(
@@ -43,7 +44,7 @@ impl Force<Space3> for PointForce {
                 Parameter::required(
                     "force",
                     Shape::Functions(&[Unit::Force, Unit::Force, Unit::Force]),
-                    "Global components [Fx, Fy, Fz].",
+                    "Components [Fx, Fy, Fz] along the axes that the key `frame` selects.",
                 ),
             ],
             points_apart: false,

@@ -55,7 +55,7 @@ impl Constraint<Space3> for PointOnPlane {
                 scene_type: "point-on-plane",
                 variant: None,
                 doc: "Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`.",
-                text: "joint! { space PointOnPlane(i, j) {\n    /// Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`.\n    params {\n        /// A point of the plane in body i.\n        s_i: Point in i,\n        /// The point of body j that stays in the plane.\n        s_j: Point in j,\n        /// The normal of the plane in body i.\n        normal: Direction in i,\n    }\n    rows: [normal];\n    phi: dot(direction(i, normal), point(j, s_j) - point(i, s_i));\n    place: point(i, s_i);\n} }",
+                text: "joint! { space PointOnPlane(i, j) {\n    /// Point `s_j` of body j stays in the plane through point `s_i` of body i normal to `normal`.\n    params {\n        /// A point of the plane in body i.\n        s_i: Point in i,\n        /// The point of body j that stays in the plane.\n        s_j: Point in j,\n        /// The normal of the plane in body i.\n        normal: Direction in i,\n    }\n    rows: [gap normal];\n    phi: dot(direction(i, normal), point(j, s_j) - point(i, s_i));\n    place: point(i, s_i);\n} }",
                 slots: &["i", "j"],
                 parameters: &[
                     Parameter::required(
@@ -79,7 +79,7 @@ impl Constraint<Space3> for PointOnPlane {
                 requirements: &[],
             },
             role: Role::Joint,
-            rows: &[Row::restricting_start("normal")],
+            rows: &[Row::restricting_start("normal").gap()],
             holonomic: 1,
             c: &[
                 Entry::varying(0, 0, 0),
