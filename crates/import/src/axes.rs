@@ -203,9 +203,9 @@ pub(crate) fn look(
                 estimate(off.abs(), "m")
             );
             if axes == Axes::Snapped {
-                findings
-                    .remarks
-                    .push(format!("{what}; they are made to meet."));
+                findings.remarks.push(format!(
+                    "{what}; the import moves the axes so that they meet."
+                ));
                 shift(model, poses, b.joint, -normal * off);
             } else {
                 findings

@@ -1,5 +1,5 @@
-//! Finds the finest decimal place in a file. Half a unit of this place is the accuracy of the
-//! numbers.
+//! Finds the finest decimal place in a file. Half a unit of the finest decimal place is the
+//! accuracy of the numbers.
 //!
 //! A file does not state how many digits of its numbers are significant: `0.5` may be an exact half
 //! or a rounded number. The finest place among all lengths is the resolution of the program that

@@ -41,13 +41,13 @@ impl Folder {
             .components()
             .all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
         if !stays || name.is_empty() {
-            return Err("it is not in the folder of the file".to_owned());
+            return Err("it is outside of the folder of the file".to_owned());
         }
         let told = |e: std::io::Error| format!("it cannot be read: {e}");
         let root = folder.canonicalize().map_err(told)?;
         let path = folder.join(path).canonicalize().map_err(told)?;
         if !path.starts_with(&root) {
-            return Err("it is not in the folder of the file".to_owned());
+            return Err("it is outside of the folder of the file".to_owned());
         }
         let size = std::fs::metadata(&path).map_err(told)?;
         if !size.is_file() || size.len() > LARGEST as u64 {

@@ -81,7 +81,7 @@ pub(crate) struct Findings {
     problems: Vec<Diagnostic>,
     more: usize,
     pub(crate) omissions: Vec<Omission>,
-    /// Statements about the scene as a whole, for the start of its text.
+    /// Comments about the scene as a whole, for the first lines of its text.
     pub(crate) remarks: Vec<String>,
     /// Name of the given file; the other files are included by it.
     pub(crate) file: String,

@@ -186,7 +186,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<ImportedScene
         merge::merge(&mut model, &mut motions, &mut findings);
     }
     if model.links.is_empty() {
-        let message = "every link is fixed to the ground: nothing moves";
+        let message = "every link is fixed to the ground, so no link moves";
         let help = start::nothing_moves(format, options.base);
         let root = files.root();
         let fault = Fault::Structure;
@@ -242,7 +242,7 @@ fn read<'a>(
     }
     if options.base == Base::Free && format != "URDF" {
         let message = format!(
-            "a free base belongs to a URDF: {format} says itself what is fixed to the ground"
+            "the option for a free base is only for URDF: a {format} file states which bodies are fixed to the ground"
         );
         findings.of(Fault::Unsupported, root, message);
     }
@@ -263,7 +263,7 @@ fn read<'a>(
             urdf::close_loops(&mut model, text, findings);
         }
         Some(text) if format != "URDF" => {
-            let message = "a file of loops belongs to a URDF; other formats have loops themselves";
+            let message = "a file of loops is only for URDF; other formats contain their loops";
             findings.fault(Fault::Loops, text, 0..0, message, "");
         }
         _ => {}

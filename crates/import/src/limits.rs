@@ -22,8 +22,9 @@ pub(crate) const DEEPEST: usize = 300;
 pub(crate) const MOST_ATTRIBUTES: usize = 256;
 
 /// Maximum number of declarations of name spaces in a file. Unit: number. Too small: files that
-/// repeat them in each element are rejected. Too large: more time is used, because the parser
-/// searches all declarations of the surrounding elements. Test: `many_attributes_cost_no_time`.
+/// repeat the declarations in each element are rejected. Too large: more time is used, because the
+/// parser searches all declarations of the surrounding elements. Test:
+/// `many_attributes_cost_no_time`.
 pub(crate) const MOST_NAME_SPACES: usize = 1024;
 
 /// Maximum number of included files. Unit: number. Too small: a model of many parts is rejected.
@@ -34,24 +35,25 @@ pub(crate) const MOST_FILES: usize = 64;
 /// file more often. Too large: the list is too long to read. Test: `problems_are_counted`.
 pub(crate) const MOST_PROBLEMS: usize = 100;
 
-/// Finest digit that is used as a tolerance. Unit: share of the size, or rad. Too small: the
-/// sixteenth digit of a double counts as a tolerance. Too large: files with twelve digits count as
-/// exact. Test: `digits_give_the_tolerance`.
+/// Finest digit that is used as a tolerance. Unit: share of the size of the mechanism, or rad. Too
+/// small: the sixteenth digit of a double counts as a tolerance. Too large: files with twelve
+/// digits count as exact. Test: `digits_give_the_tolerance`.
 pub(crate) const FINEST: f64 = 1e-12;
 
-/// Coarsest digit that is used as a tolerance. Unit: share of the size, or rad. Too small: files
-/// with three digits count as exact, and their redundant rows as independent. Too large: numbers
-/// such as 0.5 written by hand count as inaccurate. Test: `digits_give_the_tolerance`.
+/// Coarsest digit that is used as a tolerance. Unit: share of the size of the mechanism, or rad.
+/// Too small: files with three digits count as exact, and their redundant rows as independent. Too
+/// large: numbers such as 0.5 written by hand count as inaccurate. Test:
+/// `digits_give_the_tolerance`.
 pub(crate) const COARSEST: f64 = 1e-3;
 
-/// Gap below which a loop counts as closed. Unit: share of the size, or rad. Too small: rounding
-/// errors of long chains count as a gap. Too large: the reader of scenes moves links that count as
-/// assembled. Test: `loops_are_closed_from_a_guess`.
+/// Gap below which a loop counts as closed. Unit: share of the size of the mechanism, or rad. Too
+/// small: rounding errors of long chains count as a gap. Too large: the reader of scenes moves
+/// links that count as assembled. Test: `loops_are_closed_from_a_guess`.
 pub(crate) const ASSEMBLED: f64 = 1e-11;
 
-/// Largest gap that is accepted with a remark. Such a gap remains at the best pose if data with few
-/// digits are inconsistent. Unit: share of the size, or rad. Too small: models with rounded numbers
-/// are rejected. Too large: open loops count as closed. Test:
+/// Largest gap of a loop that the import accepts with a note. Such a gap remains at the best pose
+/// if data with few digits are inconsistent. Unit: share of the size of the mechanism, or rad. Too
+/// small: models with rounded numbers are rejected. Too large: open loops count as closed. Test:
 /// `loops_that_cannot_close_are_refused`.
 pub(crate) const CLOSED: f64 = 1e-4;
 
@@ -99,7 +101,7 @@ pub(crate) const PERPENDICULAR: f64 = 4.0 * f64::EPSILON;
 /// large: oblique axes are made perpendicular. Test: `loops_springs_and_limits`.
 pub(crate) const RIGHT_ANGLE: f64 = 1e-6;
 
-/// Largest value of a number, the same as in scenes. Unit: that of the number. Too small: large
+/// Largest value of a number, the same as in scenes. Unit: the unit of the number. Too small: large
 /// values are rejected; no file with such values is known. Too large: products of values overflow.
 /// Test: `numbers_have_bounds`.
 pub(crate) const LARGEST_NUMBER: f64 = 1e60;
@@ -147,7 +149,7 @@ pub(crate) const MOST_LISTED: usize = 16;
 pub(crate) const SHOWN: usize = 40;
 
 /// Longest name of a scene, without the characters that are added to it. Unit: number of letters.
-/// Too small: different long names become equal. Too large: the reader of scenes rejects them.
+/// Too small: different long names become equal. Too large: the reader of scenes rejects the names.
 /// Test: `names_are_made_fit_and_told`.
 pub(crate) const LONGEST_NAME: usize = 900;
 

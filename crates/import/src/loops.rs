@@ -41,7 +41,7 @@ fn apply(
     let start = of_loops.map_or(0, |key| key.at);
     let pairs = pairs(of_loops, find("joint_name").is_some())?;
     if of_types.is_none() && !pairs.is_empty() {
-        let message = "key `type` is missing: a list with `3d` or `6d` for each pair";
+        let message = "key `type` is missing: it lists `3d` or `6d` for each pair";
         return Err((start, message.to_owned()));
     }
     if types.len() != pairs.len() {
@@ -92,7 +92,7 @@ fn check_names(keys: &[Key], text: &SourceText, findings: &mut Findings) -> Resu
             let line = text.line(first);
             return Err((
                 key.at,
-                format!("key `{name}` is there already, in line {line}"),
+                format!("key `{name}` is already defined in line {line}"),
             ));
         }
         match name {
@@ -118,7 +118,7 @@ fn pairs(loops: Option<&Key>, has_joints: bool) -> Result<Vec<Pair<'_>>, Wrong> 
     let pairs = match loops.map(|key| (key.at, &key.value)) {
         Some((_, Node::List(pairs, _))) => pairs,
         Some((at, _)) => {
-            let message = "`closed_loop` has to be a list of pairs: write `[[link, link]]`";
+            let message = "`closed_loop` must be a list of pairs: write `[[link, link]]`";
             return Err((at, message.to_owned()));
         }
         None if has_joints => return Ok(Vec::new()),
@@ -160,7 +160,7 @@ fn closure(
         other => return Err((at, format!("the type `{other}` is neither `3d` nor `6d`"))),
     };
     if ends[0] == ends[1] {
-        return Err((at, format!("pair {} is one link twice", k + 1)));
+        return Err((at, format!("pair {} contains one link twice", k + 1)));
     }
     let name = format!("{} to {}", pair[0].0, pair[1].0);
     let zero = [Vector3::zeros(); 2];
@@ -216,8 +216,8 @@ fn texts(key: Option<&Key>) -> Result<Vec<(&str, usize)>, Wrong> {
         return Ok(Vec::new());
     };
     value.texts().ok_or_else(|| match value {
-        Node::Text(text, at) => (*at, format!("`{name}` has to be a list: write `[{text}]`")),
-        Node::List(_, at) | Node::Keys(at) => (*at, format!("`{name}` has to be a list of texts")),
+        Node::Text(text, at) => (*at, format!("`{name}` must be a list: write `[{text}]`")),
+        Node::List(_, at) | Node::Keys(at) => (*at, format!("`{name}` must be a list of texts")),
     })
 }
 

@@ -43,7 +43,7 @@ impl Mass {
         }
     }
 
-    /// The same body in other axes. `pose` transforms coordinates in the present axes to
+    /// The same body in other axes. `pose` transforms coordinates in the current axes to
     /// coordinates in the new axes.
     pub(crate) fn seen(&self, pose: &Isometry3<f64>) -> Self {
         Self {
@@ -57,7 +57,7 @@ impl Mass {
         self.mass == 0.0 && self.inertia == Matrix3::zeros()
     }
 
-    /// Both bodies as one body. If one of them has no mass, the values of the other body are
+    /// Two bodies combined into one. If one of them has no mass, the values of the other body are
     /// returned unchanged.
     pub(crate) fn plus(&self, other: &Self) -> Self {
         if other.is_nothing() {

@@ -80,7 +80,7 @@ pub(crate) struct Load {
 #[derive(Clone, Debug)]
 pub(crate) struct Joint {
     pub(crate) name: String,
-    /// Names of the coordinates. They are the names of the joints in the file that this joint
+    /// Names of the coordinates. The names are the names of the joints in the file that this joint
     /// replaces.
     pub(crate) names: [String; 2],
     pub(crate) kind: JointKind,

@@ -49,7 +49,7 @@ pub(crate) fn merge(model: &mut Model, motions: &mut Vec<Motion>, findings: &mut
         move_ends(&mut joint, place);
         if joint.links[0] == joint.links[1] {
             findings.remarks.push(format!(
-                "Joint `{}` is between parts of one body, so it is left out.",
+                "Joint `{}` is between parts of one body, so it is omitted.",
                 joint.name
             ));
             continue;

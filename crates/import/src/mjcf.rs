@@ -29,7 +29,7 @@ use source::Source;
 /// Kinds of omission for actuators that have no effect without a signal, and for all other
 /// actuators.
 const IDLE_ACTUATORS: &str = "actuators";
-const ACTING: &str = "actuators that act without a signal, too: accelerations differ";
+const ACTING: &str = "actuators that also act without a signal: accelerations differ";
 
 /// Reads a model. Problems are added to `findings`.
 pub(crate) fn read<'a>(files: &'a Files<'a>, findings: &mut Findings) -> Model {
@@ -110,9 +110,11 @@ impl<'a> Reader<'a, '_> {
                 match (key, value.text.trim()) {
                     ("gravity", "disable") => self.model.gravity = Vector3::zeros(),
                     ("spring" | "damper" | "passive" | "equality", "disable") => {
-                        let message =
-                            format!("{} disables what the scene would contain", value.subject);
-                        let help = "remove the flag, or what it disables".to_owned();
+                        let message = format!(
+                            "{} disables parts of the model that a scene always contains",
+                            value.subject
+                        );
+                        let help = "remove the flag, or the elements that it disables".to_owned();
                         let (source, span) = (value.source, value.span.clone());
                         self.source.findings.fault_with_help(
                             Fault::Unsupported,
@@ -193,7 +195,7 @@ impl<'a> Reader<'a, '_> {
             };
             let name = name.text.trim().to_owned();
             if self.tendons.insert(name.clone(), child).is_some() {
-                let message = format!("the tendon `{name}` is there already");
+                let message = format!("the tendon `{name}` is defined twice");
                 self.source.findings.of(Fault::Twice, child, message);
             }
         }

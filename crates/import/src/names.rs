@@ -25,7 +25,9 @@ impl Names {
         if free != name {
             let (clean, own) = (fit(name), name.trim());
             let remark = match own {
-                GROUND => format!("`{GROUND}` is reserved: it is called `{free}` here."),
+                GROUND => {
+                    format!("`{GROUND}` is a reserved name: the link is renamed to `{free}`.")
+                }
                 _ => format!("`{clean}` is called `{free}` here."),
             };
             findings.remarks.push(remark);
@@ -79,7 +81,7 @@ mod tests {
         assert_eq!(take("a\nb"), "a b");
         assert_eq!(take(&"n".repeat(2000)).len(), LONGEST_NAME);
         assert_eq!(findings.remarks.len(), 5);
-        let reserved = "`ground` is reserved: it is called `ground of the file` here.";
+        let reserved = "`ground` is a reserved name: the link is renamed to `ground of the file`.";
         assert_eq!(findings.remarks[1], reserved);
     }
 }

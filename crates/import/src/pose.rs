@@ -142,7 +142,7 @@ pub(crate) fn placing(model: &Model) -> Vec<Option<usize>> {
     before
 }
 
-/// Position and motion of a link.
+/// Pose of a link, and its motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Motion {
     pub(crate) pose: Isometry3<f64>,

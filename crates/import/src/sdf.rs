@@ -80,10 +80,14 @@ pub(crate) fn read(root: Element, findings: &mut Findings) -> Model {
         match child.name() {
             "include" => unsupported(
                 child,
-                "`<include>` is not read: put the model into the file",
+                "`<include>` is not supported: put the model into the file",
                 findings,
             ),
-            "joint" => unsupported(child, "a joint outside of a model is not read", findings),
+            "joint" => unsupported(
+                child,
+                "joints outside of a model are not supported",
+                findings,
+            ),
             _ => {}
         }
     }
@@ -125,16 +129,16 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
                     continue;
                 };
                 if names.contains(&name) && names.len() < 5000 {
-                    let message = format!("the link `{name}` is there already");
+                    let message = format!("the link `{name}` is defined twice");
                     findings.of(Fault::Twice, child, message);
                 }
                 names.push(name);
             }
             "static" => is_static = findings.boolean(&child.text()).unwrap_or(false),
-            "model" => unsupported(child, "a model within a model is not read", findings),
+            "model" => unsupported(child, "models within models are not supported", findings),
             "include" => unsupported(
                 child,
-                "`<include>` is not read: put the model into the file",
+                "`<include>` is not supported: put the model into the file",
                 findings,
             ),
             _ => {}
@@ -144,7 +148,7 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
         return findings.of(
             Fault::Structure,
             element,
-            "the model is static: nothing in it moves",
+            "the model is static, so no body moves",
         );
     }
     let frames = Frames::read(element, &names, findings);
@@ -179,7 +183,7 @@ fn read_model(element: Element, version: (u32, u32), model: &mut Model, findings
         if let Some(name) = child.attribute("name")
             && !seen.insert(name.text)
         {
-            let message = format!("the joint `{}` is there already", name.text);
+            let message = format!("the joint `{}` is defined twice", name.text);
             findings.of(Fault::Twice, child, message);
         }
         joint(child, &scope, model, findings);
@@ -207,7 +211,7 @@ fn link(element: Element, name: &str, findings: &mut Findings) -> Option<(Mass, 
     }
     let mass = mass.unwrap_or_else(|| {
         findings.remarks.push(format!(
-            "Link `{name}` has no inertia: 1 kg and 1 kg·m² are taken, as SDF says."
+            "Link `{name}` has no inertia: 1 kg and 1 kg·m² are assumed, as SDF requires."
         ));
         let inertia = tensor([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
         Mass {
@@ -226,7 +230,7 @@ fn inertial(element: Element, link: &str, findings: &mut Findings) -> Option<Mas
     {
         unsupported(
             element,
-            "`auto` inertia is not read: give the numbers",
+            "`auto` inertia is not supported: give the numbers",
             findings,
         );
         return None;
@@ -239,7 +243,7 @@ fn inertial(element: Element, link: &str, findings: &mut Findings) -> Option<Mas
         Some(value) => findings.not_negative(&value, NumberKind::Other)?,
         None => {
             findings.remarks.push(format!(
-                "Link `{link}` has no mass: 1 kg is taken, as SDF says."
+                "Link `{link}` has no mass: 1 kg is assumed, as SDF requires."
             ));
             1.0
         }
@@ -258,7 +262,7 @@ fn inertial(element: Element, link: &str, findings: &mut Findings) -> Option<Mas
         }
         None => {
             findings.remarks.push(format!(
-                "Link `{link}` has no moments: 1 kg·m² is taken, as SDF says."
+                "Link `{link}` has no moments: 1 kg·m² is assumed, as SDF requires."
             ));
         }
     }
@@ -388,7 +392,7 @@ fn kind_of(
         "gearbox" => {
             unsupported(
                 element,
-                "a `gearbox` is not read: write it as a `mimic`, or add a `coupling` to the scene",
+                "a `gearbox` is not supported: write it as a `mimic`, or add a `coupling` to the scene",
                 findings,
             );
             return None;

@@ -9,7 +9,7 @@ use crate::mechanism::{Joint, JointKind, Load, Model};
 use crate::pose::rotation;
 
 /// Effect of the omitted friction.
-pub(crate) const FRICTION: &str = "friction of joints: accelerations differ where they move";
+pub(crate) const FRICTION: &str = "friction of joints: accelerations differ while the joints move";
 
 /// Angles about the fixed axes x, then y, then z.
 pub(crate) fn roll_pitch_yaw([roll, pitch, yaw]: [f64; 3]) -> UnitQuaternion<f64> {

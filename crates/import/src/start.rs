@@ -34,7 +34,7 @@ pub(crate) fn start(
         return None;
     };
     if !options.pose.is_empty() {
-        let message = "a pose and a keyframe are two starts: give one of them";
+        let message = "a pose and a keyframe both define the start: give only one of them";
         findings.of(Fault::Value, root, message);
         return None;
     }
@@ -66,8 +66,7 @@ pub(crate) fn start(
     let open = assemble::open(model, &poses, &moved);
     if !open.is_empty() {
         findings.remarks.push(format!(
-            "The keyframe `{name}` (line {line}) leaves loops open, {}: the scene starts where they \
-             are closed only if that is near.",
+            "The keyframe `{name}` (line {line}) leaves loops open, {}: the start closes them only if it is near the keyframe.",
             open.join(", ")
         ));
     }
@@ -83,8 +82,7 @@ fn refuse_turns(model: &Model, keyframe: &str, root: Element, findings: &mut Fin
             let turns = joint.kind.measures().get(k) != Some(&"displacement");
             if turns && joint.moved[k].abs() > std::f64::consts::PI {
                 let message = format!(
-                    "the keyframe `{keyframe}` turns `{}` by {:.3} rad, more than half a turn, and \
-                     `{}` counts turns from where the file describes the links",
+                    "the keyframe `{keyframe}` turns `{}` by {:.3} rad, more than half a turn, and `{}` counts turns from the described position of the links",
                     joint.name, joint.moved[k], coupling.name
                 );
                 findings.of(Fault::Unsupported, root, message);
@@ -140,7 +138,7 @@ fn asked<'o>(
         let is_asked = |of: &RequestedValue| (of.joint, of.coordinate) == (joint, coordinate);
         if let Some(first) = out.iter().find(|of| is_asked(of)) {
             let message = format!(
-                "`{name}` is asked at {value}, and `{}` at {}: one coordinate has one value",
+                "`{name}` is requested at {value}, and `{}` at {}: a coordinate has only one value",
                 first.name, first.value
             );
             findings.of(Fault::Twice, root, message);
@@ -154,8 +152,7 @@ fn asked<'o>(
         };
         if one.unit(&model.joints[joint]) == "rad" && angles::is_beyond_a_turn(*value) {
             findings.remarks.push(format!(
-                "`{name}` is asked at {value} rad, more than a turn: angles are in rad, and {value}° \
-                 are {} rad.",
+                "`{name}` is requested at {value} rad, more than a turn: angles are in rad, and {value}° are {} rad.",
                 short(value.to_radians())
             ));
         }
@@ -218,19 +215,19 @@ fn close(
             }
             findings.remarks.push(remark);
             for joint in assemble::describe(model, &found) {
-                let kind = "springs of spherical joints, since another pose is described";
+                let kind = "springs of spherical joints, because the start differs from the described pose";
                 findings.leave_element(kind, root, &joint);
             }
             tell_moved(model, &asked, findings);
         }
         Err(AssemblyFailure::Open(name, gap)) => {
             let message = format!(
-                "no pose is found at which all loops are closed: at the best one `{name}` is open by \
-                 {gap} of the size or rad",
+                "no pose was found at which all loops are closed: at the best pose, `{name}` is open by {gap} of the size or rad",
                 gap = rough(gap)
             );
             let mut help =
-                "give a pose near which they close: --pose joint=0.3,other=-0.2".to_owned();
+                "give a pose at which the loops are nearly closed: --pose joint=0.3,other=-0.2"
+                    .to_owned();
             let poses = assemble::poses(model, &guess);
             if let Some(tilts) = axes::tilts(model, &poses, angle) {
                 help = format!("{tilts}: --snap makes axes parallel; or {help}");
@@ -253,7 +250,7 @@ fn tell_moved(model: &Model, asked: &[RequestedValue], findings: &mut Findings) 
         let found = joint.zero[one.coordinate];
         if (found - one.value).abs() > HELD * one.value.abs().max(1.0) {
             moved.push(format!(
-                "`{}`: asked {} {unit}, found {} {unit}",
+                "`{}`: requested {} {unit}, found {} {unit}",
                 one.name,
                 one.value,
                 short(found),

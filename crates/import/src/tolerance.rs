@@ -24,7 +24,7 @@ pub(crate) fn tolerances(model: &Model, findings: &mut Findings) -> [Option<f64>
     {
         let remark = match known {
             (_, Some(told)) => format!(
-                "The finest digit of {name} is {} {unit}: they are taken to be known to half of it.",
+                "The finest digit of {name} is {} {unit}: an accuracy of half this digit is assumed.",
                 number(2.0 * told)
             ),
             (Some(coarse), None) if coarse > FINEST * size.max(1.0) => format!(

@@ -93,7 +93,7 @@ fn origin(
     if let Some(value) = origin.attribute("quat_xyzw") {
         let n = findings.numbers(&value, [4, 4], angle)?;
         if n.iter().all(|x| *x == 0.0) {
-            let message = "a quaternion of zeros gives no orientation";
+            let message = "a quaternion of zeros does not define an orientation";
             findings.at(Fault::Range, &value, message);
             return None;
         }
@@ -122,7 +122,7 @@ fn links(root: Element, model: &mut Model, findings: &mut Findings) -> HashMap<S
         };
         let name = name.text.trim().to_owned();
         if names.insert(name.clone(), model.links.len()).is_some() {
-            let message = format!("the link `{name}` is there already");
+            let message = format!("the link `{name}` is defined twice");
             findings.of(Fault::Twice, element, message);
         }
         for child in element.children().filter(|c| c.name() == "collision") {
@@ -183,7 +183,7 @@ fn edges<'a>(
         };
         let name = name.text.trim().to_owned();
         if !seen.insert(name.clone()) {
-            let message = format!("the joint `{name}` is there already");
+            let message = format!("the joint `{name}` is defined twice");
             findings.of(Fault::Twice, element, message);
         }
         let mut end = |key: &str| {
@@ -267,7 +267,7 @@ fn place(
                 .map(|&k| format!("`{}`", model.links[k].name))
                 .collect();
             let message = format!(
-                "one link has to be the root, found {}: {}",
+                "exactly one link must be the root, found {}: {}",
                 roots.len(),
                 names.join(", ")
             );
@@ -408,7 +408,7 @@ fn coupling(
     let ends = [edge.name.as_str(), name.text.trim()].map(|name| numbers.get(name).copied());
     let [Some(y), Some(x)] = ends else {
         let message = format!(
-            "joint `{}` follows `{}`, which is not there",
+            "joint `{}` follows `{}`, which does not exist",
             edge.name, name.text
         );
         findings.at(Fault::Unknown, &name, message);

@@ -66,7 +66,7 @@ fn head(heading: &Heading, findings: &Findings) -> String {
         comment(&mut out, "# ", remark);
     }
     if findings.omissions.is_empty() {
-        comment(&mut out, "# ", "Nothing of the file is left out.");
+        comment(&mut out, "# ", "The whole file was converted.");
     } else {
         comment(&mut out, "# ", "Left out, with the lines of the file:");
     }

@@ -160,7 +160,10 @@ pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>
     };
     const LARGE: Code = Code::new(603);
     if text.len() > LARGEST {
-        let message = format!("a file of {} bytes: at most {LARGEST} are read", text.len());
+        let message = format!(
+            "the file has {} bytes, more than the limit of {LARGEST}",
+            text.len()
+        );
         return refuse(LARGE, 0..0, message, "too large");
     }
     if let Some((at, message)) = too_much(text) {
@@ -175,9 +178,8 @@ pub(crate) fn parse(source: &SourceText) -> Result<Document<'_>, Box<Diagnostic>
         Ok(document) => Ok(document),
         Err(roxmltree::Error::DtdDetected) => {
             let at = text.find("<!DOCTYPE").unwrap_or(0);
-            let message =
-                "a declaration of a document type, as it may define entities, is not read";
-            let help = "remove it: models of robots need none".to_owned();
+            let message = "declarations of a document type are not supported, because they can define entities";
+            let help = "remove it: robot models do not need it".to_owned();
             refuse(LARGE, at..at + 9, message.to_owned(), "not read")
                 .map_err(|d| Box::new(d.help(help)))
         }
@@ -211,11 +213,11 @@ fn too_much(text: &str) -> Option<(usize, String)> {
         };
         spaces += tag.spaces;
         let message = if depth > DEEPEST {
-            format!("elements within more than {DEEPEST} others are not read")
+            format!("elements are nested more than {DEEPEST} deep")
         } else if tag.attributes > MOST_ATTRIBUTES {
-            format!("an element with more than {MOST_ATTRIBUTES} attributes is not read")
+            format!("an element has more than {MOST_ATTRIBUTES} attributes")
         } else if spaces > MOST_NAME_SPACES {
-            format!("more than {MOST_NAME_SPACES} declarations of name spaces are not read")
+            format!("the file has more than {MOST_NAME_SPACES} declarations of name spaces")
         } else {
             continue;
         };

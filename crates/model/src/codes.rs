@@ -50,7 +50,7 @@ impl Code {
     pub const fn new(number: u16) -> Self {
         assert!(
             (number as usize) < IS_CODE.len() && IS_CODE[number as usize],
-            "a code that is not on the page"
+            "a code that is missing from the page"
         );
         Self(number)
     }

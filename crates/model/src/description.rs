@@ -6,6 +6,7 @@ use joints::{Constraint, Plane, Space3};
 
 pub use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, FramePose, SpatialBody};
 use crate::called::{BodyState, CallError, CalledWrench, Wrench};
+use crate::contact::ContactLimits;
 use crate::element::{BodySpace, ConstraintKernels, ForceKernels};
 use crate::function::Function;
 use crate::law::{Law, LawError};
@@ -283,8 +284,7 @@ pub enum SetLawError {
     },
     /// The drive prescribes a motion.
     #[error(
-        "drive `{name}` prescribes a motion, and its {load} is what the motion needs; write \
-         `{load} = 0` in place of its `motion` to give it a law"
+        "drive `{name}` prescribes a motion, and its {load} follows from the motion; to give it a law, write `{load} = 0` in place of its `motion`"
     )]
     Motion {
         /// The drive.
@@ -507,6 +507,8 @@ pub struct Joint<S: BodySpace = Plane> {
     /// is divided by the size of the mechanism. This tolerance takes precedence over the tolerances
     /// of the bodies and of the scene.
     pub tolerance: Option<f64>,
+    /// What the joint cannot do.
+    pub limits: ContactLimits,
 }
 
 impl<S: BodySpace> Joint<S> {
@@ -522,6 +524,7 @@ impl<S: BodySpace> Joint<S> {
             element: Box::new(element),
             functions: Vec::new(),
             tolerance: None,
+            limits: ContactLimits::default(),
         }
     }
 }

@@ -423,8 +423,8 @@ impl<'m> Frames<'m> {
         value
     }
 
-    /// Returns the value of a measure at q and v, its rate and its second derivative. They are NaN
-    /// if they do not exist, for example the rate of a distance of zero, or if they require
+    /// Returns the value of a measure at q and v, its rate and its second derivative. The values
+    /// are NaN if they do not exist, for example the rate of a distance of zero, or if they require
     /// accelerations that are not known (see [`Self::with_accelerations`]).
     ///
     /// # Panics

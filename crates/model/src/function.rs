@@ -85,7 +85,7 @@ pub enum FunctionError {
         found: usize,
     },
     /// The times and the values of a table differ in number.
-    #[error("{times} times and {values} values; a table needs as many of both")]
+    #[error("{times} times and {values} values; a table needs equal numbers of both")]
     Uneven {
         /// Number of times.
         times: usize,
@@ -93,7 +93,7 @@ pub enum FunctionError {
         values: usize,
     },
     /// The times are not increasing.
-    #[error("times must grow: times[{index}] = {later} follows {earlier}")]
+    #[error("times must increase: times[{index}] = {later} follows {earlier}")]
     NotIncreasing {
         /// Index of the later time (0-based).
         index: usize,
@@ -215,8 +215,8 @@ impl Function {
     }
 
     /// Returns the piecewise linear function through a table. Outside the table, the first and the
-    /// last line continue. If two points have the same time, the value jumps there; at other points
-    /// the rate jumps.
+    /// last line continue. If two points have the same time, the value jumps at this time; at all
+    /// other points the rate jumps.
     ///
     /// ```
     /// use pfaff_model::Function;

@@ -4,6 +4,7 @@
 use joints::spec::{ConstraintSpec, Datum, DatumShape, Entry};
 
 use crate::body::BodyRef;
+use crate::contact::ContactLimits;
 use crate::coupling;
 use crate::rows::RowRanges;
 use crate::space::SpaceKind;
@@ -37,6 +38,8 @@ pub struct ConstraintGroup {
     pub bodies: Vec<BodyRef>,
     /// Rows of C of the joint or drive.
     pub rows: RowRanges,
+    /// What the joint cannot do.
+    pub limits: ContactLimits,
 }
 
 impl ConstraintGroup {

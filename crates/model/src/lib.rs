@@ -40,6 +40,7 @@
 //! | `principal` | principal axes of bodies with products of inertia |
 //! | `observed` | markers, and measures between them |
 //! | `vectors` | poses, vectors and tensors of `nalgebra` for bodies in space |
+//! | `contact` | joints that only push, and contacts that slip |
 //! | `called` | forces that are computed by a callback of the caller |
 //! | [`reaction`] | forces and torques of reactions, computed from multipliers |
 
@@ -48,6 +49,7 @@ mod arms;
 mod body;
 mod called;
 pub mod codes;
+mod contact;
 pub mod coupling;
 mod data;
 pub mod description;
@@ -77,6 +79,7 @@ pub mod words;
 
 pub use agreement::{ConstraintLevel, Level, is_at_rest};
 pub use called::{BodyState, CallError, CalledWrench, DriveState, Wrench};
+pub use contact::{ContactLimits, Grip, GripLoad, OpenSide};
 pub use data::{
     Data, DataBlock, DataGradients, DataSlopes, DataUnit, ForceDerivatives, SHARED, explained,
 };

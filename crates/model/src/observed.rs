@@ -1,5 +1,5 @@
 //! Markers (named points) and measures (quantities between markers) for the output of a motion.
-//! They do not constrain the mechanism; [`crate::frame`] evaluates them on request.
+//! Markers and measures do not constrain the mechanism; [`crate::frame`] evaluates them on request.
 
 use crate::body::{BodyRecord, BodyRef};
 use crate::space::{SpaceKind, cross, norm};
@@ -166,7 +166,7 @@ impl MeasureKind {
         let mut all = directions.into_iter().flatten();
         if !(is_spatial || is_in_plane && all.all(|[_, _, z]| z == 0.0)) {
             return Some(
-                "it needs a direction out of the plane: leave it out, or use `space = \"spatial\"`",
+                "it needs a direction out of the plane: omit it, or use `space = \"spatial\"`",
             );
         }
         match directions {

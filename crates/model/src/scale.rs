@@ -163,11 +163,11 @@ impl Scales<'_> {
         jets.iter().flatten().map(|x| x.abs()).sum()
     }
 
-    /// Returns the scaling of the columns of a dimensionless C by the arms of the bodies. There is
-    /// one unit for all lengths. The unit of the rotation of a body is the distance of the farthest
-    /// joint of the body, if this distance exceeds its rounding error. Unlike an equilibration,
-    /// this scaling does not depend on the directions of joints. The work space must contain the
-    /// configuration.
+    /// Returns the scaling of the columns of a dimensionless C by the arms of the bodies. All
+    /// lengths have the same unit. The unit of the rotation of a body is the distance of the
+    /// farthest joint of the body, if this distance exceeds its rounding error. Unlike an
+    /// equilibration, this scaling does not depend on the directions of joints. The work space must
+    /// contain the configuration.
     #[must_use]
     pub fn felt_scaling(self, size: f64) -> Scaling {
         let layout = self.mechanism.layout();

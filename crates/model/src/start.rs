@@ -80,6 +80,8 @@ const PATIENCE: usize = 12;
 /// - [`StartError::NoAssembly`]: the constraints contradict each other or the given configuration
 ///   is too far away.
 /// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
+/// - [`StartError::WrongSide`]: a one-sided joint is described on the side to which it cannot open,
+///   by more than a small correction. An open gap is closed, as the gap of any other joint.
 /// - [`StartError::TooLarge`]: the correction needs a matrix that is too large for the memory.
 /// - [`StartError::Requirement`]: a requirement of a definition is not satisfied.
 /// - [`StartError::NoCoordinate`], [`StartError::NoPose`]: `options` refer to a coordinate or a
@@ -88,6 +90,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let (described, _) = mechanism.described_state();
     initialise(mechanism, &described);
     let size = scene_size(mechanism, &described);
+    check_sides(mechanism, &described, size)?;
     let rows = restricting_rows(mechanism);
     let weights = position_weights(mechanism, options, size)?;
     let mut s = mechanism.scratch();
@@ -102,6 +105,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     }
     if !options.poses.is_empty() {
         let posed = posed(mechanism, &options.poses, &q)?;
+        check_sides(mechanism, &posed, size)?;
         // Here all rows restrict the configuration, including rows of initial values.
         let rows: Vec<usize> = (0..mechanism.layout().m).collect();
         q = closest(mechanism, &mut s, (&rows, &weights), &posed, size)?;
@@ -132,6 +136,34 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         residual,
         size,
     })
+}
+
+/// Checks that no one-sided joint is on the side to which it cannot open, by more than a small
+/// correction. The gap of a joint that stores an initial value is zero at every start.
+fn check_sides(mechanism: &Mechanism, q: &[f64], size: f64) -> Result<(), StartError> {
+    let groups = mechanism.layout().groups.iter();
+    let sided = groups.filter_map(|group| {
+        let side = group.limits.open_side?;
+        let restricts = group.spec.rows[0].restricts_start;
+        restricts.then(|| (&group.name, group.rows.row(0), side.sign()))
+    });
+    let sided: Vec<_> = sided.collect();
+    if sided.is_empty() {
+        return Ok(());
+    }
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    mechanism.phi(&mut s);
+    let depth = |(name, row, sign): &(&String, usize, f64)| ((*name).clone(), -sign * s.phi[*row]);
+    let depths = sided.iter().map(depth);
+    let mut joints: Vec<(String, f64)> = depths
+        .filter(|(_, depth)| *depth > SMALL_CORRECTION * size)
+        .collect();
+    joints.sort_by(|(_, a), (_, b)| b.total_cmp(a));
+    match joints.as_slice() {
+        [] => Ok(()),
+        _ => Err(StartError::WrongSide { joints }),
+    }
 }
 
 /// Returns the coordinates q after the frames of some bodies are set to other poses.

@@ -5,8 +5,8 @@
 
 use std::fmt;
 
-/// The tolerances of a scene. They apply to data for which neither the joint nor the body states a
-/// tolerance.
+/// The tolerances of a scene. The tolerances of a scene apply to data for which neither the joint
+/// nor the body states a tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Tolerance {
@@ -54,13 +54,13 @@ impl Tolerance {
 pub enum ToleranceScope {
     /// For the whole scene.
     Scene,
-    /// For points of this body.
+    /// Tolerance of the points of this body.
     Body(String),
-    /// For the point of this marker.
+    /// Tolerance of the point of this marker.
     Marker(String),
-    /// For the data of this joint.
+    /// Tolerance of the data of this joint.
     Joint(String),
-    /// For the data of this drive.
+    /// Tolerance of the data of this drive.
     Drive(String),
 }
 

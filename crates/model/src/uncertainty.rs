@@ -1,5 +1,5 @@
 //! The uncertainty of the entries of C. Data are rounded to `f64`. An entry of 1e-17 that is a sum
-//! of terms of size one may be zero, but an entry of 1e-9 that is a sum of terms of size 1e-8 is
+//! of terms of about one may be zero, but an entry of 1e-9 that is a sum of terms of size 1e-8 is
 //! significant.
 
 use std::ops::Range;

@@ -55,6 +55,19 @@ pub fn short(x: f64) -> String {
     digits(x, 4)
 }
 
+/// Returns a whole number with its digits in groups of three.
+///
+/// ```
+/// assert_eq!([7, 1000, 1_020_003].map(pfaff_model::words::whole), ["7", "1 000", "1 020 003"]);
+/// ```
+#[must_use]
+pub fn whole(n: u64) -> String {
+    match n / 1000 {
+        0 => n.to_string(),
+        thousands => format!("{} {:03}", whole(thousands), n % 1000),
+    }
+}
+
 /// Returns a number with two significant digits, for errors and bounds of errors.
 ///
 /// ```

@@ -7,7 +7,7 @@ use crate::table::Table;
 
 /// The key `active` of joints, drives, forces and groups.
 pub(crate) const ACTIVE: Key = Key::optional("active", "true or false", Takes::Switch)
-    .doc("Whether it is there; what is not is read and checked only. A number or an expression is false where it is zero")
+    .doc("Whether the element is active; inactive elements are read and checked, but not used. A number or an expression is false if it is zero")
     .or(|| true.into());
 
 /// Returns whether the item of a table is part of the mechanism. An unreadable value is reported

@@ -87,7 +87,7 @@ impl<'b> JointMarkers<'b> {
         };
         for key in replaced(spec) {
             if let Some(other) = table.optional(key) {
-                let first = (field.span(), "place and axes are those of the markers");
+                let first = (field.span(), "position and axes follow from the markers");
                 let second = (other.span(), "and here once more");
                 table.exclusive(format!("`{MARKERS}` or `{key}`"), [first, second]);
             }

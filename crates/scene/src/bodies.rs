@@ -100,7 +100,7 @@ impl<S: SceneSpace> Bodies<S> {
     pub(crate) fn foreign(&self, marker: &Marker, needed: BodyRef, field: &Field) {
         let name = &marker.name;
         let advice = format!(
-            "a point of `{}` is needed; `at = \"{name}\"` takes the place where it is",
+            "a point of `{}` is needed; `at = \"{name}\"` uses the position of the marker",
             self.names.name(needed)
         );
         self.not_of_body(marker, &advice, field);

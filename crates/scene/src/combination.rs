@@ -1,5 +1,5 @@
-//! Linear combinations of reactions. They combine either components, such as `W3.N + W4.N` or
-//! `2*A.Fx - B.T`, or whole wrenches, such as `W3 + W4`.
+//! Linear combinations of reactions. A combination contains either components, such as `W3.N +
+//! W4.N` or `2*A.Fx - B.T`, or whole wrenches, such as `W3 + W4`.
 
 use std::collections::{HashMap, HashSet};
 use std::ops::Range;
@@ -55,7 +55,7 @@ pub enum CombinationProblem {
     /// A term is missing.
     #[error("expected a term as `A`, `A.Fx` or `2*A.Fx`")]
     NoTerm,
-    /// There is no sign between two terms.
+    /// Two terms have no sign between them.
     #[error("expected `+` or `-` between terms, found `{found}`")]
     NoSign {
         /// The character found in place of a sign.
@@ -70,7 +70,7 @@ pub enum CombinationProblem {
         /// Whether the term is a reaction with all its components.
         whole: bool,
     },
-    /// There is no `*` between a number and a term.
+    /// A number and a term have no `*` between them.
     #[error("a factor is written with `*`: `{factor}*{term}`")]
     NoTimes {
         /// Text of the number.

@@ -80,7 +80,9 @@ pub(crate) fn named(
                 wrong("bodies"),
                 format!("expected {expected}"),
                 meant(name).map(|other| {
-                    format!("`{name}` has one body; what others call `{name}` is `{other}` here")
+                    format!(
+                        "`{name}` has one body; the `{name}` of other programs is `{other}` here"
+                    )
                 }),
             );
             None

@@ -22,7 +22,7 @@ use crate::table::Table;
 const JOINT: Key =
     Key::required("joint", "the name of a joint", Takes::Text).doc("The joint that is driven");
 const MOTION: Key = Key::optional("motion", "a function of time", Takes::Function)
-    .doc("The measure is its initial value + f(t) − f(0); a number holds it (rad or m)");
+    .doc("The measure is its initial value + f(t) − f(0); a number keeps it constant (rad or m)");
 const FORCE: Key = Key::optional("force", LAW, Takes::Law)
     .doc("A law in place of `motion`: the force (N) along a length, of `measure`, `rate` and `t`");
 const TORQUE: Key = Key::optional("torque", LAW, Takes::Law).doc(
@@ -128,7 +128,7 @@ pub(crate) fn read<S: SceneSpace>(
                 "{} has several of `motion`, `force` and `torque`",
                 table.subject
             );
-            let label = "a drive does one of them";
+            let label = "a drive has either a motion or a force law";
             table
                 .findings
                 .error(Mistake::Exclusive, table.header.clone(), message, label);

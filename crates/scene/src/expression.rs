@@ -457,8 +457,8 @@ impl Value for Quantity {
     }
 }
 
-/// Lower limit of 1 − x² near the ends of inverse sine and cosine. It is the error of x, so the
-/// error of the arc is at most the square root of this error.
+/// Lower limit of 1 − x² near the ends of inverse sine and cosine. The limit is the error of x, so
+/// the error of the arc is at most the square root of this limit.
 fn x_error(x: Quantity) -> f64 {
     x.error.max(f64::EPSILON)
 }

@@ -93,7 +93,7 @@ impl<'t> Field<'t> {
                 .and_then(|text| {
                     if units::is_number(text) {
                         Some(format!(
-                            "numbers stand without quotes: write `{text}` instead of `\"{text}\"`"
+                            "numbers have no quotes: write `{text}` instead of `\"{text}\"`"
                         ))
                     } else {
                         const COMPUTED: &str = "texts are computed with `format = 2` in `[scene]`";
@@ -147,6 +147,13 @@ impl<'t> Field<'t> {
         let number = self.judged_later(expected, of)?;
         warn_of_degrees(slice::from_ref(self), &[number]);
         Some(number.value)
+    }
+
+    /// Returns whether the value is a text with the value of an expression.
+    pub(crate) fn is_expression(&self) -> bool {
+        let text = self.value.get_ref().as_str();
+        let text = text.filter(|_| self.language.computes);
+        text.is_some_and(|text| expression::evaluate(text, self.language).is_ok())
     }
 
     /// Reads a finite number of this dimension; the caller must check whether it is plausible.
@@ -463,7 +470,7 @@ pub(crate) fn as_number(value: &DeValue) -> Option<f64> {
 fn whole(n: &DeInteger) -> Option<f64> {
     #[expect(
         clippy::cast_precision_loss,
-        reason = "TOML numbers are decimal fractions here"
+        reason = "numbers in TOML are decimal fractions"
     )]
     u64::from_str_radix(n.as_str(), n.radix())
         .ok()

@@ -141,6 +141,11 @@ impl<'s> Findings<'s> {
         self.lists.borrow_mut().silenced.push(code);
     }
 
+    /// The codes of suppressed warnings, after all warnings have been taken.
+    pub(crate) fn take_silenced(&self) -> Vec<Code> {
+        std::mem::take(&mut self.lists.borrow_mut().silenced)
+    }
+
     /// Adds a warning; a file with warnings is valid. The advice ends with the code that suppresses
     /// the warning. After [`WARNED`] warnings of one kind, further ones are only counted.
     pub(crate) fn warning(

@@ -22,7 +22,7 @@ fn spaces() -> Vec<&'static str> {
 }
 
 const NAME: Key = Key::required("name", "the name of the scene", Takes::Text)
-    .doc("The name of the scene, as reports and figures say it");
+    .doc("Name of the scene in reports and figures");
 const SPACE: Key = Key::required("space", "\"plane\" or \"spatial\"", Takes::OneOf(spaces))
     .doc("The space of the bodies");
 

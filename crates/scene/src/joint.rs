@@ -1,11 +1,12 @@
 //! `[[joint]]`: constraints that the registry defines, couplings, and gear meshes between wheels.
 //! Joints that refer to other joints are read after those joints.
 
-use model::Joint;
+use model::{ContactLimits, Joint};
 
 use crate::active;
 use crate::bodies::Bodies;
 use crate::connection;
+use crate::contact;
 use crate::coupling;
 use crate::element::{self, COUPLING, Types};
 use crate::function::Domain;
@@ -92,6 +93,9 @@ fn one<'r, S: SceneSpace>(
         let Some(found) = element::read(&mut table, &definitions, &references, domains) else {
             tolerance::read(&mut table, &tolerance::OF_JOINT);
             stiffness::read(&mut table, name, None, bodies);
+            if let [definition, ..] = definitions[..] {
+                contact::read(&mut table, definition.spec, &[]);
+            }
             element::end(table, name, read.is_active);
             return read;
         };
@@ -100,8 +104,10 @@ fn one<'r, S: SceneSpace>(
         (functions, arguments) = (found.arguments.functions, found.arguments.values);
     }
     let tolerance = tolerance::read(&mut table, &tolerance::OF_JOINT);
+    let mut limits = ContactLimits::default();
     let centre = match read.kind {
-        JointKind::Defined(_) => {
+        JointKind::Defined(definition) => {
+            limits = contact::read(&mut table, definition.spec, &arguments);
             let joined = element.as_ref().map(|(bodies, _)| bodies.as_slice());
             stiffness::read(&mut table, name, joined, bodies)
         }
@@ -115,6 +121,7 @@ fn one<'r, S: SceneSpace>(
             element,
             functions,
             tolerance,
+            limits,
         },
         entry,
         arguments,

@@ -75,6 +75,8 @@ pub(crate) enum Takes {
     Function,
     /// A number, or an expression of a joint coordinate, its rate and time.
     Law,
+    /// A force, or the name of a joint.
+    Load,
     /// A list of steps of a function of time, at least one.
     Steps,
 }

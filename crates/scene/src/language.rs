@@ -54,7 +54,7 @@ pub(crate) struct LengthUnit {
 }
 
 impl LengthUnit {
-    /// A moment of inertia for a message, given in kg·m².
+    /// Formats a moment of inertia (kg·m²) for a message.
     pub(crate) fn inertia(self, si: f64) -> String {
         let number = rounded(si / self.metres.powi(2));
         format!("{number} kg·{}²", self.name)

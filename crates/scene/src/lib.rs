@@ -36,6 +36,7 @@ mod body;
 mod case;
 mod combination;
 mod connection;
+mod contact;
 mod coupling;
 mod cover;
 mod diagnostic;

@@ -29,13 +29,13 @@ pub(crate) const MEETING: f64 = 1e-6;
 /// Largest plausible ratio of a given force to the weight of all bodies. A force of 5 kN that is
 /// given as 5000 kN, or masses that are given in tonnes, make it 1000 times too large. Unit: share.
 /// Too small: a jack or a cylinder that moves more than its mechanism gives a warning. Too large: a
-/// wrong unit gives none. Test: `a_force_of_a_hundred_weights_is_reported`.
+/// wrong unit causes no warning. Test: `a_force_of_a_hundred_weights_is_reported`.
 pub(crate) const HEAVIEST_FORCE: f64 = 100.0;
 
 /// Largest plausible ratio of the length of a spring at the start to its free length. The length of
 /// a drawing in mm that is read in m makes the ratio 1000 times too small or too large. Unit:
 /// share. Too small: a rubber band, which stretches to 8 times its length, gives a warning. Too
-/// large: a free length in cm that is read as mm gives none. Test:
+/// large: a free length in cm that is read as mm causes no warning. Test:
 /// `a_spring_of_ten_free_lengths_is_reported`.
 pub(crate) const LONGEST_SPRING: f64 = 10.0;
 

@@ -11,7 +11,7 @@ use model::{
     AnyDescription, BodyRecord, BodyRef, BuildError, RowLabel, StartError, ToleranceScope,
 };
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
 
 /// An error with its own code.
@@ -98,6 +98,10 @@ pub(crate) fn build(map: &SourceMap, d: &AnyDescription, error: &BuildError) -> 
         BuildError::BodyCount { name, .. } | BuildError::UnknownBody { name, .. } => {
             (element_key(map, name, &BODY_KEYS), "these bodies")
         }
+        BuildError::Limits { name, key, .. } => (
+            element_key(map, name, &[key]),
+            "not possible for this joint",
+        ),
         BuildError::SameBody { name, .. } => (
             connection(map, d, name, |bodies| {
                 (1..bodies.len()).any(|k| bodies[..k].contains(&bodies[k]))
@@ -128,7 +132,7 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     let (span, label) = match error {
         StartError::NoAssembly { misfits, .. } => {
             let joints = misfits.iter().map(|m| m.joint.as_str());
-            let marks = ["cannot hold together with the others", "misses too"];
+            let marks = ["contradicts other constraints", "misses too"];
             return at_joints(map, joints, error, marks);
         }
         StartError::NoVelocity { worst, .. } => (row(map, worst), "misses most"),
@@ -142,6 +146,15 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
                 Some(span) => told.and(map.text.label(span, "would have to move most")),
                 None => told,
             };
+        }
+        StartError::WrongSide { joints } => {
+            let joints = joints.iter().map(|(name, _)| name.as_str());
+            return at_joints(
+                map,
+                joints,
+                error,
+                ["on the wrong side as described", "too"],
+            );
         }
         StartError::Requirement { name, .. } => {
             let is_element = map.elements().any(|entry| entry.name == *name);
@@ -223,6 +236,12 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
                 let first = limit.drives.first().map(|drive| drive.name.as_str());
                 let span = first.map_or(0..0, |name| element_key(map, name, &[]));
                 (span, "cannot continue")
+            }
+            MotionFault::Opens { joints, .. } => {
+                let first = joints
+                    .first()
+                    .map(|name| element_key(map, name, &["one_sided"]));
+                (first.unwrap_or(0..0), "opens")
             }
             MotionFault::Massless { body, .. } => {
                 let entry = map.body(body);
@@ -307,6 +326,24 @@ fn at_joints<'a>(
     spans.fold(at(map, first, error, first_mark), |d, span| {
         d.and(map.text.label(span, mark))
     })
+}
+
+/// Creates a warning that concerns several joints.
+pub(crate) fn warning<'a>(
+    map: &SourceMap,
+    code: Code,
+    joints: impl IntoIterator<Item = &'a str>,
+    (message, help): (&str, &str),
+) -> Diagnostic {
+    let joints = joints.into_iter().take(MARKS);
+    let mut spans = joints.map(|name| element_key(map, name, &[]));
+    let first = spans.next().unwrap_or_else(|| map.section("scene", ""));
+    let warning = Diagnostic {
+        severity: Severity::Warning,
+        ..Diagnostic::error(code, &map.text, first, message, "here")
+    };
+    let warning = warning.help(help.to_owned());
+    spans.fold(warning, |d, span| d.and(map.text.label(span, "and here")))
 }
 
 /// The position of the joint or drive of a row.

@@ -23,15 +23,15 @@ const POINT: Key = Key::pair("point")
     .expecting("a point [x, y]")
     .needed()
     .unit(Dimension::LENGTH)
-    .doc("Its place [x, y] in the frame of the body");
+    .doc("Position [x, y] of the marker in the frame of the body");
 const SPATIAL_POINT: Key = Key::triple("point")
     .expecting("a point [x, y, z]")
     .needed()
     .unit(Dimension::LENGTH)
-    .doc("Its place [x, y, z] in the frame of the body");
+    .doc("Position [x, y, z] of the marker in the frame of the body");
 const ANGLE: Key = Key::optional("angle", "a number", Takes::Number(Interval::Any))
     .unit(Dimension::ANGLE)
-    .doc("Angle of its axes in the frame of the body; where it is given, the angle of the marker is written, too");
+    .doc("Angle of its axes in the frame of the body; if it is given, the angle of the marker is written, too");
 const ORIENTATION: Key = Key::optional(
     "orientation",
     "a table { quaternion | axis, angle | rpy | matrix }",

@@ -50,7 +50,7 @@ pub(crate) fn keys(space: SpaceKind) -> Vec<Key> {
             KIND,
             MARKERS,
             axis,
-            axes.doc("An `angle` is from the first direction, in the axes of the first marker, to the second direction, in those of the second marker; x of both where it is not given"),
+            axes.doc("An `angle` is from the first direction, in the axes of the first marker, to the second direction, in those of the second marker; if a direction is omitted, it is the x axis of its marker"),
         ],
     }
 }

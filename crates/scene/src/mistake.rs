@@ -22,7 +22,7 @@ pub(crate) enum Mistake {
     Type,
     /// A text is not an expression.
     Syntax,
-    /// There are more problems than the list contains.
+    /// The list does not contain all problems.
     More,
     /// A name that is not permitted for any item.
     UnfitName,

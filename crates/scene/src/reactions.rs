@@ -122,7 +122,7 @@ impl OutputUnits {
 /// Requested bounds of the reactions that are not determined.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WantedBounds {
-    /// Joints and drives that do not give way.
+    /// Joints and drives that count as rigid.
     pub rigid: Vec<String>,
     /// The largest ratio of compliances to the nominal ones.
     pub within: Option<f64>,
@@ -161,7 +161,7 @@ pub enum WantedReactions {
 }
 
 const MEMBERS: Key = Key::required("members", "a list of joints and drives", Takes::Texts(1))
-    .doc("Joints and drives whose reactions are judged together");
+    .doc("Joints and drives whose reactions have a common verdict");
 const COMBINE: Key =
     Key::required("combine", "a combination as \"A.Fx + B.Fx\"", Takes::Text).doc(
         "A sum of components as \"W3.N + W4.N\" or of whole reactions as \"W3 + W4\", with factors where wanted",
@@ -185,7 +185,7 @@ const REPORT: Key = Key::optional("report", "true or false", Takes::Flag)
     .or(|| Output::default().report.into());
 
 const RIGID: Key = Key::optional("rigid", "a list of joints and drives", Takes::Texts(0))
-    .doc("Joints and drives that do not give way");
+    .doc("Joints and drives that count as rigid");
 const WITHIN: Key = Key::optional("within", "a number ≥ 1", Takes::Number(Interval::Any))
     .doc("The largest ratio of compliances to the nominal ones");
 const COMPLIANCE: Key = Key::optional("compliance", "a list as \"A=1e-6, B=2e-6\"", Takes::Text)
@@ -224,7 +224,7 @@ const PRINT: Key = Key::optional(
     "\"full\" or \"customer\"",
     Takes::OneOf(|| PrintStyle::ALL.iter().copied().map(PrintStyle::name).collect()),
 )
-.doc("Style of `report.html`: `full`, or `customer`, a short report of what is determined and of the assumptions, for print")
+.doc("Style of `report.html`: `full`, or `customer`, a short report for print with determined results and assumptions")
 .or(|| PrintStyle::default().name().into());
 const PLOT_TITLE: Key = Key::optional("title", "a text", Takes::Text)
     .doc("Title of the plot; without it, the names of the curves");
@@ -406,7 +406,7 @@ fn loaded(field: &Field, bodies: &BodyNames) -> Vec<usize> {
         match bodies.find(&item) {
             Some(BodyRef::Body(body)) if !all.contains(&body) => all.push(body),
             Some(BodyRef::Ground) => {
-                let label = "the ground is no body with a balance of loads";
+                let label = "the ground has no balance of loads";
                 item.error(Mistake::UnknownBody, " refers to the ground", label);
             }
             _ => {}

@@ -3,6 +3,7 @@
 mod syntax;
 
 use std::collections::BTreeMap;
+use std::mem::discriminant;
 
 use joints::{Plane, Space3};
 use model::space::norm;
@@ -131,6 +132,9 @@ fn checked(
     scene.take_out_inactive();
     scene.scales = findings.take_scales();
     scene.warnings = findings.take_warnings();
+    if let Some(source) = &mut scene.source {
+        source.silenced = findings.take_silenced();
+    }
     match (mechanism, findings.sorted()) {
         (Some(mechanism), problems) if problems.is_empty() => Ok((scene, mechanism)),
         (_, problems) => Err(problems),
@@ -205,6 +209,7 @@ fn document<S: SceneBody>(mut root: Table, registry: &Registry) -> Scene {
         forces,
     });
     let source = SourceMap {
+        silenced: Vec::new(),
         text: findings.source.clone(),
         markers: parts.bodies.markers.entries,
         measures: measure_entries,
@@ -281,7 +286,20 @@ fn check(
         }
         Err(errors) => errors,
     };
-    let of_drive = |of: &str| description.drives().any(|(drive, _)| drive == of);
+    let is_of_drive = |error: &BuildError| match error {
+        BuildError::Tolerance { of, .. } => matches!(of, ToleranceScope::Drive(_)),
+        BuildError::SameBody { name, .. } | BuildError::GroundOnly { name } => {
+            description.drives().any(|(drive, _)| drive == name)
+        }
+        _ => false,
+    };
+    // The joint of a drive has the same problem, unless the drive replaces the joint.
+    let is_repeated = |error: &BuildError| {
+        let mut same = errors
+            .iter()
+            .filter(|e| discriminant(*e) == discriminant(error));
+        is_of_drive(error) && same.any(|other| !is_of_drive(other))
+    };
     for (said, error) in errors.iter().enumerate() {
         if findings.is_full() {
             findings.count(errors.len() - said);
@@ -289,14 +307,7 @@ fn check(
         }
         match error {
             BuildError::DuplicateName { .. } | BuildError::Ground | BuildError::NoBodies => {}
-            // The same problem is reported for the joint of the drive.
-            BuildError::Tolerance {
-                of: ToleranceScope::Drive(_),
-                ..
-            } => {}
-            // The same problem is reported for the joint of the drive.
-            BuildError::SameBody { name, .. } | BuildError::GroundOnly { name }
-                if of_drive(name) => {}
+            _ if is_repeated(error) => {}
             _ => findings.report(locate::build(source, description, error)),
         }
     }

@@ -2,6 +2,7 @@
 //! from a description.
 
 use dynamics::{MotionError, MotionOptions};
+use model::codes::Code;
 use model::{
     AnyDescription, BodySpace, BuildError, Description, MechanismDescription, SpatialDescription,
     StartError, StartOptions,
@@ -137,6 +138,25 @@ impl Scene {
     #[must_use]
     pub fn locate_motion(&self, error: &MotionError) -> Option<Diagnostic> {
         Some(locate::motion(self.source.as_ref()?, error))
+    }
+
+    /// Returns whether the author suppresses warnings with this code.
+    #[must_use]
+    pub fn is_silenced(&self, code: Code) -> bool {
+        let source = self.source.as_ref();
+        source.is_some_and(|source| source.silenced.contains(&code))
+    }
+
+    /// A warning about joints, which is found after the scene was read: its code, the joints, and
+    /// the message with advice.
+    #[must_use]
+    pub fn warning_about<'a>(
+        &self,
+        code: Code,
+        joints: impl IntoIterator<Item = &'a str>,
+        text: (&str, &str),
+    ) -> Option<Diagnostic> {
+        Some(locate::warning(self.source.as_ref()?, code, joints, text))
     }
 
     /// Parses a combination of reactions of this scene, with the syntax of the key `combine` of a

@@ -76,7 +76,7 @@ pub fn schema(registry: &Registry) -> Value {
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "Scene of pfaff",
-        "description": "A multibody mechanism in the plane or in space, and what is to be done with it. SI units and radians, unless `units` says otherwise.",
+        "description": "A multibody mechanism in the plane or in space, with the requested computations. SI units and radians, unless `units` states other units.",
         "type": "object",
         "properties": properties,
         "required": [section::SCENE.name, section::BODY.name],

@@ -22,17 +22,17 @@ impl Section {
 
 pub(crate) const SCENE: Section = Section::new(
     "scene",
-    "What the scene is called, and what holds for all of it",
+    "Name of the scene, and settings for the whole scene",
 );
 pub(crate) const PARAMETERS: Section = Section::new(
     "parameters",
-    "Names of numbers, each a number or an expression; they may stand in any expression",
+    "Names of numbers, each a number or an expression; every expression may use them",
 );
 pub(crate) const BODY: Section =
     Section::new("body", "Rigid bodies; the body `ground` is always there");
 pub(crate) const MARKER: Section = Section::new(
     "marker",
-    "Places of bodies by name: for joints and forces, for measures, and with a curve of their own",
+    "Positions of bodies by name: for joints and forces, for measures, and for curves",
 );
 pub(crate) const MEASURE: Section = Section::new(
     "measure",
@@ -63,12 +63,12 @@ pub(crate) const SIMULATE: Section = Section::new(
 );
 pub(crate) const OUTPUT: Section = Section::new(
     "output",
-    "What is written; what is not wanted is not computed",
+    "Requested output; other quantities are not computed",
 );
 
 /// The key for the name of the item that a table in a list describes.
 pub(crate) const NAME: Key = Key::required("name", "a text", Takes::Name)
-    .doc("Its name, once among things of its kind; joints, drives and forces share their names, and so do bodies, markers and measures");
+    .doc("Name, unique among elements of this kind; joints, drives and forces share their names, and so do bodies, markers and measures");
 
 /// Reads a section that may occur once, if it is given.
 pub(crate) fn section<'t>(

@@ -7,8 +7,9 @@ use crate::key::{Key, Takes};
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
-/// All warnings about a scene. They are never errors, and each of them can be suppressed.
-const WARNINGS: [Code; 13] = [
+/// All warnings about a scene. A warning is never an error, and each warning can be suppressed.
+const WARNINGS: [Code; 14] = [
+    Code::new(186),
     Code::new(187),
     Code::new(188),
     Code::new(189),
@@ -34,7 +35,7 @@ const SILENCE: Key = Key::optional(
     "a list of codes of warnings [\"P0192\", …]",
     Takes::Warnings,
 )
-.doc("Codes of warnings that are not shown, because what they warn of is meant")
+.doc("Codes of warnings to suppress, because the reported property is intended")
 .or(|| json!([]));
 
 /// The key of `[scene]`.

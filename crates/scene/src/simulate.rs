@@ -45,7 +45,7 @@ const T_END: Key = Key::required(
 .doc("Last time of the run");
 const OUTPUT_STEP: Key = positive("output_step", "a time > 0")
     .unit(Dimension::TIME)
-    .doc("Time between written rows; t_end/200 where it is not given");
+    .doc("Time between written rows; t_end/200 if it is omitted");
 const RTOL: Key = Key::optional(
     "rtol",
     MotionOptions::RTOL_EXPECTED,
@@ -61,7 +61,7 @@ const ATOL: Key = positive("atol", "a number > 0")
     .or(|| MotionOptions::ATOL.into());
 const MAX_STEP: Key = positive("max_step", "a time > 0")
     .unit(Dimension::TIME)
-    .doc("Largest step; without limit where it is not given");
+    .doc("Largest step; no limit if it is omitted");
 const MAX_STEPS: Key = Key::optional("max_steps", "a whole number ≥ 1", Takes::Whole(1, i64::MAX))
     .doc("Most steps, accepted and rejected, after which a run stops")
     .or(|| MotionOptions::MAX_STEPS.into());
@@ -80,7 +80,7 @@ const STABILISATION: Key = Key::optional(
 .doc("Treatment of drift")
 .or(|| Stabilisation::default().name().into());
 const DROP: Key = Key::optional("drop", "a list of rows, counted from 1", Takes::Rows)
-    .doc("Rows to eliminate, counted from 1; chosen automatically where they are not given");
+    .doc("Rows to eliminate, counted from 1; chosen automatically if they are omitted");
 
 /// Keys of the section.
 pub(crate) const KEYS: [Key; 9] = [

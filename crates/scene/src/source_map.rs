@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use model::codes::Code;
+
 use crate::table::Table;
 use crate::text::SourceText;
 
@@ -91,6 +93,8 @@ pub struct SourceMap {
     pub groups: Vec<Entry>,
     /// `scene`, `start`, `simulate` and `output`, if they are given.
     pub sections: BTreeMap<String, Entry>,
+    /// Codes of the warnings that the author suppresses.
+    pub silenced: Vec<Code>,
 }
 
 impl SourceMap {

@@ -17,13 +17,13 @@ fn other(here: &str, holds: [(&'static str, bool); 2]) -> Option<&'static str> {
     others.find_map(|(name, holds)| holds.then_some(name))
 }
 
-/// The other space whose vectors have this number of components.
+/// Space, different from this one, whose vectors have this number of components.
 pub(crate) fn of_length(here: &str, length: usize) -> Option<&'static str> {
     let has = [(Plane::NAME, Plane::DIM), (Space3::NAME, Space3::DIM)];
     other(here, has.map(|(name, dim)| (name, dim == length)))
 }
 
-/// The other space that has this type of joints or forces.
+/// Space, different from this one, that has this type of joints or forces.
 pub(crate) fn of_type(here: &str, registry: &Registry, name: &str) -> Option<&'static str> {
     fn has<S: SceneSpace>(registry: &Registry, name: &str) -> (&'static str, bool) {
         let of = S::definitions(registry);

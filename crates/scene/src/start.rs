@@ -19,7 +19,7 @@ const KEEP: Key = Key::optional(
     "a list of coordinates [\"body.angle\", …]",
     Takes::Texts(0),
 )
-.doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body, in space x, y, z, rotation, vx, vy, vz, wx, wy, wz (ground axes), omega for these three; a velocity that is not given is held at zero")
+.doc("Coordinates and velocities that the start keeps exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body, in space x, y, z, rotation, vx, vy, vz, wx, wy, wz (ground axes), omega for these three; a velocity that is not given is held at zero")
 .or(|| json!([]));
 const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false", Takes::Flag)
     .doc("Whether the start may be corrected by more than a thousandth of the scene's size, and given velocities by more than a thousandth of the fastest that hang together with them")

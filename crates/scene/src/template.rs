@@ -76,7 +76,7 @@ struct Slot {
 /// The current text at the position of a number.
 #[derive(Clone, Debug)]
 enum OldValue {
-    /// No text, or a value that is not a number.
+    /// The value is missing, or it is not a number.
     Other,
     /// A number.
     Number(f64),

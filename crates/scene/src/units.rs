@@ -61,7 +61,7 @@ impl<'a> WithUnit<'a> {
 pub(crate) fn advice(text: &str) -> Option<String> {
     let (number, between, unit) = split(text)?;
     const RULE: &str =
-        "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
+        "numbers are in SI units and radians, or in quotes with `format = 2` in `[scene]`";
     let of = in_units_here(unit).unwrap_or(unit);
     let Ok(value) = evaluate(&format!("{number}*({of})"), &Language::PLAIN) else {
         return Some(RULE.to_owned());
@@ -152,7 +152,8 @@ mod tests {
             assert!(said.ends_with(expected), "{text}: {said}");
         }
         // For an unknown unit, the advice contains only the rule, because its factor is not known.
-        let rule = "numbers stand in SI and radians, or in quotes with `format = 2` in `[scene]`";
+        let rule =
+            "numbers are in SI units and radians, or in quotes with `format = 2` in `[scene]`";
         assert_eq!(advice("3 furlongs").as_deref(), Some(rule));
         for silent in [
             "", "kg", "2.0", "2,5", "1/2", "ü", "e", "2 # kg", "-", "1e5", "1e5 #e",

@@ -54,14 +54,17 @@ pub(super) fn keys(text: &str) -> Result<Vec<Key>, Wrong> {
         let (name, at) = match events.next()? {
             (Event::MappingEnd, _) => break,
             (Event::Scalar(name, ..), at) => (name.into_owned(), at),
-            (_, at) => return Err((at, "a key has to be a text".to_owned())),
+            (_, at) => return Err((at, "a key must be a text".to_owned())),
         };
         let value = events.node(0)?;
         keys.push(Key { name, at, value });
     }
     match events.next()? {
         (Event::StreamEnd, _) => Ok(keys),
-        (_, at) => Err((at, "a second document is not read".to_owned())),
+        (_, at) => Err((
+            at,
+            "the file contains a second document; only one is supported".to_owned(),
+        )),
     }
 }
 
@@ -115,7 +118,7 @@ impl<'t> Events<'t> {
                 self.items(depth)?;
                 Ok(Node::Keys(at))
             }
-            (_, at) => Err((at, "an alias is not read: write its value".to_owned())),
+            (_, at) => Err((at, "aliases are not supported: write the value".to_owned())),
         }
     }
 

@@ -78,7 +78,7 @@ impl<'a> Reader<'a, '_> {
             .attribute("mocap")
             .is_some_and(|value| value.text.trim() == "true")
         {
-            let kind = "motions from outside (mocap): the body is fixed to the ground";
+            let kind = "motions that a program prescribes (mocap): the body is fixed to the ground";
             self.source.findings.leave_element(kind, element, &name);
         }
         let mut items = Vec::new();
@@ -96,7 +96,7 @@ impl<'a> Reader<'a, '_> {
         self.model.links[link].mass = mass;
         self.model.links[link].held_weight = held.unwrap_or(0.0);
         if self.bodies.insert(name.clone(), Some(link)).is_some() {
-            let message = format!("the body `{name}` is there already");
+            let message = format!("the body `{name}` is defined twice");
             self.source.findings.of(Fault::Twice, element, message);
         }
         for item in &items {
@@ -256,7 +256,7 @@ impl<'a> Reader<'a, '_> {
             return format!("joint {} of {body}", self.model.joints.len() + 1);
         }
         if !self.names.insert(given.to_owned()) {
-            let message = format!("the joint `{given}` is there already");
+            let message = format!("the joint `{given}` is defined twice");
             self.source.findings.of(Fault::Twice, element, message);
         }
         given.to_owned()
@@ -301,8 +301,8 @@ impl<'a> Reader<'a, '_> {
         coordinates.map(|x| x * angle)
     }
 
-    /// The supported loads on the coordinate. Other loads on the coordinate are omitted and
-    /// reported.
+    /// Loads on a joint coordinate that the import supports. Other loads on the coordinate are
+    /// omitted and reported.
     fn load_of(
         &mut self,
         given: &GivenJoint<'a>,
@@ -366,7 +366,9 @@ impl<'a> Reader<'a, '_> {
             }
             JointKind::Spherical => {
                 if load.damping != 0.0 {
-                    leave("dampers of spherical joints: accelerations differ where they turn");
+                    leave(
+                        "dampers of spherical joints: accelerations differ while the joints turn",
+                    );
                 }
                 if load.armature != 0.0 {
                     leave("armatures of spherical joints: accelerations differ");
@@ -424,7 +426,7 @@ impl<'a> Reader<'a, '_> {
         };
         let name = name.text.trim().to_owned();
         if self.sites.insert(name.clone(), (link, pose)).is_some() {
-            let message = format!("the site `{name}` is there already");
+            let message = format!("the site `{name}` is defined twice");
             self.source.findings.of(Fault::Twice, element, message);
         }
         self.model.frames.push(Frame { name, link, pose });

@@ -9,7 +9,7 @@ use crate::xml::{Element, Value};
 /// Use of the inertia of geoms.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum FromGeoms {
-    /// Geoms are used if a body has no inertia of its own.
+    /// Geoms are used if the file states no inertia for a body.
     Auto,
     Always,
     Never,
@@ -132,7 +132,7 @@ impl Compiler {
         const WAYS: [&str; 5] = ["quat", "axisangle", "euler", "xyaxes", "zaxis"];
         let given: Vec<Value> = WAYS.iter().filter_map(|way| get(way)).collect();
         if let [_, second, ..] = given.as_slice() {
-            let message = format!("{}: another orientation is given as well", second.subject);
+            let message = format!("{}: a second orientation is given", second.subject);
             findings.at(Fault::Value, second, message);
             return None;
         }

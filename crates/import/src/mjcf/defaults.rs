@@ -40,8 +40,8 @@ impl<'a> Defaults<'a> {
         defaults
     }
 
-    /// The attributes of one class, and the nested classes. Their depth is limited by the depth of
-    /// the file.
+    /// The attributes of one class, and the nested classes. The nesting of classes is limited by
+    /// the depth of the file.
     fn class(
         &mut self,
         files: &'a Files<'a>,
@@ -60,7 +60,7 @@ impl<'a> Defaults<'a> {
                 continue;
             }
             let Some(name) = child.attribute("class") else {
-                findings.missing(child, "a `class`: only the first one may be without");
+                findings.missing(child, "a `class`: only the first default may omit it");
                 continue;
             };
             let new = self.classes.len();
@@ -74,7 +74,7 @@ impl<'a> Defaults<'a> {
                 .insert(name.text.trim().to_owned(), new)
                 .is_some()
             {
-                let message = format!("the class `{}` is there already", name.text);
+                let message = format!("the class `{}` is defined twice", name.text);
                 findings.at(Fault::Twice, &name, message);
             }
             self.class(files, child, new, findings);

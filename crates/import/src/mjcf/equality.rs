@@ -45,7 +45,7 @@ impl<'a> Reader<'a, '_> {
                 }
                 other => {
                     let message = format!(
-                        "`<{other}>` of `<equality>` takes freedoms away, and it is not read"
+                        "`<{other}>` of `<equality>` removes degrees of freedom and is not supported"
                     );
                     self.refuse(element, message);
                 }
@@ -273,7 +273,7 @@ impl<'a> Reader<'a, '_> {
         };
         if tendon.name() != "fixed" {
             let message = format!(
-                "`{}` is a tendon in space, and a constraint of its length is not read",
+                "`{}` is a tendon in space, and constraints of its length are not supported",
                 name.text
             );
             self.refuse(element, message);

@@ -50,7 +50,7 @@ fn solid_of(word: &str, size: &[f64]) -> Result<Solid, (Fault, String)> {
         ("ellipsoid", &[a, b, c]) => Solid::Ellipsoid { half: [a, b, c] },
         ("box", &[a, b, c]) => Solid::Box { half: [a, b, c] },
         ("sphere" | "capsule" | "cylinder" | "ellipsoid" | "box", _) => {
-            let message = format!("a {word} needs more numbers in its `size`");
+            let message = format!("the `size` of a {word} has too few numbers");
             return Err((Fault::Missing, message));
         }
         _ => {
@@ -61,7 +61,7 @@ fn solid_of(word: &str, size: &[f64]) -> Result<Solid, (Fault, String)> {
     if size.iter().all(|x| *x > 0.0) {
         return Ok(solid);
     }
-    let message = format!("the `size` of a {word} has to be positive");
+    let message = format!("the `size` of a {word} must be positive");
     Err((Fault::Range, message))
 }
 
@@ -122,7 +122,7 @@ impl<'a> Source<'a, '_> {
             return None;
         }
         if get("shellinertia").is_some_and(|value| value.text.trim() == "true") {
-            let message = "`shellinertia` is not read: give the body an `<inertial>`";
+            let message = "`shellinertia` is not supported: give the body an `<inertial>`";
             self.findings.of(Fault::Unsupported, item.element, message);
             return None;
         }

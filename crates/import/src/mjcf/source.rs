@@ -102,7 +102,7 @@ impl<'a> Source<'a, '_> {
                 }
                 "composite" | "flexcomp" | "replicate" | "attach" => {
                     let message = format!("`<{}>` makes bodies that are not read", element.name());
-                    let help = "load the file in MuJoCo, save it with mj_saveLastXML, and import what is saved";
+                    let help = "load the file in MuJoCo, save it with mj_saveLastXML, and import the saved file";
                     let (source, span) = (element.source, element.span());
                     let fault = Fault::Unsupported;
                     self.findings.fault_with_help(

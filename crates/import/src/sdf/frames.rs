@@ -85,7 +85,7 @@ impl Frames {
                 _ => name,
             };
             if what != What::Joint && frames.places.contains_key(&name) {
-                let message = format!("the name `{name}` is there already");
+                let message = format!("the name `{name}` is used twice");
                 findings.of(Fault::Twice, child, message);
                 continue;
             }
@@ -124,7 +124,8 @@ impl Frames {
                             }
                         ))
                     ) {
-                        let message = format!("a pose is relative to `{name}`, which is not there");
+                        let message =
+                            format!("a pose is relative to `{name}`, which does not exist");
                         findings.of(Fault::Unknown, model, message);
                     }
                     chain.clear();
@@ -228,7 +229,7 @@ pub(super) fn pose_of(
     let place = nalgebra::Translation3::new(numbers[0], numbers[1], numbers[2]);
     let turned = if is_quaternion {
         if numbers[3..].iter().all(|x| *x == 0.0) {
-            let message = "a quaternion of zeros gives no orientation";
+            let message = "a quaternion of zeros does not define an orientation";
             findings.at(Fault::Range, &value, message);
             return None;
         }

@@ -27,7 +27,7 @@ const ENTRIES: &[Entry] = &[
     )
     .idle("canonical_link namespace")
     .left(&[
-        ("frames by which the model is placed", "placement_frame"),
+        ("frames that place the model", "placement_frame"),
         (
             SIMULATOR,
             "<self_collide> <allow_auto_disable> <enable_wind>",
@@ -40,7 +40,7 @@ const ENTRIES: &[Entry] = &[
         .left(&[
             (SIMULATOR, "<self_collide> <kinematic> <enable_wind>"),
             (
-                "dampers of links: accelerations differ where they move",
+                "dampers of links: accelerations differ while the links move",
                 "<velocity_decay>",
             ),
             (

@@ -357,7 +357,7 @@ fn a_yaml_of_loops_says_what_it_lacks() {
         (
             &format!("{pair}type: [3d]\n{pair}"),
             3,
-            "key `closed_loop` is there already, in line 1",
+            "key `closed_loop` is already defined in line 1",
         ),
         (
             &format!("{pair}type: [3d]\njoint_name: [A]\njoint_type: [REVOLUTE]\n"),
@@ -392,7 +392,7 @@ fn a_pose_names_a_coordinate_once() {
     let refusal = pfaff_import::import(file, &text_of(file), &options).expect_err("refused");
     let (_, _, message) = first(&refusal);
     assert!(
-        message.contains(&format!("`{joint}` is asked at 0.2")),
+        message.contains(&format!("`{joint}` is requested at 0.2")),
         "{message}"
     );
 }

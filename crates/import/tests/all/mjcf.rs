@@ -47,7 +47,7 @@ fn what_is_left_out_is_told_with_its_line() {
         ("limits of joints", "hip", "<joint name=\"hip\"/>"),
         ("limits of joints", "toe", "<joint name=\"toe\"/>"),
         (
-            "friction of joints: accelerations differ where they move",
+            "friction of joints: accelerations differ while the joints move",
             "knee",
             "<joint name=\"knee\"",
         ),
@@ -366,11 +366,11 @@ fn nothing_is_dropped_in_silence() {
         ("actuators", "m"),
         ("actuators", "g"),
         (
-            "actuators that act without a signal, too: accelerations differ",
+            "actuators that also act without a signal: accelerations differ",
             "p",
         ),
         (
-            "actuators that act without a signal, too: accelerations differ",
+            "actuators that also act without a signal: accelerations differ",
             "a",
         ),
         (
@@ -378,7 +378,7 @@ fn nothing_is_dropped_in_silence() {
             "",
         ),
         (
-            "dampers of spherical joints: accelerations differ where they turn",
+            "dampers of spherical joints: accelerations differ while the joints turn",
             "joint 1 of b",
         ),
         (

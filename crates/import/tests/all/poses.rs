@@ -48,7 +48,7 @@ fn values_of_a_pose_are_held() {
             "{values:?}"
         );
         assert!(
-            !done.remarks.iter().any(|r| r.contains("asked")),
+            !done.remarks.iter().any(|r| r.contains("requested")),
             "{:?}",
             done.remarks
         );
@@ -68,14 +68,14 @@ fn values_that_cannot_be_held_are_told() {
         };
         import(&text_of(file), &options).remarks
     };
-    let moved = "`A`: asked 0.5 rad, found 0.9273 rad";
+    let moved = "`A`: requested 0.5 rad, found 0.9273 rad";
     let remarks = at(0.5);
     assert!(remarks.iter().any(|r| r.contains(moved)), "{remarks:?}");
     let exact = at(0.6_f64.acos());
     assert!(!exact.iter().any(|r| r.contains("asked")), "{exact:?}");
     // The angle 40° is 0.69813 rad.
     let degrees = at(40.0);
-    let words = ["40° are 0.69813 rad", "asked 40 rad"];
+    let words = ["40° are 0.69813 rad", "requested 40 rad"];
     for words in words {
         assert!(degrees.iter().any(|r| r.contains(words)), "{degrees:?}");
     }

@@ -56,7 +56,7 @@ fn what_is_left_out_is_told() {
         ("contacts of links", "upper"),
         ("limits of joints", "shoulder"),
         (
-            "friction of joints: accelerations differ where they move",
+            "friction of joints: accelerations differ while the joints move",
             "shoulder",
         ),
         ("actuators", "drive of the shoulder"),

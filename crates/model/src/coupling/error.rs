@@ -6,8 +6,7 @@
 pub enum CouplingError {
     /// The drive of a joint coordinate does not have exactly one row between two bodies.
     #[error(
-        "`{definition}` has {rows} rows and {slots} bodies: a coupling takes measures that have one \
-         row of their own between two bodies, such as the angle of a revolute joint or the \
+        "`{definition}` has {rows} rows and {slots} bodies: a coupling accepts only measures with one separate row between two bodies, such as the angle of a revolute joint or the \
          displacement of a slider"
     )]
     Measure {
@@ -18,7 +17,9 @@ pub enum CouplingError {
         /// Number of bodies of the drive.
         slots: usize,
     },
-    /// There is no coefficient, or a coefficient is not finite.
-    #[error("the ratio of a coupling and its coefficients are finite numbers, not all zero")]
+    /// The list of coefficients is empty, or a coefficient is not finite.
+    #[error(
+        "the ratio and the coefficients of a coupling must be finite, and not all of them zero"
+    )]
     Coefficients,
 }

@@ -162,8 +162,7 @@ const PLAIN: ConstraintSpec = ConstraintSpec {
     wrench: &[],
     component: Some("load"),
     note: Some(
-        "the load of a coupling acts along the measure that follows, and along the other one times \
-         the ratio, without forces of teeth or threads",
+        "the load of a coupling acts along the dependent coordinate, and times the ratio along the other coordinate, without forces of teeth or threads",
     ),
     measures: &[],
     turning: false,

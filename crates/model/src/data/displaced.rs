@@ -112,7 +112,7 @@ impl Mechanism {
         let count = self.data().count();
         assert!(
             numbers.len() == count,
-            "{} numbers for constraints that store {count}",
+            "{} numbers are given for constraints that store {count}",
             numbers.len()
         );
         let mut changed = self.clone();

@@ -54,7 +54,7 @@ fn a_law_is_replaced_by_the_name_of_its_drive() {
     assert_eq!(told("moter"), "there is no drive `moter`");
     assert!(told("sweep").contains("drive `sweep` prescribes a motion, and its torque"));
     assert!(
-        told("sweep").ends_with("write `torque = 0` in place of its `motion` to give it a law")
+        told("sweep").ends_with("to give it a law, write `torque = 0` in place of its `motion`")
     );
     assert!(told("push").contains("write `force = 0`"));
     assert_eq!(told("brake"), "`brake` is a force, not a drive by a law");

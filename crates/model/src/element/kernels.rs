@@ -236,7 +236,7 @@ pub trait ForceKernels<S: BodySpace = Plane>: ForceElement<f64, S> {
         None
     }
     /// Returns this drive with another force law for the same joint coordinate. The new law uses
-    /// the change since the start if the present law does. Returns `None` if this is not a drive
+    /// the change since the start if the current law does. Returns `None` if this is not a drive
     /// with a force law.
     fn with_law(&self, _law: &Law) -> Option<Box<dyn ForceKernels<S>>> {
         None

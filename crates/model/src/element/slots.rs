@@ -109,7 +109,7 @@ fn twist_of<S: Kinematics>(body: BodyRef, v: &[f64]) -> S::Twist<f64> {
     }
 }
 
-/// Evaluates an expression in which `$kernels` stands for the space of a [`SpaceKind`].
+/// Evaluates an expression in which `$kernels` stands for the kernel type of a [`SpaceKind`].
 macro_rules! in_kernels {
     ($kind:expr, $kernels:ident => $body:expr) => {
         match $kind {

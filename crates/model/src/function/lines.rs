@@ -32,7 +32,7 @@ impl Lines {
     }
 
     /// Returns the value and the derivatives at t. At a point, they are those of the line that
-    /// starts there.
+    /// starts at the point.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let (x, y) = (&self.times, &self.values);
         let behind = x.partition_point(|&x| x <= t);

@@ -9,16 +9,16 @@ pub(super) const DEEPEST: usize = 64;
 #[non_exhaustive]
 pub enum LawError {
     /// An operation has too few operands, or several values remain at the end.
-    #[error("the operations of a law leave {left} numbers, need 1")]
+    #[error("the operations of a law return {left} numbers, need 1")]
     Incomplete {
         /// Number of remaining values.
         left: usize,
     },
-    /// There are too many values on the stack.
+    /// The stack contains too many values.
     #[error("a law is nested deeper than {DEEPEST}")]
     Deep,
     /// A function of time contains a joint coordinate or its rate.
-    #[error("a function of time depends on the time only, not on a joint coordinate or its rate")]
+    #[error("a function of time must not depend on a joint coordinate or its rate")]
     Variable,
     /// A force law requires a drive with one row and at most `most` bodies.
     #[error(

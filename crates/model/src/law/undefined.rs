@@ -47,7 +47,7 @@ impl std::fmt::Display for UndefinedValue {
             Self::Input => f.write_str("a measure without a value"),
             Self::Returned(x) => write!(f, "its function returned {x}"),
             Self::Failed(why) => write!(f, "its function failed: {why}"),
-            Self::ValueAlone => f.write_str("a function that is called has values alone"),
+            Self::ValueAlone => f.write_str("a called function has values, but no derivatives"),
         }
     }
 }

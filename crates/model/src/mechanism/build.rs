@@ -10,6 +10,7 @@ use super::turn;
 use super::work::held_bodies;
 use super::{BuildError, Elements, FunctionForm, KernelInput, Mechanism, TimeFunction, initialise};
 use crate::body::{BodyRecord, BodyRef, DescribedBody};
+use crate::contact::ContactLimits;
 use crate::description::{AnyDescription, MechanismDescription};
 use crate::element::{
     AnyForce, BodySpace, FramedConstraint, PlacedConstraint, PlacedForce, Site, TurnedSlots,
@@ -163,6 +164,7 @@ impl Builder {
             let (kind, element) = (ConstraintKind::Joint, S::any_constraint(j.element.clone()));
             let element = turn::constraint(element, bodies, &j.bodies);
             self.constraint(&j.name, kind, &j.bodies, element, &j.functions, j.tolerance);
+            self.limit(&j.limits);
         }
     }
 
@@ -197,8 +199,16 @@ impl Builder {
             spec,
             bodies: bodies.to_vec(),
             rows: RowRanges::default(),
+            limits: ContactLimits::default(),
         });
         self.elements.constraints.push(placed);
+    }
+
+    /// Sets what the last constraint cannot do.
+    pub(super) fn limit(&mut self, limits: &ContactLimits) {
+        if let Some(group) = self.layout.groups.last_mut() {
+            group.limits.clone_from(limits);
+        }
     }
 
     pub(super) fn force(

@@ -19,7 +19,7 @@ pub enum BuildError {
         name: String,
     },
     /// A body has the name of the ground, which is reserved.
-    #[error("`ground` is the name of the ground and is always there")]
+    #[error("`ground` is the reserved name of the ground")]
     Ground,
     /// A property of a body is NaN or infinite.
     #[error("body `{body}`: {field} is {value:?}, need finite numbers up to {LARGEST:e}")]
@@ -157,7 +157,7 @@ pub enum BuildError {
         n_markers: usize,
     },
     /// Both markers of a measure are the same.
-    #[error("measure `{name}` is between a place and itself")]
+    #[error("measure `{name}` is between two identical points")]
     SameMarker {
         /// The measure.
         name: String,
@@ -177,7 +177,7 @@ pub enum BuildError {
         name: String,
         /// Definition of the joint or drive.
         definition: &'static str,
-        /// The list in which it was found.
+        /// The list that contains the value.
         list: &'static str,
     },
     /// The number of functions of time differs from that of the definition.
@@ -191,6 +191,16 @@ pub enum BuildError {
         expected: usize,
         /// Number of given functions.
         found: usize,
+    },
+    /// A joint cannot be one-sided, or its grip is not possible.
+    #[error("`{name}`: {reason}")]
+    Limits {
+        /// The joint.
+        name: String,
+        /// The key of the limit: `one_sided`, `grip` or `load`.
+        key: &'static str,
+        /// Reason why the limits are not possible.
+        reason: String,
     },
 }
 
@@ -218,6 +228,7 @@ impl BuildError {
             Self::UnknownMarker { .. } => const { Code::new(135) },
             Self::SameMarker { .. } => const { Code::new(136) },
             Self::Measure { .. } => const { Code::new(155) },
+            Self::Limits { .. } => const { Code::new(156) },
             Self::NoOrientation { .. } => const { Code::new(152) },
             Self::NotSymmetric { .. } | Self::NoSuchTensor { .. } => const { Code::new(153) },
         }

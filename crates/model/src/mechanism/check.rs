@@ -7,7 +7,8 @@ use joints::spec::{ConstraintSpec, Role, Spec};
 
 use super::BuildError;
 use crate::body::{Body, BodyRecord, BodyRef, DescribedBody, SpatialBody};
-use crate::description::MechanismDescription;
+use crate::contact::{ContactLimits, Grip, GripLoad};
+use crate::description::{Joint, MechanismDescription};
 use crate::element::{BodySpace, ConstraintKernels};
 use crate::observed::Observables;
 use crate::principal::Principal;
@@ -23,6 +24,7 @@ pub(super) fn faults<S: BodySpace>(
     check_names(d, records, &mut errors);
     check_places(d, records, &mut errors);
     check_tolerances(d, records, &mut errors);
+    check_limits(d, &mut errors);
     check_observed(d, &mut errors);
     errors
 }
@@ -70,6 +72,57 @@ fn check_tolerances<S: BodySpace>(
             let field = "tolerance";
             errors.push(BuildError::Tolerance { of, field, value });
         }
+    }
+}
+
+/// Reports every joint that cannot have the limits that its description states.
+fn check_limits<S: BodySpace>(d: &MechanismDescription<S>, errors: &mut Vec<BuildError>) {
+    let is_open = |joint: &Joint<S>| joint.limits.open_side.is_some();
+    for joint in &d.joints {
+        let (spec, ContactLimits { open_side, grip }) = (joint.element.spec(), &joint.limits);
+        let definition = spec.common.scene_type;
+        let fault = match grip {
+            _ if open_side.is_some() && !spec.has_gap() => {
+                let reason = format!("a joint of type `{definition}` cannot be one-sided");
+                Some(("one_sided", reason))
+            }
+            None => None,
+            Some(_) if !spec.can_slip() => {
+                let reason = format!("a joint of type `{definition}` cannot slip, so it has no grip");
+                Some(("grip", reason))
+            }
+            Some(Grip { friction, .. }) if !(is_usable(*friction) && *friction >= 0.0) => {
+                let reason = format!("`grip` is {friction}, need a coefficient of friction ≥ 0");
+                Some(("grip", reason))
+            }
+            Some(Grip { load, .. }) => match load {
+                GripLoad::Own if open_side.is_none() => Some((
+                    "grip",
+                    "the force that presses the contact is not known: make the joint one-sided, or state `load`"
+                        .to_owned(),
+                )),
+                GripLoad::Constant(load) if !(is_usable(*load) && *load >= 0.0) => {
+                    Some(("load", format!("`load` is {load} N, need a force ≥ 0")))
+                }
+                GripLoad::Joint(name) => match d.joints.iter().find(|other| other.name == *name) {
+                    None => Some((
+                        "load",
+                        format!("there is no active joint `{name}`, which `load` names"),
+                    )),
+                    Some(other) if !is_open(other) => Some((
+                        "load",
+                        format!("`load` names `{name}`, which is not one-sided: add `one_sided` to it"),
+                    )),
+                    Some(_) => None,
+                },
+                GripLoad::Own | GripLoad::Constant(_) => None,
+            },
+        };
+        errors.extend(fault.map(|(key, reason)| BuildError::Limits {
+            name: joint.name.clone(),
+            key,
+            reason,
+        }));
     }
 }
 

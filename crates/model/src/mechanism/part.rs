@@ -13,8 +13,8 @@ use crate::function::Function;
 /// A mechanism that is a part of another one.
 #[derive(Clone)]
 pub struct Part {
-    /// The part as a mechanism. Its rows have the names and indices that they have in the whole
-    /// mechanism.
+    /// The part as a mechanism. The rows of the part have the names and indices that they have in
+    /// the whole mechanism.
     pub mechanism: Mechanism,
     /// Indices of the elements of the part in the whole mechanism.
     pub places: Places,
@@ -95,7 +95,8 @@ impl Mechanism {
 
     /// Returns the mechanism of some bodies with all joints, drives and forces on these bodies,
     /// which must not act on other bodies. The bodies are one or more sets of
-    /// [`Mechanism::components`]. Initial values are those of the whole mechanism.
+    /// [`Mechanism::components`]. Initial values of the part are the initial values of the whole
+    /// mechanism.
     ///
     /// # Panics
     /// Panics if the bodies are not in ascending order, do not exist, or are connected to other
@@ -122,8 +123,9 @@ impl Mechanism {
     }
 
     /// Returns the mechanism of some joints and drives (in ascending order) with the bodies that
-    /// they connect, for the analysis of constraints. The result has no forces. Initial values are
-    /// those of the whole mechanism. The computing time is proportional to the size of the part.
+    /// they connect, for the analysis of constraints. The result has no forces. Initial values of
+    /// the part are the initial values of the whole mechanism. The computing time is proportional
+    /// to the size of the part.
     ///
     /// # Panics
     /// Panics if the groups are not in ascending order or do not exist.
@@ -170,6 +172,7 @@ fn assembled<'a>(
             &laws(whole, &c.site),
             c.tolerance,
         );
+        b.limit(&group.limits);
     }
     let rows = |own: usize| &whole.layout.groups[groups[own]].rows;
     let mut late: Vec<usize> = (0..groups.len()).collect();

@@ -31,7 +31,7 @@ const LARGEST_STEP: f64 = 0.5;
 const REACHED: f64 = 1e-9;
 
 /// Initial damping, smallest damping, and the damping at which the iteration stops, relative to
-/// rows of size one.
+/// rows of norm one.
 const DAMPING: f64 = 1e-3;
 const LEAST_DAMPING: f64 = 1e-12;
 const MOST_DAMPING: f64 = 1e8;

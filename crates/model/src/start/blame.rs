@@ -254,8 +254,8 @@ impl Start<'_> {
     }
 
     /// Returns the given velocities to remove so that the remaining ones are possible, the largest
-    /// difference first. Each of them must be removed. The function also returns which velocities
-    /// remain given or kept, and whether the removal is sufficient.
+    /// difference first. All velocities of the list must be removed. The function also returns
+    /// which velocities remain given or kept, and whether the removal is sufficient.
     fn leave_out(
         &self,
         rows: &[usize],

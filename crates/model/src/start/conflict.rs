@@ -26,7 +26,7 @@ pub struct VelocityConflict {
     pub rows: Vec<RowLabel>,
     /// Whether the contradiction involves other given or kept velocities.
     pub with_others: bool,
-    /// Drives, and joints that prescribe a velocity, among these rows.
+    /// Drives, and joints that prescribe a velocity, to which these rows belong.
     pub drives: Vec<String>,
     /// Velocities to remove so that the remaining ones are possible.
     pub leave_out: Vec<HeldVelocity>,
@@ -118,7 +118,7 @@ impl VelocityConflict {
             ..
         } = self;
         let held = if self.is_kept {
-            "held by `keep` at"
+            "fixed by `keep` at"
         } else {
             "given as"
         };
@@ -148,7 +148,7 @@ impl VelocityConflict {
             );
         }
         let nearest = format!(
-            "in velocities that fit it is {}{off}",
+            "in consistent velocities it is {}{off}",
             short(*nearest, *given)
         );
         let rows = named(&rows);
@@ -192,22 +192,22 @@ impl VelocityConflict {
                 _ => ROLL_TOGETHER,
             };
             return format!(
-                "leave out {given}, so that they stay at rest; or {release}, if they are to move"
+                "omit {given}, so that they stay at rest; or {release}, if they should move"
             );
         }
         match out.as_slice() {
             [] => {}
             [only] => ways.push(format!(
-                "leave out {only}, so that it follows from the others"
+                "omit {only}, so that it follows from the other velocities"
             )),
             // All of them are listed, because removing fewer would not be sufficient.
             [first @ .., last] => ways.push(format!(
-                "leave out {} and {last}, so that they follow from the others",
+                "omit {} and {last}, so that they follow from the other velocities",
                 first.join(", ")
             )),
         }
         if !self.is_enough {
-            ways.push("look for more that are wrong".to_owned());
+            ways.push("check for further errors".to_owned());
         }
         if let [first, ..] = self.drives.as_slice() {
             ways.push(format!("or change what `{first}` prescribes"));
@@ -222,7 +222,7 @@ impl VelocityConflict {
                 (false, false) => String::new(),
             };
             ways.push(format!(
-                "or set `allow_correction = true` in `[start]`, which takes the nearest ones that fit{kept}"
+                "or set `allow_correction = true` in `[start]`, which uses the nearest consistent velocities{kept}"
             ));
         }
         ways.join("; ")

@@ -1,5 +1,6 @@
 //! Computes the velocities that the initial velocities do not state. Among all velocities that
-//! satisfy the velocity constraints `C·v = b`, these minimise the kinetic energy `½·vᵀ·M·v`.
+//! satisfy the velocity constraints `C·v = b`, the chosen velocities minimise the kinetic energy
+//! `½·vᵀ·M·v`.
 //!
 //! Sets of rows that have no dependent velocity in common are solved separately. Small sets are
 //! solved directly, after the rank of their columns has been determined. The remaining rows form
@@ -37,7 +38,7 @@ pub(super) const DENSE_ROWS: usize = 300;
 const LEFT: f64 = 1e-7;
 
 /// In large sets, a row is ignored if its entries are below this multiple of their uncertainties.
-/// After scaling to size one, these entries would be noise.
+/// After scaling to norm one, these entries would be rounding errors.
 const SIGNIFICANT: f64 = 1e3;
 
 /// Largest number of repetitions of the solution. A repetition removes all errors except rounding

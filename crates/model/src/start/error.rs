@@ -17,7 +17,7 @@ use crate::system::RowLabel;
 pub enum StartError {
     /// The constraints cannot be satisfied from the described configuration.
     #[error(
-        "the constraints cannot be assembled: after {iterations} iterations these still miss: {}; \
+        "the constraints cannot be assembled: after {iterations} iterations these constraints are violated:  {}; \
          they contradict each other, or the start is too far from an assembled one",
         list(misfits)
     )]
@@ -30,7 +30,7 @@ pub enum StartError {
     /// The closest consistent configuration is far from the described one.
     #[error(
         "the start must be corrected by {correction} ({coordinate} of body `{body}`), more than the allowed {limit}: \
-         as described, these miss: {}; correct the scene, or set `allow_correction = true` in `[start]`",
+         as described, these constraints are violated: {}; correct the scene, or set `allow_correction = true` in `[start]`",
         few(misfits), correction = quantity(*correction, unit), limit = short(*limit))]
     LargeCorrection {
         /// The body with the largest displacement.
@@ -46,6 +46,16 @@ pub enum StartError {
         /// The joints and drives that are violated at the described configuration, the largest
         /// violation first.
         misfits: Vec<Misfit>,
+    },
+    /// One-sided joints are described on the side to which they cannot open.
+    #[error(
+        "one-sided joints are described on the side to which they cannot open: {}; move the bodies to the other \
+         side, or turn the normal (in the plane `toward`) round",
+        depths(joints)
+    )]
+    WrongSide {
+        /// The joints, each with its distance from being closed (m), the deepest first.
+        joints: Vec<(String, f64)>,
     },
     /// The given or kept velocities are impossible.
     #[error(transparent)]
@@ -72,7 +82,7 @@ pub enum StartError {
     },
     /// A body with an initial pose does not exist, or the pose belongs to another space.
     #[error(
-        "a pose of the start is that of body {body}; bodies are 0..{bodies}, with poses of their space"
+        "the start contains a pose of body {body}; bodies are 0..{bodies}, with poses of their space"
     )]
     NoPose {
         /// The requested body.
@@ -105,8 +115,7 @@ pub enum StartError {
     },
     /// The initial configuration requires a correction whose matrix is too large for the memory.
     #[error(
-        "the start has to be corrected, which takes a dense matrix of {rows} × {columns} numbers, more than {most:e}; \
-         describe positions and velocities that satisfy the constraints"
+        "the start must be corrected, but the correction needs a dense matrix of {rows} × {columns} numbers, more than {most:e}; describe positions and velocities that satisfy the constraints"
     )]
     TooLarge {
         /// Number of rows to be satisfied.
@@ -120,10 +129,10 @@ pub enum StartError {
     #[error("the start cannot be corrected: {0}")]
     Rank(#[from] RankError),
     /// The velocities of a large mechanism could not be computed.
-    #[error("the velocities of the start cannot be found: {0}")]
+    #[error("the initial velocities cannot be computed: {0}")]
     Saddle(#[from] SaddleError),
     /// The sparse equations of the velocities could not be solved.
-    #[error("the velocities of the start cannot be found: {0}")]
+    #[error("the initial velocities cannot be computed: {0}")]
     Sparse(#[from] SparseError),
     /// The correction step failed.
     #[error("the start cannot be corrected: {0}")]
@@ -143,6 +152,7 @@ impl StartError {
             Self::NoVelocity { .. } => const { Code::new(206) },
             Self::TooLarge { .. } => const { Code::new(207) },
             Self::KeptOrigin { .. } => const { Code::new(209) },
+            Self::WrongSide { .. } => const { Code::new(216) },
             Self::Rank(_) | Self::Saddle(_) | Self::Sparse(_) | Self::Step(_) => {
                 const { Code::new(208) }
             }
@@ -175,11 +185,21 @@ impl fmt::Display for Misfit {
 
 fn needed(body: &str, level: KeepLevel, rotation: &str) -> String {
     match level {
-        KeepLevel::Position => format!("hold `{body}.{rotation}` too"),
+        KeepLevel::Position => format!("keep `{body}.{rotation}`, too"),
         KeepLevel::Velocity => {
-            format!("give its `velocity` and `angular_velocity`, and hold `{body}.{rotation}` too")
+            format!("give its `velocity` and `angular_velocity`, and keep `{body}.{rotation}`, too")
         }
     }
+}
+
+/// Lists joints with their distances from being closed.
+fn depths(joints: &[(String, f64)]) -> String {
+    let depth = |(name, depth): &(String, f64)| format!("`{name}` by {}", quantity(*depth, "m"));
+    let mut named: Vec<String> = joints.iter().take(FEW).map(depth).collect();
+    if joints.len() > FEW {
+        named.push(format!("and {} more", joints.len() - FEW));
+    }
+    named.join(", ")
 }
 
 fn list(misfits: &[Misfit]) -> String {

@@ -10,8 +10,8 @@ use crate::system::{Layout, Scratch, System};
 /// Rows that restrict the initial configuration, and the inverse weights of the coordinates.
 pub(super) type Restricting<'a> = (&'a [usize], &'a [f64]);
 
-/// Damping of the least-squares step, relative to rows of size one. It is small compared with every
-/// significant row and large compared with rounding errors.
+/// Damping of the least-squares step, relative to rows of norm one. The damping is small compared
+/// with every significant row and large compared with rounding errors.
 pub(super) const DAMPING: f64 = 1e-10;
 
 /// Default limit of corrections of the initial state, as a fraction of the size of the scene, of a

@@ -2,10 +2,10 @@
 //! these joints.
 //!
 //! The rows of a joint are products of directions. The equations `u·w' = v·w' = 0` are satisfied
-//! for w' = w and for w' = −w, and three products of this kind are zero for four orientations.
-//! During the assembly, the rotation vector of the remaining rotation replaces these products. The
-//! vector is zero only if the axes have the described directions; near this orientation it is equal
-//! to the products.
+//! for w' = w and for w' = −w, and three conditions of this kind have four orientations as
+//! solutions. During the assembly, the rotation vector of the remaining rotation replaces these
+//! products. The vector is zero only if the axes have the described directions; near this
+//! orientation it is equal to the products.
 
 use std::f64::consts::PI;
 use std::ops::Range;

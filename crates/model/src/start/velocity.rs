@@ -1,9 +1,9 @@
 //! Initial velocities. The other velocities are computed from the given ones and from prescribed
 //! motions, with the smallest kinetic energy.
 //!
-//! Given velocities may be rounded to a few digits. If they are impossible, they are replaced by
-//! the closest possible ones in the mass metric. If these differ from the given velocities by more
-//! than the permitted correction, the error names the wrong velocities. Velocities in `keep` do not
+//! Given velocities may be rounded to a few digits. Impossible given velocities are replaced by the
+//! closest possible ones in the mass metric. If these differ from the given velocities by more than
+//! the permitted correction, the error names the wrong velocities. Velocities in `keep` do not
 //! change.
 //!
 //! Residuals are compared with the rounding errors of their own terms, and velocities at rest with

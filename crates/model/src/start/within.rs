@@ -1,9 +1,9 @@
 //! Initial configurations of mechanisms with stated tolerances. Rows may have residuals that the
 //! data explain, and no body is moved far to remove these residuals.
 //!
-//! Suppose that two sliders on one line differ by a rounding error. They coincide if one of them is
-//! rotated by the square root of this error, or if it is far away. This configuration satisfies all
-//! rows, but it is not the intended one.
+//! Suppose that two sliders on one line differ by a rounding error. The sliders coincide if one of
+//! them is rotated by the square root of this error, or if it is far away. This configuration
+//! satisfies all rows, but it is not the intended one.
 
 use linalg::{Matrix, small_svd};
 

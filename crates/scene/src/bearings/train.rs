@@ -212,7 +212,7 @@ impl<'a, 'j, 'r, S: SceneSpace> Train<'a, 'j, 'r, S> {
         }
     }
 
-    /// There is only one wheel, because both bearings connect these bodies.
+    /// The train has only one wheel, because both bearings connect these bodies.
     pub(super) fn one_wheel(&self, shared: &[BodyRef]) -> Refusal {
         let [first, second] = self.names();
         Refusal {
@@ -305,7 +305,7 @@ impl<'a, 'j, 'r, S: SceneSpace> Train<'a, 'j, 'r, S> {
         })
     }
 
-    /// Whether a joint could not be read completely. It may be the one that is missing.
+    /// Whether a joint could not be read completely. That joint may be the missing one.
     pub(super) fn is_incomplete(&self) -> bool {
         let is_unread = |joint: &JointRead<S>| matches!(Bearing::of(joint), Ok(None));
         self.references.joints.all().iter().any(is_unread)

@@ -18,7 +18,7 @@ pub(crate) const ORIENTATION: Key = Key::optional(
     "a table { quaternion | axis, angle | rpy | matrix }",
     Takes::Orientation,
 )
-.doc("Orientation of the frame at the start, from its axes to those of the ground: { quaternion = [w, x, y, z] }, { axis, angle }, { rpy = [roll, pitch, yaw] } about the fixed axes x, y and z, or { matrix }; as the ground where it is not given");
+.doc("Orientation of the frame at the start, from its axes to those of the ground: { quaternion = [w, x, y, z] }, { axis, angle }, { rpy = [roll, pitch, yaw] } about the fixed axes x, y and z, or { matrix }; the axes of the ground if it is omitted");
 
 pub(crate) const QUATERNION: Key = Key::optional(
     "quaternion",

@@ -24,10 +24,10 @@ const CENTRE: Key = Key::pair("centre")
     .or(|| json!([0.0, 0.0]));
 const POSITION: Key = Key::pair("position")
     .unit(Dimension::LENGTH)
-    .doc("Origin [x, y] of the body's frame at the start: its centre of mass, unless `centre` says otherwise")
+    .doc("Origin [x, y] of the body's frame at the start: its centre of mass, unless `centre` states another point")
     .or(|| json!([0.0, 0.0]));
 const VELOCITY: Key = Key::pair("velocity").unit(Dimension::VELOCITY).doc(
-    "Velocity [vx, vy] of the origin of the body's frame at the start; it follows from what is given and driven, with the least kinetic energy, where it is left out",
+    "Velocity [vx, vy] of the origin of the body's frame at the start; it follows from given velocities and drives, with the least kinetic energy, if it is omitted",
 );
 const ANGLE: Key = number("angle", "a number", Interval::Any)
     .unit(Dimension::ANGLE)
@@ -38,14 +38,14 @@ const TOLERANCE: Key = tolerance::length(
 );
 const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
     .unit(Dimension::ANGULAR_VELOCITY)
-    .doc("Angular velocity at the start; it follows in the same way where it is left out");
+    .doc("Angular velocity at the start; it follows in the same way if it is omitted");
 const START_KEYS: [Key; 2] = [
     Key::pair("position")
         .unit(Dimension::LENGTH)
-        .doc("Origin [x, y] of the body's frame where it starts"),
+        .doc("Origin [x, y] of the body's frame at the start"),
     number("angle", "a number", Interval::Any)
         .unit(Dimension::ANGLE)
-        .doc("Angle of the body's frame where it starts"),
+        .doc("Angle of the body's frame at the start"),
 ];
 
 /// Keys of a body, except its name.
@@ -73,7 +73,7 @@ impl SceneBody for Plane {
         "a table { position, angle }",
         Takes::Table(&START_KEYS),
     )
-    .doc("Where the body starts if that is not where it is described: { position, angle } of its frame, as described where one is left out. Points `at`, what `fixed` joints and gears keep, free lengths and the zeros of measures are still those of the described start");
+    .doc("Start of the body if it differs from the described position: { position, angle } of its frame; an omitted value is as described. Points `at`, the positions that `fixed` joints and gears keep, free lengths and the zeros of measures still refer to the described start");
 
     fn read_start(start: &mut Table, body: &Body) -> FramePose {
         let [position, angle] = &START_KEYS;

@@ -28,24 +28,23 @@ const CENTRE: Key = Key::triple("centre")
     .or(|| json!([0.0, 0.0, 0.0]));
 const POSITION: Key = Key::triple("position")
     .unit(Dimension::LENGTH)
-    .doc("Origin [x, y, z] of the body's frame at the start: its centre of mass, unless `centre` says otherwise")
+    .doc("Origin [x, y, z] of the body's frame at the start: its centre of mass, unless `centre` states another point")
     .or(|| json!([0.0, 0.0, 0.0]));
 const VELOCITY: Key = Key::triple("velocity").unit(Dimension::VELOCITY).doc(
-    "Velocity [vx, vy, vz] of the origin of the body's frame at the start, ground axes; it follows from what is given and driven, with the least kinetic energy, where it is left out",
+    "Velocity [vx, vy, vz] of the origin of the body's frame at the start, ground axes; it follows from given velocities and drives, with the least kinetic energy, if it is omitted",
 );
 const ANGULAR_VELOCITY: Key = Key::triple("angular_velocity")
     .unit(Dimension::ANGULAR_VELOCITY)
-    .doc("Angular velocity [wx, wy, wz] at the start, ground axes; it follows in the same way where it is left out");
+    .doc("Angular velocity [wx, wy, wz] at the start, ground axes; it follows in the same way if it is omitted");
 const TOLERANCE: Key = tolerance::length(
     "Tolerance of points and directions in the body's frame [default: tolerance of the scene]",
 );
 const START_KEYS: [Key; 2] = [
     Key::triple("position")
         .unit(Dimension::LENGTH)
-        .doc("Origin [x, y, z] of the body's frame where it starts"),
-    orientation::ORIENTATION.doc(
-        "Orientation of the body's frame where it starts, in any of the ways of `orientation`",
-    ),
+        .doc("Origin [x, y, z] of the body's frame at the start"),
+    orientation::ORIENTATION
+        .doc("Orientation of the body's frame at the start, in any of the ways of `orientation`"),
 ];
 
 impl SceneBody for Space3 {
@@ -66,7 +65,7 @@ impl SceneBody for Space3 {
         "a table { position, orientation }",
         Takes::Table(&START_KEYS),
     )
-    .doc("Where the body starts if that is not where it is described: { position, orientation } of its frame, as described where one is left out. Points `at`, what `fixed` joints and gears keep, free lengths and the zeros of measures are still those of the described start");
+    .doc("Start of the body if it differs from the described position: { position, orientation } of its frame; an omitted value is as described. Points `at`, the positions that `fixed` joints and gears keep, free lengths and the zeros of measures still refer to the described start");
 
     fn read_start(start: &mut Table, body: &SpatialBody) -> FramePose {
         let [position, orientation] = &START_KEYS;

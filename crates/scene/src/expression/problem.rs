@@ -28,7 +28,7 @@ pub(crate) enum Problem {
     NoOperand { found: String },
     #[error("an operator is missing before `{found}`")]
     NoOperator { found: String },
-    #[error("`,` stands outside of a function")]
+    #[error("`,` is outside of the arguments of a function")]
     Comma,
     #[error("a bracket is never closed")]
     Open,
@@ -142,7 +142,8 @@ impl Problem {
             Self::Dimension { expected, .. } => suffixes(*expected),
             Self::Mixed { .. } => "write both with units of one kind".to_owned(),
             Self::Pi => {
-                "write `*rad` behind it, or the angle in the unit that `units` says".to_owned()
+                "write `*rad` behind it, or write the angle in the unit that `units` states"
+                    .to_owned()
             }
             Self::Exponent { .. } => "divide it by its unit".to_owned(),
             Self::PowerOfUnit { .. } => "divide it by its unit, or use `sqrt`".to_owned(),

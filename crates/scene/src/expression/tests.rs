@@ -255,7 +255,11 @@ fn faults_have_their_places() {
         ),
         ("2 L", NONE, "2..3: an operator is missing before `L`"),
         ("1.5.2", NONE, "3..5: an operator is missing before `.2`"),
-        ("2,5", NONE, "1..2: `,` stands outside of a function"),
+        (
+            "2,5",
+            NONE,
+            "1..2: `,` is outside of the arguments of a function",
+        ),
         ("(1 + 2", NONE, "0..1: a bracket is never closed"),
         ("1 + 2)", NONE, "5..6: `)` closes no bracket"),
         ("2 $ 3", NONE, "2..3: `$` has no meaning in an expression"),

@@ -237,7 +237,7 @@ fn check_name(name: &str, span: Range<usize>, findings: &Findings) -> Fitness {
         findings.error_with_help(
             Mistake::ReservedName,
             span,
-            format!("the parameter `{name}` has the name of {what}"),
+            format!("the parameter `{name}` has the same name as {what}"),
             "choose another name",
             format!("for example `{name}_1`"),
         );

@@ -24,8 +24,8 @@ const LARGEST_GYRATION: f64 = 20.0;
 /// is read as kg·mm².
 const SMALLEST_GYRATION: f64 = 1e-3;
 
-/// A ball with the same mass and inertia has a density. Above this density, it does not consist of
-/// any real material (kg/m³). Osmium has 2.3e4. If the inertia of a wheel in kg·m² is read as
+/// A ball with the same mass and inertia has a density. Above this density (kg/m³), a body does not
+/// consist of any real material. Osmium has 2.3e4. If the inertia of a wheel in kg·m² is read as
 /// kg·mm², a density of 1e2 becomes 1e11. A point mass of 1 kg with a nominal inertia of 1e-6 kg·m²
 /// has 6e7.
 const DENSEST: f64 = 1e9;
@@ -41,8 +41,8 @@ const STEEL: f64 = 7850.0;
 /// longest parts of a machine are about ten times as long as the median.
 const FARTHEST: f64 = 100.0;
 
-/// Points of a body at a distance below this fraction of the size are one place. Coordinates with
-/// six digits differ by 1e-6; centres of wheels are at least a tooth apart.
+/// Points of a body at a distance below this fraction of the size count as one point. Coordinates
+/// with six digits differ by 1e-6; centres of wheels are at least a tooth apart.
 const AT_ONE_PLACE: f64 = 1e-4;
 
 /// Warns about implausible values of a mechanism.
@@ -172,7 +172,7 @@ fn unheld(records: &[BodyRecord], bodies: &[BodyShape], map: &SourceMap, finding
         findings.warning(
             const { Code::new(195) },
             entry.name_span(),
-            format!("no joint holds body `{}`: it {acts}", body.name),
+            format!("no joint supports body `{}`: it {acts}", body.name),
             "in no joint",
             "add a `[[joint]]` that names it",
         );
@@ -211,7 +211,7 @@ fn far(
             ),
             "far away",
             &format!(
-                "numbers without a unit are in {}: correct the place, or the `position` of the body",
+                "numbers without a unit are in {}: correct the point, or the `position` of the body",
                 unit.name
             ),
         );

@@ -1,4 +1,4 @@
-//! Explains to authors of scenes why a text is not valid TOML, from a guess of what they intended.
+//! Explains why a text is not valid TOML, from a guess of the intended text.
 
 use std::ops::Range;
 
@@ -103,7 +103,7 @@ fn meant(line: &str, at: usize, computes: bool) -> Option<(&'static str, String)
     if line.starts_with('[') && is_key(line.trim_matches(['[', ']', ' '])) {
         return Some((
             "the brackets of a section do not fit",
-            "a section that is there once stands in one pair of brackets, `[simulate]`, others in two, `[[body]]`"
+            "a section that occurs once has one pair of brackets, `[simulate]`; other sections have two pairs, `[[body]]`"
                 .to_owned(),
         ));
     }
@@ -156,7 +156,7 @@ const CURLED: [char; 5] = ['“', '”', '„', '‘', '’'];
 
 const COMPUTED: (&str, &str) = (
     "an expression without quotes",
-    "write it in quotes with `format = 2` in `[scene]`, or write the number that comes out",
+    "write the expression in quotes with `format = 2` in `[scene]`, or write its value",
 );
 
 /// Explains a value that begins with a number.
@@ -165,7 +165,9 @@ fn number(key: &str, value: &str, computes: bool) -> Option<(&'static str, Strin
     let (number, rest) = value.split_at(digits?);
     if let Some(help) = units::advice(value) {
         let help = match units::with_unit(value) {
-            Some(quoted) if computes => format!("units stand in quotes: write `\"{quoted}\"`"),
+            Some(quoted) if computes => {
+                format!("values with units need quotes: write `\"{quoted}\"`")
+            }
             _ => help,
         };
         return Some(("a number with a unit", help));
@@ -178,7 +180,7 @@ fn number(key: &str, value: &str, computes: bool) -> Option<(&'static str, Strin
     if decimals.starts_with(|c: char| c.is_ascii_digit()) {
         let decimals = decimals.trim_end();
         let help = format!(
-            "decimals follow a point, and lists stand in brackets: `{key} = {number}.{decimals}`"
+            "decimals follow a point, and lists need brackets: `{key} = {number}.{decimals}`"
         );
         return Some(("a number with a comma", help));
     }
@@ -207,9 +209,9 @@ fn word(key: &str, value: &str) -> Option<(&'static str, String)> {
     }
     // In a list, the suggestion contains only the word itself.
     let help = if value.len() == word.len() && !key.is_empty() {
-        format!("texts stand in quotes: `{key} = \"{word}\"`")
+        format!("texts need quotes: `{key} = \"{word}\"`")
     } else {
-        format!("texts stand in quotes: `\"{word}\"`")
+        format!("texts need quotes: `\"{word}\"`")
     };
     Some(("a text without quotes", help))
 }
@@ -272,12 +274,12 @@ mod tests {
             ("bodies = [crank, rod]", 10, "`\"crank\"`"),
             ("name = \"rod", 11, "with the quote that it began with"),
             ("name = “rod”", 7, "`name = \"rod\"`"),
-            ("angle = pi/6", 8, "write the number that comes out"),
-            ("at = [1/2, 0]", 6, "write the number that comes out"),
+            ("angle = pi/6", 8, "or write its value"),
+            ("at = [1/2, 0]", 6, "or write its value"),
             ("mass = 2.0;", 10, "`mass = 2.0`"),
             ("mass = 2.0 // heavy", 7, "remarks begin with `#`"),
             ("mass: 2.0", 4, "write `mass = 2.0` instead of `mass: 2.0`"),
-            ("[[joint]", 8, "others in two, `[[body]]`"),
+            ("[[joint]", 8, "other sections have two pairs, `[[body]]`"),
         ] {
             assert!(
                 said(line, at).ends_with(expected),

@@ -11,8 +11,9 @@ use crate::bearings::{BEARINGS, CARRIER_KEY, PRESSURE_ANGLE};
 use crate::between::{MARKERS, takes_markers};
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
+use crate::contact;
 use crate::direction::{self, AXES, CROSS, FRAME, FRAMES};
-use crate::key::{Interval, TYPE};
+use crate::key::{Interval, Key, TYPE};
 use crate::place::{AT, POINT, local_key, slots_of_points};
 use crate::section::NAME;
 use crate::space::SceneSpace;
@@ -36,24 +37,35 @@ pub(super) fn elements<S: SceneSpace>(registry: &Definitions<S>, kind: ElementKi
     specs.sort_by_key(|spec| spec.scene_type);
     let tables: Vec<Value> = specs
         .iter()
-        .map(|spec| table::<S>(spec, kind, title))
+        .map(|spec| table::<S>(spec, keys(registry, spec, kind), title))
         .collect();
     json!({ "title": title, "type": "object", "oneOf": tables })
 }
 
+/// The keys of a definition that are not its parameters.
+fn keys<S: SceneSpace>(registry: &Definitions<S>, spec: &Spec, of: ElementKind) -> Vec<Key> {
+    let mut keys = vec![ACTIVE];
+    if let ElementKind::Joint = of {
+        let mut definitions = registry.constraints(spec.scene_type);
+        let own = definitions.find(|definition| definition.spec.common.name == spec.name);
+        keys.extend([tolerance::OF_JOINT, stiffness::key(S::KIND)]);
+        keys.extend(
+            own.into_iter()
+                .flat_map(|definition| contact::keys(definition.spec)),
+        );
+    }
+    keys
+}
+
 /// The table of one definition.
-fn table<S: SceneSpace>(spec: &Spec, of: ElementKind, title: &str) -> Value {
+fn table<S: SceneSpace>(spec: &Spec, keys: Vec<Key>, title: &str) -> Value {
     let mut properties = Map::new();
     let mut required = vec![NAME.name, TYPE];
     properties.insert(NAME.name.to_owned(), described(&NAME));
     let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
     properties.insert(TYPE.to_owned(), kind);
-    let of_joint = match of {
-        ElementKind::Joint => vec![tolerance::OF_JOINT, stiffness::key(S::KIND)],
-        ElementKind::Force => Vec::new(),
-    };
-    for key in of_joint.iter().chain([&ACTIVE]) {
-        properties.insert(key.name.to_owned(), described(key));
+    for key in keys {
+        properties.insert(key.name.to_owned(), described(&key));
     }
 
     if spec.bearings {
@@ -157,7 +169,7 @@ fn two_markers() -> Value {
     markers
 }
 
-/// Schema of a key for directions that is not a parameter.
+/// Schema of a key that contains directions but is not a parameter of a definition.
 fn beside<S: SceneSpace>(key: &str, spec: &Spec) -> Value {
     match key {
         FRAME => json!({
@@ -167,7 +179,7 @@ fn beside<S: SceneSpace>(key: &str, spec: &Spec) -> Value {
         }),
         CROSS => {
             let mut cross = vector::<S>();
-            cross["description"] = "A direction across the axis, for the rows and for the reaction in joint axes; the coordinate axis of the first body that lies least along the axis where it is not given".into();
+            cross["description"] = "A direction across the axis, for the rows and for the reaction in joint axes; if it is omitted, the coordinate axis of the first body that is closest to perpendicular to the axis".into();
             cross
         }
         _ => json!({
@@ -212,7 +224,7 @@ fn global<S: SceneSpace>(spec: &Spec, n: usize) -> Value {
         )
     } else {
         format!(
-            "The place {} in global coordinates, at the described start (m)",
+            "The point {} in global coordinates, at the described start (m)",
             S::VECTOR
         )
     };
@@ -244,7 +256,7 @@ fn in_bodies<S: SceneSpace>(spec: &Spec, owners: &[usize]) -> Value {
     if local_key(spec) == POINT {
         let mut place = points(owners.len());
         let (vector, body) = (S::VECTOR, owner(spec, 0));
-        let words = format!("The place {vector} in the frame of {body} (m)");
+        let words = format!("The point {vector} in the frame of {body} (m)");
         place["description"] = with_points(words, spec).into();
         return place;
     }
@@ -254,7 +266,7 @@ fn in_bodies<S: SceneSpace>(spec: &Spec, owners: &[usize]) -> Value {
     slots.sort_unstable();
     slots.dedup();
     let words = format!(
-        "The place in the frames of the bodies {{ body = {}, … }} (m)",
+        "The point in the frames of the bodies {{ body = {}, … }} (m)",
         S::VECTOR
     );
     json!({
@@ -305,7 +317,7 @@ fn value<S: SceneSpace>(parameter: &Parameter, spec: &Spec) -> Value {
         _ => String::new(),
     };
     let default = if parameter.optional {
-        "; its value at the start where it is not given"
+        "; if it is omitted, its value at the start"
     } else if spec.bearings {
         "; the normal of the plane of both axes, turned by the pressure angle, if it is not given"
     } else {

@@ -60,6 +60,7 @@ pub(super) fn described(key: &Key) -> Value {
             "uniqueItems": true,
         }),
         Takes::Function => reference("function"),
+        Takes::Load => json!({ "type": ["number", "string"], "minimum": 0 }),
         Takes::Law => json!({ "type": ["number", "string"] }),
         Takes::Steps => json!({ "type": "array", "items": reference("step"), "minItems": 1 }),
     };

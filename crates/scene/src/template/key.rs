@@ -61,7 +61,7 @@ pub enum KeyError {
     },
     /// The key is missing in the text and cannot be added, because its table has neither a header
     /// nor braces.
-    #[error("`{key}` is not in the scene; write it there, with any number")]
+    #[error("`{key}` is not in the scene; add it to the scene, with any number")]
     NoRoom {
         /// The given key.
         key: String,

@@ -233,7 +233,7 @@ fn names() {
         (
             "\"spring\"",
             "«\"ground\"»",
-            "`ground` is the name of the ground and is always there",
+            "`ground` is the reserved name of the ground",
             "choose another name",
         ),
         (
@@ -319,6 +319,26 @@ fn types_and_bodies() {
             "type = \"torque\"\nbody = \"crank\"\nbodies = «[\"frame\", \"crank\"]»\ntorque = 1",
             "force `spring` takes `body = …` or `bodies = [first, second]`, not both",
             "and here two bodies are given",
+        ),
+    ]);
+}
+
+/// A drive of a length replaces its joint, and has its problems.
+#[test]
+fn joints_that_drives_replace() {
+    const MOTOR: &str = "[[drive]]\nname = \"motor\"\njoint = \"A\"\ntype = \"angle\"\nmotion = { type = \"constant-rate\", rate = 2.0 }";
+    check(&[
+        (
+            MOTOR,
+            "[[joint]]\nname = \"rod\"\ntype = \"distance\"\nbodies = [\"crank\", \"crank\"]\nat = [[0, 0], [1, 0]]\n\n[[drive]]\nname = \"motor\"\njoint = «\"rod\"»\ntype = \"length\"\nmotion = 0",
+            "`motor` connects `crank` with itself",
+            "give two different bodies",
+        ),
+        (
+            MOTOR,
+            "[[joint]]\nname = \"rod\"\ntype = \"distance\"\nbodies = [\"frame\", \"crank\"]\nat = [[0, 0], [1, 0]]\ntolerance = -1\n\n[[drive]]\nname = \"motor\"\njoint = «\"rod\"»\ntype = \"length\"\nmotion = 0",
+            "drive `motor`: tolerance is -1.0, need a finite number > 0 up to 1e60",
+            "expected a number > 0",
         ),
     ]);
 }
@@ -444,13 +464,13 @@ fn drives_and_functions() {
         (
             MOTION,
             "{ type = \"table\", times = [0, 1, «1», 2], values = [0, 0, 0, 0] }",
-            "drive `motor`: `motion`: `times`: times must grow: times[2] = 1 follows 1",
+            "drive `motor`: `motion`: `times`: times must increase: times[2] = 1 follows 1",
             "not later than the time before it",
         ),
         (
             MOTION,
             "{ type = \"table\", times = [0, 1, 2], values = «[0, 0]» }",
-            "drive `motor`: `motion`: `values`: 3 times and 2 values; a table needs as many of both",
+            "drive `motor`: `motion`: `values`: 3 times and 2 values; a table needs equal numbers of both",
             "expected as many as `times`",
         ),
         (
@@ -754,7 +774,7 @@ fn a_unit_without_quotes_gets_them() {
     };
     assert_eq!(
         help("format = 2"),
-        "units stand in quotes: write `\"2 min\"`"
+        "values with units need quotes: write `\"2 min\"`"
     );
     assert!(help("").ends_with("write `120` instead of `2 min`"));
 }

@@ -191,7 +191,7 @@ fn every_fault_has_its_place_inside_of_the_text() {
             [
                 "pi/6",
                 "body `crank`: `angle`: a number with `pi` is an angle here, but angles without a unit are not in radians",
-                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+                "needs its unit | write `*rad` behind it, or write the angle in the unit that `units` states",
             ],
         ),
         (
@@ -200,7 +200,7 @@ fn every_fault_has_its_place_inside_of_the_text() {
             [
                 "pi/3",
                 "body `crank`: `position`: a number with `pi` is an angle here, but angles without a unit are not in radians",
-                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+                "needs its unit | write `*rad` behind it, or write the angle in the unit that `units` states",
             ],
         ),
         (
@@ -289,7 +289,7 @@ fn every_fault_has_its_place_inside_of_the_text() {
             "L = 300.1\nsin = 9.81\ng = \"sin + 2*sin\"",
             [
                 "sin",
-                "the parameter `sin` has the name of a function",
+                "the parameter `sin` has the same name as a function",
                 "choose another name | for example `sin_1`",
             ],
         ),
@@ -493,7 +493,7 @@ fn faults_of_functions_of_time_have_their_places() {
             [
                 "2*pi*t",
                 "a number with `pi` is an angle here, but angles without a unit are not in radians",
-                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+                "needs its unit | write `*rad` behind it, or write the angle in the unit that `units` states",
             ],
         ),
         (
@@ -501,7 +501,7 @@ fn faults_of_functions_of_time_have_their_places() {
             [
                 "pi*t",
                 "a number with `pi` is an angle here, but angles without a unit are not in radians",
-                "needs its unit | write `*rad` behind it, or the angle in the unit that `units` says",
+                "needs its unit | write `*rad` behind it, or write the angle in the unit that `units` states",
             ],
         ),
         (

@@ -55,7 +55,9 @@ fn a_large_correction_points_at_the_joint_that_misses() {
     assert_eq!(&text_of(&scene)[d.primary.span.clone()], "\"A\"");
     // The violation is √(3² + 2²).
     assert!(
-        error.to_string().contains("these miss: `A` by 3.606 m;"),
+        error
+            .to_string()
+            .contains("these constraints are violated: `A` by 3.606 m;"),
         "{error}"
     );
 }

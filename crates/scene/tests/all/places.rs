@@ -367,14 +367,14 @@ fn faults_have_their_places() {
                 "slider = [0.3, 0.0]",
                 "slider = «\"tip\"»",
                 "joint `B`: `points`: marker `tip` belongs to `crank`, and a point of `slider` is needed; \
-                 `at = \"tip\"` takes the place where it is",
+                 `at = \"tip\"` uses the position of the marker",
                 "not a marker of this body",
             ),
             (
                 "point = \"nose\"",
                 "point = «\"shaft\"»",
                 "joint `W`: marker `shaft` belongs to `ground`, and a point of `slider` is needed; \
-                 `at = \"shaft\"` takes the place where it is",
+                 `at = \"shaft\"` uses the position of the marker",
                 "not a marker of this body",
             ),
             (
@@ -416,7 +416,7 @@ fn faults_have_their_places() {
             (
                 "[\"tip\", \"nose\"]",
                 "«[\"tip\", \"tip\"]»",
-                "measure `gap` is between a place and itself",
+                "measure `gap` is between two identical points",
                 "give two different places",
             ),
             (
@@ -428,7 +428,7 @@ fn faults_have_their_places() {
             (
                 "markers = [\"tip\"]",
                 "markers = «[\"ground\"]»",
-                "measure `turn` is between a place and itself",
+                "measure `turn` is between two identical points",
                 "give two different places",
             ),
             (

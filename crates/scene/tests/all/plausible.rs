@@ -336,11 +336,11 @@ fn bodies_without_joints_beside_others_are_told() {
     };
     assert_eq!(
         messages(&text),
-        "no joint holds body `weight`: it moves freely"
+        "no joint supports body `weight`: it moves freely"
     );
     assert_eq!(
         messages(&format!("{text}{spring}")),
-        "no joint holds body `weight`: it moves under one force"
+        "no joint supports body `weight`: it moves under one force"
     );
 }
 

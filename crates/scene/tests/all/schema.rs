@@ -63,7 +63,7 @@ fn keys_of_joints_and_forces_are_explained() {
             "force",
             "spring-damper",
             "free_length",
-            "Length without tension at rest, l0: a number (m); its value at the start where it is not given",
+            "Length without tension at rest, l0: a number (m); if it is omitted, its value at the start",
         ),
         (
             "joint",
@@ -75,7 +75,7 @@ fn keys_of_joints_and_forces_are_explained() {
             "joint",
             "knife-edge",
             "point",
-            "The place [x, y] in the frame of the body (m). The contact point.",
+            "The point [x, y] in the frame of the body (m). The contact point.",
         ),
         (
             "joint",

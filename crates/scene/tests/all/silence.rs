@@ -36,7 +36,7 @@ fn codes_that_are_no_warnings_are_errors_at_their_place() {
         (
             "\"degrees\"",
             "`[scene]`: `silence` contains `degrees`, which is not a warning of a scene",
-            "there are `P0187`, `P0188`, `P0189`, `P0190`, `P0191`, `P0192`, `P0193`, `P0194`, `P0195`, `P0196`, `P0197`, `P0198`, `P0199`",
+            "there are `P0186`, `P0187`, `P0188`, `P0189`, `P0190`, `P0191`, `P0192`, `P0193`, `P0194`, `P0195`, `P0196`, `P0197`, `P0198`, `P0199`",
         ),
         (
             "192",

@@ -1,0 +1,56 @@
+//! What a contact cannot do: a joint that pushes but does not pull, and a contact that slips if the
+//! force along it is too large for the force that presses it.
+
+/// The side of a joint with one gap Φ on which its bodies can part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum OpenSide {
+    /// The gap can become positive: `Φ ≥ 0`.
+    Positive,
+    /// The gap can become negative: `Φ ≤ 0`.
+    Negative,
+}
+
+impl OpenSide {
+    /// Returns the sign of the gap where the joint is open.
+    #[must_use]
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Positive => 1.0,
+            Self::Negative => -1.0,
+        }
+    }
+}
+
+/// The condition that a contact does not slip: `|S| ≤ μ·N` for the force S of its nonholonomic
+/// rows and the force N that presses it.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct Grip {
+    /// The coefficient of friction μ.
+    pub friction: f64,
+    /// The force N.
+    pub load: GripLoad,
+}
+
+/// The force that presses a contact which grips.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum GripLoad {
+    /// The force of the one-sided contact itself.
+    Own,
+    /// A constant force (N).
+    Constant(f64),
+    /// The force of the one-sided joint with this name.
+    Joint(String),
+}
+
+/// What a joint cannot do. By default, a joint pushes, pulls, and never slips.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ContactLimits {
+    /// The side on which the bodies can part.
+    pub open_side: Option<OpenSide>,
+    /// The condition that the contact does not slip.
+    pub grip: Option<Grip>,
+}
